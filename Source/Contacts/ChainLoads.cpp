@@ -17,13 +17,6 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
     receivers_.reserve(expectedContacts);
 }
 
-void ChainLoads::add(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
-    Contact& contact = find(pair, true);
-    contact.now += contact.b == pair.b ? newtonSeconds : -newtonSeconds; // the points and passes of the step, the parts of a chain
-    contact.point = point;
-    contact.isSolved = true;
-}
-
 void ChainLoads::settle() {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const Contact& contact = contacts_[i];
@@ -79,14 +72,10 @@ Vector2 ChainLoads::smallestOf(const std::array<Vector2, 3>& pushed) noexcept {
     return pushed[squared[2] < squared[ofNewer] ? 2 : ofNewer];
 }
 
-ChainLoads::Contact& ChainLoads::find(const TouchingPairs::Name& pair, bool isUnknown) {
-    std::int32_t& load = pairs_[pair.number].load;
-    if (load == TouchingPairs::none) {
-        load = static_cast<std::int32_t>(contacts_.size());
-        contacts_.push_back({{}, {}, {}, pair.b, false, isUnknown});
-        pasts_.push_back({pair});
-    }
-    return contacts_[static_cast<std::size_t>(load)];
+ChainLoads::Contact& ChainLoads::meet(const TouchingPairs::Name& pair, bool isUnknown) {
+    pairs_[pair.number].load = static_cast<std::int32_t>(contacts_.size());
+    pasts_.push_back({pair});
+    return contacts_.emplace_back(Contact{{}, {}, {}, pair.b, false, isUnknown});
 }
 
 void ChainLoads::drop(std::size_t index) noexcept {

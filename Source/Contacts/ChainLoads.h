@@ -29,7 +29,13 @@ public:
     ChainLoads(const FixtureTable& table, TouchingPairs& pairs);
 
     /// In a step: an old contact of (a, b) has pushed b by `newtonSeconds` (world), and a by its opposite.
-    void add(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point);
+    void add(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
+        Contact& contact = find(pair, true);
+        // The points and passes of the step, the parts of a chain.
+        contact.now += contact.b == pair.b ? newtonSeconds : -newtonSeconds;
+        contact.point = point;
+        contact.isSolved = true;
+    }
 
     /// After a step: adds up what was handed on.
     void settle();
@@ -65,7 +71,11 @@ private:
         std::array<Vector2, 3> pushed{}; // the newest first
     };
     static Vector2 smallestOf(const std::array<Vector2, 3>& pushed) noexcept;
-    Contact& find(const TouchingPairs::Name& pair, bool isUnknown);
+    Contact& find(const TouchingPairs::Name& pair, bool isUnknown) {
+        const std::int32_t at = pairs_[pair.number].load;
+        return at != TouchingPairs::none ? contacts_[static_cast<std::size_t>(at)] : meet(pair, isUnknown);
+    }
+    Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
     void pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size, Vector2 point);
     void drop(std::size_t index) noexcept;
 

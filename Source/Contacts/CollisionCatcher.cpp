@@ -78,13 +78,6 @@ ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
     return &end;
 }
 
-void CollisionCatcher::push(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
-    hasHeard_ = true;
-    if (const std::int32_t last = pairs_[pair.number].last; last != TouchingPairs::none)
-        last_[static_cast<std::size_t>(last)].newtonSeconds += newtonSeconds;
-    if (isFelt(pair.a, pair.b)) loads_.add(pair, newtonSeconds, point);
-}
-
 double CollisionCatcher::aftermath(std::int32_t pair) const noexcept {
     const std::int32_t last = pairs_[pair].last;
     return last == TouchingPairs::none ? 0.0 : static_cast<double>(last_[static_cast<std::size_t>(last)].newtonSeconds.length());

@@ -94,7 +94,12 @@ public:
     }
 
     /// What parts of a heard pair that are no blow have pushed b by, and a by its opposite, N s in the world.
-    void push(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point);
+    void push(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
+        hasHeard_ = true;
+        if (const std::int32_t last = pairs_[pair.number].last; last != TouchingPairs::none)
+            last_[static_cast<std::size_t>(last)].newtonSeconds += newtonSeconds;
+        if (isFelt(pair.a, pair.b)) loads_.add(pair, newtonSeconds, point);
+    }
 
     const std::vector<Blow>& blows() const noexcept { return blows_; }
     /// N s that the pair of a blow of the last step has gone on to push in this one: engines spread a blow over two.

@@ -165,8 +165,8 @@ void ContactEvents::keepStrongest(std::size_t count) {
 
 void ContactEvents::addImpacts() {
     if (impacts_.empty()) return;
-    const FieldFrame field(settings_);
-    for (const Impact& impact : impacts_) addEvents(impact, table_, pairs_, bodies_, model_, settings_, field, held_, counts_);
+    EventMaker maker{table_, pairs_, bodies_, model_, settings_, held_, counts_};
+    for (const Impact& impact : impacts_) maker.add(impact);
 }
 
 ContactCounts ContactEvents::counts() const noexcept {

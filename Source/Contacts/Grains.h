@@ -2,6 +2,7 @@
 // The grains of a surface: where they are and how strong, the same whenever they are passed.
 #pragma once
 #include "Contacts/Texture.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -32,7 +33,7 @@ class Grains {
 public:
     /// `texture` is rough.
     Grains(std::uint64_t surface, const Texture& texture) noexcept
-        : surface_{surface}
+        : seed_{2 * surface * seedFactor}
         , texture_{texture}
         , perMetre_{1.0 / texture.grainMetres} {}
 
@@ -53,7 +54,14 @@ public:
 private:
     bool isRandom() const noexcept { return texture_.pattern == GrainPattern::random; }
     /// 0 to 1 (SplitMix64's finaliser; Steele, Lea, Flood 2014).
-    double chance(std::int64_t index, std::uint64_t which) const noexcept;
+    double chance(std::int64_t index, std::uint64_t which) const noexcept {
+        std::uint64_t z = (static_cast<std::uint64_t>(index) + 1U) * 0x9E3779B97F4A7C15U;
+        z += seed_ + which * seedFactor;
+        z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
+        z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
+        z ^= z >> 31U;
+        return static_cast<double>(static_cast<std::int64_t>(z >> 11U)) * 0x1p-53; // signed: one instruction
+    }
 
     struct Grain {
         std::int64_t index;
@@ -61,7 +69,16 @@ private:
     };
     Grain at(std::int64_t index) const noexcept { return {index, metresOf(index)}; }
     /// The first of which the index is a multiple of `every`, beyond `metres`, upwards or downwards.
-    Grain next(double metres, bool isUp, std::int64_t every) const noexcept;
+    Grain next(double metres, bool isUp, std::int64_t every) const noexcept {
+        const double cell = metres * perMetre_ / static_cast<double>(every);
+        auto i = static_cast<std::int64_t>(cell); // towards 0
+        if (isUp && cell < static_cast<double>(i)) --i;
+        if (!isUp && cell > static_cast<double>(i)) ++i;
+        Grain grain = at(i * every); // at most one step before it
+        const std::int64_t step = isUp ? every : -every;
+        while (isUp ? grain.metres <= metres : grain.metres >= metres) grain = at(grain.index + step);
+        return grain;
+    }
 
     template <class Passed>
     void walk(const SurfaceMotion& motion, double from, double to, std::int64_t every, Passed& passed) const {
@@ -71,14 +88,16 @@ private:
         for (Grain grain = next(start, isUp, every); sign * (end - grain.metres) >= 0.0; grain = at(grain.index + (isUp ? every : -every))) {
             const double far = grain.metres - start;
             // The root of the parabola that begins at `from`, in the form that loses no digits.
-            const double root = std::sqrt(std::fmax(0.0, speed * speed + 2.0 * motion.metresPerSecond2 * far));
+            const double root = std::sqrt(std::max(0.0, speed * speed + 2.0 * motion.metresPerSecond2 * far));
             const double denominator = speed + sign * root;
             const double t = denominator == 0.0 ? to : from + 2.0 * far / denominator;
-            passed(grain.index, std::fmin(std::fmax(t, from), to));
+            passed(grain.index, std::min(std::max(from, t), to));
         }
     }
 
-    std::uint64_t surface_;
+    static constexpr std::uint64_t seedFactor = 0xD1342543DE82EF95U;
+
+    std::uint64_t seed_; // of the surface
     const Texture& texture_;
     double perMetre_;
 };

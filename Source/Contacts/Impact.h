@@ -17,12 +17,18 @@ struct StepSpan {
     double leastMetresPerSecond = 0.0; ///< ImpactSettings::thresholdMetresPerSecond
     Vector2 gravityMetresPerSecond2;
 
+    /// The nearest whole number, halves away from zero: as std::llround, which is a call for each grain.
+    static std::int64_t roundedNs(double ns) noexcept {
+        const auto whole = static_cast<std::int64_t>(ns);
+        const double rest = ns - static_cast<double>(whole); // exact
+        return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
+    }
     double seconds() const noexcept { return static_cast<double>(endNs - startNs) * 1.0e-9; }
     /// Time of a moment given in steps after the start: below 0 in parts of the step before, which may have had another length.
     std::int64_t timeNs(double fraction) const noexcept {
         const std::int64_t lengthNs = fraction < 0.0 ? startNs - earliestNs : endNs - startNs;
         const double sinceStart = fraction * static_cast<double>(lengthNs);
-        return std::max(earliestNs, startNs + static_cast<std::int64_t>(std::llround(sinceStart)));
+        return std::max(earliestNs, startNs + roundedNs(sinceStart));
     }
 
     /// By how much a blow must change the velocity of a body that gravity pulls so much: more than resting does, which

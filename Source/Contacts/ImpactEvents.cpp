@@ -1,76 +1,117 @@
 // SPDX-License-Identifier: MIT
-// One function per question: whose sound, where.
+// Whose sound, where: once for a pair; when and how strong: for each impact.
 #include "Contacts/ImpactEvents.h"
+#include <cmath>
 
 namespace physvib {
 
 namespace {
-
-/// Of a HapticFixture or a PairSound.
-template <class Sound>
-void push(CollisionEvent event, const Sound& sound, EventSorter& events, ContactCounts& counts) {
-    const double amplitude = event.amplitude;
-    const auto add = [&](double frequencyHz, double decayPerSecond) {
-        event.frequencyHz = frequencyHz;
-        event.decayPerSecond = decayPerSecond;
-        if (!isPlayable(event)) {
-            ++counts.unplayable;
-            return;
-        }
-        events.push(event);
-        ++counts.events;
-    };
-    add(sound.frequencyHz, sound.decayPerSecond);
-    for (const Overtone& mode : sound.overtones) {
-        event.amplitude = mode.relativeAmplitude * amplitude;
-        if (mode.frequencyHz > 0.0) add(mode.frequencyHz, mode.decayPerSecond);
-    }
-}
 
 double massOf(const KnownFixture& camera, const BodyReader& bodies) {
     const BodyFacts body = bodies.facts(camera.body.body);
     return body.isDynamic ? body.massKg : camera.values.staticMassKg;
 }
 
-double amplitudeOf(double newtonSeconds, double massKg, const HapticFixture& camera, const ImpactModel& model) {
+ImpactModel modelOf(const HapticFixture& camera, const ImpactModel& model) noexcept {
     ImpactModel own = model;
     own.handMassKg = camera.handMassKg.value_or(model.handMassKg);
-    return camera.gain * own.amplitude(newtonSeconds, massKg);
+    return own;
 }
 
 } // namespace
 
 double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies, const ImpactModel& model) {
-    return amplitudeOf(impact.newtonSeconds, massOf(table[impact.camera], bodies), table[impact.camera].values, model);
+    const KnownFixture& camera = table[impact.camera];
+    const ImpactModel own = modelOf(camera.values, model);
+    return camera.values.gain * own.amplitude(impact.newtonSeconds, massOf(camera, bodies));
 }
 
-void addEvents(const Impact& impact, const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies, const ImpactModel& model,
-               const ImpactSettings& settings, const FieldFrame& field, EventSorter& events, ContactCounts& counts) {
-    const KnownFixture& camera = table[impact.camera];
-    if (settings.isMuted || camera.values.gain == 0.0) {
-        ++counts.muted;
+EventMaker::EventMaker(const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies,
+                       const ImpactModel& model, const ImpactSettings& settings, EventSorter& events,
+                       ContactCounts& counts) noexcept
+    : table_(table)
+    , pairs_(pairs)
+    , bodies_(bodies)
+    , settings_(settings)
+    , events_(events)
+    , counts_(counts)
+    , model_(model)
+    , cos_(std::cos(settings.fieldRadians))
+    , sin_(std::sin(settings.fieldRadians)) {}
+
+void EventMaker::add(const Impact& impact) {
+    if (impact.camera != camera_) hold(impact.camera);
+    if (isMuted_) {
+        ++counts_.muted;
         return;
     }
-    const KnownFixture* other = impact.other == FixtureTable::none ? nullptr : &table[impact.other];
-    const bool isAtContact = settings.location == ImpactLocation::contact;
-    const Vector2 place = field.toField(isAtContact ? impact.point : bodies.toWorld(camera.body.body, camera.centre));
-
-    CollisionEvent event;
-    event.timeNs = impact.timeNs;
-    const double massKg = massOf(camera, bodies);
-    event.amplitude = amplitudeOf(impact.newtonSeconds, massKg, camera.values, model);
-    event.x = static_cast<double>(place.x);
-    event.y = static_cast<double>(place.y);
-    event.source = {camera.id, other == nullptr ? -1 : other->id, impact.newtonSeconds, massKg, impact.kind};
-
-    if (const PairSound* pair = other == nullptr ? nullptr : pairs.find(camera.values.surface, other->values.surface)) {
-        event.amplitude *= pair->gain;
-        return push(event, *pair, events, counts);
+    if (!hasMet_ || impact.other != other_) meet(impact.other);
+    if (settings_.location == ImpactLocation::contact) place(impact.point);
+    const double amplitude = pairGain_ * (gain_ * own_.amplitude(impact.newtonSeconds, event_.source.massKg));
+    event_.timeNs = impact.timeNs;
+    event_.source.impulseNewtonSeconds = impact.newtonSeconds;
+    event_.source.kind = impact.kind;
+    for (int i = 0; i < modeCount_; ++i) {
+        const Mode& mode = modes_[static_cast<std::size_t>(i)];
+        event_.frequencyHz = mode.frequencyHz;
+        event_.decayPerSecond = mode.decayPerSecond;
+        event_.amplitude = mode.relativeAmplitude * amplitude;
+        if (!isPlayable(event_)) {
+            ++counts_.unplayable;
+            continue;
+        }
+        events_.push(event_);
+        ++counts_.events;
     }
-    const Voice voice = camera.values.voice;
-    const bool othersSounds = voice != Voice::own && other != nullptr && other->values.frequencyHz > 0.0;
-    if (voice != Voice::other || !othersSounds) push(event, camera.values, events, counts);
-    if (othersSounds) push(event, other->values, events, counts);
+}
+
+void EventMaker::hold(std::int32_t camera) {
+    camera_ = camera;
+    hasMet_ = false;
+    const KnownFixture& of = table_[camera];
+    gain_ = of.values.gain;
+    isMuted_ = settings_.isMuted || gain_ == 0.0;
+    if (isMuted_) return;
+    own_ = modelOf(of.values, model_);
+    event_.source.fixture = of.id;
+    event_.source.massKg = massOf(of, bodies_);
+    if (settings_.location == ImpactLocation::fixture) place(bodies_.toWorld(of.body.body, of.centre));
+}
+
+void EventMaker::meet(std::int32_t other) {
+    hasMet_ = true;
+    other_ = other;
+    modeCount_ = 0;
+    pairGain_ = 1.0;
+    const HapticFixture& own = table_[camera_].values;
+    if (other == FixtureTable::none) {
+        event_.source.other = -1;
+        return addModes(own);
+    }
+    const HapticFixture& others = table_[other].values;
+    event_.source.other = table_[other].id;
+    if (const PairSound* const pair = pairs_.find(own.surface, others.surface)) {
+        pairGain_ = pair->gain;
+        return addModes(*pair);
+    }
+    const bool othersSounds = own.voice != Voice::own && others.frequencyHz > 0.0;
+    if (own.voice != Voice::other || !othersSounds) addModes(own);
+    if (othersSounds) addModes(others);
+}
+
+/// Of a HapticFixture or a PairSound.
+template <class Sound>
+void EventMaker::addModes(const Sound& sound) noexcept {
+    const auto add = [this](const Mode& mode) { modes_[static_cast<std::size_t>(modeCount_++)] = mode; };
+    add({sound.frequencyHz, sound.decayPerSecond, 1.0});
+    for (const Overtone& mode : sound.overtones)
+        if (mode.frequencyHz > 0.0) add({mode.frequencyHz, mode.decayPerSecond, mode.relativeAmplitude});
+}
+
+void EventMaker::place(Vector2 world) noexcept {
+    const Vector2 from = world - settings_.fieldOrigin;
+    event_.x = static_cast<double>(cos_ * from.x + sin_ * from.y);
+    event_.y = static_cast<double>(cos_ * from.y - sin_ * from.x);
 }
 
 } // namespace physvib

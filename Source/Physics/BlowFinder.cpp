@@ -51,11 +51,6 @@ BlowFinder::Known* BlowFinder::find(const b2Contact& contact) {
     return &remember(contact, {.a = a, .b = b});
 }
 
-const BlowFinder::Pair& BlowFinder::pairOf(Known& known) {
-    if (!events_.catcher().isKnown(known.pair)) known.pair.number = events_.catcher().know(known.pair.a, known.pair.b);
-    return known.pair;
-}
-
 BlowFinder::Known& BlowFinder::remember(const b2Contact& contact, Pair pair) {
     std::int32_t at = knownAt_.find(nameOf(contact));
     if (at == IntegerMap::none) {

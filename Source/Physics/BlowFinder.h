@@ -44,7 +44,11 @@ private:
         Pair pair; // its number: none until it is asked for
     };
     Known* find(const b2Contact& contact);
-    const Pair& pairOf(Known& known);
+    const Pair& pairOf(Known& known) {
+        CollisionCatcher& catcher = events_.catcher();
+        if (!catcher.isKnown(known.pair)) known.pair.number = catcher.know(known.pair.a, known.pair.b);
+        return known.pair;
+    }
     void passOver(const b2Contact& contact);
     std::int32_t know(const b2Fixture& fixture);
     Known& know(const b2Contact& contact);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What rolling and sliding costs: balls that roll to and fro on a smooth floor and on a rough one, by turns; and the samples of it.
 #include "Core/HapticRenderer.h"
-#include "Physics/Attachment.h"
 #include "Timing.h"
+#include "Worlds.h"
 #include <benchmark/benchmark.h>
 #include <memory>
 #include <vector>
@@ -11,9 +11,10 @@ namespace {
 
 using namespace physvib;
 using bench::median;
+using bench::RollingBalls;
 using bench::secondsOf;
+using bench::stepSeconds;
 
-constexpr float stepSeconds = 0.01F;
 constexpr int rate = 48000, block = 480;
 
 /// A step's events, played two steps later.
@@ -28,42 +29,10 @@ struct StepEvents {
     std::size_t next = 0;
 };
 
-struct Balls {
-    Balls(int count, double grainMetres) {
-        const b2BodyDef def;
-        b2EdgeShape edge;
-        edge.SetTwoSided({-1.0e4F, 0.0F}, {1.0e4F + 2.0F * static_cast<float>(count), 0.0F});
-        b2Fixture& floor = *world.CreateBody(&def)->CreateFixture(&edge, 0.0F);
-        HapticFixture rough{250.0, 60.0, true, 340.0, Voice::own};
-        rough.texture.grainMetres = grainMetres;
-        (void)attachment.set(floor, rough);
-        for (int i = 0; i < count; ++i) {
-            b2BodyDef ball;
-            ball.type = b2_dynamicBody;
-            ball.allowSleep = false;
-            ball.position = {2.0F * static_cast<float>(i), 0.25F};
-            b2CircleShape circle;
-            circle.m_radius = 0.25F;
-            world.CreateBody(&ball)->CreateFixture(&circle, 10.0F)->SetFriction(0.9F);
-        }
-    }
-    double step(int n) {
-        world.SetGravity({n / 100 % 2 == 0 ? 2.0F : -2.0F, -9.8F}); // up to 1.3 m/s
-        events.clear();
-        return secondsOf([&] {
-            attachment.step(stepSeconds);
-            attachment.take(events);
-        });
-    }
-    b2World world{{0.0F, -9.8F}};
-    Attachment attachment{world};
-    std::vector<CollisionEvent> events;
-};
-
 /// Arguments: balls; grains' spacing in mm.
 void stepOfRollingBalls(benchmark::State& state) {
     const int count = static_cast<int>(state.range(0));
-    Balls smooth(count, 0.0), rough(count, 1.0e-3 * static_cast<double>(state.range(1)));
+    RollingBalls smooth(count, 0.0), rough(count, 1.0e-3 * static_cast<double>(state.range(1)));
     const auto renderer = std::make_unique<HapticRenderer>();
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
@@ -77,8 +46,8 @@ void stepOfRollingBalls(benchmark::State& state) {
     std::size_t events = 0;
     int n = 0;
     for (auto _ : state) {
-        plain.push_back(smooth.step(n));
-        grained.push_back(rough.step(n));
+        plain.push_back(secondsOf([&] { smooth.step(n); }));
+        grained.push_back(secondsOf([&] { rough.step(n); }));
         ++n;
         events += rough.events.size();
         rendered.push_back(secondsOf([&] {

@@ -3,11 +3,9 @@
 // turns.
 #include "Physics/Attachment.h"
 #include "Timing.h"
+#include "Worlds.h"
 #include <algorithm>
 #include <benchmark/benchmark.h>
-#include <cmath>
-#include <memory>
-#include <random>
 #include <vector>
 
 namespace {
@@ -15,70 +13,10 @@ namespace {
 using namespace physvib;
 using bench::median;
 using bench::secondsOf;
+using bench::ShakenBox;
+using bench::stepSeconds;
 
-constexpr float stepSeconds = 0.01F;
-constexpr int stepsPerShake = 25;
 constexpr HapticFixture wall{349.0, 107.0, true, 340.0, Voice::own};
-
-/// `bodies` circles and boxes of 0.1 to 0.3 m in a box that they fill to about a third.
-class ShakenBox {
-public:
-    explicit ShakenBox(int bodies)
-        : side_(std::sqrt(0.12F * static_cast<float>(bodies))) {
-        const b2BodyDef def;
-        ground_ = world.CreateBody(&def);
-        const b2Vec2 corners[] = {{0.0F, 0.0F}, {side_, 0.0F}, {side_, side_}, {0.0F, side_}};
-        for (int i = 0; i < 4; ++i) {
-            b2EdgeShape edge;
-            edge.SetTwoSided(corners[i], corners[(i + 1) % 4]);
-            walls.push_back(ground_->CreateFixture(&edge, 0.0F));
-        }
-        const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(bodies))));
-        for (int i = 0; i < bodies; ++i)
-            addBody(i % columns, i / columns, side_ / static_cast<float>(columns));
-    }
-
-    /// Gravity of a box that is jerked to and fro.
-    void shake(int step) {
-        const bool isForth = step / stepsPerShake % 2 == 0;
-        world.SetGravity({isForth ? 20.0F : -20.0F, -9.8F});
-    }
-
-    int touching() const {
-        int count = 0;
-        for (const b2Contact* contact = world.GetContactList(); contact != nullptr;
-             contact = contact->GetNext())
-            count += contact->IsTouching() ? 1 : 0;
-        return count;
-    }
-
-    b2World world{{0.0F, -9.8F}};
-    std::vector<b2Fixture*> walls, objects;
-
-private:
-    void addBody(int column, int row, float pitch) {
-        b2BodyDef def;
-        def.type = b2_dynamicBody;
-        def.allowSleep = false;
-        def.position = {pitch * (static_cast<float>(column) + 0.5F),
-                        pitch * (static_cast<float>(row) + 0.5F)};
-        const float size = 0.05F + 0.1F * static_cast<float>(random_() % 1000) / 1000.0F;
-        b2CircleShape circle;
-        circle.m_radius = size;
-        b2PolygonShape box;
-        box.SetAsBox(size, size);
-        b2FixtureDef fixture;
-        fixture.shape = random_() % 2 == 0 ? static_cast<const b2Shape*>(&circle) : &box;
-        fixture.density = 500.0F;
-        fixture.friction = 0.4F;
-        fixture.restitution = 0.5F;
-        objects.push_back(world.CreateBody(&def)->CreateFixture(&fixture));
-    }
-
-    float side_;
-    b2Body* ground_ = nullptr;
-    std::mt19937 random_{1};
-};
 
 constexpr int warmUpSteps(int bodies) { return bodies <= 1000 ? 200 : 75; }
 constexpr int timedSteps(int bodies) { return bodies <= 100 ? 2000 : bodies <= 1000 ? 200 : 24; }
@@ -89,8 +27,7 @@ void stepOfAShakenBox(benchmark::State& state) {
     ShakenBox plain(bodies), felt(bodies);
     const auto cameras = state.range(1);
     Attachment attachment(felt.world, {.fieldWidthMetres = 6.4, .timing = state.range(2) != 0 ? ImpactTiming::release : ImpactTiming::onset});
-    for (b2Fixture* fixture : felt.walls) (void)attachment.set(*fixture, {349.0, 107.0, cameras > 0, 340.0, Voice::own});
-    for (b2Fixture* fixture : felt.objects) (void)attachment.set(*fixture, {200.0, 30.0, cameras > 4, 0.0, Voice::own});
+    felt.setAll(attachment, static_cast<int>(cameras));
 
     std::vector<double> without, with;
     std::vector<CollisionEvent> events;

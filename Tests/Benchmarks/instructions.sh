@@ -1,18 +1,30 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Instructions per block and per strike, counted by callgrind: the same number however busy the machine is. Callgrind's
-# processor has AVX2 at best. Each figure is the difference of two runs, so start-up does not count.
+# Instructions per block, per strike and per step of physics, counted by callgrind: the same number however busy the machine
+# is. Callgrind's processor has AVX2 at best. Each figure is the difference of two runs, so start-up does not count.
 set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_library_packages valgrind
-build library physvib-core
+build library physvib-core physvib-contacts physvib-physics
 program=build/instruction-run
 g++ -std=c++20 -O2 -ffp-contract=off -ISource -ITests/Benchmarks Tests/Benchmarks/InstructionRun.cpp build/library/lib/libphysvib-core.a -lhwy -o $program
+steps=build/step-run
+g++ -std=c++20 -O2 -ffp-contract=off -ISource -ITests/Benchmarks Tests/Benchmarks/StepRun.cpp build/library/lib/libphysvib-physics.a \
+    build/library/lib/libphysvib-contacts.a -lbox2d -o $steps
 
-count() { # CHANNELS STRIKES MODES SECONDS: instructions
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null $program "$@" 2>&1 | awk '/Collected/ { print $4 }'
+counted() { # PROGRAM ARGUMENTS...: instructions
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$@" 2>&1 | awk '/Collected/ { print $4 }'
+}
+count() { # CHANNELS STRIKES MODES SECONDS
+    counted $program "$@"
+}
+per_step() { # WORLD BODIES OPTION: from the 100th step to the 300th
+    echo $((($(counted $steps "$@" 300) - $(counted $steps "$@" 100)) / 200))
+}
+more() { # BEFORE AFTER: in per cent
+    awk "BEGIN { printf \"%+.1f %%\", 100 * ($2 / $1 - 1) }"
 }
 per_block() { # CHANNELS STRIKES MODES: in the third second
     echo $((($(count "$1" "$2" "$3" 3) - $(count "$1" "$2" "$3" 2)) / 750))
@@ -26,3 +38,24 @@ done
 flat=$(per_block 8 16 16)
 rained=$(per_block 8 100000 16)
 echo "| one strike, 16 materials, 8 channels, of 100,000 a second | $(((rained - flat) * 750 / 99984)) |"
+
+echo
+echo "| a step of Box2D and its attachment | instructions |"
+echo "| --- | --- |"
+for bodies in 10 100 1000; do
+    alone=$(per_step box $bodies -1)
+    echo "| $bodies bodies in a shaken box, Box2D alone | $alone |"
+    for cameras in 0 4 5000; do
+        felt=$(per_step box $bodies $cameras)
+        who="every body is a haptic source"
+        [ $cameras -ne 0 ] || who="no haptic source"
+        [ $cameras -ne 4 ] || who="four haptic sources"
+        echo "| the same attached, $who | $felt ($(more "$alone" "$felt")) |"
+    done
+done
+smooth=$(per_step balls 100 0)
+echo "| 100 balls roll, smooth | $smooth |"
+for mm in 20 5 2; do
+    rough=$(per_step balls 100 $mm)
+    echo "| the same over grains of $mm mm | $rough ($(more "$smooth" "$rough")) |"
+done
