@@ -54,7 +54,7 @@ TEST(Groups, AreMadeRenamedMutedAndTakenApartInTheWindow) {
     ASSERT_NE(mute, nullptr);
     mute->triggerClick();
     ASSERT_TRUE(runUntil([&] { return desk.mix().groups[0].isMuted; }));
-    auto* name = dynamic_cast<juce::Label*>(find(view, "Name of the group"));
+    auto* name = dynamic_cast<juce::Label*>(find(view, "Name of Left hand"));
     ASSERT_NE(name, nullptr);
     name->setText("Palm", juce::sendNotificationSync);
     EXPECT_EQ(desk.mix().groups[0].name, "Palm");

@@ -13,7 +13,7 @@ GroupView::GroupView(Desk& desk, int group)
     , index_{static_cast<std::size_t>(group)} {
     const auto label = utf8(this->group().name);
     setTitle("Group " + label);
-    name_.setTitle("Name of the group");
+    name_.setTitle("Name of " + label);
     name_.setTooltip("Double click, or Return: another name");
     name_.setFont(juce::Font{text::medium, juce::Font::bold});
     name_.setJustificationType(juce::Justification::centred);
