@@ -49,7 +49,7 @@ PluginState leftBy(const SavedSession& session, Mix mix, PluginState state) {
     state.seed = mix.seed;
     state.stepsPerSecond = session.run.stepsPerSecond;
     state.layout = mix.layout;
-    state.strips = mix.strips;
+    state.strips = DeskLimits::of(mix).strips; // groups and lanes at their loudest: a host has its own
     state.equalised = session.equalised;
     state.limiterEnabled |= session.limiterEnabled;
     setParameter(state, Parameter::law, valueOf(rowOf(Parameter::law), nameOf(mix.law)));

@@ -128,11 +128,16 @@ std::int64_t RenderMovie::count() const noexcept {
     return std::max<std::int64_t>(1, std::llround(std::ceil(parts_->input.durationSeconds * picturesPerSecond)));
 }
 
-Image RenderMovie::at(std::int64_t momentNs, std::span<const BodyPose> bodies) const {
+Image RenderMovie::at(std::int64_t momentNs, std::span<const BodyPose> bodies, const Scene* scene) const {
     Image image = parts_->still;
     Painter painter{image};
     PictureInput moving = parts_->input;
     moving.bodies.assign(bodies.begin(), bodies.end());
+    if (scene != nullptr && scene != moving.scene) {
+        moving.scene = scene;
+        moving.fieldWidthMetres = scene->fieldWidthMetres;
+        moving.fieldHeightMetres = scene->fieldHeightMetres;
+    }
     parts_->drawMoment({painter, parts_->letters}, moving, momentNs);
     return image;
 }

@@ -24,8 +24,10 @@ public:
     /// When picture `index` is shown, in nanoseconds of the render.
     static std::int64_t timeNs(std::int64_t index) noexcept { return index * (1'000'000'000 / picturesPerSecond); }
 
-    /// The picture of that moment, with the bodies where they are then (per body of sceneCast()).
-    picture::Image at(std::int64_t momentNs, std::span<const BodyPose> bodies) const;
+    /// The picture of that moment, with the bodies where they are then (per body of sceneCast()); of another
+    /// scene than the input's, if one is given.
+    picture::Image at(std::int64_t momentNs, std::span<const BodyPose> bodies,
+                      const Scene* scene = nullptr) const;
 
 private:
     struct Parts;

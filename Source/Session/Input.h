@@ -4,9 +4,11 @@
 #include "Core/CollisionEvent.h"
 #include "Core/RenderControl.h"
 #include "Scene/Scene.h"
+#include "Scene/Sessions/Mix.h"
 #include "Session/ContactSounds.h"
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <variant>
 #include <vector>
@@ -27,12 +29,18 @@ struct PlayedRecordings {
     std::vector<ContactRecording> recordings;
 };
 
+/// Gains of the strips that have a lane, by themselves or by their group, follow the time of the scene from now on, as faders
+/// that are moved: they act at its steps, and are logged. A gain that is told otherwise holds until the scene goes on.
+struct Lanes {
+    std::shared_ptr<const Mix> mix; ///< null: none do
+};
+
 /// One input of any kind.
 struct Input {
     static constexpr std::int64_t now = std::numeric_limits<std::int64_t>::min();
 
     /// An Action acts in the world; a RenderControl changes how later events are rendered.
-    std::variant<Action, RenderControl, PlayedRecordings, Strikes, Stop> what;
+    std::variant<Action, RenderControl, PlayedRecordings, Strikes, Stop, Lanes> what;
     /// The session time at which it acts; of Strikes and a Stop, what is over by then is late. The others act now.
     std::int64_t timeNs = now;
 };

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What comes from outside while a session plays: inputs, controls, recordings, strikes, and the log of it all.
+// What comes from outside while a session plays: inputs, controls, recordings, strikes, and the log of it
+// all.
 #include "Session/Scheduler.h"
 #include "Core/ClipNumber.h"
 #include "Io/Disk/FileLimits.h"
+#include "Scene/Sessions/StripGroups.h"
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace physvib {
 
-Scheduler::Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world, RenderedChannels& channels, SinkSet& sinks)
+Scheduler::Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world,
+                     RenderedChannels& channels, SinkSet& sinks)
     : setup_{setup}
     , isLogged_{setup.log != LogUse::none}
     , time_{time}
@@ -26,6 +30,8 @@ void Scheduler::prepare() {
     lastControlNs_ = 0;
     stops_.clear();
     nextStopNs_ = never;
+    followedSceneNs_ = -1;
+    followedGains_.fill(std::numeric_limits<float>::quiet_NaN());
     if (!isLogged_) return;
     if (!played_.empty()) log_.recordings.push_back({0, filesOf(played_)});
     log_.clips = clips_;
@@ -33,8 +39,10 @@ void Scheduler::prepare() {
 
 Result<std::int64_t> Scheduler::take(Input input) {
     const std::lock_guard lock{mutex_};
-    const bool mayWait = std::holds_alternative<Strikes>(input.what) || std::holds_alternative<Stop>(input.what);
-    if (!mayWait && input.timeNs != Input::now) return Failure{"expected strikes or a stop at a time of their own; anything else acts now"};
+    const bool mayWait =
+        std::holds_alternative<Strikes>(input.what) || std::holds_alternative<Stop>(input.what);
+    if (!mayWait && input.timeNs != Input::now)
+        return Failure{"expected strikes or a stop at a time of their own; anything else acts now"};
     return std::visit([&](auto& what) { return take(what, input.timeNs); }, input.what);
 }
 
@@ -64,9 +72,14 @@ bool Scheduler::post(RenderControl& control) {
     sinks_.posted(control);
     if (control.kind == RenderControl::Kind::ceiling) channels_.raiseCeiling(control.channel, control.value);
     if (control.kind == RenderControl::Kind::panner) panner_ = control.panner;
+    if (control.kind == RenderControl::Kind::gain && control.channel >= 0 &&
+        control.channel < limits::maxEnchanters)
+        followedGains_[static_cast<std::size_t>(control.channel)] = std::numeric_limits<float>::quiet_NaN();
     if (!isLogged_) return true;
-    if (control.kind == RenderControl::Kind::panner) log_.panners.push_back({control.timeNs, control.panner});
-    else log_.channels.push_back({control.timeNs, control.kind, control.channel, control.value});
+    if (control.kind == RenderControl::Kind::panner)
+        log_.panners.push_back({control.timeNs, control.panner});
+    else
+        log_.channels.push_back({control.timeNs, control.kind, control.channel, control.value});
     return true;
 }
 
@@ -124,6 +137,41 @@ void Scheduler::takeDueStops() {
     if (nextStopNs_ > now) return;
     const std::lock_guard lock{mutex_};
     postDueStops(now);
+}
+
+Result<std::int64_t> Scheduler::take(Lanes& lanes, std::int64_t) {
+    followed_ = std::move(lanes.mix);
+    follows_ = followed_ != nullptr;
+    followedSceneNs_ = -1;
+    return time_.nowNs();
+}
+
+// As a fader that is moved, at the time of the step: logged, so that what was felt is rendered again whatever
+// becomes of the lane.
+void Scheduler::followLanes() {
+    if (!follows_.load(std::memory_order_relaxed)) return;
+    const std::lock_guard lock{mutex_};
+    const std::int64_t sceneNs = world_.sceneNs(),
+                       steppedNs = world_.steppedNs_.load(std::memory_order_acquire);
+    const std::size_t take = world_.take();
+    if (!followed_ || (sceneNs == followedSceneNs_ && take == followedTake_))
+        return; // others may have it while the world stands still
+    postDueStops(steppedNs);
+    for (std::size_t j = 0; j < followed_->strips.size(); ++j) {
+        if (!hasLane(*followed_, j)) continue;
+        Strip now = followed_->strips[j];
+        now.gainDb = gainDbAt(*followed_, j, static_cast<double>(sceneNs) * 1e-9);
+        RenderControl control{std::max<std::int64_t>(0, steppedNs - time_.leadNs()),
+                              RenderControl::Kind::gain,
+                              static_cast<int>(j),
+                              channelGain(now),
+                              {}};
+        if (control.value == followedGains_[j]) continue;
+        if (!post(control)) return; // the queue is full: with the next call
+        followedGains_[j] = control.value;
+    }
+    followedSceneNs_ = sceneNs;
+    followedTake_ = take;
 }
 
 bool Scheduler::hasRoomFor(std::span<const ClipSound> channels) const {

@@ -9,7 +9,9 @@
 #include "Session/RecordingSets.h"
 #include "Session/RenderedChannels.h"
 #include "Session/WorldRunner.h"
+#include <array>
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -25,6 +27,9 @@ public:
     std::optional<int> keepClip(std::span<const ContactRecording> channels);
     PhantomPanner panner() const;
     std::int64_t readLog(SessionLog& log);
+
+    /// What lanes say of the world's time is told to the renderer. D.
+    void followLanes();
 
     /// Stops whose time has come are told to the renderer. Any thread but R in a realtime block.
     void takeDueStops();
@@ -45,6 +50,7 @@ private:
     Result<std::int64_t> take(PlayedRecordings& recordings, std::int64_t timeNs);
     Result<std::int64_t> take(const Strikes& strikes, std::int64_t timeNs);
     Result<std::int64_t> take(const Stop&, std::int64_t timeNs);
+    Result<std::int64_t> take(Lanes& lanes, std::int64_t timeNs);
     std::int64_t toldNs() const noexcept { return std::max<std::int64_t>(0, time_.nowNs() - time_.leadNs()); }
     bool post(RenderControl& control);
     void postDueStops(std::int64_t untilNs);
@@ -59,6 +65,7 @@ private:
     SinkSet& sinks_;
     EventQueue<RenderControl, 256> controls_;
     std::atomic<std::int64_t> nextStopNs_{never}; // the first of stops_; to be read without the mutex
+    std::atomic<bool> follows_{false};            // there is a mix; the same
 
     mutable std::mutex mutex_; // guards what follows, and the producer's side of controls_
     std::optional<InputCheck> check_;
@@ -70,6 +77,10 @@ private:
     PhantomPanner panner_;
     std::int64_t lastControlNs_ = 0;
     std::vector<std::int64_t> stops_; // ahead, in time order
+    std::shared_ptr<const Mix> followed_;
+    std::array<float, limits::maxEnchanters> followedGains_{}; // as told last; not a number: by somebody else
+    std::int64_t followedSceneNs_ = -1;                        // up to there
+    std::size_t followedTake_ = 0;
 };
 
 } // namespace physvib

@@ -77,7 +77,9 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
 
 int Session::advance(const StepWatch& goesOn) {
     scheduler_.takeDueStops();
-    return world_.advance(goesOn);
+    const int steps = world_.advance(goesOn);
+    scheduler_.followLanes();
+    return steps;
 }
 
 // The world first: whoever steps it must not take what is added for a stall.

@@ -31,6 +31,9 @@ public:
     /// Session time up to which the world has been stepped.
     std::int64_t timeNs() const noexcept { return originNs_ + world_->timeNs(); }
 
+    /// Time of the take's world itself.
+    std::int64_t sceneNs() const noexcept { return world_->timeNs(); }
+
     /// One step; events are appended, shaped and in session time.
     void step(std::vector<CollisionEvent>& made);
 

@@ -51,6 +51,7 @@ void WorldRunner::prepare() {
     begun_.clear();
     for (CollisionEvent unplayed; queue_.pop(unplayed);) {}
     steppedNs_ = time_.nowNs();
+    tellScene();
     slippedNs_ = 0;
     slowness_ = 1;
     stepsWanted_ = 0;
@@ -111,6 +112,7 @@ void WorldRunner::takeUp() {
     if (frame < 0 && !isNew_) return;
     world_.start(frame < 0 ? time_.nowNs() : time_.sessionNs(frame), state_.scene, state_.seed);
     isNew_ = false;
+    tellScene();
     showPoses();
 }
 
@@ -120,8 +122,14 @@ bool WorldRunner::handOver() {
     if (handed_ < made_.size()) return false;
     made_.clear();
     handed_ = 0;
+    tellScene();
     steppedNs_.store(world_.timeNs(), std::memory_order_release);
     return true;
+}
+
+void WorldRunner::tellScene() noexcept {
+    sceneNs_.store(world_.sceneNs(), std::memory_order_relaxed);
+    take_.store(world_.takeCount(), std::memory_order_relaxed);
 }
 
 void WorldRunner::takeDue(std::int64_t untilNs) {

@@ -43,6 +43,10 @@ public:
     /// Time that was given up after stalls. Any thread.
     std::int64_t slippedNs() const noexcept { return slippedNs_.load(std::memory_order_relaxed); }
 
+    /// How far the scene has come that runs, and the number of its take, from 1. Any thread, wait-free.
+    std::int64_t sceneNs() const noexcept { return sceneNs_.load(std::memory_order_relaxed); }
+    std::size_t take() const noexcept { return take_.load(std::memory_order_relaxed); }
+
     /// Live inputs and bodies that the world holds now: for those who watch that neither grows without end. Any thread but R.
     SessionSize size() const;
 
@@ -90,6 +94,7 @@ private:
     void beginOffline(std::int64_t endNs);
     void moveWorld(std::int64_t untilNs);
     void takeUp();
+    void tellScene() noexcept;
     void takeDue(std::int64_t untilNs);
     bool handOver();
     void showPoses() const; // to those who do not wait for a step
@@ -100,6 +105,8 @@ private:
     SinkSet& sinks_;
     EventQueue<CollisionEvent, 4096> queue_; // from whoever holds the world, who keeps what finds no room
     std::atomic<std::int64_t> steppedNs_{0}; // session time of the world up to which all is in the queue
+    std::atomic<std::int64_t> sceneNs_{0}; // of the take that runs
+    std::atomic<std::size_t> take_{0};
     std::atomic<std::int64_t> slippedNs_{0}, restartFrame_{-1}; // the latter: -1, not wanted
     std::atomic<int> slowness_{1}, stepsWanted_{0};
     std::atomic<bool> offline_{false}, isDriven_{false}; // the latter: somebody has begun to step the world

@@ -16,7 +16,8 @@ std::optional<double> metresOf(std::string_view text) {
 
 std::string readField(const std::string& word, FieldSize& field) {
     const auto comma = std::min(word.find(','), word.size());
-    const auto width = metresOf(std::string_view{word}.substr(0, comma)), height = metresOf(std::string_view{word}.substr(std::min(comma + 1, word.size())));
+    const auto width = metresOf(std::string_view{word}.substr(0, comma)),
+               height = metresOf(std::string_view{word}.substr(std::min(comma + 1, word.size())));
     if (!width || !height) return "expected W,H in metres (0.001 to 1e6), found " + inQuotes(word);
     field = {*width, *height};
     return {};
@@ -35,14 +36,17 @@ std::string readSounds(const std::vector<std::string>& words, RecordedSounds& so
     for (const std::string& word : words) {
         const auto equals = word.find('=');
         const auto hz = parseNumber<double>(std::string_view{word}.substr(0, equals));
-        if (equals == std::string::npos || !hz || !(*hz > 0.0) || equals + 1 == word.size()) return "expected HZ=FILE.wav, the frequency of a material and its recorded contact";
+        if (equals == std::string::npos || !hz || !(*hz > 0.0) || equals + 1 == word.size())
+            return "expected HZ=FILE.wav, the frequency of a material and its recorded contact";
         sounds.emplace_back(*hz, word.substr(equals + 1));
     }
     return {};
 }
 
 std::string readLaw(const std::string& word, PanningLaw& law) {
-    return panningLawNamed(word, law) ? std::string{} : "expected " + listed(panningLawNames, " or ") + ", found " + inQuotes(word);
+    return panningLawNamed(word, law)
+               ? std::string{}
+               : "expected " + listed(panningLawNames, " or ") + ", found " + inQuotes(word);
 }
 
 std::string readMethod(const std::string& word, RenderJob& job) {
@@ -55,27 +59,39 @@ std::string readMethod(const std::string& word, RenderJob& job) {
 
 Option& addLaw(OptionTable& command, PanningLaw& law) {
     const auto read = [&law](const std::string& word) { return readLaw(word, law); };
-    return command.addRead(stimulusWords::law, std::string{nameOf(law)}, read, "panning law: " + listed(panningLawNames));
+    return command.addRead(stimulusWords::law, std::string{nameOf(law)}, read,
+                           "panning law: " + listed(panningLawNames));
 }
 
 Option& addSounds(OptionTable& command, RecordedSounds& sounds, std::string says) {
-    const WordsReader read = [&sounds](const std::vector<std::string>& words) { return readSounds(words, sounds); };
+    const WordsReader read = [&sounds](const std::vector<std::string>& words) {
+        return readSounds(words, sounds);
+    };
     return command.addRow("--sound", read, std::move(says)).as("HZ=FILE.wav").single();
 }
 
 Option& addField(OptionTable& command, FieldSize& field) {
     const auto read = [&field](const std::string& word) { return readField(word, field); };
-    return command.addRead("--field", {}, read, "metres that x and y span (scene: its field; events: the layout's extent)").as("W,H");
+    return command
+        .addRead("--field", {}, read,
+                 "metres that x and y span (scene: its field; events: the layout's extent)")
+        .as("W,H");
 }
 
 Option& addSettings(OptionTable& command, SceneSettings& settings) {
-    const WordsReader read = [&settings](const std::vector<std::string>& words) { return readSettings(words, settings); };
-    return command.addRow("--set", read, "a variable of the scene; may be repeated").as("NAME=VALUE").single();
+    const WordsReader read = [&settings](const std::vector<std::string>& words) {
+        return readSettings(words, settings);
+    };
+    return command.addRow("--set", read, "a variable of the scene; may be repeated")
+        .as("NAME=VALUE")
+        .single();
 }
 
 Option& addMethod(OptionTable& command, RenderJob& job) {
     const auto read = [&job](const std::string& word) { return readMethod(word, job); };
-    return command.addRead("--method", job.methodName(), read, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed; or SV, recorded contacts");
+    return command.addRead("--method", job.methodName(), read,
+                           "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed; "
+                           "or SV, recorded contacts");
 }
 
 } // namespace physvib

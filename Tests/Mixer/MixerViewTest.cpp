@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window's components without a display: names and the keyboard for every control, sizes, looks, and what clicks do.
 #include "MixerTesting.h"
+#include "Scene/Sessions/StripGroups.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/BodyMass.h"
 #include <cmath>
@@ -252,6 +253,26 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     EXPECT_TRUE(desk.isSilent());
     view.keyPressed(juce::KeyPress{'z', juce::ModifierKeys::commandModifier, 0});
     EXPECT_EQ(desk.mix().count(), 4);
+}
+
+TEST(MixerView, IsDrawnWhileStripsGo) { // the window is told a moment later; its timer may come first
+    Desk desk{onlyNoDevice(), noDevice};
+    desk.change("Groups", [](Mix& mix) { mix.strips[3].group = addGroup(mix, "Left hand"); });
+    MixerView view{desk};
+    desk.dispatchPendingMessages();
+    desk.change("Fewer", [](Mix& mix) {
+        mix.layout = presetLayout("phone2", mix.layout.enchanters);
+        mix.resizeStrips();
+        mix.groups.clear();
+    });
+    for (const char* tab : {"Played now", "Gain lanes", "Events", "Telemetry"}) {
+        view.scope().choose(tab);
+        view.refresh();
+        view.createComponentSnapshot(view.getLocalBounds());
+    }
+    desk.dispatchPendingMessages();
+    EXPECT_EQ(find(view, "Strip C"), nullptr);
+    EXPECT_EQ(find(view, "Group Left hand"), nullptr);
 }
 
 TEST(MixerView, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {

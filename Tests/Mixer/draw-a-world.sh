@@ -1,14 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# draw-a-world.sh [BUILD] [FOLDER]: a person's act in the real window, by pointer and keys: draws a slope, a ball, a pinned see-saw and a bell
-# on a rope, changes materials, plays with it while hands are recorded as the script, and saves the scene; pictures of it go to FOLDER. Then the hits
-# that the mixer played must be those that physvib renders of the scene file, to the bit. A script, since it needs a display and ten seconds of sound.
+# draw-a-world.sh [BUILD] [FOLDER] [PAGE]: a person's act in the real window, by pointer and keys: draws a slope, a ball,
+# a pinned see-saw and a bell on a rope, changes materials, plays with it while hands are recorded as the script, and saves
+# the scene; pictures of it go to FOLDER. Then the hits that the mixer played must be those that physvib renders of the scene
+# file, to the bit. With PAGE, the folder of the built page, Chromium opens the scene there, shares it and opens the link: the
+# same samples. A script, since it needs a display and ten seconds of sound.
 set -eu
-build=${1:-build/release} out=${2:-$(mktemp -d)}
+build=${1:-build/release} out=${2:-$(mktemp -d)} page=${3:+$(realpath "$3")}
 here=$(cd "$(dirname "$0")" && pwd)
 for program in xvfb-run xdotool ffmpeg; do command -v $program >/dev/null || { echo "needs the packages xvfb, xauth, xdotool and ffmpeg" >&2; exit 1; }; done
 if [ "${DISPLAY_OF_ITS_OWN:-}" != yes ]; then
-    DISPLAY_OF_ITS_OWN=yes exec xvfb-run -a -s "-screen 0 1440x900x24" "$0" "$build" "$out"
+    DISPLAY_OF_ITS_OWN=yes exec xvfb-run -a -s "-screen 0 1440x900x24" "$0" "$build" "$out" "$page"
 fi
 mkdir -p "$out"
 home=$(mktemp -d)
@@ -93,4 +95,6 @@ print(f"hits: {len(rendered)} rendered, {sum(same)} of them those that were play
 print(f"time between a hit of the recording and of the render: {min(shifts):.9f} to {max(shifts):.9f} s (it grows where the world waited)")
 sys.exit(0 if rendered and len(live) >= len(rendered) and all(same) else 1)
 PY
+cp own.json "$out/drawn.json"
+[ -z "$page" ] || python3 "$here/opened-in-the-page.py" own.json "$page" "$here/../../$build/bin/physvib" "$out" 5
 echo "pictures in $out"

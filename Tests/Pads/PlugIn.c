@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Preloaded into a program, it plugs a virtual controller in once the program knows of controllers, and writes what its motors are told
  * to the file PHYSVIB_PAD_LOG: "MILLISECONDS low high", of the steady clock. PHYSVIB_PAD_EVERY=SECONDS: unplugged and plugged in by turns.
- * PHYSVIB_PADS=N: so many of them (1). */
+ * PHYSVIB_PADS=N: so many of them (1). PHYSVIB_PAD_FIRST: it is there before the program asks. */
 #include <SDL2/SDL.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -63,6 +63,8 @@ static void pullOut(SDL_JoystickID id) {
 static void* run(void* unused) {
     const char *every = getenv("PHYSVIB_PAD_EVERY"), *pads = getenv("PHYSVIB_PADS");
     SDL_JoystickID last = -1;
+    if (getenv("PHYSVIB_PAD_FIRST") && dlopen("libSDL2-2.0.so.0", RTLD_NOW))
+        SDL(Init)(SDL_INIT_GAMECONTROLLER);
     while (!of("SDL_WasInit") || !SDL(WasInit)(SDL_INIT_GAMECONTROLLER)) usleep(1000);
     for (int i = 1; i <= (pads ? atoi(pads) : 1); ++i) last = plugIn(i);
     note("plugged in");

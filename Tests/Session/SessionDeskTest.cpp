@@ -2,6 +2,7 @@
 // What a mixer does to a session while it plays is saved, and rendered again to the bit.
 #include "FakeHost.h"
 #include "Scene/Sessions/SessionFile.h"
+#include "Scene/Sessions/StripGroups.h"
 #include "Session/OfflineRender.h"
 #include "Session/Session.h"
 #include "Session/SessionRender.h"
@@ -206,6 +207,87 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     EXPECT_TRUE(made.strips[3].isMuted);
     EXPECT_NEAR(made.strips[0].ceilingDb, -12.04, 0.01);
     EXPECT_NEAR(made.strips[2].ceilingDb, -20.0, 0.01) << "a bound that hands rely on";
+}
+
+/// A strip with a lane of its own, and a group with one.
+Mix mixWithLanes(const SessionSetup& setup) {
+    Mix mix;
+    mix.layout = describeLayout("phone4", setup.panner.layout());
+    mix.resizeStrips();
+    mix.strips[0].lane = {{0.3, 0.0}, {1.1, -20.0}, {1.3, 6.0}};
+    mix.strips[2].group = addGroup(mix, "Left hand");
+    mix.strips[2].isInverted = true;
+    mix.groups[0].gainDb = -3.0;
+    mix.groups[0].lane = {{0.0, -60.0}, {0.9, -60.0}, {1.2, -3.0}};
+    return mix;
+}
+
+/// Gains that a channel got in a take, but at its beginning: when, since it began, and which.
+std::vector<std::pair<std::int64_t, float>> gainsIn(const SavedSession& saved, std::size_t take, int channel,
+                                                    std::int64_t lengthNs) {
+    std::vector<std::pair<std::int64_t, float>> gains;
+    for (const ChannelChange& c : saved.log.channels) {
+        const std::int64_t at = c.timeNs - saved.log.takes[take].startNs;
+        if (c.kind == Kind::gain && c.channel == channel && at > 200'000'000 && at < lengthNs)
+            gains.emplace_back(at, c.value);
+    }
+    return gains;
+}
+
+TEST(SessionDesk, ALaneIsFeltAtTheTimesOfItsSceneAndRenderedAgainToTheBit) {
+    const auto setup = deskSetup();
+    const auto mix = std::make_shared<const Mix>(mixWithLanes(setup));
+    Session session{setup};
+    const auto live = play(session, 5.0, {{0.0, [&](Session& s) { s.take({Lanes{mix}}); }},
+                                          {2.0, [](Session& s) { s.world().restart(); }},
+                                          {3.8, [](Session& s) { s.world().setSlowness(0); }},
+                                          {4.2, [](Session& s) { s.world().setSlowness(1); }},
+                                          {4.4, [](Session& s) { s.take({Lanes{}}); }}});
+    EXPECT_EQ(session.status().render.late, 0u);
+    const auto saved = savedOf(session, setup, 5);
+    EXPECT_EQ(differences(live, saved, session.timeline().playOutFrames()), 0);
+    for (const int channel : {0, 2}) {
+        const auto first = gainsIn(saved, 0, channel, 1'700'000'000),
+                   again = gainsIn(saved, 1, channel, 1'700'000'000);
+        EXPECT_GT(first.size(), 20u);
+        EXPECT_EQ(first, again) << "the scene's time, whatever the session's is";
+    }
+    EXPECT_TRUE(gainsIn(saved, 1, 1, 3'000'000'000).empty()) << "a strip without a lane is left alone";
+    for (const auto& [ns, gain] : gainsIn(saved, 0, 0, 1'700'000'000))
+        EXPECT_EQ(gain, channelGain({.gainDb = gainDbAt(*mix, 0, 1e-9 * static_cast<double>(ns))})) << ns;
+    EXPECT_EQ(energyOf(live[2], 0.1, 0.9), 0.0) << "silence, until the group's lane rises";
+    EXPECT_GT(energyOf(live[2], 1.3, 2.0), 0.0);
+    EXPECT_LT(gainsIn(saved, 0, 2, 1'700'000'000).back().second, 0.0f) << "polarity stays";
+}
+
+TEST(SessionDesk, GroupsAndLanesAreSavedAndABrokenOneSaysWhere) {
+    const auto setup = deskSetup();
+    Session session{setup};
+    play(session, 0.1, {});
+    SavedSession saved{setup.run(), setup.panner, 4, true, setup.ceilings, 0, {}, {}};
+    session.readLog(saved.log);
+    saved.mix = mixWithLanes(setup);
+    saved.mix->groups[0].isMuted = true;
+    const std::string text = sessionJson(saved);
+    const auto again = readSession(text, "s.json");
+    ASSERT_TRUE(again) << again.error;
+    EXPECT_EQ(again.value.mix->strips, saved.mix->strips);
+    EXPECT_EQ(again.value.mix->groups, saved.mix->groups);
+    const auto faultOf = [&](const std::string& from, const std::string& to) {
+        std::string broken = text;
+        const auto at = broken.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return readSession(broken.replace(at, from.size(), to), "s.json").error;
+    };
+    EXPECT_EQ(faultOf("\"group\": 1", "\"group\": 2"),
+              "s.json: desk.strips[2].group: expected a group that is listed, of 1, found 2");
+    EXPECT_NE(faultOf("\"Left hand\", \"gain_db\": -3", "\"Left hand\", \"gain_db\": 60")
+                  .find("desk.groups[0].gain_db"),
+              std::string::npos);
+    saved.mix->strips[0].lane = {{2.0, 0.0}, {1.0, 0.0}};
+    EXPECT_NE(
+        readSession(sessionJson(saved), "s.json").error.find("desk.strips[0].lane[1][0]: expected 2 to"),
+        std::string::npos);
 }
 
 TEST(SessionDesk, BodiesThatCameAndWentAreInTheSceneAsItWasLeft) {

@@ -4,6 +4,8 @@
 #include "Io/Json/JsonText.h"
 #include "Scene/Sessions/MixJson.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/Sessions/StripGroups.h"
+#include <algorithm>
 
 namespace physvib {
 namespace {
@@ -28,13 +30,22 @@ private:
     int count_ = 0;
 };
 
-void lowerStrip(const Strip* most, bool isSilentThere, Strip& strip, const std::string& label, Notes& notes) {
+/// How high the fader of a strip may be for it to be as loud as that, with its group and at the top of its
+/// lanes.
+double mostFaderDb(const Mix& mix, std::size_t strip, double mostDb) {
+    if (loudestDb(mix, strip) <= mostDb) return mostStripDb;
+    return mostDb <= leastStripDb ? leastStripDb
+                                  : std::clamp(mostDb - mostAddedDb(mix, strip), leastStripDb, mostStripDb);
+}
+
+void lowerStrip(const Strip* most, bool isSilentThere, double mostDb, Strip& strip, const std::string& label,
+                Notes& notes) {
     if (most == nullptr) {
         notes.add(label + " without output " + std::to_string(strip.output + 1));
         strip.output = -1;
         return;
     }
-    notes.lower(strip.gainDb, most->gainDb, label + " gain");
+    notes.lower(strip.gainDb, mostDb, label + " gain");
     notes.lower(strip.ceilingDb, most->ceilingDb, label + " ceiling");
     if (!isSilentThere || strip.isMuted) return;
     notes.add(label + " muted");
@@ -44,7 +55,9 @@ void lowerStrip(const Strip* most, bool isSilentThere, Strip& strip, const std::
 } // namespace
 
 DeskLimits DeskLimits::of(const Mix& mix) {
-    return {mix.levelDb, mix.strips};
+    std::vector<Strip> strips = feltStrips(mix);
+    for (std::size_t j = 0; j < strips.size(); ++j) strips[j].gainDb = loudestDb(mix, j);
+    return {mix.levelDb, strips};
 }
 
 std::string lowerTo(const DeskLimits& most, Mix& mix) {
@@ -57,7 +70,8 @@ std::string lowerTo(const DeskLimits& most, Mix& mix) {
         const bool isThere = own != most.strips.end();
         lowerStrip(isThere ? &*own : nullptr,
                    isThere && isSilent(most.strips, static_cast<std::size_t>(own - most.strips.begin())),
-                   strip, mix.layout.enchanters[j].label, notes);
+                   isThere ? mostFaderDb(mix, j, own->gainDb) : leastStripDb, strip,
+                   mix.layout.enchanters[j].label, notes);
     }
     return notes.words();
 }

@@ -5,11 +5,13 @@
 #include "Core/RenderControl.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/Scene.h"
+#include "Scene/Sessions/GainLane.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace physvib {
@@ -22,10 +24,21 @@ struct Strip {
     double delayMs = 0.0;    ///< 0 to limits::maxChannelDelaySeconds
     double ceilingDb = 0.0;  ///< of full scale, leastCeilingDb to 0
     int output = -1;         ///< of the device, from 0; -1: none
+    int group = -1;          ///< of the mix; -1: none
+    GainLane lane{};         ///< on top of the fader
     bool operator==(const Strip&) const = default;
 };
 
-constexpr double leastStripDb = -60.0, mostStripDb = 6.0;
+/// Strips that one fader and one mute act on: a hand, a back.
+struct StripGroup {
+    std::string name;
+    double gainDb = 0.0; ///< on top of each of them, as a strip's
+    bool isMuted = false;
+    GainLane lane{};
+    bool operator==(const StripGroup&) const = default;
+};
+constexpr std::size_t mostGroups = 16;
+
 constexpr double leastCeilingDb = -60.0; // lower is a mute by another name
 /// The first output that no strip has. Any thread.
 inline int freeOutput(std::span<const Strip> strips) noexcept {
@@ -62,6 +75,7 @@ struct Mix {
     PanningLaw law = PanningLaw::linear;
     double exponent = 1.0;
     std::vector<Strip> strips; ///< one per enchanter
+    std::vector<StripGroup> groups{};
     double levelDb = -12.0;    ///< master; the least is silence
     double dragNewtonSecondsPerScreenMetre = thesisDrag; ///< that a drag in the world pushes with
 
@@ -73,7 +87,11 @@ struct Mix {
     }
 
     void resizeStrips() { physvib::resizeStrips(strips, count()); } ///< as many as there are enchanters
-    bool isSilent(int strip) const noexcept { return physvib::isSilent(strips, static_cast<std::size_t>(strip)); }
+    bool isSilent(int strip) const noexcept {
+        const int group = strips[static_cast<std::size_t>(strip)].group;
+        return physvib::isSilent(strips, static_cast<std::size_t>(strip)) ||
+               (group >= 0 && groups[static_cast<std::size_t>(group)].isMuted);
+    }
 };
 
 /// True if their enchanters sit at the same places of the same extent. Any thread.

@@ -15,7 +15,7 @@
 namespace physvib {
 
 /// The version of the format that is written, and the newest that is read.
-constexpr int sessionFormatVersion = 7; // 2: desk, strikes, slow motion; 3: recordings, gain, perceived level; 4: drags by metres of the screen; 5: strikes that move; 6: clips; 7: law of grains, scenes of version 2
+constexpr int sessionFormatVersion = 8; // 2: desk, strikes, slow motion; 3: recordings, gain, perceived level; 4: drags by metres of the screen; 5: strikes that move; 6: clips; 7: law of grains, scenes of version 2; 8: groups, lanes
 
 /// A session as it was played.
 struct SavedSession {

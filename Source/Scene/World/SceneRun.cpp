@@ -3,6 +3,8 @@
 #include "Scene/World/SceneRun.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
+#include <cstdint>
+#include <memory>
 
 namespace physvib {
 
@@ -44,15 +46,64 @@ std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int6
     return last;
 }
 
-void followPoses(const Scene& scene, const SceneRun& run, std::int64_t everyNs, std::int64_t endNs, const PoseWatch& see) {
-    Simulation simulation{scene, run.seed, run.stepsPerSecond, run.timing, run.location};
-    std::vector<CollisionEvent> unused;
-    std::vector<BodyPose> poses(sceneCast(scene).size(), BodyPose{0.0, 0.0, 0.0, false});
-    for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += everyNs) {
-        for (; simulation.timeNs() + 1'000'000'000 / run.stepsPerSecond <= timeNs; unused.clear()) simulation.step(unused);
-        for (std::size_t i = 0; i < simulation.bodyCount(); ++i) poses[i] = simulation.pose(i);
-        if (!see(timeNs, poses)) return;
+namespace {
+
+/// The world of a take, stepped along session time.
+class FollowedTake {
+public:
+    FollowedTake(const SceneTake& take, const SceneRun& run, bool isLast)
+        : scene_{take.whole()}
+        , world_{scene_, take.seed, run.stepsPerSecond, run.timing, run.location}
+        , stalls_{take.stalls}
+        , originNs_{take.startNs + stalls_.lengthBefore(0)}
+        , stepNs_{1'000'000'000 / run.stepsPerSecond}
+        , endNs_{isLast ? INT64_MAX : take.worldEndNs}
+        , poses_(sceneCast(scene_).size(), BodyPose{0.0, 0.0, 0.0, false}) {}
+
+    void moveTo(std::int64_t timeNs) {
+        for (; world_.timeNs() < endNs_ && originNs_ + world_.timeNs() + stepNs_ <= timeNs; unused_.clear()) {
+            world_.step(unused_);
+            originNs_ += stalls_.lengthBefore(world_.timeNs());
+        }
+        for (std::size_t i = 0; i < world_.bodyCount(); ++i) poses_[i] = world_.pose(i);
     }
+    const Scene& scene() const noexcept { return scene_; }
+    std::span<const BodyPose> poses() const noexcept { return poses_; }
+
+private:
+    const Scene scene_;
+    Simulation world_;
+    StallReader stalls_;
+    std::int64_t originNs_;
+    const std::int64_t stepNs_, endNs_;
+    std::vector<BodyPose> poses_;
+    std::vector<CollisionEvent> unused_;
+};
+
+} // namespace
+
+void followTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t fromNs,
+                 std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see) {
+    std::int64_t timeNs = fromNs;
+    for (std::size_t i = 0; i < takes.size(); ++i) {
+        const bool isLast = i + 1 == takes.size();
+        const std::int64_t untilNs = isLast ? endNs : std::min(endNs, takes[i + 1].startNs);
+        if (timeNs >= untilNs) continue;
+        for (FollowedTake take{takes[i], run, isLast}; timeNs < untilNs; timeNs += everyNs) {
+            take.moveTo(timeNs);
+            if (!see(timeNs, take.scene(), take.poses())) return;
+        }
+    }
+}
+
+void followPoses(const Scene& scene, const SceneRun& run, std::int64_t everyNs, std::int64_t endNs,
+                 const PoseWatch& see) {
+    const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
+    const SceneTake take{0, 0, run.seed, shared, {}, {}};
+    followTakes({&take, 1}, run, 0, everyNs, endNs,
+                [&](std::int64_t timeNs, const Scene&, std::span<const BodyPose> poses) {
+                    return see(timeNs, poses);
+                });
 }
 
 } // namespace physvib

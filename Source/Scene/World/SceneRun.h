@@ -41,6 +41,13 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
 /// Poses of all bodies at the last step not after `timeNs`. M only; simulates from the start.
 std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);
 
+/// Takes a session time, the scene of its take with all inputs, and the poses of that scene's cast at the last step not after it; false:
+/// that is enough.
+using TakeWatch = std::function<bool(std::int64_t timeNs, const Scene& scene, std::span<const BodyPose> poses)>;
+
+/// A session at fromNs, fromNs + everyNs... before `endNs`, with its pauses and slow motion, in one go. `run` and the rest as of runTakes.
+void followTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t fromNs, std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see);
+
 /// Takes a time and the poses of all bodies at the last step not after it; false: that is enough.
 using PoseWatch = std::function<bool(std::int64_t timeNs, std::span<const BodyPose> poses)>;
 

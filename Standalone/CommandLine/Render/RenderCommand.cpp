@@ -128,8 +128,6 @@ int runRender(const RenderJob& options, RenderListener* listener) {
     if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
-    if (!options.moviePath.empty() && job.session && (job.session->log.takes.size() != 1 || !job.session->log.takes.front().stalls.empty()))
-        return leave(exitUsage, "--movie: expected a session of one scene run without pauses");
     const std::string error = render(job, listener);
     return error.empty() ? exitDone : leave(exitFailed, error);
 }

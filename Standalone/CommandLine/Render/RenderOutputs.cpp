@@ -103,7 +103,7 @@ std::string RenderOutputs::finish() {
     for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
         if (error.empty() && wav) error = wav->complete();
     if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
-    if (error.empty() && movie_) error = movie_->draw(pictureInput(), sceneRun());
+    if (error.empty() && movie_) error = movie_->draw(pictureInput(), poses());
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
     if (error.empty() && motorsFile_) error = motorsFile_->write(motorsCsv(motors_, provenance()));
@@ -156,6 +156,17 @@ SceneRun RenderOutputs::sceneRun() const {
     SceneRun run = job_.run();
     if (job_.session) run.seed = job_.session->log.takes.front().seed;
     return run;
+}
+
+PoseSource RenderOutputs::poses() const {
+    if (!job_.scene) return {};
+    return [this](std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see) {
+        if (job_.session) return followTakes(job_.session->log.takes, sceneRun(), 0, everyNs, endNs, see);
+        followPoses(*job_.scene, sceneRun(), everyNs, endNs,
+                    [&](std::int64_t timeNs, std::span<const BodyPose> bodies) {
+                        return see(timeNs, *job_.scene, bodies);
+                    });
+    };
 }
 
 PictureInput RenderOutputs::pictureInput() const {

@@ -4,7 +4,7 @@
 #include "CommandLine/Render/OnOffPattern.h"
 #include "Calls/LoadedRender.h"
 #include "CommandLine/Render/RenderListener.h"
-#include "CommandLine/Render/MovieOutput.h"
+#include "Calls/MovieOutput.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/PadCommands.h"
@@ -59,6 +59,7 @@ private:
     Provenance inputProvenance() const;
     std::string provenanceText() const;
     SceneRun sceneRun() const; ///< of the first scene that is drawn
+    PoseSource poses() const;
     PictureInput pictureInput() const;
     std::string writePictureFile();
     void showProgress();

@@ -78,6 +78,7 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     device_.connectBoard(device.board);
     device_.connectPad(device.pad);
     open(device);
+    told_.follow(session_, mix_);
     told_.tell(session_, mix_);
     edits_ = 0;
     session_.sinks().follow(&output());
@@ -105,6 +106,7 @@ void Desk::apply(const Mix& next) {
     if (mix_.scene != before.scene || mix_.seed != before.seed) beginWorld(mix_.scene == before.scene);
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
+    told_.follow(session_, mix_);
     told_.tell(session_, mix_);
     if (!mix_.strips.empty() && !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))
         if (const auto error = device_.assign(); !error.empty()) report(utf8(error));

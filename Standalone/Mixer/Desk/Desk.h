@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the mixer's window shows and changes: a live session on a device, the mix that is set on it, and the way back of every change.
 #pragma once
-#include "Scene/Sessions/Mix.h"
 #include "Scene/Sessions/SessionFile.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Mixer/Desk/DeskDevice.h"
 #include "Mixer/Desk/DeskExposure.h"
 #include "Mixer/Desk/DeskInputs.h"
-#include "Mixer/Desk/DeskMoment.h"
+#include "Mixer/Desk/DeskLanes.h"
 #include "Mixer/Desk/DeskRecording.h"
 #include "Mixer/Desk/DeskScript.h"
 #include "Mixer/Desk/DeskSignals.h"
@@ -112,6 +111,7 @@ private:
     RecentContacts recent_;
     DeskMoment now_;
     DeskScript script_{*this};
+    DeskLanes lanes_{*this};
     std::vector<CollisionEvent> hits_; // played since the last look
     DeskStrikes strikes_; // these last: their threads use the others
     DeskInputs inputs_{*this};

@@ -5,6 +5,9 @@
 namespace physvib {
 
 DeskMoment Desk::look() {
+    const WorldRunner& world = session_.world();
+    signals_.follow(world.take(), 1e-9 * static_cast<double>(world.sceneNs()) - device_.playOutSeconds(),
+                    world.slowness());
     const float loudest = signals_.read(now_, mix_.count());
     now_.session = session_.status();
     now_.device = output().status();
@@ -14,6 +17,7 @@ DeskMoment Desk::look() {
     now_.hits.clear();
     now_.hits.swap(hits_);
     recording_.look(now_.device);
+    lanes_.look();
     now_.meters.limiterGain = now_.session.render.limiterGain;
     now_.meters.enchanters = mix_.count();
     for (std::size_t j = 0; j < static_cast<std::size_t>(mix_.count()); ++j) now_.meters.isConnected[j] = mix_.strips[j].output >= 0;

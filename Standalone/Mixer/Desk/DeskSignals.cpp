@@ -15,6 +15,15 @@ constexpr double holdMs = 1500.0;
 void DeskSignals::setRate(int sampleRateHz) {
     scope_.setRate(sampleRateHz);
     spectrum_.setRate(sampleRateHz);
+    sampleRateHz_ = std::max(1, sampleRateHz);
+}
+
+// Frames give the pace; what they miss is made up for.
+void DeskSignals::follow(std::size_t take, double feltSeconds, int slowness) {
+    constexpr double mostOffSeconds = 0.1;
+    if (take != takeTrace_.take()) takeTrace_.begin(take);
+    scenePerFrame_ = slowness > 0 && feltSeconds >= 0.0 ? 1.0 / slowness / sampleRateHz_ : 0.0;
+    if (std::abs(feltSeconds - takeTrace_.seconds()) > mostOffSeconds) takeTrace_.moveTo(feltSeconds);
 }
 
 float DeskSignals::read(DeskMoment& moment, int enchanters) {
@@ -35,6 +44,7 @@ float DeskSignals::read(DeskMoment& moment, int enchanters) {
 void DeskSignals::measure(const float* const* block, int frames, DeskMoment& moment, int enchanters) {
     scope_.add(block, enchanters, frames);
     spectrum_.add(block, enchanters, frames);
+    if (scenePerFrame_ > 0.0) takeTrace_.add(block, enchanters, frames, frames * scenePerFrame_);
     for (int j = 0; j < enchanters; ++j) {
         const auto range = juce::FloatVectorOperations::findMinAndMax(block[j], frames);
         auto& peak = moment.meters.peaks[static_cast<std::size_t>(j)];

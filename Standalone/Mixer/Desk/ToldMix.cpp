@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the mix to the session's controls.
 #include "Mixer/Desk/ToldMix.h"
+#include "Scene/Sessions/StripGroups.h"
+#include <algorithm>
+#include <limits>
+#include <memory>
 
 namespace physvib {
 namespace {
@@ -20,7 +24,23 @@ void ToldMix::tell(Session& session, const Mix& mix) {
         if (!post(Kind::panner, panner)) return;
         panner_ = panner;
     }
-    tellStrips(strips_, mix.strips, [&session](const RenderControl& control) { return session.take({control}).error.empty(); });
+    const auto felt = feltStrips(mix);
+    for (std::size_t j = 0; j < follows_.size(); ++j)
+        if (follows_[j]) strips_[j].gain = channelGain(felt[j]); // nothing to tell
+    tellStrips(strips_, felt,
+               [&session](const RenderControl& control) { return session.take({control}).error.empty(); });
+}
+
+void ToldMix::follow(Session& session, const Mix& mix) {
+    std::vector<bool> follows(mix.strips.size());
+    for (std::size_t j = 0; j < follows.size(); ++j) follows[j] = hasLane(mix, j);
+    for (std::size_t j = 0; j < follows_.size(); ++j) // nobody knows where its lane has left it
+        if (follows_[j] && (j >= follows.size() || !follows[j]))
+            strips_[j].gain = std::numeric_limits<float>::quiet_NaN();
+    const bool any = std::ranges::find(follows, true) != follows.end(),
+               wereAny = std::ranges::find(follows_, true) != follows_.end();
+    follows_ = std::move(follows);
+    if (any || wereAny) session.take({Lanes{any ? std::make_shared<const Mix>(mix) : nullptr}});
 }
 
 } // namespace physvib

@@ -4,6 +4,7 @@
 #include "Scene/Sessions/Mix.h"
 #include "Session/Session.h"
 #include <array>
+#include <vector>
 
 namespace physvib {
 
@@ -17,8 +18,12 @@ public:
     /// Posts as little as the session does not know yet. What finds no room is left for the next call.
     void tell(Session& session, const Mix& mix);
 
+    /// The mix is another: what has a lane in it is told by the session itself.
+    void follow(Session& session, const Mix& mix);
+
 private:
     PhantomPanner panner_;
+    std::vector<bool> follows_; // per strip
     std::array<ToldStrip, limits::maxEnchanters> strips_{};
 };
 

@@ -2,6 +2,7 @@
 // Strips and what they change on the desk.
 #include "Mixer/Strips/StripView.h"
 #include "Core/Decibels.h"
+#include "Mixer/Strips/GroupView.h"
 #include <cmath>
 
 namespace physvib {
@@ -54,13 +55,18 @@ StripView::StripView(Desk& desk, int strip)
     output_.setTitle("Output of " + label);
     output_.setJustificationType(juce::Justification::centred);
     output_.onChange = [this] { change("Output", [this](Strip& s) { s.output = output_.getSelectedId() - 2; }); };
+    group_ = quietButton("group", "Group of " + label);
+    group_->onClick = [this] { showGroupMenu(desk_, index_, *group_); };
     test_ = quietButton(juce::String::fromUTF8("Test \xe2\x96\xb8"), "Test pulse on " + label);
     test_->setTooltip("A pulse at the actuator's resonance (T)");
     test_->onClick = [this] { desk_.strikes().testPulse(static_cast<int>(index_)); };
     sweep_.getProperties().set(quietProperty, true);
     sweep_.setTooltip("A sweep from 40 to 400 Hz (Shift+T)");
     sweep_.onClick = [this] { desk_.strikes().testSweep(static_cast<int>(index_)); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&meter_, &fader_, &ceiling_, &delay_, &level_, &most_, &output_, test_.get(), &sweep_}) addAndMakeVisible(c);
+    for (juce::Component* c :
+         std::initializer_list<juce::Component*>{&meter_, &fader_, &ceiling_, &delay_, &level_, &most_,
+                                                 &output_, group_.get(), test_.get(), &sweep_})
+        addAndMakeVisible(c);
     takeMix();
 }
 
@@ -90,6 +96,11 @@ void StripView::takeMix() {
     delay_.setButtonText(s.delayMs > 0.0 ? number(s.delayMs, s.delayMs < 1.0 ? 1 : 0) : juce::String{"ms"});
     delay_.setToggleState(s.delayMs > 0.0, juce::dontSendNotification);
     delay_.setTooltip("Delay: " + number(s.delayMs, 1) + " ms");
+    const auto& profile = desk_.mix().layout.enchanters[index_].actuator;
+    group_->setButtonText(s.group < 0 ? juce::String{"group"}
+                                      : utf8(desk_.mix().groups[static_cast<std::size_t>(s.group)].name));
+    group_->setTooltip("Strips of a group share a fader and a mute (G). Actuator: " +
+                       (profile == "none" ? juce::String{"no profile"} : utf8(profile)));
     fillOutputs();
     output_.setSelectedId(s.output + 2, juce::dontSendNotification);
     repaint();
@@ -104,17 +115,25 @@ void StripView::askDelay() {
 }
 
 void StripView::refresh(const DeskMoment& moment) {
+    if (!isThere()) return;
     meter_.set(moment.meters.peaks[index_], moment.holds[index_]);
     level_.setText(inG(desk_.isSilent() ? 0.0 : gOf(desk_, index_, moment.holds[index_])), juce::dontSendNotification);
 }
 
 bool StripView::keyPressed(const juce::KeyPress& key) {
+    if (!isThere()) return false;
     if (key == juce::KeyPress{'t'}) return desk_.strikes().testPulse(static_cast<int>(index_)), true;
     if (key == juce::KeyPress{'t', juce::ModifierKeys::shiftModifier, 0}) return desk_.strikes().testSweep(static_cast<int>(index_)), true;
+    if (key == juce::KeyPress{'g'}) return showGroupMenu(desk_, index_, *group_), true;
     return false;
 }
 
+void StripView::mouseDown(const juce::MouseEvent& e) {
+    if (e.mods.isPopupMenu() && isThere()) showGroupMenu(desk_, index_, *group_);
+}
+
 void StripView::paint(juce::Graphics& g) {
+    if (!isThere()) return;
     auto area = getLocalBounds();
     const auto& enchanter = desk_.mix().layout.enchanters[index_];
     const bool isSilent = desk_.mix().isSilent(static_cast<int>(index_));
@@ -125,8 +144,6 @@ void StripView::paint(juce::Graphics& g) {
     g.setFont(juce::Font{text::medium, juce::Font::bold});
     g.drawText(utf8(enchanter.label), area.removeFromTop(20), juce::Justification::centred, true);
     g.setColour(shade(*this, Shade::muted));
-    g.setFont(juce::Font{text::small});
-    g.drawText(enchanter.actuator == "none" ? juce::String{"no profile"} : utf8(enchanter.actuator), area.removeFromTop(18), juce::Justification::centred, true);
     g.setFont(juce::Font{11.0f});
     for (const int db : {0, -20, -40, -60}) { // the meter's scale, right of the fader
         const auto y = static_cast<float>(meter_.getY()) + static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
@@ -154,6 +171,7 @@ void StripView::paintOverChildren(juce::Graphics& g) {
 }
 
 void StripView::resized() {
+    group_->setBounds(getLocalBounds().withTrimmedTop(27).removeFromTop(20));
     auto area = getLocalBounds().withTrimmedTop(metersTop);
     auto row = area.removeFromBottom(22).reduced(2, 0);
     test_->setBounds(row.removeFromLeft(row.getWidth() * 6 / 10));

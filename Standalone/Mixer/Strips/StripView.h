@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A channel strip: meter with held peak and ceiling, fader, mute, solo, polarity, delay, the level in g, output, tests.
+// A channel strip: group, meter with held peak and ceiling, fader, mute, solo, polarity, delay, the level in
+// g, output, tests.
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
@@ -15,6 +16,7 @@ public:
     void takeMix();
     void refresh(const DeskMoment& moment);
     bool keyPressed(const juce::KeyPress& key) override;
+    void mouseDown(const juce::MouseEvent& e) override;
     void paint(juce::Graphics& g) override;
     void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
@@ -25,6 +27,7 @@ public:
 
 private:
     void setDropping(bool isDropping);
+    bool isThere() const { return index_ < desk_.mix().strips.size(); } // else it goes in a moment
     const Strip& strip() const { return desk_.mix().strips[index_]; }
     template <class Change>
     void change(const juce::String& name, Change change, bool goesOn = false);
@@ -39,7 +42,7 @@ private:
     juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
     juce::Label level_, most_;
     juce::ComboBox output_;
-    std::unique_ptr<juce::TextButton> test_;
+    std::unique_ptr<juce::TextButton> group_, test_;
     SignButton sweep_;
     bool isDropping_ = false; // a clip is dragged over it
 };

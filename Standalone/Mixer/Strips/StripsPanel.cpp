@@ -48,23 +48,41 @@ StripsPanel::StripsPanel(Desk& desk)
 }
 
 void StripsPanel::takeMix() {
-    juce::StringArray labels;
+    juce::StringArray labels, names;
     for (const auto& e : desk_.mix().layout.enchanters) labels.add(utf8(e.label));
-    if (labels != labels_) {
-        strips_.clear();
-        for (int j = 0; j < desk_.mix().count(); ++j) {
-            strips_.push_back(std::make_unique<StripView>(desk_, j));
-            row_.addAndMakeVisible(*strips_.back());
-        }
-        labels_ = labels;
-        for (auto& strip : strips_) prepareControls(*strip), strip->takeMix(); // the shades are those of where it stands
+    for (const auto& group : desk_.mix().groups) names.add(utf8(group.name));
+    const bool areOther = labels != labels_, areOtherGroups = names != groupNames_;
+    labels_ = labels;
+    groupNames_ = names;
+    if (areOther) makeStrips();
+    if (areOtherGroups) makeGroups();
+    for (auto& strip : strips_) strip->takeMix();
+    for (auto& group : groups_) group->takeMix();
+    if (areOther || areOtherGroups) {
         attach_.toFront(false); // last in the order of the Tab key
         resized();
-    } else {
-        for (auto& strip : strips_) strip->takeMix();
     }
     attach_.setVisible(desk_.mix().count() < limits::maxEnchanters);
     master_.takeMix();
+}
+
+void StripsPanel::makeStrips() {
+    strips_.clear();
+    for (int j = 0; j < desk_.mix().count(); ++j) {
+        strips_.push_back(std::make_unique<StripView>(desk_, j));
+        row_.addAndMakeVisible(*strips_.back());
+    }
+    for (auto& strip : strips_) prepareControls(*strip); // the shades are those of where it stands
+    for (auto& group : groups_) group->toFront(false);
+}
+
+void StripsPanel::makeGroups() {
+    groups_.clear();
+    for (int k = 0; k < static_cast<int>(desk_.mix().groups.size()); ++k) {
+        groups_.push_back(std::make_unique<GroupView>(desk_, k));
+        row_.addAndMakeVisible(*groups_.back());
+    }
+    for (auto& group : groups_) prepareControls(*group);
 }
 
 void StripsPanel::refresh(const DeskMoment& moment) {
@@ -86,10 +104,13 @@ void StripsPanel::resized() {
     master_.setBounds(area.removeFromRight(MasterStrip::width));
     area.removeFromRight(8);
     viewport_.setBounds(area);
-    const int needed = (static_cast<int>(strips_.size()) + 1) * (StripView::width + 6);
+    const int needed = (static_cast<int>(strips_.size()) + 1) * (StripView::width + 6) +
+                       static_cast<int>(groups_.size()) * (GroupView::width + 6);
     row_.setSize(std::max(needed, area.getWidth()), area.getHeight() - (needed > area.getWidth() ? 10 : 0));
     auto places = row_.getLocalBounds();
     for (auto& strip : strips_) strip->setBounds(places.removeFromLeft(StripView::width)), places.removeFromLeft(6);
+    for (auto& group : groups_)
+        group->setBounds(places.removeFromLeft(GroupView::width)), places.removeFromLeft(6);
     attach_.setBounds(places.removeFromLeft(StripView::width).withTrimmedTop(2).withTrimmedBottom(2));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The desk's strips side by side, the next one's empty place, and the master.
+// The desk's strips and groups side by side, the next strip's empty place, and the master.
 #pragma once
+#include "Mixer/Strips/GroupView.h"
 #include "Mixer/Strips/StripView.h"
 
 namespace physvib {
@@ -23,11 +24,15 @@ private:
         void mouseDrag(const juce::MouseEvent& e) override;
     };
 
+    void makeStrips();
+    void makeGroups();
+
     Desk& desk_;
     juce::Viewport viewport_;
     juce::Component row_;
     std::vector<std::unique_ptr<StripView>> strips_;
-    juce::StringArray labels_;
+    std::vector<std::unique_ptr<GroupView>> groups_;
+    juce::StringArray labels_, groupNames_;
     AttachPlace attach_;
     MasterStrip master_;
 };

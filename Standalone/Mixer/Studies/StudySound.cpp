@@ -2,6 +2,7 @@
 // Controls first, then the strikes, a moment later.
 #include "Mixer/Studies/StudySound.h"
 #include "Mixer/Window/Parts.h"
+#include "Scene/Sessions/StripGroups.h"
 #include <algorithm>
 
 namespace physvib {
@@ -28,8 +29,9 @@ StudySound::~StudySound() {
     post(Kind::panner, 0, 0.0f, mix.panner());
     desk_.exposure().use(mix.layout);
     useRecordings({});
+    const auto felt = feltStrips(mix);
     for (int j = 0; j < mix.count(); ++j) {
-        post(Kind::gain, j, channelGain(mix.strips[static_cast<std::size_t>(j)]));
+        post(Kind::gain, j, channelGain(felt[static_cast<std::size_t>(j)]));
         post(Kind::mute, j, mix.isSilent(j) ? 1.0f : 0.0f);
     }
     desk_.setSlowness(slowness_);

@@ -57,6 +57,7 @@ FirstStart::FirstStart(Desk& desk, std::vector<FeltChoice> choices)
     title_.setFont(juce::Font{text::large, juce::Font::bold});
     words_.setFont(juce::Font{text::medium});
     words_.setJustificationType(juce::Justification::topLeft);
+    words_.setMinimumHorizontalScale(1.0f); // it has room for two lines
     for (int i = 0; i < std::min(mostRows, static_cast<int>(choices_.size())); ++i) {
         auto& row = *rows_.emplace_back(std::make_unique<juce::TextButton>(choices_[static_cast<std::size_t>(i)].title + (i == 0 && choices_.size() > 1 ? "  (likely)" : "")));
         row.setTitle(row.getButtonText());

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sessions, scenes and layouts from files and into them; recordings and renders; what is asked before anything is lost.
 #include "Mixer/Window/MixerWindow.h"
+#include "Calls/SessionMovie.h"
+#include "Host/Recordings/SessionWav.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
 #include "Mixer/Window/Parts.h"
-#include "Mixer/Window/RenderTask.h"
 
 namespace physvib {
 namespace {
 
 constexpr const char* sessionPattern = "*.json";
+constexpr double movieSeconds = 60.0;
 constexpr double longestRender = 86'400.0; // as `physvib render` makes at most
 
 std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
@@ -77,13 +79,21 @@ void MixerWindow::start(const juce::File& file) {
     say(utf8(mix.error));
 }
 
+juce::String MixerWindow::documentName() const {
+    return document_ == juce::File{} ? juce::String{"session"} : document_.getFileNameWithoutExtension();
+}
+
 juce::File MixerWindow::folderOfDocuments() const {
     return document_ != juce::File{} ? document_.getParentDirectory() : juce::File::getCurrentWorkingDirectory();
 }
 
-void MixerWindow::chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving, std::function<void(const juce::File&)> use) {
+void MixerWindow::chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving,
+                             std::function<void(const juce::File&)> use, const juce::String& suggested) {
     using B = juce::FileBrowserComponent;
-    chooser_ = std::make_unique<juce::FileChooser>(title, folderOfDocuments(), pattern, false);
+    const auto folder = folderOfDocuments();
+    const auto first =
+        suggested.isEmpty() ? folder : folder.getNonexistentChildFile(suggested, pattern.substring(1), false);
+    chooser_ = std::make_unique<juce::FileChooser>(title, first, pattern, false);
     chooser_->launchAsync((isSaving ? B::saveMode | B::warnAboutOverwriting : B::openMode) | B::canSelectFiles, [use = std::move(use)](const juce::FileChooser& c) {
         if (c.getResult() != juce::File{}) use(c.getResult());
     });
@@ -134,7 +144,9 @@ void MixerWindow::save() {
 }
 
 void MixerWindow::saveAs() {
-    chooseFile("Save the session", sessionPattern, true, [this](const juce::File& file) { saveTo(file.withFileExtension("json")); });
+    chooseFile(
+        "Save the session", sessionPattern, true,
+        [this](const juce::File& file) { saveTo(file.withFileExtension("json")); }, documentName());
 }
 
 void MixerWindow::saveTo(const juce::File& file) {
@@ -149,8 +161,7 @@ void MixerWindow::saveTo(const juce::File& file) {
 
 void MixerWindow::record() {
     if (desk_->recording().isRunning()) return desk_->recording().stop();
-    const auto name = document_ == juce::File{} ? juce::String{"session"} : document_.getFileNameWithoutExtension();
-    const auto file = folderOfDocuments().getNonexistentChildFile(name + "-take", ".wav", false);
+    const auto file = folderOfDocuments().getNonexistentChildFile(documentName() + "-take", ".wav", false);
     const auto error = desk_->recording().start(file);
     view_->topBar().setRecording(error.empty());
     if (!error.empty()) say(utf8(error));
@@ -167,19 +178,45 @@ void MixerWindow::renderOffline() {
         const double seconds = window->getTextEditorContents("seconds").getDoubleValue();
         if (answer == 0) return;
         if (!(seconds >= 0.1 && seconds <= longestRender)) return say("Seconds to render: expected 0.1 to " + number(longestRender, 0));
-        chooseFile("Render the session to", "*.wav", true, [this, seconds](const juce::File& file) { renderTo(file.withFileExtension("wav"), seconds); });
+        chooseFile(
+            "Render the session to", "*.wav", true,
+            [this, seconds](const juce::File& file) { renderTo(file.withFileExtension("wav"), seconds); },
+            documentName());
     }), true);
 }
 
-void MixerWindow::renderTo(const juce::File& file, double seconds) {
-    rendering_ = std::make_unique<RenderTask>(desk_->saved(), seconds, file, std::max(8000, desk_->output().sampleRateHz()),
+void MixerWindow::make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work) {
+    rendering_ = std::make_unique<RenderTask>(file, doneWords, std::move(work),
                                               [this](const juce::String& words, bool isGood) { isGood ? desk_->tell(words) : say(words); }, *view_);
+}
+
+void MixerWindow::renderTo(const juce::File& file, double seconds) {
+    const int rateHz = std::max(8000, desk_->output().sampleRateHz());
+    make(file, "Rendered",
+         [session = desk_->saved(), seconds, rateHz, path = pathOf(file)](const auto& progress) {
+             return renderSessionWav(session, {rateHz, seconds, progress}, path, "physvib " PHYSVIB_VERSION);
+         });
+}
+
+void MixerWindow::saveMovie() {
+    if (desk_->saved().lengthNs < 1'000'000'000)
+        return say("Save movie: expected a session of at least a second");
+    chooseFile(
+        "Save the last minute as a movie", "*.webp", true,
+        [this](const juce::File& file) { saveMovieTo(file.withFileExtension("webp"), movieSeconds); },
+        documentName() + "-movie");
+}
+
+void MixerWindow::saveMovieTo(const juce::File& file, double seconds) {
+    make(file, "Saved the movie",
+         [session = desk_->saved(), layout = desk_->mix().layout, seconds, path = pathOf(file)](
+             const auto& progress) { return writeSessionMovie(session, layout, seconds, path, progress); });
 }
 
 void MixerWindow::exportLayout() {
     chooseFile("Save the layout to", sessionPattern, true, [this](const juce::File& file) {
         if (const auto error = writeFile(pathOf(file.withFileExtension("json")), layoutJson(desk_->mix().layout)); !error.empty()) say(utf8(error));
-    });
+    }, "layout");
 }
 
 void MixerWindow::import(const juce::String& title) {

@@ -5,6 +5,7 @@
 #include "Mixer/Output/EventsTab.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Output/OutputTab.h"
+#include "Mixer/Strips/LanesTab.h"
 #include "Mixer/Strips/ScopeView.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Output/TelemetryTab.h"
@@ -32,6 +33,7 @@ MixerView::MixerView(Desk& desk)
     tabs_.add("Output", std::make_unique<OutputTab>(desk));
     tabs_.add("Studies", std::make_unique<StudiesTab>(desk));
     scope_.add("Played now", std::make_unique<ScopeView>(desk));
+    scope_.add("Gain lanes", std::make_unique<LanesTab>(desk));
     scope_.add("Events", std::make_unique<EventsTab>(desk));
     scope_.add("Telemetry", std::make_unique<TelemetryTab>(desk));
     trouble_.setTitle("Trouble");

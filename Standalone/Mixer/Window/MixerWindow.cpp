@@ -305,6 +305,7 @@ void MixerWindow::showMenu(juce::Component& from) {
     menu.addSeparator();
     item(desk_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
     item("Render" + dots(), "Ctrl+E", [this] { renderOffline(); });
+    item("Save movie" + dots(), {}, [this] { saveMovie(); });
     menu.addSeparator();
     const auto isLight = view_->ground() == Ground::light;
     look.addItem("Dark", true, !isLight, [this] { setGround(Ground::dark); });

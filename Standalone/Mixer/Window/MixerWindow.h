@@ -4,6 +4,7 @@
 #include "Mixer/Output/HitFiles.h"
 #include "Mixer/Window/MixerFiles.h"
 #include "Mixer/Window/MixerView.h"
+#include "Mixer/Window/RenderTask.h"
 #include "Scene/Drawing/BodyEdits.h"
 
 namespace physvib {
@@ -26,6 +27,8 @@ public:
     void record(); ///< starts or ends
     void renderOffline();            ///< asks for the length and the file
     void renderTo(const juce::File& file, double seconds);
+    void saveMovie(); ///< of the last minute; asks for the file
+    void saveMovieTo(const juce::File& file, double seconds);
     void import(const juce::String& title); ///< a scene or a layout
     void exportLayout();
     void saveScene(bool isNow);         ///< asks for the file; as drawn, or with bodies where they are now
@@ -66,7 +69,9 @@ private:
     void useBoard(const DeviceChoice& choice);
     void saveTo(const juce::File& file);
     void askThen(std::function<void()> goOn);
-    void chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving, std::function<void(const juce::File&)> use);
+    void chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving,
+                    std::function<void(const juce::File&)> use,
+                    const juce::String& suggested = {}); ///< `suggested`: a name, without its ending
     void offerRecovery();
     void recover(const std::vector<juce::File>& copies, bool isWanted);
     void offerMonitor();
@@ -78,6 +83,8 @@ private:
     void nameWindow();
     void say(const juce::String& words) { desk_->report(words); }
     juce::File folderOfDocuments() const;
+    juce::String documentName() const;
+    void make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work);
 
     AudioDeviceTypes types_;
     MixerFiles files_;

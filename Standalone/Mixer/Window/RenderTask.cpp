@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A thread of its own; the session it renders is a copy.
+// A thread of its own; what it works on is its own as well.
 #include "Mixer/Window/RenderTask.h"
 
 namespace physvib {
 
-RenderTask::RenderTask(const SavedSession& session, double seconds, const juce::File& file, int sampleRateHz, Done done, juce::Component& over)
-    : juce::ThreadWithProgressWindow{"Rendering " + file.getFileName(), true, true, 10'000, "Cancel", &over}
-    , session_{session}
-    , seconds_{seconds}
-    , file_{file}
-    , sampleRateHz_{sampleRateHz}
+RenderTask::RenderTask(const juce::File& file, const juce::String& doneWords, Work work, Done done,
+                       juce::Component& over)
+    : juce::ThreadWithProgressWindow{"Making " + file.getFileName(), true, true, 10'000, "Cancel", &over}
+    , doneWords_{doneWords + " " + file.getFullPathName()}
+    , work_{std::move(work)}
     , done_{std::move(done)} {
     launchThread();
 }
 
 void RenderTask::run() {
-    const auto shown = [this](double share) {
+    error_ = work_([this](double share) {
         setProgress(share);
         return !threadShouldExit();
-    };
-    error_ = renderSessionWav(session_, {sampleRateHz_, seconds_, shown}, file_.getFullPathName().toStdString(), "physvib " PHYSVIB_VERSION);
+    });
 }
 
 void RenderTask::threadComplete(bool userPressedCancel) {
     if (userPressedCancel) return done_("Rendering cancelled; nothing was written", true);
-    done_(error_.empty() ? "Rendered " + file_.getFullPathName() : utf8(error_), error_.empty());
+    done_(error_.empty() ? doneWords_ : utf8(error_), error_.empty());
 }
 
 } // namespace physvib

@@ -1,28 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A saved session is rendered beside the one that plays, with a bar that shows how far it is and a button that ends it.
+// A file is made beside the session that plays, with a bar that shows how far it is and a button that ends
+// it.
 #pragma once
-#include "Host/Recordings/SessionWav.h"
 #include "Mixer/Window/Parts.h"
+#include <functional>
+#include <string>
 
 namespace physvib {
 
 /// Shows the progress, and tells `done` in a line how it ended. M.
 class RenderTask final : public juce::ThreadWithProgressWindow {
 public:
+    /// On a thread of its own: gives shares of 0 to 1, and ends where that answers false. Empty, or one line
+    /// with the reason; "cancelled".
+    using Work = std::function<std::string(const std::function<bool(double)>& progress)>;
     using Done = std::function<void(const juce::String& words, bool isGood)>;
 
-    /// `seconds` of it: beyond what was played the last scene goes on by itself.
-    RenderTask(const SavedSession& session, double seconds, const juce::File& file, int sampleRateHz, Done done, juce::Component& over);
+    /// `doneWords`: what is told of the file when it is there.
+    RenderTask(const juce::File& file, const juce::String& doneWords, Work work, Done done,
+               juce::Component& over);
     ~RenderTask() override { stopThread(-1); }
 
     void run() override;
     void threadComplete(bool userPressedCancel) override;
 
 private:
-    const SavedSession session_;
-    const double seconds_;
-    const juce::File file_;
-    const int sampleRateHz_;
+    const juce::String doneWords_;
+    const Work work_;
     const Done done_;
     std::string error_;
 };

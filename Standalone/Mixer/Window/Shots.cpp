@@ -3,6 +3,7 @@
 #include "Mixer/Window/Shots.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/SceneCatalogue.h"
+#include "Scene/Sessions/StripGroups.h"
 #include "Mixer/Materials/MaterialShots.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Window/MixerView.h"
@@ -75,6 +76,22 @@ void showFirstStart(Desk& desk, MixerView& view) {
     view.setFirstStart(std::make_unique<FirstStart>(desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8}, {"Game controller: DualSense", none, 2, true}, {"ALSA: Built-in Audio, 2 outputs: headphones, or two actuators", none, 2}, {"No device: seen, not felt", none, 0}}));
 }
 
+// Two hands; one of them and a strip rise and fall.
+void showLanes(Desk& desk, MixerView& view) {
+    desk.change("Groups", [](Mix& m) {
+        for (const int hand : {0, 1}) {
+            const int group = addGroup(m, freeGroupName(m));
+            for (const int k : {0, 2}) m.strips[static_cast<std::size_t>(hand + k)].group = group;
+        }
+        m.groups[0].gainDb = -3.0;
+        m.groups[1].lane = {{0.0, 0.0}, {2.5, 0.0}, {5.0, -18.0}, {7.0, -2.0}};
+        m.strips[2].lane = {{0.8, -24.0}, {2.2, 0.0}, {3.6, -9.0}, {4.4, -1.0}, {6.0, -1.0}, {8.5, -60.0}};
+        m.levelDb = -3.0;
+    });
+    desk.dispatchPendingMessages();
+    view.scope().choose("Gain lanes");
+}
+
 std::vector<State> mixerStates() {
     return {
         {"first-start", 1440, 900, 2.0, [](Desk& d, MixerView& v) { showFirstStart(d, v); }},
@@ -89,6 +106,7 @@ std::vector<State> mixerStates() {
         {"output", 1440, 900, 3.0, [](Desk& d, MixerView& v) { d.device().listening().monitor({4, 5}, safeContactDb), d.device().listening().mark(7), v.tabs().choose("Output"); }},
         {"board", 1440, 900, 4.5, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }, "/dev/ttyACM0"},
         {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
+        {"lanes", 1440, 900, 6.0, showLanes},
         {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},
         {"error", 1440, 900, 2.0, [](Desk& d, MixerView&) { d.report("session.json: takes[0].scene.bodies[4].fixtures[0].radius_m: expected 0.01 to 100, found 0"); }},
         {"six-enchanters", 1440, 900, 3.0, [](Desk& d, MixerView& v) {

@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "CommandLine/Render/MovieOutput.h"
+// Pictures in their order, and who encodes them.
+#include "Calls/MovieOutput.h"
 #include "Pictures/WebpMovie.h"
 #include "System/Process.h"
 
 namespace physvib {
-
-namespace {
-
-/// Every picture in its order; false from `take` ends it.
-void forEachPicture(const RenderMovie& movie, const PictureInput& input, const SceneRun& run, const std::function<bool(std::int64_t momentNs, const picture::Image&)>& take) {
-    const std::int64_t endNs = RenderMovie::timeNs(movie.count());
-    if (input.scene != nullptr)
-        return followPoses(*input.scene, run, RenderMovie::timeNs(1), endNs, [&](std::int64_t timeNs, std::span<const BodyPose> bodies) { return take(timeNs, movie.at(timeNs, bodies)); });
-    for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += RenderMovie::timeNs(1))
-        if (!take(timeNs, movie.at(timeNs, {}))) return;
-}
-
-} // namespace
 
 MovieOutput::MovieOutput(const std::string& path, int sampleRateHz)
     : path_{path}
@@ -33,14 +21,31 @@ bool MovieOutput::takeSound(const float* samples, int frames) {
     return true;
 }
 
-std::string MovieOutput::draw(const PictureInput& picture, const SceneRun& run) {
+std::string MovieOutput::draw(const PictureInput& picture, const PoseSource& bodies,
+                              const std::function<bool(double)>& goesOn) {
     const RenderMovie movie{picture};
-    return pictures_ ? drawByFfmpeg(movie, picture, run) : drawWebp(movie, picture, run);
+    const std::int64_t everyNs = RenderMovie::timeNs(1), endNs = RenderMovie::timeNs(movie.count());
+    bool isWhole = true;
+    const Pictures all = [&](const auto& take) {
+        const auto one = [&](std::int64_t timeNs, const picture::Image& image) {
+            isWhole = !goesOn || goesOn(static_cast<double>(timeNs) / static_cast<double>(endNs));
+            return isWhole && take(timeNs, image);
+        };
+        if (bodies)
+            return bodies(everyNs, endNs,
+                          [&](std::int64_t timeNs, const Scene& scene, std::span<const BodyPose> poses) {
+                              return one(timeNs, movie.at(timeNs, poses, &scene));
+                          });
+        for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += everyNs)
+            if (!one(timeNs, movie.at(timeNs, {}))) return;
+    };
+    const std::string error = pictures_ ? drawByFfmpeg(all) : drawWebp(movie, all);
+    return isWhole ? error : "cancelled";
 }
 
-std::string MovieOutput::drawWebp(const RenderMovie& movie, const PictureInput& picture, const SceneRun& run) {
+std::string MovieOutput::drawWebp(const RenderMovie& movie, const Pictures& all) {
     WebpMovie webp{RenderMovie::width, RenderMovie::height};
-    forEachPicture(movie, picture, run, [&](std::int64_t momentNs, const picture::Image& image) {
+    all([&](std::int64_t momentNs, const picture::Image& image) {
         webp.add(image, momentNs / 1'000'000);
         return true;
     });
@@ -48,8 +53,8 @@ std::string MovieOutput::drawWebp(const RenderMovie& movie, const PictureInput& 
 }
 
 // ffmpeg reads files that are there, one PNG behind the other and 32-bit samples, and writes into ours, which is renamed at the end.
-std::string MovieOutput::drawByFfmpeg(const RenderMovie& movie, const PictureInput& picture, const SceneRun& run) {
-    forEachPicture(movie, picture, run, [&](std::int64_t, const picture::Image& image) {
+std::string MovieOutput::drawByFfmpeg(const Pictures& all) {
+    all([&](std::int64_t, const picture::Image& image) {
         const std::string png = image.png();
         const bool isWritten = pictures_->writeAt(pictureBytes_, png);
         pictureBytes_ += static_cast<std::int64_t>(png.size());

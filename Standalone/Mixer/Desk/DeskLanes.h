@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Faders that are moved while the desk records become lanes over the time of the scene.
+#pragma once
+#include "Scene/Sessions/GainLane.h"
+#include <cstddef>
+#include <vector>
+
+namespace physvib {
+
+class Desk;
+
+/// M only.
+class DeskLanes {
+public:
+    /// `desk` outlives it.
+    explicit DeskLanes(Desk& desk)
+        : desk_{desk} {}
+
+    void look(); ///< to be called often
+
+private:
+    struct Fader {
+        double startDb = 0.0, nowDb = 0.0;
+        GainLane moves{}; ///< where it was, in dB
+    };
+    std::vector<double> faders() const; ///< of all strips, then of all groups
+    double sceneSeconds() const;
+    void begin();
+    void follow();
+    void end();
+
+    Desk& desk_;
+    std::vector<Fader> faders_; // none: nothing is written
+    std::size_t strips_ = 0, take_ = 0;
+    double lookedAtSeconds_ = 0.0;
+};
+
+} // namespace physvib

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A group of strips beside them: its name, one fader, one mute, and who belongs to it.
+#pragma once
+#include "Mixer/Desk/Desk.h"
+#include "Mixer/Window/Parts.h"
+
+namespace physvib {
+
+class GroupView final : public juce::Component {
+public:
+    static constexpr int width = 92;
+
+    GroupView(Desk& desk, int group);
+    void takeMix();
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    const StripGroup& group() const { return desk_.mix().groups[index_]; }
+    template <class Change>
+    void change(const juce::String& name, Change change, bool goesOn = false);
+    void rename();
+    void remove();
+
+    Desk& desk_;
+    const std::size_t index_;
+    juce::Label name_, level_;
+    juce::Slider fader_;
+    juce::TextButton mute_{"M"};
+    std::unique_ptr<juce::TextButton> remove_;
+};
+
+/// The groups a strip may be put in, and a new one. M.
+void showGroupMenu(Desk& desk, std::size_t strip, juce::Component& from);
+
+} // namespace physvib

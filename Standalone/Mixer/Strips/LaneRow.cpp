@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A lane by pointer and keys; heights are a fader's.
+#include "Mixer/Strips/LaneRow.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr float pointSize = 8.0f, inset = 5.0f; // a point at the edge is seen whole
+constexpr double nudgeSeconds = 0.05, nudgeDb = 0.5, leapDb = 3.0;
+
+juce::String wordsOf(const GainPoint& point) {
+    return (point.db <= leastStripDb ? juce::String{"silent"} : number(point.db, 1) + " dB") + " at " +
+           number(point.seconds, 2) + " s";
+}
+
+} // namespace
+
+LaneRow::LaneRow(Desk& desk, std::size_t number)
+    : desk_{desk}
+    , number_{number} {
+    setWantsKeyboardFocus(true);
+    takeMix();
+}
+
+juce::NormalisableRange<double> LaneRow::scale() {
+    juce::NormalisableRange<double> range{leastStripDb, mostStripDb};
+    range.setSkewForCentre(-15.0); // as setUpFader
+    return range;
+}
+
+const GainLane& LaneRow::lane() const {
+    static const GainLane none;
+    if (!isThere()) return none;
+    return isGroup() ? desk_.mix().groups[group()].lane : desk_.mix().strips[number_].lane;
+}
+
+std::vector<int> LaneRow::channels() const {
+    if (!isThere()) return {};
+    if (!isGroup()) return {static_cast<int>(number_)};
+    std::vector<int> all;
+    for (int j = 0; j < desk_.mix().count(); ++j)
+        if (desk_.mix().strips[static_cast<std::size_t>(j)].group == static_cast<int>(group()))
+            all.push_back(j);
+    return all;
+}
+
+void LaneRow::takeMix() {
+    if (!isThere()) return;
+    name_ = utf8(isGroup() ? desk_.mix().groups[group()].name : desk_.mix().layout.enchanters[number_].label);
+    setTitle("Gain lane of " + name_);
+    if (chosen_ >= static_cast<int>(lane().size())) chosen_ = -1;
+    tellChosen();
+    repaint();
+}
+
+void LaneRow::tellChosen() {
+    const auto points =
+        juce::String{static_cast<int>(lane().size())} + (lane().size() == 1 ? " point" : " points");
+    const bool isOne = chosen_ >= 0;
+    setDescription(lane().empty() ? juce::String{"no points"}
+                   : isOne        ? wordsOf(lane()[static_cast<std::size_t>(chosen_)])
+                                  : points);
+    setTooltip("Gain of " + name_ +
+               " on top of its fader: click adds a point, drag moves it, right click takes it away. " +
+               getDescription());
+}
+
+void LaneRow::show(double spanSeconds) {
+    spanSeconds_ = spanSeconds;
+    repaint();
+}
+
+juce::Point<float> LaneRow::placeOf(const GainPoint& point) const {
+    const auto area = getLocalBounds().toFloat().reduced(inset);
+    return {area.getX() + area.getWidth() * static_cast<float>(point.seconds / spanSeconds_),
+            area.getBottom() - area.getHeight() * static_cast<float>(scale().convertTo0to1(
+                                                      std::clamp(point.db, leastStripDb, mostStripDb)))};
+}
+
+GainPoint LaneRow::pointAt(juce::Point<float> place) const {
+    const auto area = getLocalBounds().toFloat().reduced(inset);
+    const double x = std::clamp(static_cast<double>((place.x - area.getX()) / area.getWidth()), 0.0, 1.0),
+                 y = std::clamp(static_cast<double>((area.getBottom() - place.y) / area.getHeight()), 0.0,
+                                1.0);
+    const double db = scale().convertFrom0to1(y);
+    return {x * spanSeconds_, std::abs(db) < 0.7 ? 0.0 : std::round(10.0 * db) / 10.0}; // 0 dB is easy to hit
+}
+
+int LaneRow::nearest(juce::Point<float> place) const {
+    int found = -1;
+    float least = pointSize;
+    for (int i = 0; i < static_cast<int>(lane().size()); ++i)
+        if (const float d = placeOf(lane()[static_cast<std::size_t>(i)]).getDistanceFrom(place); d < least)
+            least = d, found = i;
+    return found;
+}
+
+void LaneRow::edit(const GainLane& lane, bool goesOn) {
+    if (!isThere()) return;
+    desk_.change(
+        "Gain lane of " + name_,
+        [&](Mix& mix) { (isGroup() ? mix.groups[group()].lane : mix.strips[number_].lane) = lane; }, goesOn);
+    tellChosen();
+    repaint();
+}
+
+void LaneRow::add(const GainPoint& point) {
+    if (lane().size() >= mostGainPoints)
+        return desk_.report("Gain lane of " + name_ + ": at most " +
+                            juce::String{static_cast<int>(mostGainPoints)} + " points");
+    GainLane next = lane();
+    const auto at =
+        next.insert(std::ranges::upper_bound(next, point.seconds, {}, &GainPoint::seconds), point);
+    chosen_ = static_cast<int>(at - next.begin());
+    edit(next);
+}
+
+// Between its neighbours.
+void LaneRow::move(GainPoint point, bool goesOn) {
+    GainLane next = lane();
+    const auto i = static_cast<std::size_t>(chosen_);
+    const double from = i > 0 ? next[i - 1].seconds : 0.0,
+                 to = i + 1 < next.size() ? next[i + 1].seconds : spanSeconds_;
+    next[i] = {std::clamp(point.seconds, from, std::max(from, to)),
+               std::clamp(point.db, leastStripDb, mostStripDb)};
+    if (next[i] != lane()[i]) edit(next, goesOn);
+}
+
+void LaneRow::removeChosen() {
+    if (chosen_ < 0) return;
+    GainLane next = lane();
+    next.erase(next.begin() + chosen_);
+    chosen_ = std::min(chosen_, static_cast<int>(next.size()) - 1);
+    edit(next);
+}
+
+void LaneRow::mouseDown(const juce::MouseEvent& e) {
+    grabKeyboardFocus();
+    const int there = nearest(e.position);
+    if (e.mods.isPopupMenu()) {
+        chosen_ = there;
+        return there >= 0 ? removeChosen() : showMenu();
+    }
+    isDragging_ = true;
+    isMoved_ = there < 0; // it goes on with what adds it
+    if (there >= 0)
+        chosen_ = there, tellChosen(), repaint();
+    else
+        add(pointAt(e.position));
+}
+
+void LaneRow::mouseDrag(const juce::MouseEvent& e) {
+    if (!isDragging_ || chosen_ < 0 || (!isMoved_ && !e.mouseWasDraggedSinceMouseDown())) return;
+    move(pointAt(e.position), std::exchange(isMoved_, true));
+}
+
+void LaneRow::showMenu() {
+    juce::PopupMenu menu;
+    menu.addSectionHeader("Gain lane of " + name_);
+    menu.addItem("Take all points away", !lane().empty(), false,
+                 [safe = juce::Component::SafePointer<LaneRow>{this}] {
+                     if (safe != nullptr) safe->edit({});
+                 });
+    menu.setLookAndFeel(&getLookAndFeel());
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(this).withMousePosition());
+}
+
+bool LaneRow::keyPressed(const juce::KeyPress& key) {
+    using juce::KeyPress;
+    const auto& mods = key.getModifiers();
+    const int code = key.getKeyCode(), last = static_cast<int>(lane().size()) - 1;
+    const bool isSide = code == KeyPress::leftKey || code == KeyPress::rightKey;
+    if (code == KeyPress::returnKey || code == KeyPress::insertKey) {
+        const double now = std::min(spanSeconds_, desk_.signals().take().seconds());
+        return add({now, laneDbAt(lane(), now)}), true;
+    }
+    if (lane().empty()) return false;
+    if (code == KeyPress::deleteKey || code == KeyPress::backspaceKey)
+        return mods.isShiftDown() ? (edit({}), true) : (removeChosen(), true);
+    if (isSide && (!mods.isShiftDown() || chosen_ < 0)) {
+        chosen_ = std::clamp(chosen_ + (code == KeyPress::leftKey ? -1 : 1), 0, last);
+        return tellChosen(), repaint(), true;
+    }
+    if (chosen_ < 0) return false;
+    GainPoint point = lane()[static_cast<std::size_t>(chosen_)];
+    if (isSide)
+        point.seconds += code == KeyPress::leftKey ? -nudgeSeconds : nudgeSeconds;
+    else if (code == KeyPress::upKey || code == KeyPress::downKey)
+        point.db += (mods.isShiftDown() ? leapDb : nudgeDb) * (code == KeyPress::upKey ? 1.0 : -1.0);
+    else
+        return false;
+    move(point, true);
+    return true;
+}
+
+void LaneRow::drawWave(juce::Graphics& g) const {
+    const auto area = getLocalBounds().toFloat().reduced(inset, 2.0f);
+    const TakeTrace& trace = desk_.signals().take();
+    const auto shown = [](float sample) {
+        return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample);
+    }; // as "Played now"
+    for (const int j : channels()) {
+        juce::RectangleList<float> columns;
+        for (float x = 0.0f; x < area.getWidth(); x += 1.0f) {
+            const double from = spanSeconds_ * static_cast<double>(x / area.getWidth()),
+                         to = spanSeconds_ * static_cast<double>((x + 1.0f) / area.getWidth());
+            if (from > trace.seconds()) break;
+            const auto range = trace.range(j, from, to);
+            const float top = shown(range.highest), bottom = shown(range.lowest),
+                        reach = 0.5f * area.getHeight();
+            columns.addWithoutMerging({area.getX() + x, area.getCentreY() - reach * top - 0.5f, 1.0f,
+                                       reach * (top - bottom) + 1.0f});
+        }
+        g.setColour(enchanterColour(*this, j).withMultipliedAlpha(desk_.mix().isSilent(j) ? 0.2f : 0.5f));
+        g.fillRectList(columns);
+    }
+}
+
+void LaneRow::drawLine(juce::Graphics& g) const {
+    const auto right = static_cast<float>(getWidth()) - inset;
+    juce::Path line;
+    line.startNewSubPath(placeOf({0.0, laneDbAt(lane(), 0.0)}));
+    for (const GainPoint& point : lane()) line.lineTo(placeOf(point));
+    line.lineTo({right, lane().empty() ? placeOf({0.0, 0.0}).y : placeOf(lane().back()).y});
+    g.setColour(shade(*this, lane().empty() ? Shade::line : Shade::text));
+    g.strokePath(line, juce::PathStrokeType{lane().empty() ? 1.0f : 1.6f});
+    for (int i = 0; i < static_cast<int>(lane().size()); ++i) {
+        const auto at = juce::Rectangle<float>{pointSize, pointSize}.withCentre(
+            placeOf(lane()[static_cast<std::size_t>(i)]));
+        g.setColour(shade(*this, i == chosen_ ? Shade::accent : Shade::text));
+        g.fillEllipse(i == chosen_ ? at.expanded(1.5f) : at.reduced(1.0f));
+    }
+}
+
+void LaneRow::paint(juce::Graphics& g) {
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(getLocalBounds().toFloat(), 3.0f);
+    drawWave(g);
+    const juce::Graphics::ScopedSaveState saved{g};
+    g.reduceClipRegion(getLocalBounds());
+    drawLine(g);
+    const float now = placeOf({desk_.signals().take().seconds(), 0.0}).x;
+    g.setColour(shade(*this, Shade::now));
+    g.fillRect(now - 0.75f, 0.0f, 1.5f, static_cast<float>(getHeight()));
+}
+
+} // namespace physvib
