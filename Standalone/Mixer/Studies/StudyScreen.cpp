@@ -145,6 +145,7 @@ void StudyScreen::showTrial() {
     pause_.setVisible(hasHands());
     showParts();
     prepareControls(*this);
+    answers_.setHasFocusOutline(false); // a frame around all of them points at none
     resized();
     refresh();
     repaint();

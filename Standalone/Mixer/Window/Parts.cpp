@@ -120,8 +120,7 @@ void prepareControls(juce::Component& root) {
     if (slider != nullptr) slider->setWantsKeyboardFocus(true);
     const bool isBox = dynamic_cast<juce::ComboBox*>(&root) != nullptr; // also one that is disabled now, and wants no focus
     const bool isControl = slider != nullptr || isBox || root.getWantsKeyboardFocus() || dynamic_cast<juce::Button*>(&root) != nullptr;
-    const bool holdsControls = root.isFocusContainer();
-    if (isControl && !holdsControls && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
+    if (isControl && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
     if (slider == nullptr && !isBox) // their parts are theirs
         for (auto* child : root.getChildren()) prepareControls(*child);
 }
