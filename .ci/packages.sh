@@ -19,6 +19,9 @@ physvib_release_packages="$physvib_build_packages libgtest-dev g++ git debhelper
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
 # Of Tests/CommandLine/movies.sh alone: what makes .gif and .mp4 of pictures.
 physvib_movie_packages="ffmpeg"
+# Of Tests/Plugin/Formats/ardour.sh and ardour-song.sh alone, and of validate.sh there.
+physvib_host_packages="ardour jackd2"
+physvib_validator_packages="lv2-dev sordi"
 # Of the library alone (preset "library"), for Tests/Benchmarks.
 physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libboost-dev libhwy-dev"
 # Of Tests/Osc/run.sh alone.
