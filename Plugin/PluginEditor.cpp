@@ -64,6 +64,9 @@ void ParameterControl::rename(int choice, const juce::String& text) {
 void ParameterControl::resized() {
     auto area = getLocalBounds().reduced(2, 0);
     name_.setBounds(area.removeFromTop(18));
+    const auto& row = parameter_.row();
+    const bool fits = name_.getFont().getStringWidth(words(row.name)) <= name_.getWidth();
+    name_.setText(words(fits ? row.name : row.shortName), juce::dontSendNotification);
     knob_.setBounds(area);
     list_.setBounds(area.withSizeKeepingCentre(area.getWidth() - 6, 28));
 }

@@ -3,9 +3,9 @@
 // on channel 1, notes with bend, slide and pressure on channels of their own (MPE), steps of automation, music at
 // the side chain. The folder gets song.mid, music.wav, automation.txt (id, frame, value, value from 0 to 1), the
 // state as state.lv2 and state.vstpreset, what is played as song.raw, interleaved, and song-1.raw to song-4.raw.
-// With a third word as Ardour 7.3 plays it: what is at the side chain, and automation, come to the plug-in as much later
-// than the notes as the latency that it reports, and automation at the beginning of a block.
-// Usage: physvib-plugin-song BLOCK_FRAMES FOLDER [late]
+// With a third word as Ardour 7.3 plays it: notes come earlier by the latency that is reported, which makes up for it;
+// what is at the side chain, and automation, do not; automation acts at the beginning of the next block.
+// Usage: physvib-plugin-song BLOCK_FRAMES FOLDER [early]
 #include "Io/Wav/WavSink.h"
 #include "Plugin/Formats/HostStates.h"
 #include "Presets.h"
@@ -55,16 +55,16 @@ std::vector<TimedMessage> messages() {
     return all;
 }
 
-// At even ticks as well: on a MIDI track hosts keep automation by beats. The first of each stands at 0: before it
-// hosts take its value.
+// On a MIDI track hosts keep automation by beats, so at even ticks; and away from the beginnings of blocks, where it
+// depends on rounding to which of them a point belongs. The first of each stands at 0: before it hosts take its value.
 std::vector<Point> automation() {
     std::vector<Point> all;
     const auto addEvery = [&all](int step, Parameter which, auto value) {
-        for (int k = 0; step * k < ticks; ++k) all.push_back({which, frameOf(step * k), value(k)});
+        for (int k = 0; step * k < ticks; ++k) all.push_back({which, frameOf(step * k + (k > 0 ? 20 : 0)), value(k)});
     };
-    addEvery(562, Parameter::level, [](int k) { return -18.0 + k * 5 % 13; });
-    addEvery(798, Parameter::strikeX, [](int k) { return -30.0 + 4.0 * (k * 7 % 16); });
-    addEvery(3850, Parameter::music, [](int k) { return k % 2 == 0 ? -12.0 : -24.0; });
+    addEvery(1024, Parameter::level, [](int k) { return -18.0 + k * 5 % 13; });
+    addEvery(2048, Parameter::strikeX, [](int k) { return -30.0 + 4.0 * (k * 7 % 16); });
+    addEvery(3072, Parameter::music, [](int k) { return k % 2 == 0 ? -12.0 : -24.0; });
     std::ranges::stable_sort(all, {}, &Point::frame);
     return all;
 }
@@ -101,12 +101,13 @@ PluginState songState() {
 /// Block after block, cut where a parameter moves.
 class Host {
 public:
-    /// `lateFrames`: of automation; 0: in time.
-    Host(int block, std::int64_t lateFrames)
+    /// By how many frames notes come early; 0: in time, as automation is then.
+    Host(int block, std::int64_t early)
         : block_{block}
+        , early_{early}
         , buffer_{channels, block} {
         for (Point& point : points_)
-            if (lateFrames > 0 && point.frame > 0) point.frame = (point.frame + block - 1) / block * block + lateFrames;
+            if (early > 0) point.frame = (point.frame + block - 1) / block * block;
     }
 
     /// Until `music` ends, which is as it comes in.
@@ -141,7 +142,7 @@ private:
         juce::MidiBuffer midi;
         for (; message_ < messages_.size(); ++message_) {
             const auto& [tick, message] = messages_[message_];
-            const std::int64_t at = frameOf(tick) - transport_.frame;
+            const std::int64_t at = frameOf(tick) - early_ - transport_.frame;
             if (at >= frames) break;
             midi.addEvent(message, static_cast<int>(at));
         }
@@ -160,6 +161,7 @@ private:
     }
 
     const int block_;
+    const std::int64_t early_;
     juce::AudioBuffer<float> buffer_;
     test::Rolling transport_;
     const std::vector<TimedMessage> messages_ = messages();
@@ -191,9 +193,7 @@ int main(int argc, char** argv) {
     plugin.setNonRealtime(true);
     plugin.setRateAndBufferSizeDetails(rateHz, block);
     plugin.prepareToPlay(rateHz, block);
-    const int late = argc == 4 ? plugin.getLatencySamples() : 0;
-    music.samples.insert(music.samples.begin(), static_cast<std::size_t>(late), 0.0f);
-    if (!Host{block, late}.play(plugin, music.samples, folder)) return 1;
+    if (!Host{block, argc == 4 ? plugin.getLatencySamples() : 0}.play(plugin, music.samples, folder)) return 1;
     std::printf("latency %d frames\n", plugin.getLatencySamples());
     return 0;
 }
