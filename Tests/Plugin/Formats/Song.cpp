@@ -3,8 +3,8 @@
 // on channel 1, notes with bend, slide and pressure on channels of their own (MPE), steps of automation, music at
 // the side chain. The folder gets song.mid, music.wav, automation.txt (id, frame, value, value from 0 to 1), the
 // state as state.lv2 and state.vstpreset, what is played as song.raw, interleaved, and song-1.raw to song-4.raw.
-// With a third word as Ardour 7.3 plays it: notes come earlier by the latency that is reported, which makes up for it;
-// what is at the side chain, and automation, do not; automation acts at the beginning of the next block.
+// With a third word as Ardour 7.3 plays it: notes come earlier by the latency that is reported, which makes up for
+// it; what is at the side chain, and automation, do not; automation acts at the beginning of the next block.
 // Usage: physvib-plugin-song BLOCK_FRAMES FOLDER [early]
 #include "Io/Wav/WavSink.h"
 #include "Plugin/Formats/HostStates.h"
@@ -21,7 +21,7 @@ namespace {
 using namespace physvib;
 
 constexpr int rateHz = 48000, channels = 4, seconds = 12;
-constexpr int ticksPerBeat = 1920, ticks = 2 * ticksPerBeat * (seconds - 1); // 120 beats a minute: 12.5 frames a tick
+constexpr int ticksPerBeat = 1920, ticks = 2 * ticksPerBeat * (seconds - 1); // at 120 beats a minute
 constexpr std::int64_t frameOf(int tick) { return 25LL * tick / 2; }           // ticks are even
 
 struct TimedMessage {
@@ -55,12 +55,14 @@ std::vector<TimedMessage> messages() {
     return all;
 }
 
-// On a MIDI track hosts keep automation by beats, so at even ticks; and away from the beginnings of blocks, where it
-// depends on rounding to which of them a point belongs. The first of each stands at 0: before it hosts take its value.
+// On a MIDI track hosts keep automation by beats, so at even ticks; and away from the beginnings of blocks, where
+// it depends on rounding to which of them a point belongs. The first of each stands at 0: before it hosts take its
+// value.
 std::vector<Point> automation() {
     std::vector<Point> all;
     const auto addEvery = [&all](int step, Parameter which, auto value) {
-        for (int k = 0; step * k < ticks; ++k) all.push_back({which, frameOf(step * k + (k > 0 ? 20 : 0)), value(k)});
+        for (int k = 0; step * k < ticks; ++k)
+            all.push_back({which, frameOf(step * k + (k > 0 ? 20 : 0)), value(k)});
     };
     addEvery(1024, Parameter::level, [](int k) { return -18.0 + k * 5 % 13; });
     addEvery(2048, Parameter::strikeX, [](int k) { return -30.0 + 4.0 * (k * 7 % 16); });

@@ -67,11 +67,13 @@ xruns=$(sed -n 's/^Ardour: xruns //p' "$folder/play.log")
 
 # mono FILE.wav, interleaved FILE.wav: the samples of its data chunk
 samples() { tail -c +"$(($(grep -abo data "$1" | head -n 1 | cut -d: -f1) + 9))" "$1"; }
+failed=0
 for channel in 1 2 3 4; do
     samples "$(find "$interchange/audiofiles" -name 'Take*.wav' | sort -V | sed -n "${channel}p")" >"$folder/live-$channel.raw"
     printf 'live, channel %s: ' "$channel"
-    "$build/bin/physvib-compare-recording" "$folder/live-$channel.raw" "$folder/song-$channel.raw" 1 "$block" "$xruns"
+    "$build/bin/physvib-compare-recording" "$folder/live-$channel.raw" "$folder/song-$channel.raw" 1 "$block" "$xruns" || failed=1
 done
 samples "$(find "$folder/export" -name "*.wav")" >"$folder/export.raw"
 printf 'export: '
-"$build/bin/physvib-compare-recording" "$folder/export.raw" "$folder/song.raw" 4 "$block" 0
+"$build/bin/physvib-compare-recording" "$folder/export.raw" "$folder/song.raw" 4 "$block" 0 || failed=1
+exit "$failed"
