@@ -21,6 +21,9 @@ physvib_release_test_packages="$physvib_release_packages lintian piuparts deboot
 physvib_movie_packages="ffmpeg"
 # Of Tests/Studies/screens.sh alone: windows with title bars, and pictures of them.
 physvib_screens_packages="xvfb xauth xdotool openbox ffmpeg python3"
+# Of Tests/Plugin/Formats/ardour.sh and ardour-song.sh alone, and of validate.sh there.
+physvib_host_packages="ardour jackd2"
+physvib_validator_packages="lv2-dev sordi"
 # Of the library alone (preset "library"), for Tests/Benchmarks.
 physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libboost-dev libhwy-dev"
 # Of Tests/Osc/run.sh alone.

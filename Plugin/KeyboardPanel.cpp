@@ -104,6 +104,8 @@ void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
     if (note == pressed_) colour = shade(*this, Shade::accent);
     g.setColour(doesNothing(note, table_) ? colour.withMultipliedAlpha(0.35f) : colour);
     g.fillRoundedRectangle(key, 2.0f);
+    g.setColour(shade(*this, Shade::line)); // white keys on a light ground
+    g.drawRoundedRectangle(key, 2.0f, 1.0f);
     if (ruleOf(note, state_)) {
         g.setColour(shade(*this, Shade::accent));
         g.fillRoundedRectangle(key.withTop(key.getBottom() - 5.0f).reduced(2.0f, 0.0f), 1.5f);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LV2's entry: JUCE's (which CMake compiles as juceLv2Descriptor; the Projucer cannot, and does without this file), and the
 // four things that it leaves out. It prepares for the largest block a host can ever send, not for the usual one, takes
-// no notice of deactivate and activate, and of what sets a parameter within a block it knows no frame, and has no control ports.
+// no notice of deactivate and activate, of what sets a parameter within a block it knows no frame, and has no
+// control ports.
 #ifdef PHYSVIB_LV2_ENTRY
 #include "Entry.h"
+#include "Lv2Controls.h"
 #include "PluginProcessor.h"
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <lv2/atom/atom.h>
 #include <lv2/atom/util.h>
@@ -15,7 +16,9 @@
 #include <lv2/core/lv2.h>
 #include <lv2/options/options.h>
 #include <lv2/patch/patch.h>
+#include <lv2/state/state.h>
 #include <lv2/urid/urid.h>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -29,12 +32,15 @@ namespace {
 /// What names a parameter's value in a block's events, as the host numbers it.
 struct Names {
     LV2_URID object = 0, set = 0, subject = 0, property = 0, value = 0, urid = 0, number = 0, plugin = 0;
+    LV2_URID text = 0, ports = 0; // of a state
     std::array<LV2_URID, parameterCount> parameters{};
 };
 
 Names namesOf(const LV2_URID_Map& map) {
     const auto idOf = [&map](const std::string& uri) { return map.map(map.handle, uri.c_str()); };
-    Names names{idOf(LV2_ATOM__Object), idOf(LV2_PATCH__Set), idOf(LV2_PATCH__subject), idOf(LV2_PATCH__property), idOf(LV2_PATCH__value), idOf(LV2_ATOM__URID), idOf(LV2_ATOM__Float), idOf(JucePlugin_LV2URI), {}};
+    Names names{idOf(LV2_ATOM__Object), idOf(LV2_PATCH__Set), idOf(LV2_PATCH__subject),
+                idOf(LV2_PATCH__property), idOf(LV2_PATCH__value), idOf(LV2_ATOM__URID),
+                idOf(LV2_ATOM__Float), idOf(JucePlugin_LV2URI), idOf(LV2_ATOM__String), idOf(JucePlugin_LV2URI ":Ports"), {}};
     for (std::size_t p = 0; p < parameterCount; ++p) names.parameters[p] = idOf(JucePlugin_LV2URI ":" + std::string{allParameters()[p].id});
     return names;
 }
@@ -77,14 +83,32 @@ private:
     std::array<const LV2_Atom_Event*, parameterCount> at_{};
 };
 
-// Ports in order: music, channels, and of JUCE's wrapper events, what is told, latency, free-wheeling, enabled.
-constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS;
+// Ports in order: music, channels, and of JUCE's wrapper events, what is told, latency, free-wheeling,
+// enabled; then one for each parameter (Lv2Ports.cpp).
+constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS, firstControl = eventPort + 5;
+
+/// JUCE tells hosts of parameters as properties, which are not described: hosts would warn of each. R, wait-free.
+void dropProperties(LV2_Atom_Sequence& told, const Names& names) noexcept {
+    auto* to = lv2_atom_sequence_begin(&told.body);
+    for (auto* at = to; !lv2_atom_sequence_is_end(&told.body, told.atom.size, at);) {
+        auto* const event = std::exchange(at, lv2_atom_sequence_next(at));
+        const auto& object = reinterpret_cast<const LV2_Atom_Object&>(event->body);
+        if (event->body.type == names.object && object.body.otype == names.set) continue;
+        const auto bytes = reinterpret_cast<std::byte*>(at) - reinterpret_cast<std::byte*>(event);
+        std::memmove(to, event, static_cast<std::size_t>(bytes));
+        to = reinterpret_cast<LV2_Atom_Event*>(reinterpret_cast<std::byte*>(to) + bytes);
+    }
+    const auto bytes = reinterpret_cast<std::byte*>(to) - reinterpret_cast<std::byte*>(&told.body);
+    told.atom.size = static_cast<std::uint32_t>(bytes);
+}
 
 struct Instance {
     PluginProcessor* processor = nullptr;
     bool wasDeactivated = false;
     Names names{};
     const LV2_Atom_Sequence* events = nullptr; // of the port, which the host may connect anew before each block
+    std::shared_ptr<Lv2Controls> controls{};
+    LV2_Atom_Sequence* told = nullptr; // as events
 };
 
 /// All that live, by JUCE's handles; a host may make and end them on several threads, and runs them on others. A place is used again, and never freed.
@@ -150,22 +174,32 @@ LV2_Handle instantiate(const LV2_Descriptor*, double rate, const char* bundle, c
     const auto* const juces = juceLv2Descriptor(0);
     const LV2_Handle handle = juces->instantiate(juces, rate, bundle, features);
     const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
-    if (handle) instances().add(handle, {making().instance, false, map ? namesOf(*map) : Names{}, nullptr});
+    const auto names = map ? namesOf(*map) : Names{};
+    auto controls = std::make_shared<Lv2Controls>();
+    if (handle) instances().add(handle, {making().instance, false, names, nullptr, std::move(controls), nullptr});
     return handle;
 }
 
 void connect(LV2_Handle handle, std::uint32_t port, void* data) {
+    if (port >= firstControl) {
+        const auto parameter = port - firstControl;
+        if (parameter < parameterCount) instances()[handle].controls->connect(parameter, data);
+        return;
+    }
     if (port == eventPort) instances()[handle].events = static_cast<const LV2_Atom_Sequence*>(data);
+    if (port == eventPort + 1) instances()[handle].told = static_cast<LV2_Atom_Sequence*>(data);
     juceLv2Descriptor(0)->connect_port(handle, port, data);
 }
 
 void run(LV2_Handle handle, std::uint32_t frames) {
     auto& instance = instances()[handle];
     const auto* const juces = juceLv2Descriptor(0);
+    instance.controls->read(*instance.processor);
     if (!instance.events) return juces->run(handle, frames);
     Lv2Points points{*instance.events, instance.names, *instance.processor};
     instance.processor->expectPoints(points);
     juces->run(handle, frames);
+    if (instance.told) dropProperties(*instance.told, instance.names);
 }
 
 // What is active is prepared: the scene starts at its seed, as in the other formats. The first time JUCE has done so.
@@ -186,6 +220,38 @@ void cleanup(LV2_Handle handle) {
     juceLv2Descriptor(0)->cleanup(handle);
 }
 
+const LV2_State_Interface& juceState() {
+    const auto* const state = juceLv2Descriptor(0)->extension_data(LV2_STATE__interface);
+    return *static_cast<const LV2_State_Interface*>(state);
+}
+
+LV2_State_Status save(LV2_Handle handle, LV2_State_Store_Function store, LV2_State_Handle host,
+                      std::uint32_t flags, const LV2_Feature* const* features) {
+    const auto& instance = instances()[handle];
+    const auto& names = instance.names;
+    const std::string ports = instance.controls->text();
+    constexpr auto kind = LV2_STATE_IS_POD | LV2_STATE_IS_PORTABLE;
+    store(host, names.ports, ports.c_str(), ports.size() + 1, names.text, kind);
+    return juceState().save(handle, store, host, flags, features);
+}
+
+LV2_State_Status restore(LV2_Handle handle, LV2_State_Retrieve_Function retrieve, LV2_State_Handle host,
+                         std::uint32_t flags, const LV2_Feature* const* features) {
+    const auto status = juceState().restore(handle, retrieve, host, flags, features);
+    const auto& instance = instances()[handle];
+    std::size_t size = 0;
+    std::uint32_t type = 0, kind = 0;
+    const void* const ports = retrieve(host, instance.names.ports, &size, &type, &kind);
+    if (!ports || type != instance.names.text) return status;
+    instance.controls->restore({static_cast<const char*>(ports), size});
+    return status;
+}
+
+const void* extension(const char* uri) {
+    static constexpr LV2_State_Interface state{save, restore};
+    return std::strcmp(uri, LV2_STATE__interface) == 0 ? &state : juceLv2Descriptor(0)->extension_data(uri);
+}
+
 LV2_Descriptor completed(LV2_Descriptor juces) {
     juces.instantiate = instantiate;
     juces.connect_port = connect;
@@ -193,6 +259,7 @@ LV2_Descriptor completed(LV2_Descriptor juces) {
     juces.activate = activate;
     juces.deactivate = deactivate;
     juces.cleanup = cleanup;
+    juces.extension_data = extension;
     return juces;
 }
 

@@ -47,8 +47,10 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
     if(TARGET ${target}_LV2)
         set_target_properties(${target}_LV2 PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY "${plugins}/${file}.lv2")
         target_sources(${target}_LV2 PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Entry.cpp)
+        add_dependencies(${target}_LV2 physvib-lv2-ports)
         add_custom_command(TARGET ${target}_LV2 POST_BUILD VERBATIM # after JUCE's command, which writes it
-            COMMAND ${CMAKE_COMMAND} -DFOLDER=${plugins}/${file}.lv2 -P ${CMAKE_CURRENT_SOURCE_DIR}/lv2-description.cmake)
+            COMMAND ${CMAKE_COMMAND} -DFOLDER=${plugins}/${file}.lv2 -DPORTS=$<TARGET_FILE:physvib-lv2-ports>
+                -P ${CMAKE_CURRENT_SOURCE_DIR}/lv2-description.cmake)
     endif()
     foreach(format vst3 lv2) # where hosts look
         string(TOUPPER ${format} module)
@@ -60,6 +62,9 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
         set_target_properties(${target}_AU PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${plugins})
     endif()
 endfunction()
+
+add_executable(physvib-lv2-ports EXCLUDE_FROM_ALL Lv2Ports.cpp Parameters.cpp)
+target_link_libraries(physvib-lv2-ports PRIVATE PhysVib::Core physvib-warnings)
 
 if(NOT PHYSVIB_SANITIZE) # a sanitized module would need a sanitized host
     physvib_plugin(PhysVibPlugin "PhysVib" Phys urn:physvib:plugin oneBus 4 0 VST3 LV2 AU)

@@ -31,6 +31,11 @@ void MusicDelay::write(std::int64_t at, const float* left, const float* right, i
     end_ = at + frames;
 }
 
+void MusicDelay::silence(std::int64_t from, std::int64_t until) noexcept {
+    silentFrom_ = from;
+    silentUntil_ = std::max(until, from + static_cast<std::int64_t>(shortestPauseSeconds * sampleRateHz_));
+}
+
 // False: all of it is 0.
 bool MusicDelay::read(std::int64_t frame, int frames) noexcept {
     bool sounds = false;

@@ -23,11 +23,10 @@ public:
     /// What is heard from the renderer's frame `at` on; what lies between that and the last is silence. R, wait-free.
     void write(std::int64_t at, const float* left, const float* right, int frames) noexcept;
 
-    /// Frames from `from` to `until` are not played, with ramps of 10 ms. R, wait-free.
-    void silence(std::int64_t from, std::int64_t until) noexcept {
-        silentFrom_ = from;
-        silentUntil_ = until;
-    }
+    /// Frames from `from` to `until`, and for at least `shortestPauseSeconds`, are not played, with ramps of
+    /// 10 ms. R, wait-free.
+    void silence(std::int64_t from, std::int64_t until) noexcept;
+    static constexpr double shortestPauseSeconds = 0.05; // longer than both ramps: it is felt
 
     /// Where a take has ended, the last sample falls to zero within 10 ms. R, wait-free.
     const float* const* at(std::int64_t frame, int frames) noexcept override;

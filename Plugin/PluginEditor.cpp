@@ -2,7 +2,7 @@
 // Places, choices, and what is asked of the processor 25 times a second.
 #include "PluginEditor.h"
 #include "EditorParts.h"
-#include "Host/Views/Palette.h"
+#include "PresetFiles.h"
 #include "Presets.h"
 
 namespace physvib {
@@ -13,11 +13,12 @@ constexpr int framesPerSecond = 25; // a software renderer has other things to d
 constexpr int barHeight = 50, groupsHeight = 124, statusHeight = 26, margin = 12;
 constexpr int leastWidth = 960, leastHeight = 540, firstWidth = 1180, firstHeight = 700;
 
+void mute(juce::Label& label) { label.setColour(juce::Label::textColourId, shade(label, Shade::muted)); }
+
 void caption(juce::Label& label, const juce::String& shown) {
     label.setText(shown, juce::dontSendNotification);
     label.setFont(juce::Font{text::small});
     label.setBorderSize({0, 0, 0, 0});
-    label.setColour(juce::Label::textColourId, palette::muted);
     label.setJustificationType(juce::Justification::centredRight);
 }
 
@@ -63,9 +64,14 @@ void ParameterControl::rename(int choice, const juce::String& text) {
 void ParameterControl::resized() {
     auto area = getLocalBounds().reduced(2, 0);
     name_.setBounds(area.removeFromTop(18));
+    const auto& row = parameter_.row();
+    const bool fits = name_.getFont().getStringWidth(words(row.name)) <= name_.getWidth();
+    name_.setText(words(fits ? row.name : row.shortName), juce::dontSendNotification);
     knob_.setBounds(area);
     list_.setBounds(area.withSizeKeepingCentre(area.getWidth() - 6, 28));
 }
+
+void ParameterControl::lookAndFeelChanged() { mute(name_); }
 
 PluginEditor::PluginEditor(PluginProcessor& plugin)
     : AudioProcessorEditor{plugin}
@@ -81,7 +87,10 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     caption(seedName_, "seed");
     caption(stepsName_, "steps");
     status_.setFont(juce::Font{text::small});
-    firstSteps_.setText("Press a key below, or play a note: you feel it at its place.\nChoose another instrument, or a world that moves by itself, at the upper left.\nPress SILENCE to stop everything at once.", juce::dontSendNotification);
+    firstSteps_.setText("Press a key below, or play a note: you feel it at its place.\n"
+                        "The list at the upper left has other instruments, and worlds.\n"
+                        "Press SILENCE to stop everything at once.",
+                        juce::dontSendNotification);
     firstSteps_.setFont(juce::Font{text::medium});
     firstSteps_.setJustificationType(juce::Justification::centred);
     firstSteps_.setInterceptsMouseClicks(false, false);
@@ -92,6 +101,7 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     fillChoices();
     showMidi(false);
     takeState();
+    setGround(savedGround());
     setResizable(true, true);
     setResizeLimits(leastWidth, leastHeight, 2400, 1600);
     const bool isKept = state_.editorWidth >= leastWidth && state_.editorHeight >= leastHeight;
@@ -191,6 +201,16 @@ void PluginEditor::showMidi(bool on) {
     midi_.setToggleState(on, juce::dontSendNotification);
 }
 
+void PluginEditor::setGround(Ground ground) {
+    look_.setGround(ground);
+    sendLookAndFeelChange();
+    for (auto* const name : {&seedName_, &stepsName_}) mute(*name);
+    seed_.applyColourToAllText(shade(*this, Shade::text));
+    mix_.take(state_);
+    midiPanel_.take(state_);
+    repaint();
+}
+
 void PluginEditor::nameMaterials() {
     const auto& row = rowOf(Parameter::material);
     for (std::size_t m = 1; m < row.choices.size(); ++m) {
@@ -279,41 +299,54 @@ void PluginEditor::resized() {
     auto area = getLocalBounds().reduced(margin, 0);
     auto bar = area.removeFromTop(barHeight).reduced(0, 10);
     auto foot = area.removeFromBottom(statusHeight);
-    direct_.setBounds(foot.removeFromRight(76).reduced(0, 2));
+    foot.removeFromRight(margin); // where the window is resized
     shorten_.setBounds(foot.removeFromRight(92).reduced(4, 2));
     status_.setBounds(foot);
     const auto left = [&bar](juce::Component& c, int width, int space = panelGap) { c.setBounds(bar.removeFromLeft(width)), bar.removeFromLeft(space); };
-    left(title_, 84);
-    left(scene_, 150);
-    left(layout_, 92);
-    left(files_, 62);
-    left(seedName_, 30, 4);
-    left(seed_, 60);
-    left(stepsName_, 34, 4);
-    left(steps_, 78);
     silence_.setBounds(bar.removeFromRight(92));
     bar.removeFromRight(panelGap);
-    left(restart_, 112);
-    left(midi_, 54, 0);
+    left(title_, 78);
+    left(scene_, std::min(170, bar.getWidth() - 616)); // the others take as much
+    left(layout_, 86);
+    left(files_, 60);
+    left(midi_, 50);
+    left(seedName_, 30, 4);
+    left(seed_, 52);
+    left(stepsName_, 34, 4);
+    left(steps_, 78);
+    left(restart_, 108, 4);
+    left(direct_, 58, 0);
     keys_.setBounds(area.removeFromBottom(KeyboardPanel::height));
     area.removeFromBottom(panelGap);
     auto controls = area.removeFromBottom(groupsHeight);
     area.removeFromBottom(panelGap);
-    std::size_t count = 0;
-    for (const auto& group : groups_) count += group.controls.size();
-    const int width = (controls.getWidth() - panelGap * static_cast<int>(groups_.size() - 1)) / static_cast<int>(count);
-    for (auto& group : groups_) {
-        group.place = &group == &groups_.back() ? controls : controls.removeFromLeft(width * static_cast<int>(group.controls.size()));
-        controls.removeFromLeft(panelGap);
-        auto places = group.place.reduced(6, 6).withTrimmedTop(18);
-        const int one = places.getWidth() / static_cast<int>(group.controls.size());
-        for (auto& control : group.controls) control->setBounds(places.removeFromLeft(one));
-    }
+    placeGroups(controls);
     mix_.setBounds(area.removeFromRight(std::min(mix_.wishedWidth(), area.getWidth() / 2)));
     area.removeFromRight(panelGap);
     world_.setBounds(area);
     firstSteps_.setBounds(area.withSizeKeepingCentre(area.getWidth(), 90));
     midiPanel_.setBounds(area);
+}
+
+// Side by side, as wide as what is in them.
+void PluginEditor::placeGroups(juce::Rectangle<int> controls) {
+    const auto sharesOf = [](const Group& group) {
+        int shares = 0;
+        for (const auto& control : group.controls) shares += control->shares();
+        return shares;
+    };
+    int all = 0;
+    for (const auto& group : groups_) all += sharesOf(group);
+    const int width = controls.getWidth() - panelGap * static_cast<int>(groups_.size() - 1);
+    for (auto& group : groups_) {
+        const int shares = sharesOf(group);
+        group.place = &group == &groups_.back() ? controls : controls.removeFromLeft(width * shares / all);
+        controls.removeFromLeft(panelGap);
+        auto places = group.place.reduced(6, 6).withTrimmedTop(18);
+        const int inside = places.getWidth();
+        for (auto& one : group.controls)
+            one->setBounds(places.removeFromLeft(inside * one->shares() / shares));
+    }
 }
 
 } // namespace physvib

@@ -19,6 +19,8 @@ public:
     std::function<void(HostParameter&)> onMenu;            ///< a right click, anywhere on it
     void mouseDown(const juce::MouseEvent& e) override;
     void resized() override;
+    void lookAndFeelChanged() override;
+    int shares() const noexcept { return listAttachment_ ? 4 : 3; } ///< of the width
 
 private:
     HostParameter& parameter_;
@@ -37,6 +39,7 @@ public:
     /// Plays a file of one's own: a preset, a scene, a layout, or a saved session.
     void open(const juce::File& file);
     void showMidi(bool on);
+    void setGround(Ground ground);
 
     /// The next controller that comes in will move that parameter.
     void learn(Parameter which);
@@ -63,6 +66,7 @@ private:
     void timerCallback() override { refresh(); }
     void takeState();
     void fillGroups();
+    void placeGroups(juce::Rectangle<int> controls);
     void fillChoices();
     void nameMaterials();
     void askFile();

@@ -32,6 +32,12 @@ void PluginEditor::showFiles() {
     menu.addItem(juce::String::fromUTF8("Export what was felt\xe2\x80\xa6"), plugin_.felt().areThere(), false, [this] {
         askSave("MIDI (.mid), a list of events (.csv) or a haptic file (.hjif, .hmpg, .haptic, .ahap)", juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile("felt.mid"), feltEndings, &PluginEditor::exportFeltAs);
     });
+    menu.addSeparator();
+    const bool isLight = look_.ground() == Ground::light;
+    menu.addItem("Light window", true, isLight, [this, isLight] {
+        setGround(isLight ? Ground::dark : Ground::light);
+        saveGround(look_.ground());
+    });
     menu.setLookAndFeel(&look_);
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(files_).withDeletionCheck(*this));
 }

@@ -20,4 +20,20 @@ std::string savePreset(PluginState state, const juce::File& file) {
     return writeFile(file.getFullPathName().toStdString(), pluginStateJson(state));
 }
 
+namespace {
+
+juce::File lookFile() { return presetFolder().getSiblingFile("look"); }
+
+} // namespace
+
+Ground savedGround() {
+    return lookFile().loadFileAsString().trim() == "light" ? Ground::light : Ground::dark;
+}
+
+void saveGround(Ground ground) {
+    if (lookFile().getParentDirectory().createDirectory().failed()) return; // it lasts as long as the window
+    const std::string word = ground == Ground::light ? "light\n" : "dark\n";
+    (void)writeFile(lookFile().getFullPathName().toStdString(), word);
+}
+
 } // namespace physvib

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Presets of one's own: a file each, which is what a host keeps of an instance, in a folder that every instance lists.
+// Beside it, how windows look.
 #pragma once
+#include "Host/Views/Look.h"
 #include "Scene/Sessions/PluginState.h"
 #include <juce_core/juce_core.h>
 #include <string>
@@ -16,5 +18,9 @@ std::vector<juce::File> presetFiles(const juce::File& folder);
 
 /// Writes `state` without the window's size, and makes the folder if it is missing; empty, or one line with the reason. M only.
 std::string savePreset(PluginState state, const juce::File& file);
+
+/// What a person chose for the windows of all instances, in `PhysVib/look`; dark at first. M only.
+Ground savedGround();
+void saveGround(Ground ground);
 
 } // namespace physvib

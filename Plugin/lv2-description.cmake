@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -DFOLDER=PhysVib.lv2 -P lv2-description.cmake: what JUCE's generator of LV2 descriptions gets wrong, put right; and the option
-# that our entry reads. Once done it finds nothing more to do.
+# cmake -DFOLDER=PhysVib.lv2 -DPORTS=physvib-lv2-ports -P lv2-description.cmake: what JUCE's generator of LV2 descriptions
+# gets wrong, put right; the option that our entry reads; and a control port for each parameter instead of a property.
+# Once done it finds nothing more to do.
 file(READ "${FOLDER}/dsp.ttl" text)
 # Numbers of parameters are floats; without a point they are read as whole numbers, of another type than the range says.
 string(REGEX REPLACE "((lv2:default|lv2:minimum|lv2:maximum|rdf:value) -?[0-9]+)([ \t\n])" "\\1.0\\3" text "${text}")
@@ -18,6 +19,17 @@ endforeach()
 # Music comes in on its left and its right.
 string(REPLACE "lv2:name \"Audio In 1\"" "lv2:name \"Music left\"" text "${text}")
 string(REPLACE "lv2:name \"Audio In 2\"" "lv2:name \"Music right\"" text "${text}")
+# Each parameter is a control port behind JUCE's own, and no property beside it: hosts would list both, as two values.
+string(REGEX REPLACE "plug:[a-z_]+\n\ta lv2:Parameter ;\n(\t[^\n]*\n)+\n" "" text "${text}")
+string(REGEX REPLACE "\tpatch:(writable|readable)(( ,)?\n\t\tplug:[a-z_]+)+ ;\n" "" text "${text}")
+if(NOT text MATCHES "lv2:symbol \"level\"")
+    if(NOT text MATCHES "lv2:symbol \"enabled\"[^]]*lv2:index ([0-9]+)")
+        message(FATAL_ERROR "${FOLDER}/dsp.ttl: expected a port \"enabled\", to put the parameters' ports behind it: found none")
+    endif()
+    math(EXPR first "${CMAKE_MATCH_1} + 1")
+    execute_process(COMMAND ${PORTS} ${first} OUTPUT_VARIABLE ports COMMAND_ERROR_IS_FATAL ANY)
+    string(REPLACE "\t] ;\n\topts:supportedOption" "\t] , [\n${ports}\t] ;\n\topts:supportedOption" text "${text}")
+endif()
 file(WRITE "${FOLDER}/dsp.ttl" "${text}")
 
 # The window's: a feature that is named as data, and data that are named as a feature.

@@ -131,27 +131,40 @@ TEST(Music, ATakeBeginsWithSilenceAndEqualMusicFeelsEqual) {
     EXPECT_LT(step, 0.02f) << "no click where one take ends and the next begins"; // the tone itself moves by 0.0085 a frame
 }
 
-TEST(Music, AllSoundOffSilencesWhatIsNotFeltYetAndWhatComesLaterIsFelt) {
-    MusicHost host;
+/// The first channel of half a second of a tone, All Sound Off, and another half: where in time it is felt.
+std::vector<float> stoppedInTheMiddle(bool isDirect) {
+    MusicHost host{0.0, quietState(isDirect)};
     host.prepare(songRateHz, 480);
     const BeatSong song = tone(130.0, 0.5f);
-    const int latency = host.plugin->getLatencySamples();
     Samples all;
     for (int at = 0; at < 24'000; at += 480) host.feed(song, at, 480, all);
     juce::MidiBuffer midi;
     midi.addEvent(juce::MidiMessage::allSoundOff(1), 0);
     for (int c = 0; c < 4; ++c) host.buffer.copyFrom(c, 0, song.samples.data() + 24'000, 480);
     host.plugin->processBlock(host.buffer, midi);
-    for (std::size_t c = 0; c < 4; ++c) all[c].insert(all[c].end(), host.buffer.getReadPointer(static_cast<int>(c)), host.buffer.getReadPointer(static_cast<int>(c)) + 480);
+    const float* const block = host.buffer.getReadPointer(0);
+    all[0].insert(all[0].end(), block, block + 480);
     for (int at = 24'480; at < 47'000; at += 480) host.feed(song, at, 480, all);
-    const auto peak = [&](int from, int to) {
-        float most = 0.0f;
-        for (int i = from; i < to; ++i) most = std::max(most, std::abs(all[0][static_cast<std::size_t>(i)]));
-        return most;
-    };
-    EXPECT_GT(peak(23'000, 24'000), 0.4f);
-    EXPECT_EQ(peak(24'000 + 480 + 100, 24'000 + latency - 10), 0.0f);
-    EXPECT_GT(peak(24'000 + latency + 600, 24'000 + latency + 2'000), 0.4f);
+    return all[0];
+}
+
+TEST(Music, AllSoundOffIsAPauseWithDirectAndWithoutAndWhatComesLaterIsFelt) {
+    constexpr int pause = 2'400, ramp = 480;
+    for (const bool isDirect : {false, true}) {
+        SCOPED_TRACE(isDirect);
+        const auto felt = stoppedInTheMiddle(isDirect);
+        const auto peak = [&](int from, int to) {
+            float most = 0.0f;
+            for (auto i = felt.begin() + from; i != felt.begin() + to; ++i) most = std::max(most, std::abs(*i));
+            return most;
+        };
+        EXPECT_GT(peak(23'000, 24'000), 0.4f);
+        EXPECT_EQ(peak(24'000 + 47 + ramp, 24'000 + pause - 10), 0.0f);
+        EXPECT_GT(peak(24'000 + pause + 47 + ramp, 24'000 + pause + 2'000), 0.4f);
+        float step = 0.0f;
+        for (std::size_t i = 23'000; i < 28'000; ++i) step = std::max(step, std::abs(felt[i] - felt[i - 1]));
+        EXPECT_LT(step, 0.02f) << "no click";
+    }
 }
 
 TEST(Music, OfTwoPortsIsThereInABuildForThemAlone) {

@@ -14,7 +14,19 @@ std::unique_ptr<PluginEditor> openEditor(PluginProcessor& plugin) {
     return std::unique_ptr<PluginEditor>{dynamic_cast<PluginEditor*>(plugin.createEditorIfNeeded())};
 }
 
-juce::Image pictureOf(PluginEditor& editor) { return editor.createComponentSnapshot(editor.getLocalBounds(), true, 1.0f); }
+juce::Image pictureOf(PluginEditor& editor, float scale = 1.0f) {
+    return editor.createComponentSnapshot(editor.getLocalBounds(), true, scale);
+}
+
+/// Into the folder of PHYSVIB_PICTURES, to look at, if that is set.
+void show(const juce::Image& picture, const juce::String& name) {
+    const char* const folder = std::getenv("PHYSVIB_PICTURES");
+    if (folder == nullptr) return;
+    juce::FileOutputStream file{juce::File{folder}.getChildFile(name + ".png")};
+    file.setPosition(0);
+    file.truncate();
+    juce::PNGImageFormat{}.writeImageToStream(picture, file);
+}
 
 TEST(PluginEditor, OpensFiftyTimesWhileItPlays) {
     TestHost host;
@@ -48,10 +60,9 @@ TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
     auto* const words = labelWith(*editor, "Press a key below");
     ASSERT_NE(words, nullptr);
     EXPECT_TRUE(words->isVisible());
-    if (const char* folder = std::getenv("PHYSVIB_PICTURES")) { // to look at
-        juce::FileOutputStream file{juce::File{folder}.getChildFile("plugin-editor-first.png")};
-        juce::PNGImageFormat{}.writeImageToStream(pictureOf(*editor), file);
-    }
+    show(pictureOf(*editor), "plugin-editor-first");
+    editor->setSize(960, 540);
+    show(pictureOf(*editor), "plugin-editor-first-small");
     juce::MidiBuffer midi;
     midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 0);
     host.block(512, midi);
@@ -96,18 +107,21 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
     };
     EXPECT_GT(differ(pictures[0], pictures[1]), 500);
     EXPECT_GT(differ(pictures[1], pictures[2]), 500);
-    if (const char* folder = std::getenv("PHYSVIB_PICTURES")) { // to look at
-        const auto write = [folder](const juce::Image& picture, const char* name) {
-            juce::FileOutputStream file{juce::File{folder}.getChildFile(name)};
-            file.setPosition(0);
-            file.truncate();
-            juce::PNGImageFormat{}.writeImageToStream(picture, file);
-        };
-        write(pictures.back(), "plugin-editor.png");
-        editor->showMidi(true);
-        editor->setSize(960, 540);
-        write(pictureOf(*editor), "plugin-editor-midi.png");
+    show(pictures.back(), "plugin-editor");
+    for (const auto ground : {Ground::light, Ground::dark}) {
+        const juce::String name = ground == Ground::light ? "plugin-editor-light" : "plugin-editor-dark";
+        editor->setGround(ground);
+        editor->refresh();
+        const auto corner = pictureOf(*editor).getPixelAt(4, 4);
+        EXPECT_EQ(corner.getPerceivedBrightness() > 0.5f, ground == Ground::light);
+        show(pictureOf(*editor), name);
+        const auto twice = pictureOf(*editor, 2.0f);
+        EXPECT_EQ(twice.getWidth(), 2 * editor->getWidth());
+        show(twice, name + "-2x");
     }
+    editor->showMidi(true);
+    editor->setSize(960, 540);
+    show(pictureOf(*editor), "plugin-editor-midi");
 }
 
 juce::Button* buttonOf(juce::Component& in, const juce::String& words) {

@@ -13,7 +13,9 @@
 #include <lv2/patch/patch.h>
 #include <lv2/state/state.h>
 #include <lv2/urid/urid.h>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace physvib::test {
@@ -21,7 +23,7 @@ namespace physvib::test {
 class RawLv2 {
 public:
     static constexpr std::size_t channels = 4;
-    enum Port : std::uint32_t { input = channels, output, latencyOut, freeWheeling, isEnabled };
+    enum Port : std::uint32_t { input = channels, output, latencyOut, freeWheeling, isEnabled, firstControl };
 
     /// `nominal` 0: not told, as some hosts do. `hasMusic`: the module with two ports for music.
     RawLv2(int largestBlock, int nominal, double rate = 48000.0, bool hasMusic = false) {
@@ -55,6 +57,11 @@ public:
         descriptor_->connect_port(handle_, inputs + latencyOut, &latency);
         descriptor_->connect_port(handle_, inputs + freeWheeling, &offline);
         descriptor_->connect_port(handle_, inputs + isEnabled, &enabled);
+        for (std::size_t p = 0; p < parameterCount; ++p) {
+            controls[p] = static_cast<float>(allParameters()[p].initial);
+            const auto port = inputs + firstControl + static_cast<std::uint32_t>(p);
+            descriptor_->connect_port(handle_, port, &controls[p]);
+        }
         choose(0);
     }
     ~RawLv2() {
@@ -64,7 +71,6 @@ public:
     /// The preset of that number; the first is a world that moves by itself.
     void choose(std::int32_t program) {
         program_ = program;
-        const auto* const state = static_cast<const LV2_State_Interface*>(descriptor_->extension_data(LV2_STATE__interface));
         const auto retrieve = [](LV2_State_Handle host, std::uint32_t key, std::size_t* size, std::uint32_t* type, std::uint32_t* flags) -> const void* {
             auto& self = *static_cast<RawLv2*>(host);
             if (key != self.idOf(self.uri_ + ":Program")) return nullptr;
@@ -73,8 +79,42 @@ public:
             *flags = LV2_STATE_IS_POD;
             return &self.program_;
         };
-        state->restore(handle_, retrieve, this, 0, nullptr);
+        stateInterface().restore(handle_, retrieve, this, 0, nullptr);
     }
+
+    /// A state as a host keeps it: by URI, type and bytes.
+    struct Kept {
+        std::string type;
+        std::vector<char> bytes;
+    };
+    using State = std::map<std::string, Kept>;
+    State save() {
+        const auto store = [](LV2_State_Handle self, std::uint32_t key, const void* value, std::size_t size,
+                              std::uint32_t type, std::uint32_t) {
+            auto& [host, kept] = *static_cast<std::pair<RawLv2*, State>*>(self);
+            const auto* const bytes = static_cast<const char*>(value);
+            kept[host->uris_[key - 1]] = {host->uris_[type - 1], {bytes, bytes + size}};
+            return LV2_STATE_SUCCESS;
+        };
+        std::pair<RawLv2*, State> all{this, {}};
+        stateInterface().save(handle_, store, &all, 0, nullptr);
+        return all.second;
+    }
+    void restore(const State& state) {
+        const auto retrieve = [](LV2_State_Handle self, std::uint32_t key, std::size_t* size, std::uint32_t* type,
+                                 std::uint32_t* flags) -> const void* {
+            const auto& [host, kept] = *static_cast<std::pair<RawLv2*, const State*>*>(self);
+            const auto found = kept->find(host->uris_[key - 1]);
+            if (found == kept->end()) return nullptr;
+            *size = found->second.bytes.size();
+            *type = host->idOf(found->second.type);
+            *flags = LV2_STATE_IS_POD;
+            return found->second.bytes.data();
+        };
+        std::pair<RawLv2*, const State*> all{this, &state};
+        stateInterface().restore(handle_, retrieve, &all, 0, nullptr);
+    }
+
     bool isLoaded() const { return handle_ != nullptr; }
     void activate() { descriptor_->activate(handle_); }
     void deactivate() { descriptor_->deactivate(handle_); }
@@ -108,6 +148,7 @@ public:
     std::vector<Point> points; ///< of the next block, in frame order
     std::array<std::vector<float>, 2> music; ///< of the next block, where there are ports for it
     std::array<std::vector<float>, channels> out;
+    std::array<float, parameterCount> controls{}; ///< the parameters' ports, each in its unit
     float latency = 0.0f, offline = 1.0f, enabled = 1.0f;
 
 private:
@@ -131,6 +172,9 @@ private:
         set.number = value;
         std::memcpy(reinterpret_cast<std::byte*>(&to) + sizeof(LV2_Atom) + to.atom.size, &set, sizeof set);
         to.atom.size += static_cast<std::uint32_t>(sizeof set);
+    }
+    const LV2_State_Interface& stateInterface() const {
+        return *static_cast<const LV2_State_Interface*>(descriptor_->extension_data(LV2_STATE__interface));
     }
     LV2_URID idOf(const std::string& uri) {
         for (std::size_t i = 0; i < uris_.size(); ++i)

@@ -101,6 +101,131 @@ float loudestOf(const std::vector<float>& signal) {
     return most;
 }
 
+constexpr std::size_t control(Parameter which) { return static_cast<std::size_t>(which); }
+
+/// What the plug-in itself has, as it would save it now.
+double valueOf(RawLv2& host, std::string_view id) {
+    juce::MemoryBlock json;
+    json.fromBase64Encoding(host.save().at("urn:physvib:plugin:StateString").bytes.data());
+    const auto state = readPluginState(json.toString().toStdString(), "state");
+    EXPECT_TRUE(state) << state.error;
+    for (const auto& [name, value] : state.value.parameters)
+        if (name == id) return std::get<double>(value);
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST(RawLv2, AControlPortMovesItsParameterAtTheNextBlock) {
+    RawLv2 host{block, block};
+    ASSERT_TRUE(host.isLoaded());
+    host.activate();
+    EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
+    host.controls[control(Parameter::level)] = -60.0f; // silence
+    host.play(20, block);
+    EXPECT_EQ(loudestOf(host.play(100, block)), 0.0f);
+    host.points.push_back({0, "level", -12.0f}); // came last
+    host.play(20, block);
+    EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
+    host.controls[control(Parameter::bypass)] = 1.0f;
+    host.play(2, block);
+    EXPECT_EQ(loudestOf(host.play(100, block)), 0.0f);
+    host.controls[control(Parameter::bypass)] = 0.0f;
+    host.play(2, block);
+    EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
+    host.deactivate();
+}
+
+/// A host's session: the state, and the ports beside it, by text of six digits.
+struct SavedSession {
+    explicit SavedSession(RawLv2& host)
+        : state{host.save()}
+        , controls{host.controls} {
+        for (float& value : controls) value = std::stof(std::to_string(value));
+    }
+    RawLv2::State state;
+    std::array<float, parameterCount> controls;
+};
+
+TEST(RawLv2, WhatWasSetLastByThePortOrBesideItStaysAfterSavingAndLoading) {
+    for (const bool byPort : {true, false})
+        for (const bool arePortsKept : {true, false})
+            for (const bool isRestoredFirst : {true, false}) {
+                SCOPED_TRACE(testing::Message{} << byPort << arePortsKept << isRestoredFirst);
+                RawLv2 first{block, block}, second{block, block};
+                first.activate();
+                first.controls[control(Parameter::level)] = -7.3333333f;
+                first.run(block);
+                if (!byPort) first.points.push_back({0, "level", -3.0f});
+                first.run(block);
+                const SavedSession session{first};
+                second.activate();
+                const auto expected = byPort ? -7.3333333 : -3.0;
+                if (!isRestoredFirst && arePortsKept) second.controls = session.controls;
+                second.restore(session.state);
+                if (isRestoredFirst && arePortsKept) second.controls = session.controls;
+                for (int b = 0; b < 5; ++b) EXPECT_EQ(second.run(block), 0u) << "no property is told";
+                EXPECT_NEAR(valueOf(second, "level"), expected, 1e-5);
+                second.controls[control(Parameter::level)] = -20.0f;
+                second.run(block);
+                EXPECT_NEAR(valueOf(second, "level"), -20.0, 1e-5) << "the port still moves it";
+            }
+}
+
+TEST(RawLv2, APortThatIsOtherThanWhenTheStateWasSavedCounts) {
+    RawLv2 first{block, block}, second{block, block};
+    first.activate();
+    first.controls[control(Parameter::level)] = -30.0f;
+    first.run(block);
+    const SavedSession session{first};
+    second.activate();
+    second.restore(session.state);
+    second.controls[control(Parameter::level)] = -40.0f; // the host has kept a newer one
+    second.run(block);
+    EXPECT_NEAR(valueOf(second, "level"), -40.0, 1e-5);
+}
+
+TEST(RawLv2, APresetThatLeavesThePortsAloneIsNotUndoneByThem) {
+    RawLv2 first{block, block}, second{block, block};
+    first.activate();
+    first.points.push_back({0, "level", -24.0f});
+    first.run(block);
+    const auto preset = first.save();
+    second.activate();
+    second.controls[control(Parameter::level)] = -5.0f;
+    second.run(block);
+    second.restore(preset);
+    for (int b = 0; b < 5; ++b) second.run(block);
+    EXPECT_NEAR(valueOf(second, "level"), -24.0, 1e-5);
+    second.controls[control(Parameter::level)] = -5.5f;
+    second.run(block);
+    EXPECT_NEAR(valueOf(second, "level"), -5.5, 1e-5);
+}
+
+TEST(RawLv2, APortThatHoldsNoNumberIsNone) {
+    RawLv2 host{block, block};
+    ASSERT_TRUE(host.isLoaded());
+    host.activate();
+    for (float& value : host.controls) value = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
+    host.deactivate();
+}
+
+TEST(RawLv2, DescriptionsHaveAPortForEachParameterBehindJucesOwnAndNoProperty) {
+    constexpr std::array<std::pair<const char*, int>, 5> modules{{{"", 9}, {"-2", 7}, {"-8", 13}, {"-16", 21}, {"-Music", 11}}};
+    for (const auto& [width, first] : modules) {
+        std::ifstream file{std::string{PHYSVIB_PLUGINS "/PhysVib"} + width + ".lv2/dsp.ttl"};
+        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+        for (const auto& row : allParameters()) {
+            const std::string index = std::to_string(first + static_cast<int>(row.parameter));
+            const auto port = "lv2:index " + index + " ;\n\t\tlv2:symbol \"" + std::string{row.id} + "\" ;";
+            EXPECT_NE(text.find(port), std::string::npos) << width << ' ' << port;
+        }
+        const auto behind = "lv2:index " + std::to_string(first + static_cast<int>(parameterCount)) + " ";
+        EXPECT_EQ(text.find(behind), std::string::npos) << width << ": they are written once";
+        EXPECT_EQ(text.find("patch:writable"), std::string::npos) << width;
+        EXPECT_EQ(text.find("a lv2:Parameter"), std::string::npos) << width;
+    }
+}
+
 TEST(RawLv2, MusicAtItsTwoPortsIsFeltAsInTheProcessor) {
     RawLv2 host{block, block, 48000.0, true};
     ASSERT_TRUE(host.isLoaded());

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// LV2's control ports, one for each parameter, and what a state keeps of them.
+#pragma once
+#include "PluginProcessor.h"
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+/// A port counts where its value is another than it was: in the block before, or, once a state was restored,
+/// when that was saved. So the last change stays, whether the host made it by the port, or the window, a
+/// controller or an event: hosts that save ports beside a state bring back what they held then, others leave
+/// them as they are.
+class Lv2Controls {
+public:
+    Lv2Controls() {
+        for (std::size_t p = 0; p < parameterCount; ++p) {
+            const auto& row = allParameters()[p];
+            seen_[p] = static_cast<float>(normalised(row, row.initial));
+        }
+        saved_.fill(none);
+    }
+
+    /// The host's, in the parameter's unit; null: not connected.
+    void connect(std::size_t parameter, const void* port) noexcept {
+        ports_[parameter] = static_cast<const float*>(port);
+    }
+
+    /// Before each block. R, wait-free.
+    void read(PluginProcessor& processor) noexcept {
+        const bool isRestored = isRestored_.exchange(false, std::memory_order_acquire);
+        for (std::size_t p = 0; p < parameterCount; ++p) {
+            if (!ports_[p] || !std::isfinite(*ports_[p])) continue;
+            const auto now = static_cast<float>(normalised(allParameters()[p], *ports_[p]));
+            if (isSame(now, seen_[p])) continue;
+            seen_[p] = now;
+            if (isRestored && isSame(now, saved_[p])) continue;
+            processor.parameter(static_cast<Parameter>(p)).setByController(now);
+        }
+    }
+
+    /// What the ports held in the last block, as text for a state; and that of a restored one. Not R.
+    std::string text() const {
+        std::string all;
+        for (const auto& seen : seen_) {
+            std::array<char, 32> digits{};
+            const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), seen.load()).ptr;
+            all.append(digits.data(), end);
+            all += ' ';
+        }
+        return all;
+    }
+    void restore(std::string_view text) noexcept {
+        const char* at = text.data();
+        const char* const end = at + text.size();
+        for (float& saved : saved_) {
+            saved = none;
+            const auto [next, error] = std::from_chars(at, end, saved);
+            at = next == end ? end : next + 1;
+        }
+        isRestored_.store(true, std::memory_order_release);
+    }
+
+private:
+    static constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    static constexpr float closest = 1e-6f; // hosts keep values with six digits
+    static bool isSame(float a, float b) noexcept { return std::abs(a - b) < closest; }
+
+    std::array<const float*, parameterCount> ports_{};
+    std::array<std::atomic<float>, parameterCount> seen_{}; // 0 to 1
+    std::array<float, parameterCount> saved_{};
+    std::atomic<bool> isRestored_{false};
+};
+
+} // namespace physvib
