@@ -47,7 +47,8 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
 
     bool goesOn = true;
     const auto events = eventsOf(session, part, [&](std::int64_t timeNs) {
-        return goesOn = progress(eventsShare * static_cast<double>(timeNs) /
+        const std::int64_t done = std::min(timeNs, part.endNs); // the last step may go beyond
+        return goesOn = progress(eventsShare * static_cast<double>(done) /
                                  static_cast<double>(std::max<std::int64_t>(1, part.endNs)));
     });
     if (!goesOn) return "cancelled";

@@ -8,6 +8,8 @@
 namespace physvib {
 namespace {
 
+constexpr double jumpSeconds = 1e-3; // between two steps of the world
+
 void setPoint(GainLane& lane, double seconds, double db) {
     if (!lane.empty() && lane.back().seconds >= seconds)
         lane.back().db = db; // the world stands still
@@ -69,7 +71,7 @@ void DeskLanes::follow() {
         Fader& fader = faders_[i];
         if (now[i] == fader.nowDb) continue;
         setPoint(fader.moves, lookedAtSeconds_, fader.nowDb);
-        setPoint(fader.moves, std::max(lookedAtSeconds_, sceneSeconds()), now[i]);
+        setPoint(fader.moves, std::max(lookedAtSeconds_ + jumpSeconds, sceneSeconds()), now[i]);
         fader.nowDb = now[i];
     }
 }
