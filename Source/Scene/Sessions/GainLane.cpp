@@ -72,7 +72,7 @@ GainLane sumOf(const GainLane& a, const GainLane& b) {
     for (const GainLane* lane : {&a, &b})
         for (const GainPoint& point : *lane) times.push_back(point.seconds);
     std::ranges::sort(times);
-    times.erase(std::ranges::unique(times).begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end()); // clang 14 takes no ranges::unique
     GainLane sum;
     for (const double seconds : times)
         sum.push_back({seconds, sumDb({laneDbAt(a, seconds), laneDbAt(b, seconds)})});
