@@ -3,6 +3,7 @@
 # usage: sharing.py FOLDER_OF_THE_PAGE PHYSVIB PICTURES_FOLDER [AXE.js]
 import base64
 import json
+import math
 import os
 import subprocess
 import sys
@@ -173,6 +174,15 @@ def content(name):
         return file.read()
 
 
+def alike(ours, theirs):
+    """The same JSON, numbers to 1e-9 of themselves: the logarithm of WebAssembly's library may differ in its last digit."""
+    if isinstance(ours, dict):
+        return isinstance(theirs, dict) and list(ours) == list(theirs) and all(alike(ours[key], theirs[key]) for key in ours)
+    if isinstance(ours, list):
+        return isinstance(theirs, list) and len(ours) == len(theirs) and all(map(alike, ours, theirs))
+    return math.isclose(ours, theirs, rel_tol=1e-9) if isinstance(ours, float) else ours == theirs
+
+
 def recording(browser):
     """What is played for ten seconds, as files: samples, events, and the clips that physvib export makes of these."""
     browser.value("""globalThis.blobs = new Map();
@@ -203,7 +213,7 @@ def recording(browser):
         native("export", "page-shake-the-box.csv", "--field", "6.4,3.6", "--to", f"native.{ending}")
         # But for the title that the list's name gives it.
         same = [name for name in made
-                if content("native" + name.removeprefix("shake-the-box")).replace(b"page-shake-the-box.csv", b"") == files[name]]
+                if alike(json.loads(content("native" + name.removeprefix("shake-the-box")).replace(b"page-shake-the-box.csv", b"")), json.loads(files[name]))]
         expect(made == [f"shake-the-box-{letter}.{ending}" for letter in "ABCD"] and same == made, f"four .{ending}, as physvib export makes them: {same}")
     for name, *size in sizes:
         browser.picture(f"web-recorded-{name}.png", *size)
@@ -267,8 +277,9 @@ def phone_sensors(answer):
     phone.call("Page.addScriptToEvaluateOnNewDocument", source=f"""
         globalThis.asked = [];
         globalThis.held = [];
-        DeviceOrientationEvent.requestPermission = () => {{ asked.push(['sensor', navigator.userActivation.isActive]); return Promise.resolve('{answer}'); }};
-        navigator.wakeLock.request = kind => {{
+        if (globalThis.DeviceOrientationEvent) // an empty page before the page has none
+            DeviceOrientationEvent.requestPermission = () => {{ asked.push(['sensor', navigator.userActivation.isActive]); return Promise.resolve('{answer}'); }};
+        if (navigator.wakeLock) navigator.wakeLock.request = kind => {{
             asked.push([kind, true]);
             return Promise.resolve({{ release() {{ asked.push(['released', true]); return Promise.resolve(); }} }});
         }};
