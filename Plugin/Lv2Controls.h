@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LV2's control ports, one for each parameter, and what a state keeps of them.
+// LV2's control ports, one for each parameter, what a state keeps of them, and what a window tells the host.
 #pragma once
 #include "PluginProcessor.h"
 #include <array>
@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -38,10 +39,22 @@ public:
             if (!ports_[p] || !std::isfinite(*ports_[p])) continue;
             const auto now = static_cast<float>(normalised(allParameters()[p], *ports_[p]));
             if (isSame(now, seen_[p])) continue;
-            seen_[p] = now;
-            if (isRestored && isSame(now, saved_[p])) continue;
-            processor.parameter(static_cast<Parameter>(p)).setByController(now);
+            auto& parameter = processor.parameter(static_cast<Parameter>(p));
+            const bool isUndone = isRestored && isSame(now, saved_[p]);
+            if (!isUndone && !isSame(now, parameter.getValue())) parameter.setByController(now);
+            seen_[p] = now; // last: a window compares
         }
+        wasRead_.store(true, std::memory_order_release);
+    }
+
+    /// What a window has to write to the port so that the host shows the value that counts; nothing where the
+    /// port says so already, or before the first block. Thread of the window, wait-free.
+    std::optional<float> owed(std::size_t p, PluginProcessor& processor) const noexcept {
+        if (!wasRead_.load(std::memory_order_acquire)) return std::nullopt;
+        const float seen = seen_[p]; // before the value: what the port moves meanwhile is no news
+        const float now = processor.parameter(static_cast<Parameter>(p)).getValue();
+        if (isSame(now, seen)) return std::nullopt;
+        return static_cast<float>(denormalised(allParameters()[p], now));
     }
 
     /// What the ports held in the last block, as text for a state; and that of a restored one. Not R.
@@ -74,7 +87,7 @@ private:
     std::array<const float*, parameterCount> ports_{};
     std::array<std::atomic<float>, parameterCount> seen_{}; // 0 to 1
     std::array<float, parameterCount> saved_{};
-    std::atomic<bool> isRestored_{false};
+    std::atomic<bool> isRestored_{false}, wasRead_{false};
 };
 
 } // namespace physvib

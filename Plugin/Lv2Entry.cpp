@@ -6,6 +6,7 @@
 #ifdef PHYSVIB_LV2_ENTRY
 #include "Entry.h"
 #include "Lv2Controls.h"
+#include "Lv2Parts.h"
 #include "PluginProcessor.h"
 #include <array>
 #include <atomic>
@@ -264,6 +265,11 @@ LV2_Descriptor completed(LV2_Descriptor juces) {
 }
 
 } // namespace
+
+Lv2Parts lv2PartsOf(void* instance) noexcept {
+    const auto& one = instances()[instance];
+    return {one.processor, one.controls, firstControl};
+}
 
 } // namespace physvib
 

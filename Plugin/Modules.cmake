@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 get_target_property(juce_modules juce::juce_core INTERFACE_JUCE_MODULE_PATH)
-set_source_files_properties(${juce_modules}/juce_audio_plugin_client/juce_audio_plugin_client_LV2.cpp PROPERTIES COMPILE_DEFINITIONS lv2_descriptor=juceLv2Descriptor)
-set_source_files_properties(Lv2Entry.cpp PROPERTIES COMPILE_DEFINITIONS PHYSVIB_LV2_ENTRY)
+set_source_files_properties(${juce_modules}/juce_audio_plugin_client/juce_audio_plugin_client_LV2.cpp PROPERTIES
+    COMPILE_DEFINITIONS "lv2_descriptor=juceLv2Descriptor;lv2ui_descriptor=juceLv2UiDescriptor")
+set_source_files_properties(Lv2Entry.cpp Lv2Window.cpp PROPERTIES COMPILE_DEFINITIONS PHYSVIB_LV2_ENTRY)
 set(physvib_entry_points ${CMAKE_CURRENT_LIST_DIR}/entry-points.map)
 include(${CMAKE_CURRENT_LIST_DIR}/vst3-header.cmake)
 
@@ -46,7 +47,8 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
     endif()
     if(TARGET ${target}_LV2)
         set_target_properties(${target}_LV2 PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY "${plugins}/${file}.lv2")
-        target_sources(${target}_LV2 PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Entry.cpp)
+        target_sources(${target}_LV2 PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Entry.cpp
+            ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Window.cpp)
         add_dependencies(${target}_LV2 physvib-lv2-ports)
         add_custom_command(TARGET ${target}_LV2 POST_BUILD VERBATIM # after JUCE's command, which writes it
             COMMAND ${CMAKE_COMMAND} -DFOLDER=${plugins}/${file}.lv2 -DPORTS=$<TARGET_FILE:physvib-lv2-ports>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Steps, and lines where a host draws them.
 #include "ParameterPoints.h"
+#include <utility>
 
 namespace physvib {
 
 void ParameterPoints::begin(PointSource* source, int frames) noexcept {
     source_ = source;
-    frames_ = frames;
+    const int before = std::exchange(frames_, frames);
     if (!source) return;
     for (std::size_t p = 0; p < lines_.size(); ++p) {
         Line& line = lines_[p];
@@ -14,7 +15,7 @@ void ParameterPoints::begin(PointSource* source, int frames) noexcept {
         const bool isEndTold = source->lastOfLine(p) >= frames - 1;
         line.isDrawn = isEndTold && allParameters()[p].choices.empty() && (line.wasEndTold || line.corner.frame == 0);
         if (line.wasEndTold) {
-            line.from.frame = -1;
+            line.from.frame -= before;
             draw(line, -1);
         }
         line.wasEndTold = isEndTold;
@@ -43,7 +44,7 @@ double ParameterPoints::take(std::size_t parameter) noexcept {
 ParameterPoint ParameterPoints::read(std::size_t parameter) noexcept {
     ParameterPoint point;
     if (!source_->next(parameter, point)) return {none, 0.0};
-    return {std::clamp(point.frame, 0, frames_ - 1), point.normal};
+    return {std::clamp(point.frame, 0, frames_), point.normal};
 }
 
 // The next multiple of the longest step behind `after`, if the line needs it.

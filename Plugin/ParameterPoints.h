@@ -29,8 +29,9 @@ protected:
 
 /// The points of all parameters, one block after the other. R only.
 ///
-/// A point is a step at its frame: then it does not matter how the host cuts its blocks. A host that tells a parameter's value at a block's first
-/// and last frame draws lines (VST3 lets it leave out what lies on them): between points of such a block that are further than `longestStep` apart,
+/// A point is a step at its frame: then it does not matter how the host cuts its blocks. A host that tells
+/// a parameter's value at a block's first and last frame, or one frame behind, draws lines (VST3 lets it
+/// leave out what lies on them): between points of such a block that are further than `longestStep` apart,
 /// values on the line are told as well, at multiples of `longestStep` from the start on.
 class ParameterPoints {
 public:
@@ -42,7 +43,8 @@ public:
     /// A block of so many frames; without a source, or where it says nothing of a parameter, there are no points.
     void begin(PointSource* source, int frames) noexcept;
 
-    /// The frame of the next point, of one parameter or of any; none: there are no more. A frame outside the block counts as its nearest.
+    /// The frame of the next point, of one parameter or of any; none: there are no more. A point behind the
+    /// block is one at the next block's first frame: Ardour says there where a line leads.
     int nextOf(Parameter which) const noexcept { return lines_[static_cast<std::size_t>(which)].next(); }
     int next() const noexcept {
         int first = none;
@@ -57,7 +59,7 @@ public:
             while (lines_[p].next() <= frame) act(p, take(p));
     }
 
-    /// After the block.
+    /// After the block, and after `takeUntil` its length.
     void end() noexcept;
 
 private:

@@ -108,6 +108,7 @@ private:
     double value(Parameter which) const noexcept { return denormalised(rowOf(which), normals_[static_cast<std::size_t>(which)]); }
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
     void readParameters() noexcept;
+    void takePoints(int until) noexcept;
     int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message, const juce::MidiBuffer& midi, int first) noexcept;
     void followTransport(int frames) noexcept;
     void forgetControls() noexcept;

@@ -55,6 +55,7 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
         open_.apply(out.data(), channels, end - first);
         first = end;
     }
+    takePoints(frames); // of the next block's first frame
     points_.end();
     measure(buffer);
 }
@@ -65,6 +66,13 @@ void PluginProcessor::readParameters() noexcept {
         if (points_.nextOf(static_cast<Parameter>(p)) == ParameterPoints::none) normals_[p] = parameters_[p]->getValue();
 }
 
+void PluginProcessor::takePoints(int until) noexcept {
+    points_.takeUntil(until, [this](std::size_t p, double normal) {
+        normals_[p] = static_cast<float>(normal);
+        parameters_[p]->setValue(normals_[p]);
+    });
+}
+
 // From `first` on; where it ends. At each frame at which something comes: values first, then notes.
 int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message, const juce::MidiBuffer& midi, int first) noexcept {
     const int frames = buffer.getNumSamples();
@@ -73,10 +81,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
     int end = std::min(frames, first + blockFrames_);
     if (takes_.begin(mode)) forgetControls();
     for (int at = first; at < end;) {
-        points_.takeUntil(at, [this](std::size_t p, double normal) {
-            normals_[p] = static_cast<float>(normal);
-            parameters_[p]->setValue(normals_[p]);
-        });
+        takePoints(at);
         if (at == first) isShut_ = value(Parameter::bypass) > 0.5, playKeys(0);
         end = std::min(end, points_.nextOf(Parameter::bypass));
         sendControls(at - first);

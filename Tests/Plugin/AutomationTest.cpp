@@ -197,6 +197,55 @@ TEST(Automation, ALineThatAHostDrawsIsFollowedInLargeBlocksAsInSmallOnes) {
     }
 }
 
+/// A level on straight lines, as Ardour tells it: at a block's first frame, and one behind it.
+class RisingAndFalling final : public PointSource {
+public:
+    static constexpr std::int64_t period = 1 << 16; // values on lines are binary fractions: none is rounded
+    RisingAndFalling(std::int64_t at, int frames)
+        : at_{at}
+        , frames_{frames} {}
+    bool next(std::size_t parameter, ParameterPoint& point) noexcept override {
+        if (parameter != static_cast<std::size_t>(Parameter::level) || told_ == 2) return false;
+        const int frame = told_++ == 0 ? 0 : frames_;
+        const auto phase = (at_ + frame) % period;
+        point = {frame, 0.5 + static_cast<double>(std::min(phase, period - phase)) / (2.0 * period)};
+        return true;
+    }
+    int lastOfLine(std::size_t) noexcept override { return frames_; }
+
+private:
+    std::int64_t at_;
+    int frames_, told_ = 0;
+};
+
+Samples risingAndFalling(int block, std::int64_t frames) {
+    auto state = strikeAt(0, 1);
+    state.scene.materials[3].decayPerSecond = 0.05; // a held tone
+    state.limiterEnabled = false;
+    TestHost host;
+    EXPECT_TRUE(host.plugin->apply(state));
+    host.prepare(48000, 4096); // one latency for all
+    Samples signal(1);
+    for (std::int64_t at = 0; at < frames; at += block) {
+        RisingAndFalling line{at, block};
+        host.plugin->expectPoints(line);
+        juce::MidiBuffer midi;
+        if (at == 0) midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 0);
+        const auto& out = host.block(block, midi);
+        signal[0].insert(signal[0].end(), out.getReadPointer(0), out.getReadPointer(0) + block);
+    }
+    return signal;
+}
+
+TEST(Automation, ALineToOneFrameBehindTheBlockIsTheSameInBlocksOfAnySize) {
+    const std::int64_t frames = 3 * RisingAndFalling::period;
+    const auto expected = risingAndFalling(512, frames);
+    EXPECT_GT(peakOf(expected), 0.02f);
+    for (const int block : {64, 128, 1024, 4096}) {
+        expectEqual(expected, risingAndFalling(block, frames), frames, "blocks of " + std::to_string(block));
+    }
+}
+
 TEST(Automation, AMessageBehindTheBlocksEndIsPlayedAtItsLastFrameAndCounted) {
     TestHost host, other;
     for (auto* h : {&host, &other}) {

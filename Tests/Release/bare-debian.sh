@@ -61,7 +61,7 @@ there 'echo "#include <physvib/physvib-live.h>
 there 'cmake -S /usr/share/doc/libphysvib-dev/examples/Example -B example >/dev/null && cmake --build example >/dev/null && example/example'
 step "programs in C by pkg-config and in C++ by CMake"
 
-[ "$(there 'lv2ls' | grep -c '^urn:physvib:plugin')" -eq 4 ]
+[ "$(there 'lv2ls' | grep -c '^urn:physvib:plugin')" -eq 5 ]
 there 'export JACK_DEFAULT_SERVER=physvib-release
     jackd -n physvib-release -d dummy -r 48000 -p 512 >jackd.log 2>&1 & server=$!
     jack_wait -w -t 30 >/dev/null 2>&1
@@ -69,7 +69,7 @@ there 'export JACK_DEFAULT_SERVER=physvib-release
     for try in $(seq 50); do [ "$(jack_lsp 2>/dev/null | grep -c physvib:audio_out_)" -ne 8 ] || break; sleep 1; done
     jack_lsp 2>/dev/null | grep -c physvib:audio_out_ | grep -qx 8
     kill $host $server'
-step "lilv finds four LV2; jalv plays one on eight ports"
+step "lilv finds five LV2; jalv plays one on eight ports"
 cp Tests/Release/ardour.lua "$machine/root"
 there 'export LD_LIBRARY_PATH=/usr/lib/ardour7
     for name in PhysVib PhysVib-Pairs; do timeout 120 /usr/lib/ardour7/ardour-vst3-scanner -f /usr/lib/vst3/$name.vst3 >scan-$name.log 2>&1; done

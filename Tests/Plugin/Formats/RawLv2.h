@@ -116,6 +116,10 @@ public:
     }
 
     bool isLoaded() const { return handle_ != nullptr; }
+    /// For a window of it.
+    LV2_Handle handle() const { return handle_; }
+    LV2_URID_Map& map() { return map_; }
+    void* symbol(const char* name) const { return dlsym(module_, name); }
     void activate() { descriptor_->activate(handle_); }
     void deactivate() { descriptor_->deactivate(handle_); }
 

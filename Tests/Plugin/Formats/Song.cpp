@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A song for hosts from outside, and what the plug-in makes of it in blocks of that size, without a host: notes
-// on channel 1, notes with bend, slide and pressure on channels of their own (MPE), steps of automation, music at
-// the side chain. The folder gets song.mid, music.wav, automation.txt (id, frame, value, value from 0 to 1), the
-// state as state.lv2 and state.vstpreset, what is played as song.raw, interleaved, and song-1.raw to song-4.raw.
-// With a third word as Ardour 7.3 plays it: notes come earlier by the latency that is reported, which makes up for
-// it; what is at the side chain, and automation, do not; automation acts at the beginning of the next block.
-// Usage: physvib-plugin-song BLOCK_FRAMES FOLDER [early]
+// A song for hosts from outside, and what the plug-in makes of it in blocks of that size, without a host:
+// notes on channel 1, notes with bend, slide and pressure on channels of their own (MPE), steps of
+// automation, music at the side chain. The folder gets song.mid, music.wav, automation.txt (id, frame,
+// value, value from 0 to 1), the state as state.lv2 and state.vstpreset, what is played as song.raw,
+// interleaved, and song-1.raw to song-4.raw.
+// With a third word as Ardour 7.3 plays it: notes come earlier by the latency that is reported, which makes
+// up for it; what is at the side chain, and automation, do not. As an LV2 it tells a value of automation at
+// the beginning of the next block. As a VST3 it tells a parameter's value at the beginning of each block,
+// its points, and its value at the end, which by VST3's rules are lines, of stepped automation too; and its
+// transport starts where the first note may come.
+// Usage: physvib-plugin-song BLOCK_FRAMES FOLDER [lv2|vst3]
 #include "Io/Wav/WavSink.h"
 #include "Plugin/Formats/HostStates.h"
 #include "Presets.h"
@@ -88,7 +92,7 @@ bool writeAutomation(const std::vector<Point>& all, const juce::File& path) {
     juce::String text;
     for (const auto& point : all)
         text << rowOf(point.parameter).id.data() << ' ' << point.frame << ' ' << point.value << ' '
-             << juce::String{normalOf(point), 9} << '\n';
+             << juce::String{normalOf(point), 17} << '\n';
     return test::writeText(path, text);
 }
 
@@ -100,16 +104,51 @@ PluginState songState() {
     return state;
 }
 
+/// Steps as Ardour tells them to a VST3.
+class LinesOfSteps final : public PointSource {
+public:
+    /// The block that begins at that frame of the song.
+    void begin(const std::vector<Point>& points, std::int64_t frame, int frames) {
+        for (auto& queue : queues_) queue.clear();
+        for (const Point& point : points) {
+            auto& queue = queues_[static_cast<std::size_t>(point.parameter)];
+            const auto normal = static_cast<float>(normalOf(point));
+            const ParameterPoint told{static_cast<int>(point.frame - frame), normal};
+            if (queue.empty() || told.frame <= 0) queue.assign(1, {0, told.normal});
+            else if (told.frame <= frames) queue.push_back(told);
+        }
+        for (auto& queue : queues_)
+            if (!queue.empty() && queue.back().frame < frames) queue.push_back({frames, queue.back().normal});
+        next_.fill(0);
+    }
+    bool next(std::size_t parameter, ParameterPoint& point) noexcept override {
+        if (next_[parameter] == queues_[parameter].size()) return false;
+        point = queues_[parameter][next_[parameter]++];
+        return true;
+    }
+    int lastOfLine(std::size_t parameter) noexcept override {
+        return queues_[parameter].empty() ? -1 : queues_[parameter].back().frame;
+    }
+
+private:
+    std::array<std::vector<ParameterPoint>, parameterCount> queues_;
+    std::array<std::size_t, parameterCount> next_{};
+};
+
+enum class As { render, lv2, vst3 };
+
 /// Block after block, cut where a parameter moves.
 class Host {
 public:
     /// By how many frames notes come early; 0: in time, as automation is then.
-    Host(int block, std::int64_t early)
+    Host(int block, As as, std::int64_t early)
         : block_{block}
-        , early_{early}
+        , as_{as}
+        , early_{as == As::render ? 0 : early}
         , buffer_{channels, block} {
+        if (as == As::vst3) transport_.frame = -(early + block - 1) / block * block;
         for (Point& point : points_)
-            if (early > 0) point.frame = (point.frame + block - 1) / block * block;
+            if (as == As::lv2) point.frame = (point.frame + block - 1) / block * block;
     }
 
     /// Until `music` ends, which is as it comes in.
@@ -118,11 +157,13 @@ public:
         plugin.setPlayHead(&transport_);
         for (const auto end = static_cast<std::int64_t>(music.size()); transport_.frame < end;) {
             const int frames = nextBlock(plugin, end);
-            for (int c = 0; c < 2; ++c) buffer_.copyFrom(c, 0, music.data() + transport_.frame, frames);
+            for (int c = 0; c < 2; ++c)
+                if (transport_.frame < 0) buffer_.clear(c, 0, frames);
+                else buffer_.copyFrom(c, 0, music.data() + transport_.frame, frames);
             juce::AudioBuffer<float> part{buffer_.getArrayOfWritePointers(), channels, frames};
             auto midi = midiOf(frames);
             plugin.processBlock(part, midi);
-            for (int n = 0; n < frames; ++n)
+            for (int n = 0; n < frames && transport_.frame >= 0; ++n)
                 for (int c = 0; c < channels; ++c) played.push_back(part.getSample(c, n));
             transport_.frame += frames;
         }
@@ -133,6 +174,12 @@ public:
 private:
     int nextBlock(PluginProcessor& plugin, std::int64_t end) {
         const std::int64_t now = transport_.frame;
+        if (as_ == As::vst3) {
+            const int frames = static_cast<int>(std::min<std::int64_t>(end - now, block_));
+            lines_.begin(points_, now, frames);
+            plugin.expectPoints(lines_);
+            return frames;
+        }
         for (; point_ < points_.size() && points_[point_].frame <= now; ++point_) {
             const auto normal = static_cast<float>(normalOf(points_[point_]));
             plugin.parameter(points_[point_].parameter).setValue(normal);
@@ -163,11 +210,13 @@ private:
     }
 
     const int block_;
+    const As as_;
     const std::int64_t early_;
     juce::AudioBuffer<float> buffer_;
     test::Rolling transport_;
     const std::vector<TimedMessage> messages_ = messages();
     std::vector<Point> points_ = automation();
+    LinesOfSteps lines_;
     std::size_t message_ = 0, point_ = 0;
 };
 
@@ -195,7 +244,9 @@ int main(int argc, char** argv) {
     plugin.setNonRealtime(true);
     plugin.setRateAndBufferSizeDetails(rateHz, block);
     plugin.prepareToPlay(rateHz, block);
-    if (!Host{block, argc == 4 ? plugin.getLatencySamples() : 0}.play(plugin, music.samples, folder)) return 1;
+    const juce::String word{argc == 4 ? argv[3] : ""};
+    const As as = word == "vst3" ? As::vst3 : word == "lv2" ? As::lv2 : As::render;
+    if (!Host{block, as, plugin.getLatencySamples()}.play(plugin, music.samples, folder)) return 1;
     std::printf("latency %d frames\n", plugin.getLatencySamples());
     return 0;
 }

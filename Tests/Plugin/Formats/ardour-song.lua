@@ -76,9 +76,13 @@ local function play(folder, song, column)
     end
     local insert = instrument:nth_plugin(0):to_insert()
     local side = insert:sidechain_input()
-    assert(side:audio(0):connect(music:output():audio(0):name()) == 0)
+    for n = 0, side:n_ports():n_audio() - 1 do -- a VST3's has two
+        assert(side:audio(n):connect(music:output():audio(0):name()) == 0)
+    end
     local pins = insert:input_map(0)
-    for pin = 0, 1 do pins:set(ARDOUR.DataType("audio"), pin, 0) end -- both of the plug-in's on the only one
+    local last = side:n_ports():n_audio() - 1
+    -- Both of an LV2's on the only one.
+    for pin = 0, 1 do pins:set(ARDOUR.DataType("audio"), pin, math.min(pin, last)) end
     insert:set_input_map(0, pins)
     automate(insert, song .. "/automation.txt", tonumber(column))
     connect(instrument, take)

@@ -14,7 +14,7 @@ export HOME="$folder"
 unset DISPLAY || true
 libraries=/usr/lib/ardour7
 mkdir -p "$folder/.lv2" "$folder/.vst3" "$folder/.config/ardour7"
-"$build/bin/physvib-plugin-song" "$block" "$folder" early
+"$build/bin/physvib-plugin-song" "$block" "$folder" "$format"
 session=$folder/song/song.ardour interchange=$folder/song/interchange/song
 lua() { ardour7-lua "$here/ardour-song.lua" "$@" >"$folder/$1.log" 2>&1 || { tail -n 20 "$folder/$1.log"; exit 1; }; }
 if [ "$format" = lv2 ]; then
