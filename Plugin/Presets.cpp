@@ -6,6 +6,8 @@
 #include "Scene/SceneCatalogue.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <string_view>
 
@@ -94,9 +96,14 @@ Scene emptyField(const Instrument& instrument) {
 
 LayoutDescription layoutOf(const Instrument& instrument, const LayoutDescription& before) {
     if (instrument.layout != belt) return presetLayout(instrument.layout, before.enchanters);
-    EnchanterLayout line{7.0, 1.0, 8, {}};
-    for (int j = 0; j < line.count; ++j) line.places[static_cast<std::size_t>(j)] = {static_cast<double>(j), 0.5};
-    return describeLayout(std::string{belt}, line);
+    // From above, A in front, then clockwise: on a circle the last and the first are neighbours, too, and a note on one
+    // actuator is not shared among all, as it is in a row.
+    EnchanterLayout circle{2.0, 2.0, 8, {}};
+    for (int j = 0; j < circle.count; ++j) {
+        const double angle = 2.0 * std::numbers::pi * j / circle.count;
+        circle.places[static_cast<std::size_t>(j)] = {1.0 + std::sin(angle), 1.0 + std::cos(angle)};
+    }
+    return describeLayout(std::string{belt}, circle);
 }
 
 void setParameter(PluginState& state, Parameter which, double value) {

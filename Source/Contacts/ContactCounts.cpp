@@ -22,6 +22,14 @@ std::string counted(std::uint64_t count, std::string_view what) { return std::to
 
 } // namespace
 
+void ContactCounts::made(double x, double y) noexcept {
+    const bool isFirst = events++ == 0;
+    leastX = isFirst ? x : std::min(leastX, x);
+    leastY = isFirst ? y : std::min(leastY, y);
+    mostX = isFirst ? x : std::max(mostX, x);
+    mostY = isFirst ? y : std::max(mostY, y);
+}
+
 ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
     contacts += other.contacts;
     belowThreshold += other.belowThreshold;
@@ -29,7 +37,11 @@ ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
     unplayable += other.unplayable;
     muted += other.muted;
     dropped += other.dropped;
-    events += other.events;
+    if (other.events > 0) {
+        made(other.leastX, other.leastY);
+        made(other.mostX, other.mostY);
+        events += other.events - 2;
+    }
     thresholdMetresPerSecond = other.thresholdMetresPerSecond;
     hasStepped = hasStepped || other.hasStepped;
     hasSources = hasSources || other.hasSources;
@@ -39,7 +51,11 @@ ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
 std::string explain(const ContactCounts& counts) {
     if (!counts.hasStepped) return "No step has been made: step the world through PhysVib.";
     if (counts.contacts == 0) return "No contact has begun: nothing has touched yet, or contacts are not told to PhysVib.";
-    if (counts.events > 0) return counted(counts.events, "event") + (counts.events == 1 ? " was" : " were") + " made: if nothing is felt, look at the actuators and their levels.";
+    if (counts.events > 0)
+        return counted(counts.events, "event") + (counts.events == 1 ? " was" : " were") + " made, at x " +
+               number(counts.leastX) + " to " + number(counts.mostX) + " m, y " +
+               number(counts.leastY) + " to " + number(counts.mostY) + " m: if nothing is felt, the field of the renderer or device must span "
+               "these places (by default it is the layout, centimetres); then look at the levels.";
     if (!counts.hasSources || counts.withoutSource == counts.contacts)
         return "No body that touched is a haptic source: set is_camera (C++: isCamera) of the bodies that are to feel.";
     const std::uint64_t most = std::max({counts.belowThreshold, counts.unplayable, counts.muted, counts.dropped});

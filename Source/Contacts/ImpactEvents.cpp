@@ -61,7 +61,7 @@ void EventMaker::add(const Impact& impact) {
             continue;
         }
         events_.push(event_);
-        ++counts_.events;
+        counts_.made(event_.x, event_.y);
     }
 }
 

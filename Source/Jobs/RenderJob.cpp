@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is wrong with a render before any file is read.
 #include "Jobs/RenderJob.h"
+#include "Io/Disk/NameEnding.h"
 #include <algorithm>
 #include <concepts>
 
@@ -18,8 +19,7 @@ namespace {
 /// What is wrong with the movie's file or its length.
 std::string movieFault(const RenderJob& o) {
     constexpr double longestMovieSeconds = 600.0; // its pictures wait in memory, or beside it on the disk
-    const auto& path = o.moviePath;
-    if (!path.ends_with(".webp") && !path.ends_with(".gif") && !path.ends_with(".mp4")) return "--movie: expected a name that ends in .webp, .gif or .mp4, found \"" + path + "\"";
+    if (auto fault = endingFault(o.moviePath, {".webp", ".gif", ".mp4"}); !fault.empty()) return "--movie: " + fault;
     return o.seconds <= longestMovieSeconds ? std::string{} : "--movie: expected --seconds of at most 600";
 }
 

@@ -65,6 +65,9 @@ inline constexpr char resonance[] = "resonance"; ///< instead of a frequency
 /// The arguments of `physvib` that make it again, "stimulus phantom --at 0.5,0.5 ...". Any thread (allocates).
 std::string textOf(const StimulusJob& job);
 
+/// The grid of such a call, with its points; none: it names no grid. Any thread.
+std::optional<PhantomGrid> gridOf(std::string_view call) noexcept;
+
 /// Which word of a job's text is wrong (a pattern has none), and what was expected of it. No words: nothing.
 struct JobFault {
     std::string_view word{};

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Jobs become the calls that rows of studies keep.
+#include "Io/Text/NumberText.h"
 #include "Study/NumberWord.h"
+#include "Study/PercentCounts.h"
 #include "Study/Trial.h"
+#include <algorithm>
 
 namespace physvib {
 namespace {
 
 namespace words = stimulusWords;
+constexpr std::string_view middles = "middles";
 
 class CallWriter {
 public:
@@ -27,7 +31,18 @@ void addPlace(CallWriter& call, const FieldPlace& place) { call.add(words::at, n
 
 void addPlace(CallWriter& call, const GridPlace& place) {
     call.add(words::grid, std::to_string(place.grid.columns) + "x" + std::to_string(place.grid.rows)).add(words::cell, gridLabel(place.cell));
-    if (place.grid.points == PhantomGrid::Points::middles) call.add(words::points, "middles");
+    if (place.grid.points == PhantomGrid::Points::middles) call.add(words::points, middles);
+}
+
+/// What follows a word of a call; empty: the call does not have it.
+std::string_view valueOf(std::string_view call, std::string_view word) noexcept {
+    while (!call.empty()) {
+        const std::size_t end = std::min(call.find(' '), call.size());
+        const bool isFound = call.substr(0, end) == word;
+        call.remove_prefix(std::min(end + 1, call.size()));
+        if (isFound) return call.substr(0, call.find(' '));
+    }
+    return {};
 }
 
 std::string textOf(const PatternJob& pattern, const StimulusJob& job) { return CallWriter{"stimulus pattern " + pattern.label}.addCarrier(job).add(words::gap, pattern.gapSeconds).text; }
@@ -43,6 +58,20 @@ std::string textOf(const PhantomJob& phantom, const StimulusJob& job) {
 
 std::string textOf(const StimulusJob& job) {
     return std::visit([&](const auto& kind) { return textOf(kind, job); }, job.what);
+}
+
+std::optional<PhantomGrid> gridOf(std::string_view call) noexcept {
+    const std::string_view lines = valueOf(call, words::grid);
+    const std::size_t by = std::min(lines.find('x'), lines.size());
+    const auto columns = parseNumber<int>(lines.substr(0, by)),
+               rows = parseNumber<int>(lines.substr(std::min(by + 1, lines.size())));
+    const auto isCount = [](std::optional<int> n) {
+        return n && *n >= 1 && *n <= static_cast<int>(mostGridLines);
+    };
+    if (!isCount(columns) || !isCount(rows)) return std::nullopt;
+    using Points = PhantomGrid::Points;
+    return PhantomGrid{*columns, *rows,
+                       valueOf(call, words::points) == middles ? Points::middles : Points::corners};
 }
 
 std::string withSounds(const Protocol& protocol, std::string call) {

@@ -51,7 +51,7 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
     command.add("--out", o.wavPath, "32-bit float WAV, one channel per actuator").written("FILE.wav");
     command.add("--pad", o.pad, "with --out MOTORS.csv: what the motors of that game controller would get instead of samples; a profile (pad-generic, pad-xbox, pad-dualshock) or its file").as("PROFILE");
     command.add("--events", o.eventsPath, "the collisions as an event list").written("FILE.csv");
-    command.add("--picture", o.picturePath, "world, waveforms and event marks").written("FILE.png");
+    command.add("--picture", o.picturePath, "world, waveforms and event marks").writtenAs("FILE.png");
     command.add("--movie", o.moviePath, "world, impacts and channels in time: .webp; with the program ffmpeg also .gif, and .mp4 with audio").written("FILE.webp");
     command.add("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel").written("FILE.csv");
     command.add("--explain", o.explains, "count the scene's contacts, and say why nothing or not everything is felt");

@@ -73,7 +73,7 @@ void declareStimulus(OptionTable& command, StimulusOptions& o) {
         one->add(words::layout, o.job.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file");
         one->add(words::levelG, o.job.levelG, "peak acceleration at gain 1, in g").in(ranges::levelG.least, ranges::levelG.most);
         one->add("--out", o.wavPath, "32-bit float WAV, one channel per actuator, 1 = its full scale").written("FILE.wav");
-        one->add("--picture", o.picturePath, "what each actuator plays").written("FILE.png");
+        one->add("--picture", o.picturePath, "what each actuator plays").writtenAs("FILE.png");
     }
 }
 

@@ -36,7 +36,7 @@ struct Option {
     std::vector<std::string> choices; ///< all that it may be, or some that are built in
     std::vector<std::pair<std::string, int>> numbers; ///< of a function: its words
     double low = 0.0, high = 0.0;
-    enum class Check { none, range, positive, choice, number, folder } check = Check::none;
+    enum class Check { none, range, positive, choice, number, folder, ending } check = Check::none;
     bool isPlace = false, isRequired = false, isWritten = false, isSingle = false;
     int mostListed = 0; ///< values that one word may hold, with commas between them; 0: a word is a value
 
@@ -45,6 +45,8 @@ struct Option {
     Option& as(std::string words) { return type = std::move(words), *this; }
     /// It names a file that is written; all others may name files that are read.
     Option& written(std::string words) { return isWritten = true, as(std::move(words)); }
+    /// The same; the name has to end as that of `file`, "FILE.png": programs tell from it what a file is.
+    Option& writtenAs(std::string file) { return check = Check::ending, written(std::move(file)); }
     Option& required() { return isRequired = true, *this; }
     Option& under(std::string heading) { return group = std::move(heading), *this; }
     Option& unshown() { return initial.clear(), *this; } ///< its words say what it is if nobody says it

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A table as CLI11 takes it, and what it found back into the table.
 #include "Options/Parser.h"
+#include "Io/Disk/NameEnding.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <list>
@@ -31,6 +32,12 @@ CLI::Validator rangeOf(const Option& row) {
     return std::holds_alternative<std::size_t*>(row.target) ? rangeOf<std::size_t>(row) : rangeOf<double>(row);
 }
 
+std::function<std::string(const std::string&)> endingOf(const Option& row) {
+    return [ending = row.type.substr(row.type.rfind('.'))](const std::string& path) {
+        return endingFault(path, {ending});
+    };
+}
+
 void check(CLI::Option& option, const Option& row) {
     switch (row.check) {
     case Option::Check::none: return;
@@ -39,6 +46,7 @@ void check(CLI::Option& option, const Option& row) {
     case Option::Check::choice: option.check(CLI::IsMember(row.choices)); return;
     case Option::Check::number: option.transform(CLI::CheckedTransformer(std::map<std::string, int>(row.numbers.begin(), row.numbers.end()))); return;
     case Option::Check::folder: option.check(CLI::ExistingDirectory); return;
+    case Option::Check::ending: option.check(endingOf(row), ""); return;
     }
 }
 

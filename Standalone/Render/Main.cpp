@@ -2,6 +2,7 @@
 // A scene or an event list to samples, on any system: nothing here but the library.
 #include "Core/CollisionEvent.h"
 #include "Io/Disk/FileClash.h"
+#include "Io/Disk/NameEnding.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/SceneCatalogue.h"
@@ -197,7 +198,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");
 #if PHYSVIB_PICTURES
     app.add_option("--picture", o.picturePath, "the world, every channel and every hit")
-        ->type_name("FILE.png");
+        ->type_name("FILE.png")
+        ->check([](const std::string& path) { return endingFault(path, {".png"}); });
 #endif
 }
 

@@ -50,6 +50,20 @@ TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
     expects("phantom-places", "psychometric", "; the file has trials of the task locate, which `physvib analyse resolution` reads");
     expects("magnitudes", "resolution", "; the file has trials of the task estimate, which `physvib analyse levels` reads");
     expects("model-or-sound", "ratings", "; the file has trials of the task choose, which `physvib analyse choices` reads, and trials of the tasks adjust choose, which `physvib analyse levels` reads");
+    write("cells.csv", "target_column,target_row,x,y\n1,1,0.5,0.5\n");
+    const auto cells = call("analyse places cells.csv").err;
+    EXPECT_NE(cells.find("cells.csv: expected a column target_x, found none; the file has the columns of "
+                         "another kind of trials, which `physvib analyse resolution` reads"),
+              std::string::npos)
+        << cells;
+    const auto places = call("analyse places phantom-places-P01.csv --export places.csv"); // our own rows
+    EXPECT_EQ(places.exitCode, 0) << places.err;
+    EXPECT_NE(places.out.find("PHONE-LINEAR: 175 trials of 1 participant, up to 35 targets\n"
+                              "  distance from the target: 0."),
+              std::string::npos)
+        << places.out;
+    std::filesystem::remove(folder_ / "places.csv");
+    std::filesystem::remove(folder_ / "cells.csv");
     write("c.csv", "choice,participant\na,1\nb,1\n");
     refuses("analyse confusion c.csv", 1, "c.csv: expected a column stimulus, found none; the file has the columns of another kind of trials, which `physvib analyse choices` reads", 4);
     write("d.csv", "stimulus,participant,response\n,1,a\n");

@@ -106,7 +106,7 @@ TEST_F(CalibrateCommand, BadCallsAreUsageErrors) {
     refuses("calibrate --out mine.json", 2, "expected --device, or --played and --recorded, or --sweep", 1);
     refuses("calibrate --played sweep.wav --out mine.json", 2, "expected both --played and --recorded", 1);
     refuses("calibrate --played sweep.wav --recorded sweep.wav", 2, "expected --out FILE.json", 1);
-    refuses("calibrate --played sweep.wav --recorded sweep.wav --out mine.txt", 2, "--out: expected a name that ends with .json", 1);
+    refuses("calibrate --played sweep.wav --recorded sweep.wav --out mine.txt", 2, "--out: expected a name that ends in .json, found \"mine.txt\"", 1);
     refuses("calibrate --played sweep.wav --recorded sweep.wav --out m.json --band 9", 2, "--band: expected LO-HI", 1);
     refuses("calibrate --device x --out m.json --channel 0", 2, "--channel", 1);
     refuses("calibrate --device x --out m.json --level 3", 2, "--level", 1);

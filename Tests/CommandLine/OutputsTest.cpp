@@ -70,8 +70,9 @@ TEST_F(Outputs, NoInputIsWrittenOver) {
     refuses("render drop --method SV --sound 80=hit.wav --out hit.wav", 2, "the input hit.wav", kept);
     refuses("analyse confusion trials.csv --export ./trials.csv", 2, "the input trials.csv", kept);
     refuses("stimulus wav hit.wav --out hit.wav", 2, "the input hit.wav", kept);
-    refuses("stimulus pattern ABA-250 --out new.wav --picture sub/../new.wav", 2, "the output new.wav", kept);
-    refuses("calibrate --played hit.wav --recorded hit.wav --out hit.wav", 2, "the input hit.wav", kept);
+    refuses("stimulus pattern ABA-250 --out new.png --picture sub/../new.png", 2, "the output new.png", kept);
+    refuses("calibrate --played hit.wav --recorded hit.wav --out new.json --layout scene.json "
+            "--layout-out sub/../scene.json --g-per-unit 1", 2, "the input scene.json", kept);
     refuses("play scene.json --device none --save scene.json", 2, "the input scene.json", kept);
     refuses("play drop --device none --record take.events.csv --save take.json", 2, "the output take.events.csv", kept);
     EXPECT_EQ(read("scene.json"), scene);
@@ -147,6 +148,25 @@ TEST_F(Outputs, TwoRendersToOneFileAtOnceAreToldApart) {
     EXPECT_NE(second.err.find("long.wav: cannot be written: it is being written already"), std::string::npos) << second.err;
     EXPECT_EQ(call("render scene.json --seconds 0.1 --out long.wav").exitCode, 0) << "what was killed left nothing in the way";
     for (const auto& name : files()) EXPECT_FALSE(name.ends_with(".part")) << name;
+}
+
+// What a file is stands in its name: other programs, and people, go by it.
+TEST_F(Outputs, APictureIsNamedAsWhatItIs) {
+    const std::size_t kept = files().size();
+    const auto expects = [&](const std::string& call, const std::string& option, const std::string& ending,
+                             const std::string& name) {
+        refuses(call + " " + option + " " + name, 2,
+                option + ": expected a name that ends in " + ending + ", found \"" + name + "\"", kept);
+    };
+    expects("analyse confusion trials.csv", "--picture", ".png", "x.svg");
+    expects("analyse psychometric trials.csv", "--picture", ".svg", "x.png");
+    expects("render drop --seconds 0.2", "--picture", ".png", "x.svg");
+    expects("stimulus pattern ABA-250", "--picture", ".png", "x");
+    expects("attenuation sub", "--picture", ".png", "x.jpg");
+    expects("render drop --seconds 0.2", "--movie", ".webp, .gif or .mp4", "x.avi");
+    expects("play drop --device none", "--save", ".json", "x.txt");
+    EXPECT_EQ(call("analyse confusion trials.csv --picture x.png").exitCode, 0);
+    EXPECT_EQ(read("x.png").substr(1, 3), "PNG");
 }
 
 // A file system that fills up after so many bytes of each file: the limit on a file's size behaves like that.

@@ -39,7 +39,7 @@ TEST_F(RenderAlone, RefusesInOneLineAndLeavesNothing) {
     for (const auto& [arguments, code] : std::vector<std::pair<std::string, int>>{
              {"drop", 2}, {"drop --out x.wav --seconds -1", 2}, {"drop --out x.wav --seconds nan", 2}, {"drop --out x.wav --events x.wav", 2}, {"nothing --out x.wav", 1}, {"drop --layout no --out x.wav", 1},
              {"drop --seconds 86400 --rate 192000 --out x.wav", 1}, {"drop --out no/x.wav", 1},
-             {"drop --out x.wav --picture x.wav", 2}, {"drop --out x.wav --events x.csv --picture no/x.png", 1}}) {
+             {"drop --out x.png --picture x.png", 2}, {"drop --picture x.svg", 2}, {"drop --out x.wav --events x.csv --picture no/x.png", 1}}) {
         EXPECT_EQ(alone(arguments), code) << arguments;
         const std::string said = read(".err");
         EXPECT_TRUE(said.starts_with("physvib-render: ")) << said;

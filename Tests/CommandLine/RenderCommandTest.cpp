@@ -241,7 +241,7 @@ TEST_F(Render, AFixedLevelIsInG) {
 TEST_F(Render, UnwritableOutputsLeaveNothing) {
     refuses("render shake-the-box --seconds 1 --out a.wav --events none/a.csv", 1, "none/a.csv");
     refuses("render shake-the-box --seconds 1 --out none/a.wav", 1, "none/a.wav");
-    refuses("render shake-the-box --seconds 1 --picture . --out a.wav", 1, ".");
+    refuses("render shake-the-box --seconds 1 --picture none/a.png --out a.wav", 1, "none/a.png");
 }
 
 TEST_F(Render, TwoOutputsInOneFileAreRefused) {

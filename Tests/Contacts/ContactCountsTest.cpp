@@ -46,5 +46,26 @@ TEST(ContactCounts, NameTheMostFrequentReason) {
     EXPECT_NE(explain(unfelt).find("haptic source: set is_camera"), std::string::npos);
 }
 
+// A device that was opened without a field spans centimetres: what a world of metres makes lies outside.
+TEST(ContactCounts, NameWhereEventsLieWhichTheFieldMustSpan) {
+    ContactCounts counts = tenContacts(), other = tenContacts();
+    counts.made(3.0, 0.5);
+    counts.made(19.8, 0.25);
+    EXPECT_NE(explain(counts).find("2 events were made, at x 3 to 19.8 m, y 0.25 to 0.5 m: if nothing is "
+                                   "felt, the field of the renderer or device must span these places (by "
+                                   "default it is the layout, centimetres)"),
+              std::string::npos)
+        << explain(counts);
+    other.made(-1.0, 9.0);
+    EXPECT_EQ((counts += tenContacts()).events, 2u);
+    counts += other;
+    EXPECT_EQ(counts.events, 3u);
+    EXPECT_NE(explain(counts).find("at x -1 to 19.8 m, y 0.25 to 9 m"), std::string::npos) << explain(counts);
+    counts.events = ~std::uint64_t{0};
+    counts.leastX = counts.leastY = -1.23456e-100;
+    counts.mostX = counts.mostY = -1.23456e-101;
+    EXPECT_LT(explain(counts).size(), 256u) << "as physvib.h promises";
+}
+
 } // namespace
 } // namespace physvib

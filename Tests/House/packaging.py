@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What a system shows of the programs is whole: every kind of our files has a MIME type, and what menus and software centres read agrees with it,
-and every package of debian/ is told of in Docs/install.md. packaging.py ROOT"""
+every package of debian/ is told of in Docs/install.md, and debian/copyright has the licences that files have. packaging.py ROOT"""
+import fnmatch
 import re
 import shutil
 import subprocess
@@ -36,6 +37,21 @@ expect(opened <= types, f"the entry of menus opens {opened - types}, which has n
 expect({told.text for told in component.iter("mediatype")} == opened, "what the mixer opens is told differently in the entry of menus and the metainfo")
 expect(component.findtext("launchable") == "org.physvib.mixer.desktop", "metainfo: launchable")
 ElementTree.parse(packaging / "org.physvib.mixer.svg")
+
+# What Debian is told of licences is what the files say: the last of its patterns that fits holds.
+told = []
+for part in (packaging / "debian" / "copyright").read_text().split("\n\n"):
+    if files := re.search(r"^Files:(.*?)^\w", part, re.M | re.S):
+        licence = re.search(r"^License: (\S+)", part, re.M).group(1)
+        told += [(pattern, licence) for pattern in files.group(1).split()]
+names = {"MIT": "Expat", "GPL-3.0-or-later": "GPL-3+"}
+for folder in ("Docs", "Firmware", "Plugin", "Source", "Standalone", "Tests"):
+    for file in sorted(path for path in (root / folder).rglob("*") if path.is_file() and "__pycache__" not in path.parts):
+        head = file.read_bytes()[:300].decode(errors="replace")
+        if own := re.search(r"SPDX-License-Identifier: ([\w.-]+)", head):
+            path = file.relative_to(root).as_posix()
+            last = [licence for pattern, licence in told if fnmatch.fnmatch(path, pattern)][-1]
+            expect(names.get(own.group(1)) == last, f"debian/copyright: {path} is {own.group(1)}, told as {last}")
 
 page = (root / "Docs" / "install.md").read_text()
 for name in re.findall(r"^Package: (\S+)$", (packaging / "debian" / "control.in").read_text(), re.M):

@@ -180,6 +180,34 @@ TEST(Voice, AVoiceIsReadBackAndABadOneIsRefusedInALine) {
     EXPECT_EQ(refused.error, "state: voice.release_s: expected 0.005 to 10, found -1");
 }
 
+TEST(Voice, TheBeltOfEightPlaysANoteOnOneActuatorAndAPlaceBetweenTwoOnThese) {
+    PluginState state;
+    const auto& names = presetNames();
+    takePlugInPreset(state, static_cast<int>(std::ranges::find(names, "Belt of eight") - names.begin()));
+    const EnchanterLayout& belt = state.layout.geometry;
+    ASSERT_EQ(belt.count, 8);
+    const PhantomPanner panner = pannerOf(state, PanningLaw::linear, 1.0);
+    const auto gainsAt = [&](double xMetres, double yMetres) {
+        PhantomPanner::Gains gains{};
+        panner.gainsAt(xMetres / belt.extentWidthMetres * state.scene.fieldWidthMetres,
+                       yMetres / belt.extentHeightMetres * state.scene.fieldHeightMetres, gains);
+        return gains;
+    };
+    for (std::size_t j = 0; j < 8; ++j) {
+        const std::size_t next = (j + 1) % 8; // of the last the first
+        const auto &a = belt.places[j], &b = belt.places[next];
+        const auto on = gainsAt(a.xMetres, a.yMetres);
+        const double towardsX = a.xMetres + b.xMetres - 2.0, towardsY = a.yMetres + b.yMetres - 2.0;
+        const double reach = std::hypot(towardsX, towardsY);
+        const auto between = gainsAt(1.0 + towardsX / reach, 1.0 + towardsY / reach); // on the belt, half-way
+        EXPECT_NEAR(between[j], between[next], 1e-9);
+        for (std::size_t k = 0; k < 8; ++k) {
+            EXPECT_NEAR(on[k], k == j ? 1.0 : 0.0, 1e-9) << j << ' ' << k;
+            if (k != j && k != next) EXPECT_LT(between[k], 0.126 * between[j]) << j << ' ' << k; // 18 dB
+        }
+    }
+}
+
 TEST(Voice, EveryInstrumentIsSilentUntilANoteAndFeltThen) {
     TestHost names;
     const int worlds = static_cast<int>(builtInScenes().size());

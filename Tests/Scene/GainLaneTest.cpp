@@ -23,6 +23,7 @@ TEST(GainLane, IsALineBetweenItsPointsAndHoldsAtItsEnds) {
     EXPECT_EQ(laneDbAt(lane, 2.0), -10.0);
     EXPECT_EQ(laneDbAt(lane, 2.001), -10.0) << "in steps of a fader";
     EXPECT_EQ(laneDbAt(lane, 9.0), -60.0);
+    EXPECT_EQ(laneDbAt({{1.0, -12.0}, {3.0, 0.0}}, 0.0), -12.0) << "before its first point, too";
     EXPECT_EQ(laneDbAt({}, 9.0), 0.0);
     EXPECT_EQ(sumDb({-60.0, 6.0}), leastStripDb) << "silence stays silence";
     EXPECT_EQ(sumDb({5.0, 5.0}), mostStripDb);
@@ -78,8 +79,11 @@ TEST(StripGroups, WhoLeavesAGroupIsFeltAsBefore) {
     EXPECT_TRUE(mix.strips[3].isMuted);
     for (double t = 0.0; t < 4.0; t += 0.1)
         EXPECT_NEAR(gainDbAt(mix, 3, t), gainDbAt(before, 3, t), 0.35) << t;
+    const int last = addGroup(mix, "Back");
+    mix.strips[2].group = last;
     removeGroup(mix, 0);
     EXPECT_EQ(mix.strips[0].group, -1);
+    EXPECT_EQ(mix.strips[2].group, 0) << "those behind it move up";
 }
 
 TEST(StripGroups, NothingThatAGroupOrALaneAddsIsLouderThanTheDesk) {
@@ -96,6 +100,11 @@ TEST(StripGroups, NothingThatAGroupOrALaneAddsIsLouderThanTheDesk) {
     Mix again = asked;
     EXPECT_EQ(lowerTo(DeskLimits::of(asked), again), "") << "a desk allows what it plays";
     EXPECT_EQ(DeskLimits::of(asked).strips[2].gainDb, -40.0);
+    Mix lane = four();
+    lane.strips[3].group = addGroup(lane, "lane");
+    lane.groups[0].lane = {{0.0, -40.0}, {9.0, 5.0}};
+    EXPECT_EQ(loudestDb(lane, 3), 5.0) << "a group's lane counts as a strip's";
+    EXPECT_EQ(lowerTo(DeskLimits::of(four()), lane), "D gain 0.0 to -5.0 dB");
 }
 
 } // namespace

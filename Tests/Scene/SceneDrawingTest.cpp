@@ -123,7 +123,7 @@ public:
             const int what = draw(5);
             if (what == 0) setMoving(drawing.drawn(), body, draw(2) == 0);
             else if (what == 1) setSource(drawing.drawn(), body, draw(2) == 0);
-            else if (what == 2) setDensity(drawing.drawn(), body, 1.0 + draw(2000));
+            else if (what == 2) setDensity(body, 1.0 + draw(2000));
             else if (what == 3) body.fixtures[0].restitution = 0.01 * draw(100);
             else body.fixtures[0].material = draw(static_cast<int>(drawing.drawn().materials.size()));
             return {changed(std::move(body))};

@@ -109,5 +109,22 @@ TEST_F(OnASmallDisplay, NothingOfAnyStudyIsCut) {
     for (const std::string& fault : faults) ADD_FAILURE() << fault;
 }
 
+TEST_F(OnASmallDisplay, WhatAProtocolAsksForHasALineUntilItIsChosen) {
+    ASSERT_EQ(p.tab().chooseProtocol("patterns"), "");
+    p.view.tabs().choose("Studies");
+    for (const auto& [width, height] : {std::pair{1440, 900 - titleBar},
+                                        {1280, 720 - titleBar},
+                                        {MixerView::leastWidth, MixerView::leastHeight}}) {
+        p.view.setSize(width, height);
+        p.pump();
+        ASSERT_FALSE(p.tab().advice().isEmpty());
+        EXPECT_TRUE(p.tab().advice()[0].contains("asks for pink noise")) << p.tab().advice()[0];
+        EXPECT_GE(static_cast<float>(p.tab().adviceArea().getHeight()), text::medium)
+            << "no room for a line at " << width << " x " << height;
+    }
+    p.tab().setNoise(p.tab().noiseChoices().front(), -40.0);
+    EXPECT_FALSE(p.tab().advice().joinIntoString("|").contains("pink noise"));
+}
+
 } // namespace
 } // namespace physvib

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # recorded.sh BIN_FOLDER [falls] [boxes]: all 27 conditions of model-or-sound, both alternatives, and the eight methods of eight-methods with three
 # objects each, felt by a scripted participant of the mixer through JACK and recorded there. The rows are compared with the recorded samples: g
-# within 1 %, differences between falls of 1, 2 and 3 m within 0.1 dB of Eq. 5.4, limiter at 0 dB, every log renders the samples that were recorded.
+# within 1 %, root mean square within 2 %, differences between falls of 1, 2 and 3 m within 0.1 dB of Eq. 5.4, limiter at
+# 0 dB, every log renders the samples that were recorded.
 # About three minutes each. Needs jackd, Xvfb and python3.
 set -eu
 bin=$1

@@ -85,5 +85,37 @@ TEST(PlaceErrors, TablesOfOtherProgramsAreReadWithTargetsAnywhere) {
               "--columns: expected a range of both x and target_x, or of none of them, as they are compared");
 }
 
+TEST(PlaceErrors, OurOwnRowsHaveTheirGridInTheCall) {
+    const std::string head = "participant,condition,phase,task,stimulus,target_column,target_row,x,y,"
+                             "render\n",
+                      call = "\"stimulus phantom --grid 4x2 --cell 2,1 --points middles --layout phone4\"\n";
+    std::string text = head + "P1,a,training,explore,,,,0.5,0.5,stimulus phantom --at 0.5\n" +
+                       "P1,a,main,locate,\"2,1\",1,2,0.225,0.85," + call +
+                       "P1,b,main,locate,\"1,4\",4,1,1,0.5,stimulus phantom --grid 4x2\n";
+    const NamedText file{text, "t.csv"};
+    const auto read = readPlaces({&file, 1});
+    ASSERT_TRUE(read) << read.error;
+    ASSERT_EQ(read.value.conditions.size(), 2u);
+    EXPECT_EQ(read.value.conditions[0].trials,
+              (std::vector<PlaceTrial>{{"P1", "2,1", 0.125, 0.75, 0.225, 0.85}}));
+    EXPECT_EQ(read.value.conditions[1].trials,
+              (std::vector<PlaceTrial>{{"P1", "1,4", 1.0, 0.0, 1.0, 0.5}}))
+        << "corners unless the call says middles";
+    ASSERT_EQ(read.value.warnings.size(), 1u);
+    EXPECT_NE(read.value.warnings[0].find("shares of the field's width and height"), std::string::npos);
+    for (const char* wrong : {"--grid 4x2", "stimulus phantom --at 0.5", "x --grid 4 --seconds 1",
+                              "x --grid 4x99", "x --grid 2x1"}) {
+        const std::string other = head + "P1,a,main,locate,\"2,3\",3,2,0.2,0.8," + wrong + "\n";
+        const NamedText bad{other, "t.csv"};
+        const auto refused = readPlaces({&bad, 1});
+        if (std::string_view{wrong} == "--grid 4x2") EXPECT_TRUE(refused) << refused.error;
+        else
+            EXPECT_EQ(refused.error.find("t.csv:2: column render: expected a call with the --grid that the "
+                                         "target is of, found "),
+                      0u)
+                << refused.error;
+    }
+}
+
 } // namespace
 } // namespace physvib

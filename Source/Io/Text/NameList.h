@@ -24,7 +24,7 @@ std::string listed(const Names& names, std::string_view last = ", ") {
     std::string all;
     for (std::size_t i = 0; i < std::size(names); ++i) {
         if (i > 0) all.append(i + 1 < std::size(names) ? ", " : last);
-        all.append(names[i]);
+        all.append(std::data(names)[i]);
     }
     return all;
 }

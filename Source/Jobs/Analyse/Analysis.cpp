@@ -109,7 +109,7 @@ std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     for (const std::string& name : analysesFor(table.value)) {
         if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels") ||
             (asked.name == "icons" && name == "confusion") ||
-            (asked.name == "places" && name == "resolution"))
+            (asked.name == "places" && name == "resolution" && table.value.column("target_x")))
             return {};
         words.append(words.empty() ? "; the file has " : ", and ").append(trialWordsOf(table.value, name)).append(", which `physvib analyse ").append(name).append("` reads");
     }

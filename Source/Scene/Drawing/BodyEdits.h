@@ -27,7 +27,7 @@ BodyDescription scaledBody(BodyDescription body, double factorX, double factorY)
 /// Density of a body as a whole, kg/m^2; 0: it has no area. Any thread.
 double densityOf(const Scene& scene, const BodyDescription& body);
 /// Its mass becomes that of this density; 0: its materials' again. Any thread.
-void setDensity(const Scene& scene, BodyDescription& body, double kgPerSquareMetre);
+void setDensity(BodyDescription& body, double kgPerSquareMetre);
 
 /// Collisions of it are felt, or not any more. What is not dynamic gets the mass that Eq. 5.4 asks for, if it states none. Any thread.
 void setSource(const Scene& scene, BodyDescription& body, bool isSource);

@@ -92,7 +92,7 @@ double densityOf(const Scene& scene, const BodyDescription& body) {
     return (body.massKg > 0.0 ? body.massKg : ownMoments(scene, body).massKg) / area;
 }
 
-void setDensity(const Scene&, BodyDescription& body, double kgPerSquareMetre) {
+void setDensity(BodyDescription& body, double kgPerSquareMetre) {
     const double mass = kgPerSquareMetre * areaOf(body);
     body.massKg = mass > 0.0 ? std::clamp(mass, sceneLimits::minMassKg, sceneLimits::maxMassKg) : 0.0;
 }

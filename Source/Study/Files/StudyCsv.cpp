@@ -6,6 +6,7 @@
 #include "Study/Files/StudyFileLimits.h"
 #include "Study/Files/StudyRows.h"
 #include "Study/QuestMethod.h"
+#include "Study/StimulusJob.h"
 #include "Study/Trial.h"
 #include <cmath>
 #include <set>
@@ -108,7 +109,48 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
     return taken;
 }
 
+/// What our own rows have instead of true places: a cell, and in the call the grid that it is of.
+struct OwnTargets {
+    std::size_t row, column, call;
+
+    static std::optional<OwnTargets> of(const StudyRows& rows) {
+        const auto row = rows.optional("target_row"), column = rows.optional("target_column"),
+                   call = rows.optional(trialColumns::render);
+        if (rows.optional("target_x") || !row || !column || !call) return std::nullopt;
+        return OwnTargets{*row, *column, *call};
+    }
+
+    FieldPlace placeIn(const StudyRows& rows, const CsvRow& r) const {
+        constexpr int most = static_cast<int>(mostGridLines);
+        const GridCell cell{rows.wholeNumber(r, row, 1, most), rows.wholeNumber(r, column, 1, most)};
+        const auto grid = gridOf(r.cells[call]);
+        if (!grid || cell.row > grid->rows || cell.column > grid->columns)
+            throw StudyFault{rows.table().fault(r, call, "a call with the --grid that the target is of")};
+        return grid->place(cell);
+    }
+};
+
+std::size_t takeOwnPlaces(const StudyRows& rows, const OwnTargets& targets, StudyData<PlaceTrial>& data) {
+    const auto x = rows.required("x"), y = rows.required("y");
+    const auto stimulus = rows.optional("stimulus"), condition = rows.optional("condition"),
+               participant = rows.optional("participant");
+    const std::string unit = "true places are those of the calls' grids, in shares of the field's width and "
+                             "height, y downwards; a distance counts both shares alike";
+    if (std::ranges::find(data.warnings, unit) == data.warnings.end()) data.warnings.push_back(unit);
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(AnswerKind::place, [&](const CsvRow& row) {
+        ++taken;
+        const FieldPlace truth = targets.placeIn(rows, row);
+        conditionNamed(rows, data, StudyRows::textIf(row, condition))
+            .push_back({StudyRows::textIf(row, participant), StudyRows::textIf(row, stimulus), truth.x,
+                        truth.y, rows.number(row, x, 0.0, 1.0), rows.number(row, y, 0.0, 1.0)});
+    });
+    return taken;
+}
+
 std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
+    if (const auto own = OwnTargets::of(rows)) return takeOwnPlaces(rows, *own, data);
     constexpr double farthest = 1e9; // of any unit
     const auto trueX = rows.required("target_x"), x = rows.required("x");
     const auto trueY = rows.optional("target_y"), y = rows.optional("y"),

@@ -56,7 +56,8 @@ Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedT
 Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files);
 
 /// Columns target_x, x; target_y and y, stimulus (else a target is its place), condition and participant if
-/// there. Any unit, the same of both.
+/// there. Any unit, the same of both. Of our own rows, which have target_column, target_row and render
+/// instead of target_x: the true places in shares of the field, as the answers are; a warning says so.
 Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files);
 
 /// Columns choice (or response); condition (or stimulus) and participant if there. One condition holds them all.

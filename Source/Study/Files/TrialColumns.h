@@ -7,7 +7,7 @@
 
 namespace physvib::trialColumns {
 
-constexpr std::string_view observer = "observer", phase = "phase", task = "task";
+constexpr std::string_view observer = "observer", phase = "phase", task = "task", render = "render";
 constexpr std::string_view training = "training", simulated = "simulated";
 
 /// A study's rating scales follow.

@@ -59,7 +59,7 @@ void declareFit(OptionTable& command, AnalysisJob& o) {
     const bool isPsychometric = command.name() == "psychometric";
     command.add("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (stimulus)").as("COLUMN");
     command.add("--measure", o.measure, isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)").as("COLUMN");
-    command.add("--picture", o.picturePath, "what was answered and the function, of the first condition").written("FILE.svg");
+    command.add("--picture", o.picturePath, "what was answered and the function, of the first condition").writtenAs("FILE.svg");
     if (!isPsychometric) return;
     std::vector<std::pair<std::string, int>> shapes;
     for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i) shapes.emplace_back(psychometricShapeNames[i], static_cast<int>(i));
@@ -86,7 +86,7 @@ void declareAnalyse(OptionTable& command, AnalyseOptions& o) {
         case Analysis::Kind::fit: declareFit(own, o.job); break;
         case Analysis::Kind::results:
             if (analysis.name != "places")
-                own.add("--picture", o.job.picturePath, "the result to look at").written("FILE.png");
+                own.add("--picture", o.job.picturePath, "the result to look at").writtenAs("FILE.png");
             declareOwn(own, o.job);
         }
         declareColumns(own, o.columnWords);

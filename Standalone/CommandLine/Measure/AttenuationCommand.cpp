@@ -93,7 +93,7 @@ void declareAttenuation(OptionTable& command, AttenuationOptions& o) {
     command.add("isolated", o.isolatedPath, "recorded behind the layer, a channel per axis; or a folder of conditions with " + std::string(RecordingList::fileName)).as("ISOLATED.wav|FOLDER").required();
     command.add("reference", o.referencePath, "the same drive recorded without it").as("REFERENCE.wav");
     command.add("--export", o.exportPath, "of a folder: a row per repetition").written("FILE.csv");
-    command.add("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer").written("FILE.png");
+    command.add("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer").writtenAs("FILE.png");
 }
 
 int runAttenuation(const AttenuationOptions& o) {

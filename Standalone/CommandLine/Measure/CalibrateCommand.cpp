@@ -147,8 +147,6 @@ std::string fault(const CalibrateOptions& o) {
     if (o.layoutPath.empty() != o.layout.empty()) return "calibrate: expected both --layout and --layout-out";
     if (o.layoutPath.empty() && !o.place.empty()) return "--place: expected with --layout and --layout-out";
     if (!o.layoutPath.empty() && o.gPerUnit <= 0.0) return "--layout-out: expected --g-per-unit, without which the full scale in g is not known";
-    if (!o.layoutPath.empty() && !o.layoutPath.ends_with(".json")) return "--layout-out: expected a name that ends with .json, found " + inQuotes(o.layoutPath);
-    if (!o.profilePath.ends_with(".json")) return "--out: expected a name that ends with .json, found " + inQuotes(o.profilePath);
     return o.band.empty() || parseBand(o.band) ? std::string{} : "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band);
 }
 
@@ -160,9 +158,9 @@ void declareCalibrate(OptionTable& command, CalibrateOptions& o) {
     command.add("--played", o.playedPath, "what was played elsewhere").as("FILE.wav");
     command.add("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment").as("FILE.wav");
     command.add("--sweep", o.sweepPath, "only write the sweep").written("FILE.wav");
-    command.add("--out", o.profilePath, "the profile").written("FILE.json");
+    command.add("--out", o.profilePath, "the profile").writtenAs("FILE.json");
     command.add("--layout", o.layout, "also write this layout with the profile and its full scale in g: a preset or a layout file");
-    command.add("--layout-out", o.layoutPath, "where that layout goes").written("FILE.json");
+    command.add("--layout-out", o.layoutPath, "where that layout goes").writtenAs("FILE.json");
     command.add("--place", o.place, "label of the one actuator of the layout that was measured; left out: all of them").as("LABEL");
     command.add("--loopback", o.isLoopback, "a cable from the output to the input: tell the latency of the loop");
     command.add("--name", o.name, "of the profile");

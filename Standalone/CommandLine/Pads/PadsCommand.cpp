@@ -114,7 +114,7 @@ int test(const PadsOptions& o) {
 }
 
 int calibrate(const PadsOptions& o) {
-    if (!o.profilePath.ends_with(".json")) return leave(exitUsage, "pads calibrate: expected --out FILE.json");
+    if (o.profilePath.empty()) return leave(exitUsage, "pads calibrate: expected --out FILE.json");
     AtomicFile file(o.profilePath); // before anything vibrates
     if (!file.error().empty()) return leave(exitFailed, file.error());
     heedInterrupts();
@@ -145,7 +145,7 @@ int calibrate(const PadsOptions& o) {
 void declare(OptionTable& command, PadsOptions& o) {
     command.add("action", o.action, "list, test (each motor, then ten hits) or calibrate (by the controller's accelerometer)").oneOf({"list", "test", "calibrate"});
     command.add("pad", o.pad, "part of its name, or auto: the first with motors");
-    command.add("--out", o.profilePath, "calibrate: the profile").written("FILE.json");
+    command.add("--out", o.profilePath, "calibrate: the profile").writtenAs("FILE.json");
     command.add("--name", o.name, "calibrate: of the profile; left out: the file's");
 }
 

@@ -112,7 +112,7 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     command.add("--marker", o.scene.marker, "other outputs of the device with a pulse at the sample of each onset, from 1: for trigger boxes").as("8");
     command.add("--block", o.blockFrames, "frames per block; 0: device default").in(0, limits::maxBlockFrames).unshown();
     command.add("--record", o.recordPath, "WAV of what was played, before the master level").written("FILE.wav");
-    command.add("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv").written("FILE.json");
+    command.add("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv").writtenAs("FILE.json");
     command.add("--beats", o.beatInputs, "inputs of the device, from 1, whose music is felt: its beats are struck (Docs/music.md)").as("1,2");
     declareBeatOptions(command, o.beats);
     command.add("--hands", o.hasHands, "disable the scene's scripted user input; take it from --listen instead");
@@ -172,8 +172,6 @@ int runPlay(PlayOptions& o) {
     if (o.device.empty() && !o.beatInputs.empty()) return leave(exitUsage, "--beats: expected a --device that hears them");
     if (o.device.empty() && (o.osc.port || !o.osc.receiver.empty())) return leave(exitUsage, "--osc, --osc-to: expected a --device, whose clock they follow");
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
-    if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
-        return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
     const std::vector<std::string> written{o.recordPath, o.savePath, o.savePath.empty() ? "" : std::filesystem::path{o.savePath}.replace_extension(".events.csv").string()};
     if (auto clash = fileClash(written, job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};

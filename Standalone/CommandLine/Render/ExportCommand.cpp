@@ -5,6 +5,7 @@
 #include "CommandLine/Render/RenderInputs.h"
 #include "Calls/RenderOptions.h"
 #include "Io/Disk/FileClash.h"
+#include "Io/Disk/NameEnding.h"
 #include "Host/Recordings/HitExport.h"
 #include <algorithm>
 #include <filesystem>
@@ -78,7 +79,7 @@ int runExport(const OptionTable& command, ExportOptions& options) {
     noteGiven(command, o);
     if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);
     const auto format = clipFormatOf(options.to);
-    if (!format) return leave(exitUsage, "--to: expected a name that ends in .hjif, .hmpg, .haptic or .ahap, found " + inQuotes(options.to));
+    if (!format) return leave(exitUsage, "--to: " + endingFault(options.to, {".hjif", ".hmpg", ".haptic", ".ahap"}));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
     o.isEqualised = false; // of the player's own actuators
     if (const std::string refusal = sceneFault(o); !refusal.empty()) return leave(exitUsage, refusal);

@@ -31,9 +31,8 @@ juce::String aboutText(const Protocol& protocol) {
     juce::StringArray conditions, sessions;
     for (const auto& condition : protocol.conditions) conditions.add(utf8(condition.name));
     for (const auto& session : protocol.sessions) sessions.add(utf8(session.name));
-    const juce::String noise = protocol.hasPinkNoise ? "\nAsks for pink noise on headphones: choose their outputs." : "";
     const auto title = utf8(protocol.title);
-    return title.substring(0, 1).toUpperCase() + title.substring(1) + ".\nConditions: " + conditions.joinIntoString(", ") + ".\nIn each: " + sessions.joinIntoString(", ") + "." + noise;
+    return title.substring(0, 1).toUpperCase() + title.substring(1) + ".\nConditions: " + conditions.joinIntoString(", ") + ".\nIn each: " + sessions.joinIntoString(", ") + ".";
 }
 
 } // namespace
@@ -48,6 +47,7 @@ StudiesTab::StudiesTab(Desk& desk)
     caption(noiseName_, "Pink noise on");
     caption(noiseLevelName_, "At");
     noise_.setTitle("Outputs of the pink noise");
+    noise_.onChange = [this] { repaint(); };
     noise_.setTooltip("Headphones on outputs of the same device; louder or softer by their own knob");
     noiseLevel_.setTitle("Level of the pink noise");
     noiseLevel_.setTooltip("Root mean square, in dB of full scale: start low");
@@ -205,6 +205,7 @@ void StudiesTab::setNoise(const std::vector<int>& outputs, double db) {
     const auto at = std::ranges::find(noiseOutputs_, outputs);
     noise_.setSelectedId(at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1, juce::dontSendNotification);
     noiseLevel_.setSelectedId(-juce::roundToInt(db), juce::dontSendNotification);
+    repaint();
 }
 
 ListeningSettings StudiesTab::listening() const {
@@ -305,34 +306,47 @@ void StudiesTab::takeMix() {
     if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
     const auto& mix = desk_.mix();
     const bool isFelt = !utf8(desk_.output().device()).startsWith(noDeviceType);
-    level_ = mix.levelDb < 0.0 ? "The master level stays as it is: all is felt " + number(-mix.levelDb, 1) + " dB below the protocol's g. Set it to 0 dB if those are meant." : juce::String{};
+    level_ = mix.levelDb < 0.0 ? "Felt " + number(-mix.levelDb, 1) + " dB below the protocol's g: set the master level to 0 dB if those are meant." : juce::String{};
     if (!isFelt) level_ = "There is no device: the study can be seen, and is felt by nobody.";
     repaint();
+}
+
+// In the order of their weight: a small window has room for the first alone.
+juce::StringArray StudiesTab::advice() const {
+    juce::StringArray lines;
+    if (protocol_ && protocol_->hasPinkNoise && listening().noise.empty())
+        lines.add("The protocol asks for pink noise on headphones: choose their outputs.");
+    if (level_.isNotEmpty()) lines.add(level_);
+    return lines;
 }
 
 void StudiesTab::paint(juce::Graphics& g) {
     g.setFont(juce::Font{text::medium});
     g.setColour(shade(*this, Shade::muted));
+    const int line = juce::roundToInt(std::ceil(g.getCurrentFont().getHeight()));
     {
         const juce::Graphics::ScopedSaveState whole{g};
-        const int line = juce::roundToInt(std::ceil(g.getCurrentFont().getHeight()));
         g.reduceClipRegion(aboutArea_.withHeight(aboutArea_.getHeight() / line * line)); // whole lines only
         g.drawFittedText(about_, aboutArea_, juce::Justification::topLeft, 6, 1.0f);
     }
     g.setColour(shade(*this, Shade::now));
-    g.drawFittedText(level_, levelArea_, juce::Justification::topLeft, 2, 1.0f);
+    auto room = levelArea_;
+    for (const juce::String& words : advice())
+        if (room.getHeight() >= line)
+            g.drawFittedText(words, room.removeFromTop(line), juce::Justification::centredLeft, 1, 0.7f);
     g.setColour(shade(*this, wordsShade_));
     g.drawFittedText(words_, wordsArea_, juce::Justification::centredLeft, 3, 1.0f);
 }
 
 void StudiesTab::resized() {
     constexpr int controlsHeight = 326; // in a small window they stay: the words go, and in the smallest what is written above them
-    const int captionHeight = getHeight() < controlsHeight ? 0 : 18;
+    const bool isSmall = getHeight() < controlsHeight;
+    const int captionHeight = isSmall ? 0 : 18, space = isSmall ? 5 : 8;
     auto area = getLocalBounds();
     const auto caption = [&area, captionHeight](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
     caption(choiceName_);
     choice_.setBounds(area.removeFromTop(rowHeight));
-    area.removeFromTop(8);
+    area.removeFromTop(space);
     aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - 42, 0, 98));
     const auto pair = [&area, captionHeight](juce::Label& leftName, juce::Component& left, juce::Label& rightName, juce::Component& right) {
         auto names = area.removeFromTop(captionHeight), row = area.removeFromTop(rowHeight);
@@ -344,16 +358,16 @@ void StudiesTab::resized() {
         right.setBounds(row);
     };
     pair(codeName_, code_, numberName_, number_);
-    area.removeFromTop(8);
+    area.removeFromTop(space);
     caption(folderName_);
     auto row = area.removeFromTop(rowHeight);
     browse_->setBounds(row.removeFromRight(80));
     folder_.setBounds(row.withTrimmedRight(gap));
-    area.removeFromTop(8);
+    area.removeFromTop(space);
     pair(noiseName_, noise_, noiseLevelName_, noiseLevel_);
-    area.removeFromTop(8);
+    area.removeFromTop(space);
     pair(wordsName_, wordsChoice_, answersName_, answersChoice_);
-    area.removeFromTop(10);
+    area.removeFromTop(space + 2);
     levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - 44, 0, 42));
     row = area.removeFromTop(std::min(44, area.getHeight()));
     begin_.setBounds(row.removeFromLeft(140));

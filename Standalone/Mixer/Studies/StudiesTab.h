@@ -44,6 +44,10 @@ public:
     StudyScreen* screen() noexcept { return screen_.get(); }
     void end();
 
+    /// What there is to do before a study begins, a line each, as many as there is room for.
+    juce::StringArray advice() const;
+    juce::Rectangle<int> adviceArea() const noexcept { return levelArea_; }
+
     void takeMix() override;
     void refresh(const DeskMoment&) override {
         if (screen_) screen_->refresh();

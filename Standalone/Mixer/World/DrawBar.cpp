@@ -137,7 +137,7 @@ BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
     density_.setTooltip("Density, in kg per square metre; the mass follows from it");
     density_.setRange(1.0, 20'000.0, 1.0);
     density_.setSkewFactorFromMidPoint(800.0);
-    onSlide(density_, [this, change](bool goesOn) { change("Density", [kg = density_.getValue()](const Scene& s, BodyDescription& b) { setDensity(s, b, kg); }, goesOn); });
+    onSlide(density_, [this, change](bool goesOn) { change("Density", [kg = density_.getValue()](const Scene&, BodyDescription& b) { setDensity(b, kg); }, goesOn); });
     bounce_.setTitle("Bounce");
     bounce_.setTooltip("Coefficient of restitution of this body alone");
     bounce_.setRange(0.0, 1.0, 0.01);
