@@ -28,6 +28,7 @@ std::string otherWord(const Option& option) {
     if (std::holds_alternative<bool*>(option.target)) return "true";
     if (option.check == Option::Check::choice) return option.choices.front() == option.initial ? option.choices.back() : option.choices.front();
     if (option.check == Option::Check::range) return plainNumber(option.initial == plainNumber(option.low) ? option.high : option.low);
+    if (option.check == Option::Check::ending) return "other" + option.type.substr(option.type.rfind('.'));
     return "other";
 }
 
