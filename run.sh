@@ -1,25 +1,41 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Renders "shake the box" into out/: four channels, an event list, a picture. It installs and builds what that takes, which is
-# little; with a display it then installs and builds the rest, and opens the mixer, which plays it.
+# ./run.sh: renders "shake the box" into out/: four channels, an event list, a picture. It installs and builds what that takes, which is
+# little; with a display it then does the same for the mixer, and opens it.
+# ./run.sh PROGRAM...: installs what is missing, and builds these in build/release/bin: physvib, physvib-mixer, physvib-virtual-board ...
 set -eu
 cd "$(dirname "$0")"
 . .ci/packages.sh
+
+programs() {
+    # shellcheck disable=SC2086 # a list of words
+    ensure_packages $physvib_run_packages
+    build release "$@"
+}
+if [ $# -gt 0 ]; then
+    programs "$@"
+    for name in "$@"; do echo "build/release/bin/$name"; done
+    # shellcheck disable=SC2016 # for the reader's shell
+    echo 'Pages call it by its name alone; for that, here: export PATH="$PWD/build/release/bin:$PATH"'
+    exit 0
+fi
 
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_first_packages
 build first physvib-render
 mkdir -p out
 name=out/shake-the-box
-build/first/bin/physvib-render shake-the-box --out $name.wav --events $name.csv --picture $name.png >build/render.log
-cat <<'END'
-out/shake-the-box.wav  four channels of vibration, one per actuator: play it on a four-channel interface
-out/shake-the-box.csv  every impact in it: when, where, how hard; out/shake-the-box.png is the picture to look at
-Next: build/first/bin/physvib-render --help; your own list of impacts: build/first/bin/physvib-render HITS.csv --out FELT.wav
+render=build/first/bin/physvib-render
+$render shake-the-box --out $name.wav --events $name.csv --picture $name.png >build/render.log
+cat <<END
+$name.wav  four channels of vibration, one per actuator
+$name.csv  every impact in it: when, where, how hard; $name.png is the picture to look at
+$render $name.csv --out out/again.wav  renders a list of impacts, this one or yours; --help has the rest
 END
-[ -n "${DISPLAY:-}" ] || exit 0
+next='./run.sh physvib  builds the program of all pages (a quarter of an hour at most, on two slow cores); then
+build/release/bin/physvib play out/shake-the-box.wav  says what you can play it on, and how'
+[ -n "${DISPLAY:-}" ] || { echo "There is no display, so the mixer was not built. $next" && exit 0; }
 say "there is a display: now the mixer, with all that it needs (a quarter of an hour on two slow cores)"
-# shellcheck disable=SC2086 # a list of words
-ensure_packages $physvib_run_packages
-build release physvib physvib-mixer
-exec build/release/bin/physvib-mixer # the same scene, to see, to feel and to mix
+programs physvib physvib-mixer
+echo "Next time: build/release/bin/physvib-mixer; the command line is build/release/bin/physvib --help; pages: Docs/README.md"
+exec build/release/bin/physvib-mixer # the same scene, to see, to feel, to hear and to mix

@@ -9,7 +9,7 @@ physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohm
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang libclang-rt-14-dev \
-    liblo-tools python3-numpy luajit love mono-mcs doxygen cmark-gfm libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
+    liblo-tools python3-numpy python3-pandas luajit love mono-mcs doxygen cmark-gfm libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 # Of Standalone/Web/build-web.sh, Source/Api/JavaScript/build-package.sh, Tests/web.sh and Tests/javascript.sh alone.
 physvib_web_packages="binaryen clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
@@ -41,15 +41,19 @@ say() { printf 'physvib: %s\n' "$*" >&2; }
 
 is_installed() { [ "$(dpkg-query -W -f='${db:Status-Abbrev}' "$1" 2>/dev/null)" = "ii " ]; }
 
-as_root() {
-    if [ "$(id -u)" -eq 0 ]; then
-        "$@"
-    elif command -v sudo >/dev/null 2>&1; then
-        sudo "$@"
-    else
-        say "packages are missing and this user cannot install them. As root: apt-get install --no-install-recommends $missing"
-        return 1
+as_root() { if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi; }
+
+# may_install: whether as_root will work. Asks for a password here, where it is seen and asked for once; says what to do if it will not.
+may_install() {
+    [ "$(id -u)" -ne 0 ] || return 0
+    if command -v sudo >/dev/null 2>&1; then
+        sudo -n true 2>/dev/null && return 0
+        say "sudo, which installs them, asks for your password"
+        sudo -v && return 0
     fi
+    say "this user cannot install packages. Type this as root (su -), then the same command here again:"
+    printf '  apt-get update && apt-get install --no-install-recommends%s\n' "$1" >&2
+    return 1
 }
 
 apt_install() { as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@"; }
@@ -63,7 +67,8 @@ ensure_packages() {
         say "this is not a Debian system; please install what these packages hold:$missing"
         return 1
     fi
-    say "installing$missing"
+    say "to be installed:$missing"
+    may_install "$missing" || return 1
     log=$(mktemp)
     # A list of packages that is old or absent is the usual reason for a first failure.
     # shellcheck disable=SC2086 # a list of words

@@ -119,7 +119,10 @@ Result<std::string> exportFelt(const FeltExport& felt, const std::string& path) 
     std::string ending = std::filesystem::path{path}.extension().string();
     std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     if (ending != ".mid" && ending != ".midi" && ending != ".csv") return Failure{path + ": expected a name that ends in .mid, .csv, .hjif, .hmpg, .haptic or .ahap"};
-    const std::string bytes = ending == ".csv" ? eventsCsv(felt.events, {PHYSVIB_VERSION, {{"scene", felt.state.scene.name}}}) : midiOf(felt);
+    const std::string bytes = ending == ".csv"
+                                  ? eventsCsv(felt.events, fieldOf(felt.panner),
+                                              {PHYSVIB_VERSION, {{"scene", felt.state.scene.name}}})
+                                  : midiOf(felt);
     if (const std::string error = writeFile(path, bytes); !error.empty()) return Failure{error};
     return path + ": " + std::to_string(felt.events.size()) + " events\n";
 }

@@ -103,7 +103,8 @@ void MixStrip::askActuator() {
     for (const auto& profile : builtInActuators())
         menu.addItem(words(profile.name), true, enchanter_.actuator == profile.name, [this, name = profile.name] { chooseActuator(name); });
     menu.addItem(juce::String::fromUTF8("Open a profile\xe2\x80\xa6"), [this] {
-        chooser_ = std::make_unique<juce::FileChooser>("An actuator's profile", juce::File{}, "*.json");
+        chooser_ = std::make_unique<juce::FileChooser>("An actuator's profile", juce::File{}, "*.json",
+                                                       false);
         chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
             if (const auto file = chooser.getResult(); file != juce::File{}) chooseActuator(file.getFullPathName().toStdString());
         });
@@ -199,7 +200,8 @@ void MixPanel::take(const PluginState& state) {
 
 void MixPanel::update(const ChannelMeters& meters) {
     for (std::size_t j = 0; j < strips_.size(); ++j) strips_[j]->update(meters.peaks[j], meters.isConnected[j] || meters.enchanters == 0);
-    limiterGain_ = meters.limiterGain;
+    limiterGain_ = std::min(meters.limiterGain, meters.guardGain);
+    isGuard_ = meters.guardGain < meters.limiterGain;
     repaint(levelName_.getUnion(limiterValue_));
 }
 
@@ -219,7 +221,9 @@ void MixPanel::paint(juce::Graphics& g) {
     const bool isLimiting = db < -0.05f;
     g.setColour(shade(*this, isLimiting ? Shade::limit : Shade::muted));
     if (isLimiting) g.fillRoundedRectangle(limiterBar_.toFloat().withHeight(std::max(3.0f, reduction * static_cast<float>(limiterBar_.getHeight()))), 3.0f);
-    g.drawText(number(isLimiting ? db : 0.0f, 1) + " dB", limiterValue_, juce::Justification::centred, false);
+    const juce::String value = number(isLimiting ? db : 0.0f, 1);
+    g.drawText(isGuard_ ? "guard " + value : value + " dB", limiterValue_,
+               juce::Justification::centred, false);
 }
 
 void MixPanel::resized() {

@@ -67,7 +67,8 @@ private:
     juce::Slider level_;
     juce::SliderParameterAttachment levelAttachment_;
     juce::TextButton limiter_{"Limiter"};
-    float limiterGain_ = 1.0f;
+    float limiterGain_ = 1.0f; // or the guard's
+    bool isGuard_ = false;
     juce::Rectangle<int> levelName_, levelValue_, limiterBar_, limiterValue_;
 };
 

@@ -178,6 +178,15 @@ void PluginEditor::fillChoices() {
     midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
 }
 
+// Only the button lifts: a host may close this window by the same Esc.
+void PluginEditor::silence() {
+    auto& bypass = plugin_.parameter(Parameter::bypass);
+    if (bypass.getValue() >= 0.5f) return;
+    bypass.beginChangeGesture();
+    bypass.setValueNotifyingHost(1.0f);
+    bypass.endChangeGesture();
+}
+
 MixHands PluginEditor::hands(bool areChecked) {
     return {[this, areChecked](const std::function<void(PluginState&)>& change) {
                 PluginState wanted = plugin_.state();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The plug-in's window: the world, the mix, what is played and how, a control per parameter, what went wrong.
 #pragma once
+#include "Host/Views/EmergencyStop.h"
 #include "Host/Views/WorldView.h"
 #include "KeyboardPanel.h"
 #include "MidiPanel.h"
@@ -75,6 +76,7 @@ private:
     void showMenu(HostParameter& parameter);
     void forgetController(const std::string& parameter);
     void followLearning();
+    void silence();
     void fillPresets();
     void edit(const std::function<void(PluginState&)>& change);
     void report(const juce::String& news) { news_ = news; }
@@ -102,6 +104,7 @@ private:
     juce::String news_; // of what was opened or asked for; until the next edit
     std::uint64_t shown_ = 0; // the processor's count of states
     PluginState state_;
+    EmergencyStop stop_{*this, [this] { silence(); }};
 };
 
 } // namespace physvib

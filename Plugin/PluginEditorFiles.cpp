@@ -44,7 +44,7 @@ void PluginEditor::showFiles() {
 
 void PluginEditor::askSave(const juce::String& title, const juce::File& initial, const juce::String& endings, void (PluginEditor::*save)(const juce::File&)) {
     if (endings == "*.json") (void)initial.getParentDirectory().createDirectory(); // or the chooser begins elsewhere
-    chooser_ = std::make_unique<juce::FileChooser>(title, initial, endings);
+    chooser_ = std::make_unique<juce::FileChooser>(title, initial, endings, false);
     using Browser = juce::FileBrowserComponent;
     chooser_->launchAsync(Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting, [this, save](const juce::FileChooser& chooser) {
         if (const auto file = chooser.getResult(); file != juce::File{}) (this->*save)(file);
@@ -107,7 +107,8 @@ void PluginEditor::followLearning() {
 }
 
 void PluginEditor::askFile() {
-    chooser_ = std::make_unique<juce::FileChooser>("A preset, a scene, a layout or a session", juce::File{}, "*.json");
+    chooser_ = std::make_unique<juce::FileChooser>("A preset, a scene, a layout or a session", juce::File{}, "*.json",
+                                                   false);
     chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
         if (const auto file = chooser.getResult(); file != juce::File{}) open(file);
     });

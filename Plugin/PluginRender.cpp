@@ -328,7 +328,11 @@ void PluginProcessor::measure(const juce::AudioBuffer<float>& buffer) noexcept {
     const float fall = juce::Decibels::decibelsToGain(-peakFallDbPerSecond * static_cast<float>(frames / sampleRateHz_.load(std::memory_order_relaxed)));
     measured_.enchanters = takes_.channels();
     measured_.connected = outputs_.connected(measured_.enchanters);
-    if (auto* session = takes_.session()) measured_.limiterGain = session->status().render.limiterGain;
+    if (auto* session = takes_.session()) {
+        const auto& render = session->status().render;
+        measured_.limiterGain = render.limiterGain;
+        measured_.guardGain = render.guardGain;
+    }
     for (std::size_t j = 0; j < measured_.peaks.size(); ++j) {
         const int channel = outputs_.channelOf[j];
         measured_.isConnected[j] = channel >= 0;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # What comes with PhysVib is whatever stands in these folders: first what people know by its place in a list, then the others by name.
 set(physvib_first_Scene/Scenes shake-the-box fruit-basket driving drop box-study marbles drawing)
+set(physvib_first_Scene/Materials table-5-1)
 set(physvib_first_Scene/Actuators lra-205 piezo-230 haptuator-mark-2 haptuator-2 haptuator-planar erm-coin voice-coil)
 set(physvib_first_Scene/Pads pad-generic pad-xbox pad-dualshock)
 set(physvib_first_Study/Protocols patterns phantom-grids phantom-places model-or-sound eight-methods level-steps level-quest magnitudes)

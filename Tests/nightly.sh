@@ -19,6 +19,8 @@ step() {
         hostile) Tests/Hostile/run.sh 10000 ;;
         kills) Tests/CommandLine/kills.sh $bin 200 render study sweep play ;;
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;
+        skipped) Tests/Plugin/skipped.sh $bin ;;
+        pymunk) Tests/Api/pymunk.sh $PWD/build/release/lib/libphysvib.so.0 ;;
         quick) Tests/quick.py build/release ;;
         osc) Tests/Osc/run.sh $bin ;;
         live) Tests/Live/soak.sh ;;

@@ -26,6 +26,7 @@ bool HapticRenderer::prepare(const RendererSettings& settings) noexcept {
     gains_.fill(0.0);
     player_.prepare(settings.sampleRateHz, channels_);
     moving_.prepare(settings.sampleRateHz, channels_);
+    guard_.prepare(settings.sampleRateHz, channels_, GuardPlace::rendered);
     silentUntilNs_ = strikesSilentUntilNs_ = INT64_MIN;
     return isPrepared_ = takeMemory();
 }
@@ -55,6 +56,7 @@ bool HapticRenderer::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     clock_ = FrameClock{sampleRateHz};
     player_.prepare(sampleRateHz, channels_);
     moving_.prepare(sampleRateHz, channels_);
+    guard_.changeRate(sampleRateHz);
     position_ = frame;
     return isPrepared_ = actuators_.changeRate(sampleRateHz) && prepareLimiter();
 }
@@ -161,6 +163,7 @@ bool HapticRenderer::passModes(const Channels& out, int frames) noexcept {
     }
     actuators_.pass(frames);
     limiter_.pass(sums.data(), out.data(), frames, kept.data());
+    guard(out, frames, false);
     return true;
 }
 
@@ -169,7 +172,15 @@ void HapticRenderer::playAll(const Channels& out, int frames, const float* const
     const bool movingSounds = moving_.count() > 0 && moving_.render(out.data(), position_, frames, [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
     for (int j = 0; added && j < channels_; ++j) std::transform(added[j], added[j] + frames, out[static_cast<std::size_t>(j)], out[static_cast<std::size_t>(j)], [](float a, float b) { return a + b; });
     const bool isSilent = actuators_.process(out.data(), frames, !modesSound && !recordingsSound && !movingSounds && !added);
-    limiter_.process(out.data(), frames, isSilent);
+    guard(out, frames, limiter_.process(out.data(), frames, isSilent));
+}
+
+// Without the limiter nothing bounds a sample, so nothing bounds what a tile adds: then the last point guards
+// alone.
+void HapticRenderer::guard(const Channels& out, int frames, bool isSilent) noexcept {
+    if (!settings_.limiterEnabled) return;
+    guard_.moveTo(position_);
+    guard_.process(out.data(), frames, isSilent);
 }
 
 // The end of the tile, the next gate or the next control; `most` frames away at the latest.
@@ -191,7 +202,9 @@ RenderStatus HapticRenderer::status() const noexcept {
             .untold = playedQueue_.overflows(),
             .liveModes = bank_.liveModes(),
             .pending = pending_.size(),
-            .limiterGain = limiter_.gain()};
+            .limiterGain = limiter_.gain(),
+            .guardGain = guard_.gain(),
+            .guarded = guard_.episodes()};
 }
 
 } // namespace physvib

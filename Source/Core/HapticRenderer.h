@@ -2,8 +2,9 @@
 // The only way to samples: collision events in, one channel per enchanter out (the thesis' vibration manager).
 //
 // Order of one call: events enter the pending store; those that are due are panned and struck on their exact place
-// between two frames; the mode bank is summed; each channel goes through its actuator stage; the linked limiter has
-// the last word. Controls (layout, gains, delays, ceilings, stop) wait for their frame in the same way. Work is cut at the tiles of the
+// between two frames; the mode bank is summed; each channel goes through its actuator stage; the linked
+// limiter follows, and the guard has the last word. Controls (layout, gains, delays, ceilings, stop) wait for
+// their frame in the same way. Work is cut at the tiles of the
 // absolute frame grid and at onsets, gate ends and controls, never at block borders: output does not depend on block size.
 #pragma once
 #include "Core/Actuators/ActuatorStage.h"
@@ -11,6 +12,7 @@
 #include "Core/EventQueue.h"
 #include "Core/FrameClock.h"
 #include "Core/Actuators/LinkedLimiter.h"
+#include "Core/Actuators/OutputGuard.h"
 #include "Core/Modes/ModeBank.h"
 #include "Core/MovingTones.h"
 #include "Core/Nonblocking.h"
@@ -70,6 +72,7 @@ private:
     int strikeAndReach(Source& source, int most) noexcept;
     bool passModes(const Channels& out, int frames) noexcept;
     void playAll(const Channels& out, int frames, const float* const* added) noexcept;
+    void guard(const Channels& out, int frames, bool isSilent) noexcept;
     void actOnDue() noexcept;
     void apply(const RenderControl& control) noexcept;
     bool prepareLimiter() noexcept;
@@ -90,6 +93,7 @@ private:
     MovingTones moving_;
     ActuatorStage actuators_;
     LinkedLimiter limiter_;
+    OutputGuard guard_;
     TimeOrdered<CollisionEvent, limits::maxPending, true> pending_;
     TimeOrdered<RenderControl, limits::maxControls, true> controls_;
     PlayedQueue playedQueue_;

@@ -20,7 +20,7 @@ struct RendererSettings {
     int sampleRateHz = 48000; ///< isSampleRate
     int channels = 0;         ///< outputs; 0: as many as the panner has enchanters. Without one an output is silent. At most limits::maxEnchanters
     PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
-    bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
+    bool limiterEnabled = true; ///< off: samples may exceed 1, no OutputGuard acts; the latency stays the same
     std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
     int modes = 0; ///< that sound at once; one more steals the quietest, which is counted. Memory follows it. At most, and if it is 0, limits::maxModes
     InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
@@ -51,6 +51,8 @@ struct RenderStatus {
     int liveModes = 0; ///< that ring
     int pending = 0; ///< events whose time has not come
     float limiterGain = 1.0f; ///< now; 1: it does nothing
+    float guardGain = 1.0f; ///< as limiterGain, of the channel that OutputGuard turns down most
+    std::uint64_t guarded = 0; ///< how often it began to
 };
 
 } // namespace physvib

@@ -4,6 +4,7 @@
 #include "Core/Modes/InstructionSet.h"
 #include "Core/PanningLaws.h"
 #include "Core/RenderingMethod.h"
+#include "Scene/FieldSize.h"
 #include "Scene/SceneFile.h"
 #include "Scene/World/SceneRun.h"
 #include "Session/OnsetMarks.h"
@@ -17,12 +18,6 @@
 #include <vector>
 
 namespace physvib {
-
-/// What x and y of events span. 0: not known.
-struct FieldSize {
-    double widthMetres = 0.0, heightMetres = 0.0;
-    bool operator==(const FieldSize&) const = default;
-};
 
 /// Of which frequency a material is, and in which file its recorded contact.
 using RecordedSounds = std::vector<std::pair<double, std::string>>;
@@ -46,7 +41,7 @@ struct RenderJob {
     int stepsPerSecond = 100;
     double patienceSeconds = Patience::usualSeconds; ///< with a world that is simulated slower than it lasts
     std::string layout = "phone4"; ///< preset or path of a layout file
-    FieldSize field;               ///< none: the scene's, or the layout's extent
+    FieldSize field;               ///< none: the scene's, the list's, or the layout's extent
     PanningLaw law = PanningLaw::linear;
     double exponent = 1.0;
     bool isLimited = true;

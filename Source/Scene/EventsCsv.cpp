@@ -11,6 +11,8 @@
 namespace physvib {
 namespace {
 
+constexpr std::string_view fieldKey = "field_m=";
+
 bool isKind(const EventColumn& column) { return std::holds_alternative<KindColumn>(column.cell); }
 
 std::string columnNames(bool hasKinds = false) {
@@ -44,10 +46,10 @@ public:
     }
 
     /// Room for so many is made at once.
-    Result<std::vector<CollisionEvent>> read(std::size_t expected) {
-        events_.reserve(std::min(expected, maxRows_));
+    Result<EventList> read(std::size_t expected) {
+        list_.events.reserve(std::min(expected, maxRows_));
         if (!readAll()) return Failure{std::move(error_)};
-        return std::move(events_);
+        return std::move(list_);
     }
 
 private:
@@ -55,14 +57,29 @@ private:
 
     bool readHeader() {
         std::string_view header;
-        while (header.empty() || header.starts_with('#'))
+        while (header.empty() || header.starts_with('#')) {
+            if (!readComment(header)) return false;
             if (!nextLine(header)) return failEnd("expected a header line " + columnNames() + ", found the end of the file");
+        }
         for (std::size_t left = cellsIn(header); left > 0; --left)
             if (!readName(trimmed(takeUntil(',', header)))) return false;
         for (std::size_t i = 0; i < requiredEventColumns; ++i)
             if (!has(eventColumns[i]))
                 return fail("column " + std::string(eventColumns[i].name) + " is missing");
         return true;
+    }
+
+    // The last word of that name, which is ours; a spreadsheet fills the line up with commas.
+    bool readComment(std::string_view comment) {
+        const std::size_t key = comment.rfind(fieldKey);
+        if (key == comment.npos || (key > 0 && comment[key - 1] != ' ' && comment[key - 1] != '#'))
+            return true;
+        std::string_view word = comment.substr(key + fieldKey.size());
+        word = word.substr(0, word.find(' '));
+        while (word.ends_with(',')) word.remove_suffix(1);
+        const auto field = parseField(word);
+        if (field) list_.field = *field;
+        return field || fail("field_m: " + std::string(expectedField) + inQuotes(word));
     }
 
     bool readName(std::string_view name) {
@@ -119,7 +136,7 @@ private:
         if (count_ > 0 && event.timeNs < lastNs_) return failOrder(event.timeNs);
         ++count_;
         lastNs_ = event.timeNs;
-        if (isKept_) events_.push_back(event);
+        if (isKept_) list_.events.push_back(event);
         return true;
     }
 
@@ -159,20 +176,19 @@ private:
     std::int64_t lastNs_ = 0; // of the event last accepted
     bool isKept_ = true;
     std::vector<const EventColumn*> order_;
-    std::vector<CollisionEvent> events_;
+    EventList list_;
     std::string error_;
 };
 
 } // namespace
 
-Result<std::vector<CollisionEvent>> readEventsCsv(std::string_view text, std::string_view name,
-                                                  std::size_t maxRows) {
+Result<EventList> readEventsCsv(std::string_view text, std::string_view name, std::size_t maxRows) {
     const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
     return Reader(text, name, maxRows).read(lines);
 }
 
 // A file is read twice, line by line: what is refused takes no memory, however long it is.
-Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& path) {
+Result<EventList> loadEventsCsv(const std::filesystem::path& path) {
     const std::string name = path.string();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) { // a pipe can be read once only
@@ -191,7 +207,10 @@ Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& p
     return reader().read(found.value);
 }
 
-std::string eventsCsvHead(const Provenance& provenance, bool hasKinds) { return provenanceComment(provenance) + columnNames(hasKinds) + "\n"; }
+std::string eventsCsvHead(Provenance provenance, FieldSize field, bool hasKinds) {
+    if (isField(field)) provenance.entries.emplace_back("field_m", fieldWord(field));
+    return provenanceComment(provenance) + columnNames(hasKinds) + "\n";
+}
 
 void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds) {
     for (const EventColumn& column : eventColumns) {
@@ -202,9 +221,9 @@ void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds) {
     text.back() = '\n';
 }
 
-std::string eventsCsv(std::span<const CollisionEvent> events, const Provenance& provenance) {
+std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance) {
     const bool hasKinds = std::ranges::any_of(events, [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; });
-    std::string text = eventsCsvHead(provenance, hasKinds);
+    std::string text = eventsCsvHead(provenance, field, hasKinds);
     constexpr std::size_t usualRowBytes = 160;
     text.reserve(text.size() + events.size() * usualRowBytes);
     for (const CollisionEvent& event : events) appendEventRow(text, event, hasKinds);

@@ -49,14 +49,17 @@ std::string materialsJson(const MaterialTable& table) {
     return jsonLines(root);
 }
 
-const MaterialTable& builtInMaterials() {
-    static const MaterialTable table = [] {
-        const EmbeddedFile& file = embeddedMaterials().front();
-        Result<MaterialTable> read = readMaterials(file.text, file.name);
-        if (!read) throw std::logic_error(read.error); // a test reads it
-        return read.value;
+const std::vector<MaterialTable>& builtInMaterials() {
+    static const std::vector<MaterialTable> tables = [] {
+        std::vector<MaterialTable> all;
+        for (const EmbeddedFile& file : embeddedMaterials()) {
+            Result<MaterialTable> read = readMaterials(file.text, file.name);
+            if (!read) throw std::logic_error(read.error); // a test reads them
+            all.push_back(std::move(read.value));
+        }
+        return all;
     }();
-    return table;
+    return tables;
 }
 
 } // namespace physvib

@@ -30,7 +30,7 @@ Result<MaterialTable> loadMaterials(const std::filesystem::path& path);
 /// `table` as JSON, a material per line; readMaterials gives it back bit for bit. Any thread.
 std::string materialsJson(const MaterialTable& table);
 
-/// Table 5.1 of the thesis. Built on first use; any thread.
-const MaterialTable& builtInMaterials();
+/// Table 5.1 of the thesis, then the other tables beside it. Read on first use; any thread.
+const std::vector<MaterialTable>& builtInMaterials();
 
 } // namespace physvib

@@ -25,7 +25,7 @@ SessionJournal::SessionJournal(std::filesystem::path path, Session& session, con
     , session_{session}
     , hasKinds_{isAnyRough(setup.scene.materials)}
     , lines_{headOf(setup), std::filesystem::absolute(path_).parent_path()} {
-    begin(provenance);
+    begin(fieldOf(setup.panner), provenance);
     if (!error_.empty()) return;
     write({});
     thread_ = std::thread{[this] { run(); }};
@@ -38,10 +38,10 @@ SessionJournal::~SessionJournal() {
 }
 
 // Either can be made before the other is touched.
-void SessionJournal::begin(const Provenance& provenance) {
+void SessionJournal::begin(FieldSize field, const Provenance& provenance) {
     AtomicFile session{path_}, events{eventsPath_};
     session.write(lines_.head());
-    events.write(eventsCsvHead(provenance, hasKinds_));
+    events.write(eventsCsvHead(provenance, field, hasKinds_));
     for (AtomicFile* file : {&session, &events})
         if (error_.empty()) error_ = file->error();
     for (AtomicFile* file : {&events, &session})
@@ -117,15 +117,18 @@ void SessionJournal::end(std::int64_t sessionNs) {
     write(sessionNs);
 }
 
-std::string SessionJournal::finish() {
+std::string SessionJournal::finish(std::size_t mostBytes) {
+    events_.sync();
+    file_.sync();
+    std::error_code none;
+    if (std::filesystem::file_size(path_, none) > mostBytes) return fault();
     const auto text = readFile(path_, limits::maxSessionFileBytes);
     if (!text) return text.error;
     const auto session = readSession(text.value, path_.string());
     if (!session) return session.error;
-    events_.sync();
     whole_->write(sessionJson(session.value));
     if (const std::string& error = whole_->commit(); !error.empty()) return error + "; the session is there as it was kept while it played, and renders";
-    return file_.error().empty() ? events_.error() : file_.error();
+    return fault();
 }
 
 } // namespace physvib

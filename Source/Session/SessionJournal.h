@@ -7,6 +7,7 @@
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/EventsCsv.h"
+#include "Scene/SceneFileLimits.h"
 #include "Scene/Sessions/SessionJournalText.h"
 #include "Session/GrowingFile.h"
 #include "Session/Session.h"
@@ -41,16 +42,20 @@ public:
     /// Adds all until now, which is session time `sessionNs`; nothing is added after that.
     void end(std::int64_t sessionNs);
 
-    /// Makes the journal, which has ended, an ordinary session file. Empty, or why not all that was played is on disk.
-    std::string finish();
+    /// Makes the journal, which has ended, an ordinary session file, which takes as long as the session is; one
+    /// of more bytes stays as it is, and is read alike. Empty, or why not all that was played is on disk.
+    std::string finish(std::size_t mostBytes = limits::maxSessionFileBytes);
+
+    static constexpr std::size_t quickBytes = 1'000'000; ///< for whoever cannot wait: a tenth of a second
 
     const std::filesystem::path& eventsPath() const noexcept { return eventsPath_; }
 
 private:
-    void begin(const Provenance& provenance);
+    void begin(FieldSize field, const Provenance& provenance);
     void run();
     void write(std::optional<std::int64_t> endNs);
     void tell();
+    const std::string& fault() const { return file_.error().empty() ? events_.error() : file_.error(); }
 
     std::filesystem::path path_, eventsPath_;
     Session& session_;

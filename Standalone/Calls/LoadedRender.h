@@ -32,6 +32,7 @@ struct LoadedRender {
     LayoutDescription layout;
     std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
     SceneEvents made;
+    FieldSize listField{};                      ///< of the list; not known: it says none, or there is no list
     std::vector<ContactRecording> recordings{}; ///< of --sound
     LoadedRecordings sessionRecordings{}; ///< of a session
     ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
@@ -91,16 +92,19 @@ struct LoadedRender {
     bool isLimited() const { return session ? session->limiterEnabled : options.isLimited; }
     std::int64_t frames() const { return std::max<std::int64_t>(1, std::llround(seconds() * options.sampleRateHz)); }
     std::int64_t endNs() const { return std::llround(seconds() * 1e9); }
-    double fieldWidthMetres() const {
-        if (options.field.widthMetres > 0) return options.field.widthMetres;
-        if (session) return session->panner.fieldWidthMetres();
-        return scene ? scene->fieldWidthMetres : layout.geometry.extentWidthMetres;
+    /// As it is told, else as what is rendered says it; not known: a list that says none.
+    FieldSize saidField() const {
+        if (options.field.isKnown()) return options.field;
+        if (session) return fieldOf(session->panner);
+        return scene ? FieldSize{scene->fieldWidthMetres, scene->fieldHeightMetres} : listField;
     }
-    double fieldHeightMetres() const {
-        if (options.field.heightMetres > 0) return options.field.heightMetres;
-        if (session) return session->panner.fieldHeightMetres();
-        return scene ? scene->fieldHeightMetres : layout.geometry.extentHeightMetres;
+    FieldSize field() const {
+        const FieldSize said = saidField();
+        return said.isKnown() ? said : extentOf(layout.geometry);
     }
+    bool hasGuessedField() const { return !clip && !saidField().isKnown(); }
+    double fieldWidthMetres() const { return field().widthMetres; }
+    double fieldHeightMetres() const { return field().heightMetres; }
     /// The wanted method, its fixed level in shares of the enchanters' full scale.
     RenderingMethod method() const {
         if (session && !options.given.contains("--method")) return session->shaping.method;

@@ -9,17 +9,10 @@
 namespace physvib {
 namespace {
 
-std::optional<double> metresOf(std::string_view text) {
-    const auto metres = parseNumber<double>(text);
-    return metres && *metres >= 1e-3 && *metres <= 1e6 ? metres : std::nullopt;
-}
-
 std::string readField(const std::string& word, FieldSize& field) {
-    const auto comma = std::min(word.find(','), word.size());
-    const auto width = metresOf(std::string_view{word}.substr(0, comma)),
-               height = metresOf(std::string_view{word}.substr(std::min(comma + 1, word.size())));
-    if (!width || !height) return "expected W,H in metres (0.001 to 1e6), found " + inQuotes(word);
-    field = {*width, *height};
+    const auto read = parseField(word);
+    if (!read) return std::string{expectedField} + inQuotes(word);
+    field = *read;
     return {};
 }
 
@@ -74,7 +67,7 @@ Option& addField(OptionTable& command, FieldSize& field) {
     const auto read = [&field](const std::string& word) { return readField(word, field); };
     return command
         .addRead("--field", {}, read,
-                 "metres that x and y span (scene: its field; events: the layout's extent)")
+                 "metres that x and y span (scene: its field; events: as they say, or the layout's extent)")
         .as("W,H");
 }
 

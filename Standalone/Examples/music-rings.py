@@ -47,7 +47,7 @@ def main():
         sys.exit("music-rings: expected SONG.wav and options of physvib play")
     rows = beats(sys.argv[1])
     seconds = AHEAD_SECONDS + float(rows[-1]["time_s"]) + 2.0
-    player = Player("--layout", "ring4", "--seconds", f"{seconds:.1f}", *sys.argv[2:])
+    player = Player("--keep-playing", "--layout", "ring4", "--seconds", f"{seconds:.1f}", *sys.argv[2:])
     start = player.ask("status")["session_s"] + AHEAD_SECONDS
     begins = time.monotonic() + AHEAD_SECONDS + player.ask("latency")["play_out_s"]
     for second, rings, values in strikes(rows):

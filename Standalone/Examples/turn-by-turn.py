@@ -8,6 +8,7 @@ A line says where and how far: `left 200`, `right 15`, `arrived`. A turn ahead i
 30 m it is two quick ones, and what the turn ahead still had to say is not said any more. Arriving is felt on all four in turn.
 """
 import sys
+import time
 
 from player import Player
 
@@ -38,6 +39,7 @@ def main():
         elif words:
             print(f"turn-by-turn: line {number}: expected left METRES, right METRES or arrived", file=sys.stderr)
     player.ask("status")
+    time.sleep(2)  # what was said last is felt; then the end of what we say is the end of the player
     player.process.stdin.close()
     sys.exit(player.process.wait())
 

@@ -89,7 +89,7 @@ constexpr auto descriptions = std::to_array<Description>({
                       "would be felt on headphones."},
     {"physvib-render", "Simulates a scene, or reads an event list, a saved session or a haptic file, and writes what each actuator plays: a WAV file with one channel per actuator, an event "
                        "list, a picture, a movie. It is faster than real time and repeatable: the same input and options give the same bytes. All files appear at the end, or none."},
-    {"physvib-play", "Plays a scene live on an audio device, a four-channel board, or both. A contact is felt one constant output latency later, which is printed. Without --device and "
+    {"physvib-play", "Plays a scene live on an audio device, a four-channel board, or both; or a sound file on a device. A contact is felt one constant output latency later, which is printed. Without --device and "
                      "--board it lists the devices and a call to type. Ctrl-C silences the output at once and ends the program."},
     {"physvib-study", "Lists, shows and runs protocols of perception studies. In the mixer people answer; here a simulated observer does, to rehearse a protocol and its analysis. An "
                       "interrupted run continues with the trial that was cut off."},

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // A scene or an event list to samples, on any system: nothing here but the library.
 #include "Core/CollisionEvent.h"
+#include "InRange.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/NameEnding.h"
-#include "Scene/EventsCsv.h"
-#include "Scene/LayoutFile.h"
-#include "Scene/SceneCatalogue.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
 #include "Io/Wav/WavSink.h"
-#include "InRange.h"
+#include "Scene/EventsCsv.h"
+#include "Scene/LayoutFile.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/SilentWords.h"
 #include "Scene/World/SceneRun.h"
 #include "Session/OfflineRender.h"
 #include <CLI/CLI.hpp>
@@ -32,12 +33,13 @@ namespace {
 constexpr int exitFailed = 1, exitUsage = 2; // as of `physvib`
 
 struct Options {
-    std::string input, layout = "phone4", instructions = "best", wavPath, eventsPath, picturePath;
+    std::string input, layout = "phone4", instructions = "best", wavPath, eventsPath, picturePath, field;
     double seconds = 10.0;
     int sampleRateHz = 48000;
     SceneRun run;
 
     bool isList() const { return input.ends_with(".csv"); }
+    FieldSize told() const { return parseField(field).value_or(FieldSize{}); }
     std::int64_t frames() const { return std::max<std::int64_t>(1, std::llround(seconds * sampleRateHz)); }
 };
 
@@ -52,7 +54,7 @@ struct Source {
     std::optional<Scene> scene; ///< none: a list
     std::vector<CollisionEvent> events;
     std::uint64_t drops = 0;                      ///< collisions that the world had no room for
-    double widthMetres = 0.0, heightMetres = 0.0; ///< 0: those of the layout
+    FieldSize field;                              ///< not known: the layout's extent
     Provenance provenance{PHYSVIB_VERSION, {}};
 };
 
@@ -61,7 +63,8 @@ Result<Source> sourceOf(const Options& o) {
     if (o.isList()) {
         auto events = loadEventsCsv(o.input);
         if (!events) return Failure{events.error};
-        source.events = std::move(events.value);
+        source.events = std::move(events.value.events);
+        source.field = o.told().isKnown() ? o.told() : events.value.field;
         source.provenance.entries.emplace_back("events", std::to_string(source.events.size()));
         return source;
     }
@@ -70,8 +73,8 @@ Result<Source> sourceOf(const Options& o) {
     auto made = runScene(scene.value, o.run, std::llround(o.seconds * 1e9));
     source.events = std::move(made.events);
     source.drops = made.drops;
-    source.widthMetres = scene.value.fieldWidthMetres;
-    source.heightMetres = scene.value.fieldHeightMetres;
+    source.field = o.told();
+    if (!source.field.isKnown()) source.field = {scene.value.fieldWidthMetres, scene.value.fieldHeightMetres};
     source.provenance.entries = {{"scene", scene.value.name},
                                  {"seed", std::to_string(o.run.seed)},
                                  {"steps_per_second", std::to_string(o.run.stepsPerSecond)}};
@@ -82,11 +85,10 @@ Result<Source> sourceOf(const Options& o) {
 }
 
 RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, const Source& source) {
-    const bool hasField = source.widthMetres > 0.0;
-    RendererSettings settings{.sampleRateHz = o.sampleRateHz,
-                              .panner = {layout, PanningLaw::linear, 1.0,
-                                         hasField ? source.widthMetres : layout.extentWidthMetres,
-                                         hasField ? source.heightMetres : layout.extentHeightMetres}};
+    const FieldSize field = source.field.isKnown() ? source.field : extentOf(layout);
+    RendererSettings settings{
+        .sampleRateHz = o.sampleRateHz,
+        .panner = {layout, PanningLaw::linear, 1.0, field.widthMetres, field.heightMetres}};
     settings.panner.setGrains(grainSpread); // as physvib does, where no law is asked for
     const auto set = std::ranges::find(instructionSetNames, o.instructions);
     settings.instructions = static_cast<InstructionSet>(set - instructionSetNames.begin());
@@ -96,6 +98,15 @@ RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, con
 /// What was lost or altered must not go unseen.
 void warn(std::uint64_t count, const char* what) {
     if (count > 0) leave(0, "warning: " + std::string{what} + ": " + std::to_string(count));
+}
+
+/// Why nothing is felt, or which hits of a list lie beside its field.
+void tellOutside(const Source& source, const PhantomPanner& panner, std::int64_t endNs) {
+    const bool isGuessed = !source.field.isKnown();
+    const std::string silent = silentWords(source.events, panner, isGuessed, endNs);
+    if (!silent.empty()) return void(leave(0, "warning: silent: " + silent));
+    const std::string outside = source.scene ? "" : outsideWords(source.events, fieldOf(panner), isGuessed);
+    if (!outside.empty()) leave(0, "warning: " + outside);
 }
 
 #if PHYSVIB_PICTURES
@@ -143,6 +154,7 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
         });
     warn(status.rejected, "events that could not be played");
     warn(status.stolen, "modes faded out early because too many different ones sounded at once");
+    tellOutside(source, settings.panner, std::llround(o.seconds * 1e9));
     std::string error;
 #if PHYSVIB_PICTURES
     if (picture) error = picture->draw(pictureWords(o, source, layout, settings));
@@ -166,7 +178,8 @@ std::string render(const Options& o) {
     if (!source) return source.error;
     warn(source.value.drops, "collisions lost because too many began in one physics step");
     std::string error;
-    if (list) error = list->write(eventsCsv(source.value.events, source.value.provenance));
+    if (list)
+        error = list->write(eventsCsv(source.value.events, source.value.field, source.value.provenance));
     if (error.empty() && !(o.wavPath.empty() && o.picturePath.empty()))
         error = writeSound(o, source.value, layout.value);
     if (error.empty() && list) error = list->commit();
@@ -186,6 +199,12 @@ void declare(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--layout", o.layout, listedByNumber(layoutPresetNames) + " or a layout file")
         ->capture_default_str();
+    app.add_option("--field", o.field,
+                   "metres that x and y span (scene: its field; events: as they say, or the layout's extent)")
+        ->check([](const std::string& word) {
+            return parseField(word) ? std::string{} : std::string{expectedField} + inQuotes(word);
+        })
+        ->type_name("W,H");
     app.add_option("--rate", o.sampleRateHz, "sample rate in Hz")
         ->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz))
         ->capture_default_str();

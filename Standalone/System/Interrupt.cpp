@@ -11,9 +11,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::chrono::milliseconds patience = 800ms, patienceForFiles = 3s, pause = 20ms;
+constexpr std::chrono::milliseconds patience = 800ms, pause = 20ms;
 
-std::atomic<int> firstSignal{0}, promised{0}, finishing{0};
+std::atomic<int> firstSignal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal may set it");
 
 void interrupt(int signal) {
@@ -25,27 +25,10 @@ void interrupt(int signal) {
 void endWhatHangs() {
     while (firstSignal == 0) std::this_thread::sleep_for(pause);
     std::this_thread::sleep_for(patience);
-    for (auto waited = 0ms; waited < patienceForFiles && promised > 0; waited += pause)
-        std::this_thread::sleep_for(pause);
-    while (finishing > 0) std::this_thread::sleep_for(pause);
     endBySignal(firstSignal);
 }
 
 } // namespace
-
-FilesFirst::FilesFirst() noexcept {
-    ++promised;
-}
-
-FilesFirst::~FilesFirst() {
-    --promised;
-    if (isFinishing_) --finishing;
-}
-
-void FilesFirst::finish() noexcept {
-    if (!isFinishing_) ++finishing;
-    isFinishing_ = true;
-}
 
 void heedInterrupts() {
     catchEnding(interrupt, KeepIgnored::hangUp); // a script's background ignores SIGINT, and yet means it

@@ -50,9 +50,8 @@ bool isErrorTerminal() noexcept;
 /// nothing if none came. One thread, not R.
 std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept;
 
-/// By which other processes know this one, and whether there is one of that number. Any thread but R.
+/// By which other processes know this one. Any thread but R.
 int processNumber() noexcept;
-bool isProcessRunning(int number) noexcept;
 
 /// Runs a program of that name, with what we have for standard streams, to its end: whether it said that all
 /// is well, or why it did not begin. M.

@@ -54,6 +54,7 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
     pollfd input{STDIN_FILENO, POLLIN, 0};
     if (poll(&input, 1, milliseconds) <= 0) return std::nullopt;
     const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+    if (count < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
     return count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
@@ -67,8 +68,6 @@ std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) 
 }
 
 int processNumber() noexcept { return getpid(); }
-
-bool isProcessRunning(int number) noexcept { return number > 0 && (kill(number, 0) == 0 || errno == EPERM); }
 
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     std::vector<char*> words{name.data()};

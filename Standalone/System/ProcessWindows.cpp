@@ -62,14 +62,6 @@ std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) 
 
 int processNumber() noexcept { return static_cast<int>(GetCurrentProcessId()); }
 
-bool isProcessRunning(int number) noexcept {
-    const HANDLE process = number > 0 ? OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(number)) : nullptr;
-    if (process == nullptr) return number > 0 && GetLastError() == ERROR_ACCESS_DENIED;
-    const bool isRunning = WaitForSingleObject(process, 0) == WAIT_TIMEOUT; // until nobody holds it, a process that ended has its number
-    CloseHandle(process);
-    return isRunning;
-}
-
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     const std::wstring program = std::filesystem::path{name}.wstring();
     std::vector<std::wstring> quoted;

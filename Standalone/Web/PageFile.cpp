@@ -25,7 +25,9 @@ Scene emptyScene(std::string_view name, Vector fieldMetres) {
 Result<PageFile> readList(std::string_view name, std::string_view text, Vector fieldMetres) {
     auto read = readEventsCsv(text, name);
     if (!read) return Failure{std::move(read.error)};
-    return PageFile{emptyScene(name, fieldMetres), std::move(read.value), {}};
+    const FieldSize said = read.value.field;
+    const Vector field = said.isKnown() ? Vector{said.widthMetres, said.heightMetres} : fieldMetres;
+    return PageFile{emptyScene(name, field), std::move(read.value.events), {}};
 }
 
 Result<PageFile> readClipFile(std::string_view name, std::string_view text, ClipFormat format,

@@ -20,8 +20,8 @@ struct PageFile {
     std::vector<float> samples;          ///< at the renderer's rate
 };
 
-/// `name` ends in .csv, .haptic or .ahap, or it is a scene. A list is felt on a field of that size, m, a clip
-/// in the middle of all actuators, as `physvib render` has it.
+/// `name` ends in .csv, .haptic or .ahap, or it is a scene. A list that says no field is felt on one of that
+/// size, m, a clip in the middle of all actuators, as `physvib render` has it.
 Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
                               Vector fieldMetres, int sampleRateHz);
 

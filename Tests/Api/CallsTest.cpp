@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 #include <string>
 #include <thread>
@@ -363,6 +364,36 @@ TEST(Calls, LawsAreThoseOfTheTable) {
     while (physvib_law_name(count) != nullptr) ++count;
     EXPECT_EQ(count, static_cast<int>(panningLaws.size()));
     EXPECT_EQ(physvib_law_name(-1), nullptr);
+}
+
+TEST(Calls, AListSaysItsField) {
+    const std::string list = temporary("field.csv");
+    const physvib_event event = strikeAt(1);
+    double width = 7.0, height = 7.0;
+    const auto expect = [&](double wantedWidth, double wantedHeight) {
+        EXPECT_EQ(width, wantedWidth);
+        EXPECT_EQ(height, wantedHeight);
+    };
+    ASSERT_EQ(physvib_events_save_field(list.c_str(), &event, 1, 6.4, 0.1 + 0.2), PHYSVIB_OK)
+        << physvib_error();
+    ASSERT_EQ(physvib_events_load_field(list.c_str(), &width, &height), PHYSVIB_OK) << physvib_error();
+    expect(6.4, 0.1 + 0.2);
+    EXPECT_EQ(physvib_events_load(list.c_str(), nullptr, 0), 1);
+    ASSERT_EQ(physvib_events_save(list.c_str(), &event, 1), PHYSVIB_OK);
+    ASSERT_EQ(physvib_events_load_field(list.c_str(), &width, &height), PHYSVIB_OK);
+    expect(0.0, 0.0);
+    const std::string row = "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n1,200,30,0.5,0,0\n";
+    EXPECT_EQ(physvib_events_parse_field(("# field_m=8,4.5\n" + row).c_str(), &width, &height), PHYSVIB_OK);
+    expect(8.0, 4.5);
+    EXPECT_EQ(physvib_events_parse_field("# field_m=8\n", &width, &height), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_STREQ(physvib_error(), "events:1: field_m: expected W,H in metres (0.001 to 1e6), found \"8\"");
+    expect(8.0, 4.5);
+    EXPECT_EQ(physvib_events_load_field("/nowhere.csv", &width, &height), PHYSVIB_ERROR_FILE);
+    EXPECT_EQ(physvib_events_load_field(nullptr, &width, &height), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_events_parse_field(row.c_str(), nullptr, &height), PHYSVIB_ERROR_ARGUMENT);
+    for (const double wrong : {-1.0, 1e-4, 1e7, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_EQ(physvib_events_save_field(list.c_str(), &event, 1, wrong, 1.0), PHYSVIB_ERROR_ARGUMENT)
+            << wrong;
 }
 
 TEST(Calls, ListsLayoutsAndSoundsComeBack) {

@@ -9,10 +9,10 @@ root = Path(sys.argv[1])
 header = re.sub(r"/\*.*?\*/", "", (root / "Source/Api/C/physvib.h").read_text(), flags=re.S)
 
 LEFT_OUT = {
-    "Python": {"renderer_pull_interleaved"},  # numpy arrays are a row per channel
+    "Python": {"renderer_pull_interleaved", "events_save"},  # numpy arrays are a row per channel; lists are saved with their field or none
     "Lua": set(),
     "C#": {"renderer_pull"},  # Unity and Godot take frame by frame
-    "JavaScript": {"renderer_pull_interleaved", "layout_load", "layout_save", "events_load", "events_save", "wav_save"},  # an array per channel; a page has no files, but texts and bytes
+    "JavaScript": {"renderer_pull_interleaved", "layout_load", "layout_save", "events_load", "events_load_field", "events_save", "events_save_field", "wav_save"},  # an array per channel; a page has no files, but texts and bytes
 }
 UNUSED = {"size", "unused"}  # sizes are told, and what fills up is nobody's
 

@@ -59,5 +59,14 @@ assert(haptics:explain():find("event"), haptics:explain())
 haptics:configure({is_muted = 1})
 for _ = 1, 300 do haptics:update(0.01) end
 assert(#haptics:take({}, true) == 0, "muted")
+-- A hit at the top of the window, where y is 0: felt at the upper two of four, A and B.
+local top = require("ffi").new("physvib_event", {frequency_hz = 200, decay_per_s = 30, amplitude = 0.5, x_m = 0.5, y_m = 0, fixture = -1, other = -1})
+physvib.save_wav(arg[1], {top}, 0.1, {field_width_m = 1, field_height_m = 1})
+local file = assert(io.open(arg[1], "rb"))
+local samples = file:read("*a"):match("data....(.*)")
+file:close()
+local peaks, felt = {0, 0, 0, 0}, require("ffi").cast("const float *", samples)
+for i = 0, #samples / 4 - 1 do peaks[i % 4 + 1] = math.max(peaks[i % 4 + 1], math.abs(felt[i])) end
+assert(peaks[1] > 0.1 and peaks[2] > 0.1 and peaks[3] < 1e-6 and peaks[4] < 1e-6, "upside down: " .. table.concat(peaks, " "))
 physvib.save_wav(arg[1], events, 1.5, {field_width_m = 1, field_height_m = 1})
 print(#events .. " hits, the first at " .. tonumber(events[1].time_ns) * 1e-9 .. " s: " .. arg[1])

@@ -36,11 +36,18 @@ TEST_F(BeatsCommand, WritesTheBeatsOfASongAsStrikesOnTheEnchantersOfTheirBands) 
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto events = readEventsCsv(read("beats.csv"), "beats.csv");
     ASSERT_EQ(events.error, "");
+    EXPECT_EQ(events.value.field, (FieldSize{0.12, 0.06})) << "beats are struck on the layout";
     std::size_t found = 0;
     for (const auto& hit : song.hits)
-        found += std::ranges::any_of(events.value, [&](const CollisionEvent& e) { return std::abs(1e-9 * static_cast<double>(e.timeNs) - hit.seconds) <= 0.01; }) ? 1 : 0;
+        found += std::ranges::any_of(events.value.events,
+                                     [&](const CollisionEvent& e) {
+                                         return std::abs(1e-9 * static_cast<double>(e.timeNs) -
+                                                         hit.seconds) <= 0.01;
+                                     })
+                     ? 1
+                     : 0;
     EXPECT_GE(found * 100, song.hits.size() * 95);
-    for (const CollisionEvent& e : events.value) {
+    for (const CollisionEvent& e : events.value.events) {
         EXPECT_LE(e.amplitude, 0.3);
         const bool isLow = e.decayPerSecond == 15.0, isHigh = e.decayPerSecond == 60.0; // C: lower left; D: lower right
         EXPECT_TRUE(!(isLow || isHigh) || e.y == 0.0);

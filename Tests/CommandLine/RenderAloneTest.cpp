@@ -3,6 +3,7 @@
 #include "Calls.h"
 #include "TestPlaces.h"
 #include <algorithm>
+#include <array>
 
 namespace physvib {
 namespace {
@@ -35,11 +36,65 @@ TEST_F(RenderAlone, GivesTheEventsAndSamplesOfTheWholeProgram) {
     ASSERT_EQ(alone("a.csv --seconds 1 --out again.wav"), 0) << read(".err");
 }
 
+TEST_F(RenderAlone, AListRendersAsItsSceneDidBecauseItSaysItsField) {
+    ASSERT_EQ(alone("shake-the-box --seconds 3 --out scene.wav --events box.csv"), 0) << read(".err");
+    ASSERT_EQ(alone("box.csv --seconds 3 --out list.wav"), 0) << read(".err");
+    EXPECT_EQ(read(".err"), "");
+    EXPECT_TRUE(samplesOf("list.wav") == samplesOf("scene.wav"));
+    ASSERT_EQ(call("render --from-events box.csv --seconds 3 --out whole.wav --events whole.csv").exitCode,
+              0);
+    EXPECT_TRUE(samplesOf("whole.wav") == samplesOf("scene.wav"));
+    EXPECT_NE(read("whole.csv").find(" field_m=6.4,3.6\n"), std::string::npos) << "handed on";
+
+    std::string old = read("box.csv"); // as lists were before
+    const std::string said = " field_m=6.4,3.6";
+    ASSERT_NE(old.find(said), std::string::npos) << old.substr(0, 100);
+    write("old.csv", old.erase(old.find(said), said.size()));
+    ASSERT_EQ(alone("old.csv --seconds 3 --field 6.4,3.6 --out told.wav"), 0) << read(".err");
+    EXPECT_EQ(read(".err"), "");
+    EXPECT_TRUE(samplesOf("told.wav") == samplesOf("scene.wav"));
+    ASSERT_EQ(alone("old.csv --seconds 3 --out guessed.wav --events guessed.csv"), 0) << read(".err");
+    const std::string warning =
+        " hits lie outside the field of 0.12 x 0.06 m, the layout's, as the list says none (see --field)\n";
+    EXPECT_TRUE(read(".err").starts_with("physvib-render: warning: ") && read(".err").ends_with(warning))
+        << read(".err");
+    EXPECT_EQ(read("guessed.csv").find("field_m"), std::string::npos) << "a guess is not handed on";
+    const auto whole = call("render --from-events old.csv --seconds 3 --out again.wav");
+    EXPECT_TRUE(whole.err.starts_with("physvib: warning: ") && whole.err.ends_with(warning)) << whole.err;
+    EXPECT_TRUE(samplesOf("again.wav") == samplesOf("guessed.wav"));
+}
+
+TEST_F(RenderAlone, SilenceSaysWhy) {
+    const std::string head = "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n";
+    const std::string outside = " hits lie outside the field of ";
+    for (const auto& [rows, options, why] : std::vector<std::array<std::string, 3>>{
+             {"0.5,200,10,0.5,3,2\n0.6,200,10,0.5,4,2\n", "",
+              "2 of 2" + outside + "0.12 x 0.06 m, the layout's, as the list says none (see --field)"},
+             {"0.5,200,10,0.5,3,2\n", " --field 0.1,0.1", "1 of 1" + outside + "0.1 x 0.1 m (see --field)"},
+             {"2,200,10,0.5,0.05,0.02\n", "", "all hits begin after the end"},
+             {"0.5,200,10,0,0.05,0.02\n", "", "the strongest hit is 0.000000 of full scale"}}) {
+        write("hits.csv", head + rows);
+        ASSERT_EQ(alone("hits.csv --seconds 1 --out a.wav" + options), 0) << read(".err");
+        EXPECT_EQ(read(".err"), "physvib-render: warning: silent: " + why + "\n");
+        const auto whole = call("render --from-events hits.csv --seconds 1 --out b.wav" + options);
+        EXPECT_NE(whole.out.find("48000 Hz, silent: " + why + "\n"), std::string::npos) << whole.out;
+    }
+}
+
 TEST_F(RenderAlone, RefusesInOneLineAndLeavesNothing) {
     for (const auto& [arguments, code] : std::vector<std::pair<std::string, int>>{
-             {"drop", 2}, {"drop --out x.wav --seconds -1", 2}, {"drop --out x.wav --seconds nan", 2}, {"drop --out x.wav --events x.wav", 2}, {"nothing --out x.wav", 1}, {"drop --layout no --out x.wav", 1},
-             {"drop --seconds 86400 --rate 192000 --out x.wav", 1}, {"drop --out no/x.wav", 1},
-             {"drop --out x.png --picture x.png", 2}, {"drop --picture x.svg", 2}, {"drop --out x.wav --events x.csv --picture no/x.png", 1}}) {
+             {"drop", 2},
+             {"drop --out x.wav --seconds -1", 2},
+             {"drop --out x.wav --seconds nan", 2},
+             {"drop --out x.wav --events x.wav", 2},
+             {"nothing --out x.wav", 1},
+             {"drop --layout no --out x.wav", 1},
+             {"drop --seconds 86400 --rate 192000 --out x.wav", 1},
+             {"drop --out no/x.wav", 1},
+             {"drop --out x.wav --field 1", 2},
+             {"drop --out x.png --picture x.png", 2},
+             {"drop --picture x.svg", 2},
+             {"drop --out x.wav --events x.csv --picture no/x.png", 1}}) {
         EXPECT_EQ(alone(arguments), code) << arguments;
         const std::string said = read(".err");
         EXPECT_TRUE(said.starts_with("physvib-render: ")) << said;

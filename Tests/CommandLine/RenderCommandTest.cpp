@@ -60,7 +60,7 @@ TEST_F(Render, SceneLeavesFourChannelsEventsAndAPicture) {
     EXPECT_EQ(wav.samples.size(), 4u * 48000 * 4 * 4);
     const auto events = readEventsCsv(read("a.csv"), "a.csv");
     ASSERT_TRUE(events) << events.error;
-    EXPECT_GT(events.value.size(), 10u);
+    EXPECT_GT(events.value.events.size(), 10u);
     EXPECT_EQ(read("a.png").substr(1, 3), "PNG");
     EXPECT_EQ(files().size(), 3u);
 }
@@ -78,7 +78,7 @@ TEST_F(Render, BlockSizeAndRepetitionDoNotChangeAByte) {
 
 TEST_F(Render, AFileFromAListIsTheClosedFormOfThatList) {
     auto events = test::randomEvents(2000, 2.5, 21);
-    write("hits.csv", eventsCsv(events, {"0", {}}));
+    write("hits.csv", eventsCsv(events, {}, {"0", {}}));
     const auto corner = [](double u) { return std::clamp(1 - std::abs(u), 0.0, 1.0); };
     const auto gains = [&](double x, double y, double* g) { // Eq. 6.2 by hand: A upper left ... D lower right
         for (int j = 0; j < 4; ++j) g[j] = corner(x - j % 2) * corner(y - (j < 2 ? 1 : 0));
@@ -106,11 +106,12 @@ TEST_F(Render, ReleaseTimingFeelsTheSameFallLaterAndPrintsSo) {
     ASSERT_EQ(call(fall + "onset.csv").exitCode, 0);
     ASSERT_EQ(call(fall + "release.csv --timing release").exitCode, 0);
     const auto onset = readEventsCsv(read("onset.csv"), "onset.csv"), release = readEventsCsv(read("release.csv"), "release.csv");
-    ASSERT_EQ(onset.value.size(), 1u) << onset.error;
-    ASSERT_EQ(release.value.size(), 1u) << release.error;
-    EXPECT_GT(release.value[0].timeNs, onset.value[0].timeNs);
-    EXPECT_LE(release.value[0].timeNs, onset.value[0].timeNs + 50'000'000);
-    EXPECT_NEAR(release.value[0].amplitude, onset.value[0].amplitude, 0.05 * onset.value[0].amplitude);
+    ASSERT_EQ(onset.value.events.size(), 1u) << onset.error;
+    ASSERT_EQ(release.value.events.size(), 1u) << release.error;
+    EXPECT_GT(release.value.events[0].timeNs, onset.value.events[0].timeNs);
+    EXPECT_LE(release.value.events[0].timeNs, onset.value.events[0].timeNs + 50'000'000);
+    EXPECT_NEAR(release.value.events[0].amplitude, onset.value.events[0].amplitude,
+                0.05 * onset.value.events[0].amplitude);
     EXPECT_NE(read("release.csv").find("timing=release"), std::string::npos);
 }
 
@@ -118,14 +119,14 @@ TEST_F(Render, FixtureLocationPutsEveryHitAtTheCentreOfItsFixture) {
     ASSERT_EQ(call("render drop --seed 3 --seconds 3 --events contact.csv").exitCode, 0);
     ASSERT_EQ(call("render drop --seed 3 --seconds 3 --events fixture.csv --location fixture").exitCode, 0);
     const auto contact = readEventsCsv(read("contact.csv"), "contact.csv"), fixture = readEventsCsv(read("fixture.csv"), "fixture.csv");
-    ASSERT_GE(fixture.value.size(), 3u) << fixture.error;
-    ASSERT_EQ(contact.value.size(), fixture.value.size());
-    for (std::size_t i = 0; i < fixture.value.size(); ++i) {
-        EXPECT_NEAR(fixture.value[i].x, 4.0, 1e-6); // the plate's centre
-        EXPECT_NEAR(fixture.value[i].y, 0.15, 1e-6);
-        EXPECT_NEAR(contact.value[i].y, 0.3, 0.02); // its upper side
-        EXPECT_EQ(fixture.value[i].amplitude, contact.value[i].amplitude);
-        EXPECT_EQ(fixture.value[i].timeNs, contact.value[i].timeNs);
+    ASSERT_GE(fixture.value.events.size(), 3u) << fixture.error;
+    ASSERT_EQ(contact.value.events.size(), fixture.value.events.size());
+    for (std::size_t i = 0; i < fixture.value.events.size(); ++i) {
+        EXPECT_NEAR(fixture.value.events[i].x, 4.0, 1e-6); // the plate's centre
+        EXPECT_NEAR(fixture.value.events[i].y, 0.15, 1e-6);
+        EXPECT_NEAR(contact.value.events[i].y, 0.3, 0.02); // its upper side
+        EXPECT_EQ(fixture.value.events[i].amplitude, contact.value.events[i].amplitude);
+        EXPECT_EQ(fixture.value.events[i].timeNs, contact.value.events[i].timeNs);
     }
     EXPECT_NE(read("fixture.csv").find("location=fixture"), std::string::npos);
 }
@@ -208,12 +209,14 @@ TEST_F(Render, MethodsFixWhatTheirNamesSay) {
     ASSERT_EQ(outcome.exitCode, 0);
     EXPECT_NE(outcome.err.find("fixed level of 1.5 g is above the actuators' full scale of 1 g; the limiter lowers it"), std::string::npos) << outcome.err;
     const auto varied = readEventsCsv(read("a.csv"), "a.csv"), fixed = readEventsCsv(read("c.csv"), "c.csv");
-    ASSERT_EQ(fixed.value.size(), varied.value.size());
-    ASSERT_FALSE(fixed.value.empty());
-    for (std::size_t i = 0; i < fixed.value.size(); ++i) {
-        const CollisionEvent& e = fixed.value[i];
+    ASSERT_EQ(fixed.value.events.size(), varied.value.events.size());
+    ASSERT_FALSE(fixed.value.events.empty());
+    for (std::size_t i = 0; i < fixed.value.events.size(); ++i) {
+        const CollisionEvent& e = fixed.value.events[i];
         EXPECT_EQ(std::tuple(e.amplitude, e.frequencyHz, e.decayPerSecond, e.durationNs), std::tuple(1.5, 250.0, 0.0, 20'000'000));
-        EXPECT_EQ(std::tuple(e.timeNs, e.x, e.y, e.source), std::tuple(varied.value[i].timeNs, varied.value[i].x, varied.value[i].y, varied.value[i].source));
+        EXPECT_EQ(std::tuple(e.timeNs, e.x, e.y, e.source),
+                  std::tuple(varied.value.events[i].timeNs, varied.value.events[i].x,
+                             varied.value.events[i].y, varied.value.events[i].source));
     }
     EXPECT_NE(read("c.csv").substr(0, 200).find("method=AF-FF-DRF"), std::string::npos);
     ASSERT_EQ(call("render --from-events a.csv --seconds 3 --field 9,5 --method AF-FF-DRF --out d.wav").exitCode, 0);
@@ -228,8 +231,8 @@ TEST_F(Render, AFixedLevelIsInG) {
     const auto outcome = call("render drop --seconds 3 --method AF-FV-DRV --layout strong.json --events a.csv");
     EXPECT_EQ(outcome.err, "");
     const auto events = readEventsCsv(read("a.csv"), "a.csv");
-    ASSERT_FALSE(events.value.empty());
-    const CollisionEvent& first = events.value.front();
+    ASSERT_FALSE(events.value.events.empty());
+    const CollisionEvent& first = events.value.events.front();
     const double omega = 2.0 * std::numbers::pi * first.frequencyHz, peakAt = std::atan(omega / first.decayPerSecond) / omega;
     EXPECT_NEAR(first.amplitude * std::sin(omega * peakAt) * std::exp(-first.decayPerSecond * peakAt), 0.5, 1e-9); // 1.5 g of 3
     refuses("render drop --method AF-FV-DRV --layout mixed.json --out b.wav", 1, "mixed.json: --method AF-FV-DRV: expected one full_scale_g for all actuators, found 3 and 1", 3);

@@ -211,7 +211,10 @@ TEST_F(Study, AFixedLevelPeaksAtOneAndAHalfGInEveryTrialOfEightMethodsAndNoLimit
             EXPECT_EQ(outcome.err.find("limiter"), std::string::npos) << outcome.err;
             ASSERT_EQ(call(render + "off.wav --limiter off").exitCode, 0);
             const std::string on = read("on.wav"), off = read("off.wav");
-            EXPECT_TRUE(on.substr(on.find("data")) == off.substr(off.find("data"))) << method << ' ' << pair << ": the limiter acted";
+            // Rubber's own frequency is so low that hits at a fixed level have a mean of 0.09: the guard acts.
+            const bool isGuarded = pair == "rubber-concrete" && method.starts_with("AF-FV");
+            EXPECT_EQ(on.substr(on.find("data")) != off.substr(off.find("data")), isGuarded)
+                << method << ' ' << pair << ": the limiter or the guard acted";
             float peak = 0.0f, sample = 0.0f;
             for (std::size_t at = on.find("data") + 8; at + 4 <= on.size(); at += 4) std::memcpy(&sample, on.data() + at, 4), peak = std::max(peak, std::abs(sample));
             if (method.starts_with("AF")) { EXPECT_NEAR(2.0f * peak, 1.5f, 0.015f) << method << ' ' << pair; }

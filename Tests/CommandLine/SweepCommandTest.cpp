@@ -80,7 +80,7 @@ TEST_F(SweepCommand, ARowIsWhatItsCallRenders) {
         ASSERT_EQ(call(words(table, row, "call") + " --out again.wav --events again.csv").exitCode, 0);
         EXPECT_EQ(read("again.wav"), read(kept + ".wav"));
         EXPECT_EQ(read("again.csv"), read(kept + ".events.csv"));
-        const auto events = loadEventsCsv(folder_ / "again.csv").value;
+        const auto events = loadEventsCsv(folder_ / "again.csv").value.events;
         EXPECT_EQ(cell(table, row, "hits"), static_cast<double>(events.size()));
         EXPECT_NEAR(cell(table, row, "first_s"), static_cast<double>(events.front().timeNs) * 1e-9, 1e-12);
         double sum = 0.0, x = 0.0, weights = 0.0;

@@ -65,5 +65,34 @@ cat "$folder/scene.txt"
 stop
 grep -q " 0 against their times, 0 samples missed, 0 restarts, 0 faults" "$folder/board.txt" || fail "the board was not well"
 cat "$folder/board.txt"
+
+# A list of a scene says its field, so the board plays what the scene's render holds; where nothing can be felt, success is not told.
+nothing() {
+    why=$1
+    shift
+    if "$physvib" board "$port" play "$@" >"$folder/none.txt" 2>&1; then fail "success is told, and nothing is felt: $*"; fi
+    [ "$(wc -l <"$folder/none.txt")" -eq 1 ] || fail "more than one line"
+    grep -q ": nothing can be felt at --level $why\$" "$folder/none.txt" || fail "expected: $why"
+}
+start
+"$physvib" render shake-the-box --seconds 3 --events "$folder/box.csv" --out "$folder/box.wav" >"$folder/box.txt"
+"$physvib" board "$port" play "$folder/box.csv" --level 0 >"$folder/box.txt" 2>&1 || fail "play a scene's list"
+[ "$(wc -l <"$folder/box.txt")" -eq 1 ] || fail "a warning of hits in their field"
+nothing "-12: [0-9]* of [0-9]* hits lie outside the field of 0.01 x 0.01 m (see --field)" "$folder/box.csv" --field 0.01,0.01
+sed 's/ field_m=.*//; s/^\([0-9.]*,[0-9.]*,[0-9.]*,[0-9.]*\),[^,]*,/\1,3,/' "$folder/box.csv" >"$folder/old.csv"
+nothing "-12: [0-9]* of [0-9]* hits lie outside the field of 0.12 x 0.06 m, the layout's, as the list says none (see --field)" "$folder/old.csv"
+nothing "-90: the strongest hit is 0.[0-9]* of full scale" "$folder/box.csv" --level -90
+stop
+/usr/bin/python3 - "$folder/box.wav" "$folder/codes.wav" <<'END' || fail "the board did not play what the scene's render holds"
+import array, sys
+render, codes = (open(path, "rb").read() for path in sys.argv[1:])
+samples, felt = array.array("f", render[render.find(b"data") + 8:]), codes[codes.find(b"data") + 8:]
+for channel in range(4):
+    wanted = 127 * max(map(abs, samples[channel::4]))
+    found = max(abs(code - 128) for code in felt[channel::4])
+    print(f"channel {channel + 1}: {found} steps of the converter, the render has {wanted:.1f}")
+    if abs(found - wanted) > 2 + 0.1 * wanted:
+        sys.exit(1)
+END
 if "$physvib" board "$port" info >"$folder/gone.txt" 2>&1; then fail "a board that is not there answers"; fi
 [ "$(wc -l <"$folder/gone.txt")" -eq 1 ] || fail "more than one line on a board that is not there"

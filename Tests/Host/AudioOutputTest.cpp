@@ -230,6 +230,21 @@ TEST(AudioOutput, ALostDeviceMeansSilenceAMessageAndNoOtherDeviceAndNothingMissi
     }
 }
 
+TEST(AudioOutput, ADeviceThatWasNeverConnectedIsOpenedAgainAndOneThatSomebodyDisconnectedIsNot) {
+    Rig rig;
+    const std::vector<int> all{0, 1, 2, 3, 4, 5, 6, 7};
+    rig.interface.unconnected = all;
+    ASSERT_EQ(rig.open(), "");
+    auto now = AudioOutput::Clock::now();
+    for (int k = 0; k < 5 && rig.interface.timesOpened == 1; ++k) rig.output.maintain(now += 1s);
+    EXPECT_EQ(rig.interface.timesOpened, 2);
+    rig.interface.unconnected.clear();
+    rig.output.maintain(now += 1s);
+    rig.interface.unconnected = all;
+    for (int second = 0; second < 10; ++second) rig.output.maintain(now += 1s);
+    EXPECT_EQ(rig.interface.timesOpened, 2);
+}
+
 TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
     auto setup = eightHands();
     for (std::size_t j = 0; j < hands; ++j) setup.ceilings[j] = 0.02f + 0.01f * static_cast<float>(j);
@@ -325,6 +340,13 @@ TEST(AudioOutput, EnchantersGoWhereTheMapSaysThoughUnconnectedOutputsAreLeftOut)
     ASSERT_EQ(mapped.size(), 3u); // outputs 3, 4, 8
     EXPECT_TRUE(mapped[0] == all[3] && mapped[1] == all[2] && mapped[2] == all[0]);
     EXPECT_GT(loudest(all[0]), 0.01f);
+}
+
+TEST(AudioOutput, AnActuatorThatWasToldToPlayNowhereIsNotMissed) {
+    Rig rig;
+    rig.interface.outputs = 2;
+    ASSERT_EQ(rig.open({0, -1, -1, 1, -1, -1, -1, -1}), "");
+    EXPECT_EQ(rig.output.maintain(), "");
 }
 
 TEST(AudioOutput, TwoEnchantersOnOneOutputAreRefused) {

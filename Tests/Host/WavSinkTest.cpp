@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "Io/Wav/WavFile.h"
 #include "Io/Wav/WavSink.h"
 #include "Support/FileTesting.h"
 #include "Support/FullDisk.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -11,6 +13,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <juce_audio_formats/juce_audio_formats.h>
+#include <thread>
 #include <vector>
 
 namespace physvib {
@@ -144,7 +147,6 @@ TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {
     PlayedRecorder recorder{path, 1, rateHz};
     ASSERT_EQ(recorder.error(), "");
     recorder.tellBeginning(2400);
-    recorder.drain(); // nothing yet
     EXPECT_FALSE(recorder.beginsSeconds());
     const std::vector<float> block(480, 0.5f);
     const float* const channels[] = {block.data()};
@@ -155,6 +157,38 @@ TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {
     const auto bytes = bytesOf(path);
     EXPECT_NE(bytes.find("begins at session time -0.030000 s"), std::string::npos);
     EXPECT_EQ(numberAt<std::uint32_t>(bytes, chunkAt(bytes, "data") - 4), 960u * 4u);
+}
+
+/// Channels of the file as it stands, once it has so many frames; or after a while.
+std::vector<std::vector<float>> channelsOnceThereAre(std::size_t frames, const std::string& path) {
+    std::vector<std::vector<float>> channels;
+    for (int i = 0; i < 1000 && (channels.empty() || channels[0].size() < frames); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        if (std::FILE* const file = std::fopen(path.c_str(), "rb")) {
+            if (auto read = readWav(*file)) channels = std::move(read.value.channels);
+            std::fclose(file);
+        }
+    }
+    return channels;
+}
+
+TEST(PlayedRecorder, IsAWholeFileInItsPlaceWhileItGrows) {
+    const auto path = pathOf("grows.wav");
+    ASSERT_EQ(writeBlocks(path, 4, 10, 10), "");
+    PlayedRecorder recorder{path, 1, rateHz};
+    EXPECT_EQ(channelsOnceThereAre(10, path).size(), 4u) << "the old one, until there is something to hear";
+    const std::vector<float> block(480, 0.5f);
+    const float* const channels[] = {block.data()};
+    for (const std::size_t frames : {480u, 960u, 1440u}) {
+        recorder.rendered({channels, 480, static_cast<std::int64_t>(frames) - 480, rateHz});
+        std::vector<std::vector<float>> there;
+        for (int i = 0; i < 50 && there.size() != 1; ++i) there = channelsOnceThereAre(frames, path);
+        ASSERT_EQ(there.size(), 1u);
+        EXPECT_EQ(there[0], std::vector<float>(frames, 0.5f));
+    }
+    EXPECT_NE(PlayedRecorder(path, 1, rateHz).error().find("it is being written already"), std::string::npos);
+    ASSERT_EQ(recorder.finish(), "");
+    EXPECT_FALSE(std::filesystem::exists(path + ".physvib.part"));
 }
 
 TEST(PlayedRecorder, EndsWhereAnotherRateComes) {
@@ -203,6 +237,25 @@ TEST(WavSink, AFullDiskLeavesTheOldFileWhereverItFills) {
     }
     EXPECT_EQ(writeWithRoomFor(static_cast<rlim_t>(whole), path, channels, frames), "");
     EXPECT_EQ(bytesOf(path).size(), static_cast<std::size_t>(whole));
+}
+
+TEST(PlayedRecorder, AFullDiskIsToldAndLeavesWhatFitted) {
+    const auto path = pathOf("fitted.wav");
+    std::filesystem::remove(path);
+    PlayedRecorder recorder{path, 1, rateHz};
+    const std::vector<float> block(480, 0.5f);
+    const float* const channels[] = {block.data()};
+    recorder.rendered({channels, 480, 0, rateHz});
+    ASSERT_EQ(channelsOnceThereAre(480, path).size(), 1u);
+    const auto fitted = bytesOf(path);
+    const FileSizeLimit full(static_cast<rlim_t>(fitted.size() + 100));
+    recorder.rendered({channels, 480, 480, rateHz});
+    for (int i = 0; i < 1000 && recorder.error().empty(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    expectOneLineWith(recorder.error(), path + ": cannot be written: File too large");
+    recorder.rendered({channels, 480, 960, rateHz});
+    EXPECT_EQ(recorder.finish(), recorder.error());
+    EXPECT_EQ(bytesOf(path), fitted);
 }
 
 TEST(WavSink, RefusesBlocksAfterAnError) {

@@ -2,18 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Tries the doors by which somebody ends what he feels, in the states in which that is hard, on a JACK server without hardware: prints
 # a table of door, state, and milliseconds to zero (or to the end), and fails if one is later than it may be, or a file is not whole.
-# Usage: doors.sh BIN_FOLDER [GROUP...]: silence, overtake, readers, ends, commands, mixer (on a display), pauses, answers, complaints; all unless told.
+# Usage: doors.sh BIN_FOLDER [GROUP...]: silence, overtake, readers, ends, commands, mixer, dialogs (on a display), pauses, answers, complaints, wrong, closed, dead, stops; all unless told.
 set -eu
 bin=$(realpath "$1")
 shift
 here=$(cd "$(dirname "$0")" && pwd)
 physvib=$bin/physvib
-groups=${*:-silence overtake readers ends commands mixer pauses answers complaints}
+groups=${*:-silence overtake readers ends commands mixer dialogs pauses answers complaints wrong closed dead stops}
 display=${DISPLAY:-}
 . "$here/../Live/jack.sh"
 cd "$folder"
 port=$((20000 + $$ % 20000))
 failed=0 listener= victim= helpers=
+trap "" PIPE # a player that ended is a row that failed, and what listens still ends with the script
 
 # A shell's background ignores these, and they are what is tried.
 as_in_a_terminal() { exec env --default-signal=INT,HUP,TERM,PIPE "$@"; }
@@ -56,7 +57,7 @@ sounds() { is_now sound; }
 quiet() { is_now silent; }
 # zero DOOR STATE T0 MOST: since T0, on what is now playing.
 zero() {
-    if until_true 5000 quiet; then row "$1" "$2" $(($(tail -n 1 heard | cut -d ' ' -f 2) - $3 > 0 ? $(tail -n 1 heard | cut -d ' ' -f 2) - $3 : 0)) "$4"; else row "$1" "$2" never "$4"; fi
+    if until_true "${longest:-5000}" quiet; then row "$1" "$2" $(($(tail -n 1 heard | cut -d ' ' -f 2) - $3 > 0 ? $(tail -n 1 heard | cut -d ' ' -f 2) - $3 : 0)) "$4"; else row "$1" "$2" never "$4"; fi
 }
 cat >still.json <<'SCENE'
 { "physvib_scene": 1, "name": "still", "description": "nothing moves", "field_m": [2, 1], "gravity_m_per_s2": [0, 0],
@@ -73,10 +74,10 @@ play() {
     victim=$!
     playing="$victim $listener $helpers"
     exec 3>in
-    echo "$tone" >&3
+    say "$tone"
     until_true 20000 sounds || { row play "$scene: a tone" never 20000; [ ! -f "$told" ] || head -n 2 "$told"; }
 }
-say() { printf '%s\n' "$*" >&3; }
+say() { printf '%s\n' "$*" >&3 2>/dev/null || true; }
 # whole: the recording has its place and length, the session renders, nothing half is left.
 whole() {
     for part in ./*.part; do [ ! -e "$part" ] || { echo "left: $part"; return; }; done
@@ -102,7 +103,8 @@ end_by() {
     exec 3>&-
 }
 gone() { ! alive "$1"; }
-ended() { kill "$victim" 2>/dev/null || true; until_true 3000 gone "$victim" || kill -9 "$victim" 2>/dev/null || true; wait "$victim" 2>/dev/null || true; exec 3>&-; until_true 3000 quiet || true; }
+# Just while a client leaves, a JACK server may take no other for seconds.
+ended() { kill "$victim" 2>/dev/null || true; until_true 3000 gone "$victim" || kill -9 "$victim" 2>/dev/null || true; wait "$victim" 2>/dev/null || true; exec 3>&-; until_true 3000 quiet || true; sleep 0.5; }
 osc() { python3 "$here/osc.py" "$port" "$@"; }
 sent() { osc say "$@" | sed -n 's/^sent //p'; }
 
@@ -209,6 +211,16 @@ try_ends() {
     end_by TERM "the JACK server is stopped before play begins" "$victim" true
     kill -CONT "$server"
     end_server
+    serve 48000 256 8 # and nobody who connects what plays to himself
+    as_in_a_terminal "$physvib" play still.json --device JACK:system --seconds 8 </dev/null >out 2>err & victim=$!
+    until_true 5000 eval 'jack_lsp | grep -q physvib' || true
+    sleep 1
+    t=$(now)
+    for k in 1 2 3 4; do jack_disconnect "physvib:out_$k" "system:playback_$k" || true; done
+    if until_true 30000 gone "$victim"; then row "--seconds 8" "nobody asks for blocks any more" $(($(now) - t)) 20000; else row "--seconds 8" "nobody asks for blocks any more" never 20000; kill -9 "$victim"; fi
+    grep -q "4 of 4 actuators have no output" err || row "told" "nobody asks for blocks any more" no 0
+    wait "$victim" 2>/dev/null || true
+    close_server
 }
 
 # ---- 4: every other command
@@ -282,6 +294,70 @@ try_mixer() {
     end_server
 }
 
+# Esc and a press on SILENCE by the display's own keyboard and mouse, while something else of the mixer has
+# them. Places are those of a window of 1440 x 900; stop-walk.sh tries every state there is.
+try_dialogs() {
+    [ -n "$display" ] || { echo "dialogs: skipped, there is no display"; return 0; }
+    export XDG_CONFIG_HOME="$folder"
+    mkdir -p physvib
+    echo '<?xml version="1.0"?><PROPERTIES><VALUE name="osc" val="this-computer"/><VALUE name="hint-seen" val="1"/></PROPERTIES>' >physvib/mixer.settings
+    begin_server 48000
+    as_in_a_terminal env DISPLAY="$display" "$bin/physvib-mixer" still.json --device JACK:system >out 2>err & victim=$!
+    playing="$victim $listener"
+    until_true 20000 window_is_there
+    sleep 1
+    port=9000
+    osc say /physvib/strike sfsfsfsfss frequency_hz 205 decay_per_s 0 seconds 3600 level 0.5 law equal >/dev/null
+    until_true 5000 sounds || row mixer "a tone by OSC" never 5000
+    osc say /physvib/gain sisf channel 1 value 0.9 >/dev/null # an edit: closing asks
+    stop_in "nothing open" true
+    stop_in "main menu" x key F10
+    stop_in "list of scenes" at 205 26
+    stop_in "list of outputs" output_list
+    stop_in "list of protocols" protocol_list
+    stop_in "text field" at 524 26
+    stop_in "Open (Save the session?)" x key ctrl+o
+    stop_in "Open" open_chooser
+    stop_in "Render" x key ctrl+e
+    stop_in "Width of the display" x key F10 sleep 0.3 key Up key Up key Up key Return
+    x key F10 sleep 0.5; t=$(now); x keydown Escape sleep 1.2 keyup Escape; zero "Esc, held down" "main menu" "$t" 150; stays "Esc, held down"
+    ended
+    end_server
+}
+x() { env DISPLAY="$display" xdotool "$@"; }
+window_is_there() { x search --onlyvisible --name "PhysVib mixer" >window 2>/dev/null && [ -s window ]; }
+over() {
+    # shellcheck disable=SC2046 # X=.. Y=..
+    eval $(x getwindowgeometry --shell "$(head -n 1 window)" | grep '^[XY]=')
+    x mousemove $((X + $1)) $((Y + $2)) sleep 0.1
+}
+at() { over "$1" "$2"; x click 1; }
+output_list() { at 1204 85; sleep 0.2; at 1060 146; }
+protocol_list() { at 1322 85; sleep 0.2; at 1060 146; }
+open_chooser() { x key ctrl+o sleep 0.5 key d; } # do not save
+# stop_in STATE HOW...: brings it about; Esc, which closes it as well; then again, and a press.
+mixer_door='mixer: SILENCE, Esc, whatever is open'
+stop_in() {
+    state=$1
+    shift
+    "$@" || true
+    sleep 0.6; t=$(now); x key Escape; zero "Esc" "$state" "$t" 150; note_stop "$mixer_door" "$t"; stays Esc
+    again
+    "$@" || true
+    sleep 0.6; over 1353 26; t=$(now); x click 1; zero "SILENCE" "$state" "$t" 150; note_stop "$mixer_door" "$t"; stays SILENCE
+    again
+}
+# stays DOOR: no pause of a loaded machine, but silence.
+stays() { sleep 0.5; quiet || row "$1" "$state: silent for half a second" sounds 0; }
+# again: whatever is open closes, and the tone comes back.
+again() {
+    for _ in 1 2 3 4; do
+        x key Escape
+        ! until_true 1500 sounds || return 0
+    done
+    row "sounds again" "$state" never 0
+}
+
 # ---- 5: a pause is not a loss
 # back STATE T0 MOST: sound is there again.
 back() { if until_true 15000 sounds; then row "sounds again" "$1" $(($(now) - $2)) "$3"; else row "sounds again" "$1" never "$3"; fi; }
@@ -345,6 +421,196 @@ try_complaints() {
     until_true 20000 grep -q status out || row "--listen" "100,000 wrong lines before" never 20000
     row "lines on standard error" "of 100,000 wrong lines" "$(wc -l <err)" 1000
     ended
+    end_server
+}
+
+# ---- 8: what names silence and is no off in its right form silences, and its sender is told so
+# wrong DOOR STATE TOLD T0: silent since T0, told in that file by a line or an answer; then lifted in the right form.
+wrong() {
+    zero "$1" "$2" "$4" 100
+    until_true 1000 grep -q "silenced all the same" "$3" || row "$1" "$2: told" never 1000
+    say '{"control": "silence", "on": false}'
+    osc say /physvib/silence si on 0 >/dev/null
+    until_true 2000 sounds || row "$1" "$2: lifted" never 2000
+}
+try_wrong() {
+    begin_server 48000
+    longest=1000
+    play out err still.json --osc "$port"
+    long=$(head -c 70000 /dev/zero | tr '\0' ' ')
+    for line in '{"control": "silence"}' '{"control": "silence", "on": "true"}' '{"control": "silence", "on": 1}' '{"control": "silence", "on": null}' \
+        '{"control": "silence", "on": "false"}' '{"control": "silence", "on": true, "now": true}' '{"control": "silence", "on": false, "id": "a"}' \
+        '{"control": "silence", "on": false, "on": false}' '{"control": "Silence", "on": true}' '{"message": "silence", "on": true}' '{"input": "silence"}' \
+        '{"control": "silence", "on": tr' '{"control": "silence"' '{"control": "silence", "on": True}' "{'control': 'silence', 'on': True}" '{"silence": true}' \
+        'silence' '["silence"]' '{"control": ["silence"]}' '{"control": "\u0073ilence"}' "{\"control\": \"silence\", $long \"on\": true}" "{ $long \"control\": \"silence\", \"on\": false}"; do
+        : >err
+        t=$(now); say "$line"; wrong "--listen" "$(printf %.44s "$line")" err "$t"
+        sleep 1 # complaints of a cause are one a second
+    done
+    for words in /physvib/silence "/physvib/silence i 1" "/physvib/silence i 0" "/physvib/silence ss on 1" "/physvib/silence ss on false" "/physvib/silence si off 1" "/physvib/silence s on" \
+        "/physvib/silence sisi on 1 id 7" "/physvib/silence sisi on 0 on 0" "/physvib/silence sii on 0 0" "/physvib/silence sb on blob" "/physvib/silence sf on nan" "/physvib/silence sN on -" \
+        "/physvib/silence F -" "/physvib/silence/ si on 0" "/physvib/silence/on i 1" "/physvib/Silence si on 1" "/physvib/silences"; do
+        # shellcheck disable=SC2086 # words
+        osc say $words >answer; wrong "/physvib/silence" "${words#/physvib/}" answer "$(sed -n 's/^sent //p' answer)"
+    done
+    osc broken list >kinds
+    while read -r kind; do
+        osc broken "$kind" >answer; wrong "/physvib/silence" "$kind" answer "$(sed -n 's/^sent //p' answer)"
+    done <kinds
+    for other in '{"message": "clip", "file": "silence.wav"}' '{"input": "impulse", "body": "silence", "impulse_ns": [0, 1]}' '{"input": "spawn", "body": {"name": "silence"}}'; do
+        say "$other"
+    done
+    osc say /physvib/answer/silence si on 1 >/dev/null
+    osc say /physvib/clip ss file silence >/dev/null
+    osc say /elsewhere/silence si on 1 >/dev/null
+    sleep 0.3
+    if sounds; then row "another line or address" "with the word in it: plays on" 0 0; else row "another line or address" "with the word in it" silent 0; fi
+    longest=
+    ended
+    end_server
+}
+
+# ---- 9: standard input ends
+# leaves DOOR STATE T0 MOST: zero, and the program ends by itself.
+leaves() {
+    zero "$1" "$2" "$3" "$4"
+    if until_true 5000 gone "$victim"; then row "$1" "$2: ends" $(($(now) - $3)) "$5"; else row "$1" "$2: ends" never "$5"; kill -9 "$victim"; fi
+    fault=$(whole)
+    [ -z "$fault" ] || row "$1" "$2: files" "$fault" 0
+}
+try_closed() {
+    begin_server 48000
+    play out err still.json
+    t=$(now); exec 3>&-; leaves "--listen" "standard input is closed" "$t" 800 2000
+    grep -q -- "--keep-playing" err || row "--listen" "standard input is closed: told" never 0
+    for again in 1 2 3; do # the program that controls it is killed in the middle of a line, with another that waits for its time
+        rm -f felt.wav session.json session.events.csv
+        python3 -c "import subprocess, sys, time
+player = subprocess.Popen(sys.argv[1:], stdin=subprocess.PIPE)
+player.stdin.write(b'$tone\n{\"message\": \"strike\", \"frequency_hz\": 100, \"decay_per_s\": 1, \"in\": 100}\n{\"message\": \"stri')
+player.stdin.flush()
+print(player.pid, flush=True)
+time.sleep(600)" "$physvib" play still.json --device JACK:system --seconds 3600 --listen --osc "$port" --record felt.wav --save session.json >controls 2>err &
+        control=$!
+        playing="$control $listener"
+        until_true 20000 sounds || row play "a tone" never 20000
+        victim=$(head -n 1 controls)
+        playing="$control $victim $listener"
+        t=$(now); kill -9 "$control"; wait "$control" 2>/dev/null || true
+        leaves "--listen" "who controls it is killed, $again" "$t" 800 2000
+        "$physvib" play still.json --device JACK:system --seconds 0.2 --osc "$port" >out 2>told || row play "after that" failed 0
+        grep -q "listening at 127.0.0.1:$port\$" told || row "--osc" "after that: its port" taken 0
+    done
+    play out err still.json --keep-playing
+    exec 3>&-; sleep 1.5
+    if sounds && alive "$victim"; then row "--keep-playing" "standard input is closed: plays on" 0 0; else row "--keep-playing" "standard input is closed" silent 0; fi
+    end_by TERM "after that" "$victim"
+    for k in 1 2 3; do # what was sent last is felt
+        : >heard
+        echo '{"message": "strike", "frequency_hz": 205, "decay_per_s": 30, "level": 0.5}' | "$physvib" play still.json --device JACK:system --seconds 5 --listen >out 2>err
+        if until_true 500 grep -q sound heard; then row "one line, and the end" "felt, $k" 0 0; else row "one line, and the end" "felt, $k" no 0; fi
+    done
+    end_server
+}
+
+# ---- 10: a client that dies leaves nothing behind
+try_dead() {
+    begin_server 48000
+    for signal in KILL TERM STOP; do
+        python3 -c "import ctypes, sys, time
+lib = ctypes.CDLL(sys.argv[1])
+live = ctypes.c_void_p()
+lib.physvib_live_open.argtypes = [ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p]
+print(lib.physvib_live_open(b'JACK:system', None, None, ctypes.byref(live)), flush=True)
+time.sleep(600)" "$bin/../lib/libphysvib-live.so" >opened 2>err & client=$!
+        playing="$client $listener"
+        until_true 20000 grep -q "^0" opened || row "live library" "opens" never 20000
+        kill -s $signal "$client"
+        [ $signal != STOP ] || { sleep 2; kill -s KILL "$client"; }
+        wait "$client" 2>/dev/null || true
+        sleep 1 # as in ended()
+        play out err still.json --osc "$port"
+        row "play" "after a live client and SIG$signal" 0 0
+        ended
+    done
+    for signal in KILL TERM; do
+        play out err still.json --osc "$port"
+        kill -s $signal "$victim" || true
+        exec 3>&-
+        wait "$victim" 2>/dev/null || true
+        sleep 1
+        play out err still.json --osc "$port"
+        if grep -q "listening at 127.0.0.1:$port\$" err; then row "play" "after play and SIG$signal, on its port" 0 0; else row "--osc" "after play and SIG$signal: its port" taken 0; fi
+        ended
+    done
+    end_server
+}
+
+# ---- 11: the table of Docs/silence.md, whose last bound each door keeps
+table=$here/../../Docs/silence.md
+# stop_row DOOR T0: how long it was until zero, into a file of that door.
+stop_row() {
+    until_true 3000 quiet || { row "$1" plays never 0; return; }
+    note_stop "$1" "$2"
+}
+note_stop() {
+    ms=$(($(tail -n 1 heard | cut -d ' ' -f 2) - $2))
+    echo $((ms > 0 ? ms : 0)) >>"stop $(echo "$1" | tr / -)"
+}
+back_again() {
+    say '{"control": "silence", "on": false}'
+    osc say /physvib/silence si on 0 >/dev/null
+    until_true 3000 sounds || row "$1" "lifted" never 0
+}
+# told DOOR: its row as it may stand in the table, and whether it keeps the bound that stands there.
+told() {
+    file="stop $(echo "$1" | tr / -)"
+    sort -n "$file" >sorted
+    count=$(wc -l <sorted) worst=$(tail -n 1 sorted) median=$(sed -n "$((count / 2 + 1))p" sorted)
+    most=$(awk -F ' *[|] *' -v door="$1" 'NF == 8 && $2 == door { print $6 }' "$table")
+    row "$1" "median $median, worst of $count" "$worst" "${most:-0}"
+    echo "| $1 | $median | $worst | $count | $most |"
+}
+try_stops() {
+    begin_server 48000
+    play out err still.json --osc "$port"
+    for _ in $(seq 20); do
+        t=$(now); say '{"control": "silence", "on": true}'; stop_row '`--listen`: silence on' "$t"; back_again
+        t=$(now); say '{"control": "silence", "on": "tr'; stop_row '`--listen`: a line that is cut' "$t"; back_again
+        t=$(sent /physvib/silence si on 1); stop_row '`/physvib/silence on 1`' "$t"; back_again
+        t=$(osc broken "an off that is cut" | sed -n 's/^sent //p'); stop_row '`/physvib/silence`: a packet that is cut' "$t"; back_again
+    done
+    ended
+    for _ in $(seq 10); do # each on a server of its own: see ended()
+        end_server; begin_server 48000
+        play out err still.json
+        t=$(now); kill -s INT "$victim"; stop_row '`play`: Ctrl-C, `kill`' "$t"; ended
+        end_server; begin_server 48000
+        play out err still.json
+        t=$(now); exec 3>&-; stop_row '`play --listen`: standard input ends' "$t"; ended
+    done
+    end_server; begin_server 48000
+    # shellcheck disable=SC2016 # C
+    python3 -c "import ctypes, sys, time
+lib, live = ctypes.CDLL(sys.argv[1]), ctypes.c_void_p()
+class Event(ctypes.Structure):
+    _fields_ = [(n, ctypes.c_int64) for n in ('time_ns', 'duration_ns')] + [(n, ctypes.c_double) for n in ('hz', 'decay', 'amplitude', 'x', 'y', 'impulse', 'mass')] + [(n, ctypes.c_int) for n in ('fixture', 'other', 'kind', 'unused')]
+lib.physvib_live_open.argtypes = [ctypes.c_char_p] + [ctypes.c_void_p] * 3
+assert lib.physvib_live_open(b'JACK:system', None, None, ctypes.byref(live)) == 0
+assert lib.physvib_live_strike(live, ctypes.byref(Event(0, 3600 * 10 ** 9, 205, 0, 0.5, 0.1, 0.1, 0, 0, -1, -1, 0, 0)), ctypes.c_int64(1)) == 0
+print('open', flush=True)
+for line in sys.stdin:
+    print(time.time_ns() // 1_000_000, flush=True)
+    lib.physvib_live_silence(live, int(line))" "$bin/../lib/libphysvib-live.so" <in >out 2>err & victim=$!
+    playing="$victim $listener"
+    exec 3>in
+    until_true 20000 sounds || row "live library" "a tone" never 0
+    for _ in $(seq 20); do
+        say 1; sleep 0.3; stop_row '`physvib_live_silence`' "$(tail -n 1 out)"
+        say 0; until_true 3000 sounds || row "live library" lifted never 0
+    done
+    ended
+    for door in '`--listen`: silence on' '`--listen`: a line that is cut' '`/physvib/silence on 1`' '`/physvib/silence`: a packet that is cut' '`physvib_live_silence`' '`play`: Ctrl-C, `kill`' '`play --listen`: standard input ends'; do told "$door"; done
     end_server
 }
 

@@ -105,6 +105,9 @@ test('a world sends to a renderer; levels, mutes, silence and layouts act', () =
 test('events as text, and layouts, go forth and back; a sound file is as the C library writes it', async () => {
     const events = drop(), text = await physvib.eventsText(events);
     assert.deepEqual(await physvib.parseEvents(text), events);
+    const size = { fieldWidth: 8, fieldHeight: 4.5 }, said = await physvib.parseEvents(await physvib.eventsText(events, size));
+    assert.deepEqual([said.fieldWidth, said.fieldHeight], [8, 4.5]);
+    assert.ok(isSame(physvib.render(said, { seconds: 1 }), physvib.render(events, { seconds: 1, ...size })));
     writeFileSync(join(work, 'drop.csv'), text);
     run('render', '--from-events', 'drop.csv', '--field', '1,1', '--seconds', '2', '--instructions', 'scalar', '--out', 'drop.wav');
     const channels = physvib.render(events, { seconds: 2, fieldWidth: 1, fieldHeight: 1 }), file = Buffer.from(await physvib.wav(channels));

@@ -27,7 +27,7 @@ cat >"$folder/lines" <<'LINES'
 {"message": "clip", "file": "knock.wav", "law": "energy", "in": 0.8}
 {"message": "clip", "file": "../outside.wav"}
 LINES
-"$physvib" play "$scene" --device JACK:system --level 0 --seconds 3 --clips "$folder/clips" --listen --record "$folder/own.wav" --save "$folder/session.json" \
+"$physvib" play "$scene" --device JACK:system --level 0 --seconds 3 --clips "$folder/clips" --listen --keep-playing --record "$folder/own.wav" --save "$folder/session.json" \
     <"$folder/lines" >"$folder/report" 2>"$folder/refused" || { cat "$folder/report" "$folder/refused"; exit 1; }
 [ "$(wc -l <"$folder/refused")" -eq 1 ]
 grep -q 'standard input:5: clip: file: "../outside.wav": expected a file in .* or below' "$folder/refused"

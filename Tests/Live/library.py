@@ -91,6 +91,12 @@ refused(live.set_gain, 4, 1.0)
 refused(live.set_gain, 0, float("nan"))
 refused(live.set_level, 1.0)
 refused(live.set_layout, physvib.Layout([(0.1, 0.1)] * 5, (1.0, 1.0)))
+for odd in (True, "0", "false", "off", None, 0.4, float("nan"), 2 ** 40, [], np.zeros(2)):  # all but off
+    live.silence(odd)
+    assert live.status.is_silent, odd
+    for off in (False, 0, 0.0, np.bool_(False)):
+        live.silence(off)
+        assert not live.status.is_silent, off
 live.silence()
 assert live.status.is_silent
 live.close()

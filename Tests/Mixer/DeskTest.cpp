@@ -137,8 +137,10 @@ TEST(Desk, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
     EXPECT_GT(wav->lengthInSamples, 2 * 48000 - 4800);
     const auto events = loadEventsCsv(folder("take.csv").getFullPathName().toStdString());
     ASSERT_TRUE(events) << events.error;
-    ASSERT_FALSE(events.value.empty());
-    EXPECT_LT(events.value.back().timeNs, static_cast<std::int64_t>(1e9 * static_cast<double>(wav->lengthInSamples) / 48000.0));
+    ASSERT_FALSE(events.value.events.empty());
+    EXPECT_EQ(events.value.field.widthMetres, desk.world().scene().fieldWidthMetres);
+    EXPECT_LT(events.value.events.back().timeNs,
+              static_cast<std::int64_t>(1e9 * static_cast<double>(wav->lengthInSamples) / 48000.0));
     EXPECT_NE(desk.recording().start(folder("no/such/folder/take.wav")), "");
 }
 

@@ -264,5 +264,20 @@ TEST(FirstStart, TwoOutputsAreTwoActuators) {
     EXPECT_EQ(desk.mix().count(), 2);
 }
 
+TEST(FirstStart, HeadphonesAreListenedToAndNoActuatorIsMissed) {
+    Desk desk{onlyNoDevice(), noDevice};
+    bool hasEnded = false;
+    FirstStart card{desk, {{"headphones", noDevice, 2, false, true}}};
+    card.onEnd = [&](bool hasChosen) { hasEnded = hasChosen; };
+    card.playHere();
+    EXPECT_TRUE(hasEnded);
+    ASSERT_EQ(desk.mix().count(), 2);
+    for (const Strip& strip : desk.mix().strips) EXPECT_EQ(strip.output, -1);
+    EXPECT_EQ(desk.device().listening().settings().contacts, (std::vector<int>{0, 1}));
+    const auto end = juce::Time::getMillisecondCounter() + 2500; // the device is looked at once a second
+    EXPECT_TRUE(runUntil([&] { return desk.look(), juce::Time::getMillisecondCounter() > end; }));
+    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+}
+
 } // namespace
 } // namespace physvib

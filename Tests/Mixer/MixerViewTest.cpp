@@ -89,22 +89,28 @@ TEST(MixerView, WhatComesLaterHasARingAsWell) {
     EXPECT_NE(find(view, "The script begins at"), nullptr);
     EXPECT_TRUE(find(view, "Script of hands")->isVisible());
     expectRings(view.world());
-    view.setQuestion(std::make_unique<QuestionCard>("Take it?", "It is there.", "Yes", "No"));
+    view.setQuestion(std::make_unique<QuestionCard>(
+        "Take it?", "It is there.", std::vector<QuestionCard::Answer>{{"Yes", [] {}}, {"No", [] {}}}));
     expectRings(view);
 }
 
-TEST(MixerView, ReturnIsYesAndTheOtherButtonIsNo) {
-    for (const bool isYes : {true, false}) {
+TEST(MixerView, ReturnIsTheFirstAnswerAndTheOthersAreButtonsAndKeys) {
+    for (const std::string way : {"Return", "button", "key", "disabled"}) {
         Desk desk{onlyNoDevice(), noDevice};
         MixerView view{desk};
-        std::optional<bool> answer;
-        auto card = std::make_unique<QuestionCard>("Take it?", "It is there.", "Yes", "No");
-        card->onAnswer = [&](bool is) { answer = is; };
-        view.setQuestion(std::move(card));
+        std::string answer;
+        std::vector<QuestionCard::Answer> answers{
+            {"Yes", [&] { answer = "Return"; }, way != "disabled"},
+            {"No", [&] { answer = "button", view.setQuestion(nullptr); }},
+            {"Other", [&] { answer = "key"; }, true, juce::KeyPress{juce::KeyPress::rightKey}}};
+        view.setQuestion(std::make_unique<QuestionCard>("Take it?", "It is there.", std::move(answers)));
         EXPECT_EQ(view.question()->getBounds().getCentreX(), view.getLocalBounds().getCentreX());
-        if (isYes) view.keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
-        else dynamic_cast<juce::Button*>(find(*view.question(), "No"))->onClick();
-        EXPECT_EQ(answer, isYes);
+        if (way == "button")
+            dynamic_cast<juce::Button*>(find(*view.question(), "No"))->onClick();
+        else
+            view.keyPressed(
+                juce::KeyPress{way == "key" ? juce::KeyPress::rightKey : juce::KeyPress::returnKey});
+        EXPECT_EQ(runUntil([&] { return answer == way; }, 1.0), way != "disabled") << way << ": " << answer;
     }
 }
 

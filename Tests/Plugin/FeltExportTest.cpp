@@ -91,7 +91,8 @@ TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     ASSERT_TRUE(folder.createDirectory().wasOk());
     const auto at = [&folder](const char* name) { return folder.getChildFile(name).getFullPathName().toStdString(); };
     ASSERT_TRUE(exportFelt(felt, at("felt.csv")));
-    EXPECT_EQ(loadEventsCsv(at("felt.csv")).value, events);
+    EXPECT_EQ(loadEventsCsv(at("felt.csv")).value.events, events);
+    EXPECT_EQ(loadEventsCsv(at("felt.csv")).value.field, fieldOf(felt.panner));
     ASSERT_TRUE(exportFelt(felt, at("felt.HJIF")));
     EXPECT_EQ(loadClip(at("felt.HJIF"), ClipFormat::hjif).value.channels.size(), 4u);
     EXPECT_TRUE(exportFelt(felt, at("felt.mid")));

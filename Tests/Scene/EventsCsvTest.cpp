@@ -11,6 +11,7 @@ namespace {
 
 using Events = std::vector<CollisionEvent>;
 const Provenance provenance{"0.1.0", {{"seed", "1"}, {"scene", "shake-the-box"}}};
+const FieldSize field{8.0, 4.5};
 const std::string allColumns =
     "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m,duration_s,fixture,other,impulse_ns,mass_kg\n";
 const std::string shortHeader = "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n";
@@ -44,15 +45,15 @@ bool isOneLine(const std::string& text) {
 }
 
 Events readGood(const std::string& text) {
-    Result<Events> read = readEventsCsv(text, "hits.csv");
+    Result<EventList> read = readEventsCsv(text, "hits.csv");
     EXPECT_EQ(read.error, "");
-    return std::move(read.value);
+    return std::move(read.value.events);
 }
 
 std::string errorOf(const std::string& text) {
-    const Result<Events> read = readEventsCsv(text, "hits.csv");
+    const Result<EventList> read = readEventsCsv(text, "hits.csv");
     EXPECT_FALSE(read) << text;
-    EXPECT_TRUE(read.value.empty());
+    EXPECT_TRUE(read.value.events.empty());
     EXPECT_TRUE(isOneLine(read.error)) << read.error;
     return read.error;
 }
@@ -64,22 +65,22 @@ std::string errorOfRow(const std::string& row) {
 
 TEST(EventsCsv, WritesTheColumnsOfTheInterface) {
     const CollisionEvent hit{1'250'000'001, 205.0, 12.5, -0.1, 0.06, 1e-7, 20'000'000, {3, -1, 0.004, 2.0}};
-    EXPECT_EQ(eventsCsv(std::span(&hit, 1), provenance),
-              "# physvib 0.1.0 seed=1 scene=shake-the-box\n" + allColumns +
+    EXPECT_EQ(eventsCsv(std::span(&hit, 1), field, provenance),
+              "# physvib 0.1.0 seed=1 scene=shake-the-box field_m=8,4.5\n" + allColumns +
                   "1.250000001,205,12.5,-0.1,0.06,1e-07,0.020000000,3,-1,0.004,2\n");
 }
 
 TEST(EventsCsv, WriteThenReadGivesTheSameBits) {
     const Events events = randomEvents(3, 20'000);
-    EXPECT_TRUE(readGood(eventsCsv(events, provenance)) == events);
+    EXPECT_TRUE(readGood(eventsCsv(events, field, provenance)) == events);
 }
 
 TEST(EventsCsv, KindsAreWrittenWhereThereAreAny) {
     Events events = randomEvents(5, 100);
-    EXPECT_EQ(eventsCsv(events, provenance).find("kind"), std::string::npos);
+    EXPECT_EQ(eventsCsv(events, field, provenance).find("kind"), std::string::npos);
     events[7].source.kind = ContactKind::roll;
     events[50].source.kind = ContactKind::slide;
-    const std::string text = eventsCsv(events, provenance);
+    const std::string text = eventsCsv(events, field, provenance);
     EXPECT_NE(text.find("mass_kg,kind\n"), std::string::npos);
     EXPECT_TRUE(readGood(text) == events);
     EXPECT_EQ(errorOf(allColumns.substr(0, allColumns.size() - 1) + ",kind\n1,200,10,1,0,0,0,1,2,0,1,fall\n"),
@@ -87,15 +88,45 @@ TEST(EventsCsv, KindsAreWrittenWhereThereAreAny) {
 }
 
 TEST(EventsCsv, ReadThenWriteGivesTheSameBytes) {
-    const std::string text = eventsCsv(randomEvents(4, 2'000), provenance);
-    EXPECT_TRUE(eventsCsv(readGood(text), provenance) == text);
+    const std::string text = eventsCsv(randomEvents(4, 2'000), field, provenance);
+    EXPECT_TRUE(eventsCsv(readGood(text), field, provenance) == text);
+}
+
+TEST(EventsCsv, AListSaysTheFieldItSpans) {
+    const std::string row = shortHeader + "0.5,200,10,0.5,0.1,0.2\n";
+    const auto fieldOfText = [&](const std::string& comments) {
+        const Result<EventList> read = readEventsCsv(comments + row, "hits.csv");
+        EXPECT_EQ(read.error, "") << comments;
+        EXPECT_EQ(read.value.events.size(), 1u);
+        return read.value.field;
+    };
+    EXPECT_EQ(fieldOfText(""), FieldSize{}) << "lists of old";
+    EXPECT_EQ(fieldOfText("# physvib 0.1.0 scene=drop seed=1\n"), FieldSize{});
+    EXPECT_EQ(fieldOfText("# physvib 0.1.0 scene=drop field_m=8,4.5\n"), (FieldSize{8.0, 4.5}));
+    EXPECT_EQ(fieldOfText("#field_m=8,4.5\r\n"), (FieldSize{8.0, 4.5}));
+    EXPECT_EQ(fieldOfText("# scene=a field_m=8,4.5,,,,,,,,,\n"), (FieldSize{8.0, 4.5}))
+        << "as spreadsheets save it";
+    EXPECT_EQ(fieldOfText("# a\n\n# field_m=1e-3,0.1 metres\n# b\n"), (FieldSize{1e-3, 0.1}));
+    EXPECT_EQ(fieldOfText("# music=my field_m=x.wav field_m=2,1\n"), (FieldSize{2.0, 1.0}))
+        << "the last word is ours";
+    EXPECT_EQ(fieldOfText("# my_field_m=nothing\n"), FieldSize{}) << "another word";
+    for (const std::string wrong : {"", "8", "8,", "8x4", "0,1", "8,-1", "8,1,2", "nan,1", "1e7,1"})
+        EXPECT_EQ(errorOf("\n# a field_m=" + wrong + "\n" + row),
+                  "hits.csv:2: field_m: expected W,H in metres (0.001 to 1e6), found \"" +
+                      (wrong == "8," ? "8" : wrong) + "\"");
+    const double odd = 0.1 + 0.2;
+    EXPECT_EQ(
+        readEventsCsv(eventsCsv(randomEvents(5, 3), {odd, 1.0 / 3.0}, provenance), "hits.csv").value.field,
+        (FieldSize{odd, 1.0 / 3.0}));
+    EXPECT_EQ(eventsCsv(randomEvents(5, 3), {}, provenance).find("field_m"), std::string::npos)
+        << "one that nobody knows";
 }
 
 TEST(EventsCsv, NegativeZeroKeepsItsSign) {
     const Events events = readGood(shortHeader + "0,1,1,-0,-0.0,0\n");
     EXPECT_TRUE(std::signbit(events[0].amplitude) && std::signbit(events[0].x));
     EXPECT_FALSE(std::signbit(events[0].y));
-    const Events again = readGood(eventsCsv(events, provenance));
+    const Events again = readGood(eventsCsv(events, field, provenance));
     EXPECT_TRUE(std::signbit(again[0].amplitude));
 }
 
@@ -195,15 +226,16 @@ TEST(EventsCsv, HeaderIsChecked) {
 TEST(EventsCsv, AListWithoutEventsIsAMistake) {
     EXPECT_EQ(errorOf(shortHeader), "hits.csv:1: expected events after the header, found none");
     EXPECT_EQ(errorOf(shortHeader + "\n\n"), "hits.csv:1: expected events after the header, found none");
-    EXPECT_EQ(errorOf(eventsCsv({}, provenance)), "hits.csv:2: expected events after the header, found none");
+    EXPECT_EQ(errorOf(eventsCsv({}, field, provenance)),
+              "hits.csv:2: expected events after the header, found none");
 }
 
 TEST(EventsCsv, MoreRowsThanTheLimitAreRefused) {
     const std::string three = shortHeader + "1,2,3,4,5,6\n1,2,3,4,5,6\n1,2,3,4,5,6\n\n";
     EXPECT_TRUE(readEventsCsv(three, "hits.csv", 3));
-    const Result<Events> read = readEventsCsv(three, "hits.csv", 2);
+    const Result<EventList> read = readEventsCsv(three, "hits.csv", 2);
     EXPECT_EQ(read.error, "hits.csv:4: expected at most 2 events");
-    EXPECT_TRUE(read.value.empty());
+    EXPECT_TRUE(read.value.events.empty());
 }
 
 TEST(EventsCsv, WhatIsFoundIsShownShortAndHarmless) {
@@ -214,7 +246,7 @@ TEST(EventsCsv, WhatIsFoundIsShownShortAndHarmless) {
 
 TEST(EventsCsv, ProvenanceStaysOnOneLine) {
     const Events events = randomEvents(5, 1);
-    const std::string text = eventsCsv(events, {"0.1.0", {{"scene", "a\nb\r\nc"}}});
+    const std::string text = eventsCsv(events, {}, {"0.1.0", {{"scene", "a\nb\r\nc"}}});
     EXPECT_TRUE(text.starts_with("# physvib 0.1.0 scene=a b  c\n")) << text;
     EXPECT_TRUE(readGood(text) == events);
 }
@@ -242,46 +274,49 @@ TEST(EventsCsv, AcceptsExactlyWhatIsPlayable) {
     int accepted = 0;
     for (int i = 0; i < 50'000; ++i) {
         const CollisionEvent e{time(), number(), number(), number(), number(), number(), time(), {}};
-        const Result<Events> read = readEventsCsv(eventsCsv(std::span(&e, 1), provenance), "hits.csv");
-        ASSERT_EQ(bool(read), isPlayable(e)) << read.error << eventsCsv(std::span(&e, 1), provenance);
+        const Result<EventList> read =
+            readEventsCsv(eventsCsv(std::span(&e, 1), field, provenance), "hits.csv");
+        ASSERT_EQ(bool(read), isPlayable(e)) << read.error << eventsCsv(std::span(&e, 1), field, provenance);
         accepted += read ? 1 : 0;
     }
     EXPECT_GT(accepted, 100);
 }
 
 TEST(EventsCsv, NoMutationCrashesOrHalfLoads) {
-    const std::string good = eventsCsv(randomEvents(7, 8), provenance);
+    const std::string good = eventsCsv(randomEvents(7, 8), field, provenance);
     std::mt19937 random(8);
     int accepted = 0;
     for (int i = 0; i < 20'000; ++i) {
         const std::string text = mutated(good, "0123456789,.-+eE\n\r# \"\xEF", random);
-        const Result<Events> read = readEventsCsv(text, "hits.csv");
-        ASSERT_EQ(bool(read), !read.value.empty());
+        const Result<EventList> read = readEventsCsv(text, "hits.csv");
+        ASSERT_EQ(bool(read), !read.value.events.empty());
         ASSERT_TRUE(isOneLine(read.error)) << read.error;
         ASSERT_TRUE(read || read.error.starts_with("hits.csv:")) << read.error;
-        ASSERT_TRUE(std::ranges::all_of(read.value, isPlayable));
-        ASSERT_TRUE(std::ranges::is_sorted(read.value, {}, &CollisionEvent::timeNs));
+        ASSERT_TRUE(std::ranges::all_of(read.value.events, isPlayable));
+        ASSERT_TRUE(std::ranges::is_sorted(read.value.events, {}, &CollisionEvent::timeNs));
         if (!read) continue;
         ++accepted;
-        ASSERT_TRUE(readGood(eventsCsv(read.value, provenance)) == read.value);
+        ASSERT_TRUE(
+            readEventsCsv(eventsCsv(read.value.events, read.value.field, provenance), "again").value ==
+            read.value);
     }
     EXPECT_GT(accepted, 1'000);
     EXPECT_LT(accepted, 19'000);
 }
 
 TEST(EventsCsv, NoTruncationCrashesOrHalfLoads) {
-    const std::string good = eventsCsv(randomEvents(9, 4), provenance);
+    const std::string good = eventsCsv(randomEvents(9, 4), field, provenance);
     for (std::size_t length = 0; length < good.size(); ++length) {
-        const Result<Events> read = readEventsCsv(std::string_view(good).substr(0, length), "hits.csv");
-        EXPECT_EQ(bool(read), !read.value.empty()) << length;
+        const Result<EventList> read = readEventsCsv(std::string_view(good).substr(0, length), "hits.csv");
+        EXPECT_EQ(bool(read), !read.value.events.empty()) << length;
     }
 }
 
 TEST(EventsCsv, ACommaLocaleChangesNothing) {
     const Events events = randomEvents(10, 200);
-    const std::string text = eventsCsv(events, provenance);
+    const std::string text = eventsCsv(events, field, provenance);
     const CommaLocale comma;
-    EXPECT_TRUE(eventsCsv(events, provenance) == text);
+    EXPECT_TRUE(eventsCsv(events, field, provenance) == text);
     EXPECT_TRUE(readGood(text) == events);
     EXPECT_NE(errorOf(shortHeader + "1,20000.5,3,4,5,6\n").find("<= 20000, found \"20000.5\""),
               std::string::npos);
@@ -293,8 +328,8 @@ using EventsCsvFileTest = FolderTest;
 
 TEST_F(EventsCsvFileTest, LoadsWhatWasWritten) {
     const Events events = randomEvents(11, 100);
-    ASSERT_EQ(writeFile(folder / "hits.csv", eventsCsv(events, provenance)), "");
-    EXPECT_TRUE(loadEventsCsv(folder / "hits.csv").value == events);
+    ASSERT_EQ(writeFile(folder / "hits.csv", eventsCsv(events, field, provenance)), "");
+    EXPECT_TRUE(loadEventsCsv(folder / "hits.csv").value.events == events);
 }
 
 // A file is read in blocks, a text at once.

@@ -44,5 +44,25 @@ TEST(InputLine, ItsNumberIsReadFromAnyLineWhereItStands) {
     EXPECT_EQ(std::get<PlainMessage>(readInputLine(R"({"message": "status", "id": 7})", materials, 4).value), (PlainMessage{"status", {}})) << "it is none of its values";
 }
 
+TEST(InputLine, WhatNamesSilenceAndIsNoOffInItsRightFormAsksForIt) {
+    for (const char* asks :
+         {R"({"control": "silence", "on": true})", R"({"control": "silence", "on": true, "id": 7})",
+          R"({"control": "silence"})", R"({"control": "silence", "on": "true"})",
+          R"({"control": "silence", "on": 0})", R"({"control": "silence", "on": false, "why": 1})",
+          R"({"control": "silence", "on": false, "on": false})",
+          R"({"control": "silence", "on": false, "id": "a"})", R"({"control": "Silence", "on": false})",
+          R"({"control": "\u0073ilence"})", R"({"control": ["silence"]})", R"({"message": "silence"})",
+          R"({"message": "stop", "control": "silence"})", R"({"control": "silence", "on": fal)", "SILENCE",
+          R"("silence")"})
+        EXPECT_TRUE(asksForSilence(asks)) << asks;
+    for (const char* other :
+         {R"({"control": "silence", "on": false})", R"({"id": 7, "control": "silence", "on": false})",
+          R"({"message": "clip", "file": "silence.wav"})",
+          R"({"input": "impulse", "body": "silence", "impulse_ns": [0, 1]})",
+          R"({"input": "remove", "body": "silence"})", R"({"input": "spawn", "body": {"name": "silence"}})",
+          R"({"control": "gain", "channel": 3, "silence": 1})", R"({"control": "sil)", ""})
+        EXPECT_FALSE(asksForSilence(other)) << other;
+}
+
 } // namespace
 } // namespace physvib

@@ -15,7 +15,7 @@ std::string errorOf(const std::string& text) {
 }
 
 TEST(MaterialTable, HasTheRowsOfTheThesis) {
-    const MaterialTable& table = builtInMaterials();
+    const MaterialTable& table = builtInMaterials().front();
     ASSERT_EQ(table.materials.size(), 6U);
     const Material& steel = table.materials[5];
     EXPECT_EQ(steel.name, "steel plate");
@@ -27,10 +27,10 @@ TEST(MaterialTable, HasTheRowsOfTheThesis) {
 }
 
 TEST(MaterialTable, WrittenAndReadItIsTheSame) {
-    const std::string text = materialsJson(builtInMaterials());
+    const std::string text = materialsJson(builtInMaterials().front());
     const auto again = readMaterials(text, "my.json");
     ASSERT_TRUE(again) << again.error;
-    EXPECT_TRUE(again.value == builtInMaterials());
+    EXPECT_TRUE(again.value == builtInMaterials().front());
     EXPECT_EQ(materialsJson(again.value), text);
 }
 
@@ -52,8 +52,8 @@ TEST(MaterialTable, FaultsNameTheirField) {
 using MaterialTableOnDiskTest = FolderTest;
 
 TEST_F(MaterialTableOnDiskTest, LoadsWhatWasWritten) {
-    ASSERT_EQ(writeFile(folder / "m.json", materialsJson(builtInMaterials())), "");
-    EXPECT_TRUE(loadMaterials(folder / "m.json").value == builtInMaterials());
+    ASSERT_EQ(writeFile(folder / "m.json", materialsJson(builtInMaterials().front())), "");
+    EXPECT_TRUE(loadMaterials(folder / "m.json").value == builtInMaterials().front());
 }
 
 } // namespace

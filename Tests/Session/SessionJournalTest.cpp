@@ -41,7 +41,8 @@ protected:
     std::size_t rows() const {
         const auto read = readEventsCsv(text("monday.events.csv"), "events");
         EXPECT_EQ(read.error, "");
-        return read.value.size();
+        EXPECT_EQ(read.value.field, fieldOf(setup.panner));
+        return read.value.events.size();
     }
 
     std::filesystem::path folder;
@@ -72,6 +73,20 @@ TEST_F(SessionJournals, BecomeOrdinarySessionFiles) {
     EXPECT_GT(events, 20u);
     EXPECT_EQ(rows(), events);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder}, {}), 2);
+}
+
+TEST_F(SessionJournals, StayWhatTheyAreWhereNobodyCanWaitAndAreReadAlike) {
+    Session session{setup};
+    session.prepare(hostRate, 480);
+    SessionJournal journal{folder / "monday.json", session, setup, {}};
+    play(session, journal, 100);
+    journal.end(session.status().sessionNs);
+    const std::string kept = text("monday.json");
+    ASSERT_EQ(journal.finish(kept.size() - 1), "");
+    EXPECT_EQ(text("monday.json"), kept);
+    EXPECT_EQ(loadSession(folder / "monday.json").value.log.takes[0].inputs.size(), inputs);
+    ASSERT_EQ(journal.finish(kept.size()), "");
+    EXPECT_FALSE(isJournal(text("monday.json")));
 }
 
 TEST_F(SessionJournals, WaitForADiskThatIsFullAndMissNothing) {

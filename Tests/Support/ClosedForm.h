@@ -48,7 +48,9 @@ inline double relativeError(const Signal& expected, const std::vector<std::vecto
 class Random {
 public:
     explicit Random(std::uint32_t seed) : engine_{seed} {}
-    double uniform(double low, double high) { return low + (high - low) * (engine_() / 4294967296.0); }
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+    }
     double logUniform(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
     int below(int count) { return static_cast<int>(uniform(0.0, count)); }
 

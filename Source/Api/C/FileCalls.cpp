@@ -39,6 +39,15 @@ physvib_int64 listTo(physvib_event* events, physvib_int64 capacity, const std::v
     return std::ssize(list);
 }
 
+int fieldTo(const char* from, auto read, int code, double* width, double* height) {
+    if (!from || !width || !height) return nothingThere("events: expected a list and places for its field, found NULL");
+    const Result<EventList> list = read(from);
+    if (!list) return fail(code, list.error);
+    *width = list.value.field.widthMetres;
+    *height = list.value.field.heightMetres;
+    return PHYSVIB_OK;
+}
+
 } // namespace
 
 const char* physvib_version(void) { return PHYSVIB_VERSION; }
@@ -132,26 +141,44 @@ physvib_int64 physvib_events_load(const char* path, physvib_event* events, physv
         if (path == nullptr || capacity < 0 || (capacity > 0 && events == nullptr)) return nothingThere("events: expected a path and a place for them");
         const auto loaded = loadEventsCsv(path);
         if (!loaded) return fail(PHYSVIB_ERROR_FILE, loaded.error);
-        return listTo(events, capacity, loaded.value);
+        return listTo(events, capacity, loaded.value.events);
     });
 }
 
 physvib_int64 physvib_events_parse(const char* text, physvib_event* events, physvib_int64 capacity) {
     return guarded([&]() -> physvib_int64 {
-        if (text == nullptr || capacity < 0 || (capacity > 0 && events == nullptr)) return nothingThere("events: expected a text and a place for them");
+        if (text == nullptr || capacity < 0 || (capacity > 0 && events == nullptr))
+            return nothingThere("events: expected a text and a place for them");
         const auto read = readEventsCsv(text, "events");
         if (!read) return fail(PHYSVIB_ERROR_ARGUMENT, read.error);
-        return listTo(events, capacity, read.value);
+        return listTo(events, capacity, read.value.events);
     });
 }
 
+int physvib_events_load_field(const char* path, double* width, double* height) {
+    return guarded([&] { return fieldTo(path, loadEventsCsv, PHYSVIB_ERROR_FILE, width, height); });
+}
+
+int physvib_events_parse_field(const char* text, double* width, double* height) {
+    const auto read = [](const char* from) { return readEventsCsv(from, "events"); };
+    return guarded([&] { return fieldTo(text, read, PHYSVIB_ERROR_ARGUMENT, width, height); });
+}
+
 int physvib_events_save(const char* path, const physvib_event* events, physvib_int64 count) {
+    return physvib_events_save_field(path, events, count, 0.0, 0.0);
+}
+
+int physvib_events_save_field(const char* path, const physvib_event* events, physvib_int64 count,
+                              double width, double height) {
     return guarded([&] {
         if (path == nullptr || events == nullptr || count < 1) return nothingThere("events: expected a path and at least one event");
+        const FieldSize field{width, height};
+        if (!(field == FieldSize{}) && !isField(field))
+            return fail(PHYSVIB_ERROR_ARGUMENT, "field: expected 0.001 to 1e6 m, or 0 and 0");
         const std::span list{events, static_cast<std::size_t>(count)};
         if (const auto fault = faultOf(list); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         const bool hasKinds = std::ranges::any_of(list, [](int kind) { return kind != PHYSVIB_HIT; }, &physvib_event::kind);
-        std::string text = eventsCsvHead({PHYSVIB_VERSION, {}}, hasKinds);
+        std::string text = eventsCsvHead({PHYSVIB_VERSION, {}}, field, hasKinds);
         for (const physvib_event& event : list) appendEventRow(text, eventOf(event), hasKinds);
         return written(writeFile(path, text));
     });

@@ -259,8 +259,16 @@ PHYSVIB_API int physvib_layout_save(const char *path, const char *name, const ph
 PHYSVIB_API physvib_int64 physvib_events_load(const char *path, physvib_event *events, physvib_int64 capacity);
 /** The same from text in memory, zero-terminated. */
 PHYSVIB_API physvib_int64 physvib_events_parse(const char *text, physvib_event *events, physvib_int64 capacity);
+/** The field that the list says its places span, in metres, for a renderer's settings; 0 and 0 if it says
+ * none. */
+PHYSVIB_API int physvib_events_load_field(const char* path, double* width_m, double* height_m);
+/** The same from text in memory, zero-terminated. */
+PHYSVIB_API int physvib_events_parse_field(const char* text, double* width_m, double* height_m);
 /** Writes playable events, in time order. */
 PHYSVIB_API int physvib_events_save(const char *path, const physvib_event *events, physvib_int64 count);
+/** The same, and the field that their places span: 0.001 to 1e6 m, or 0 and 0 to say none. */
+PHYSVIB_API int physvib_events_save_field(const char* path, const physvib_event* events, physvib_int64 count,
+                                          double width_m, double height_m);
 
 /** Writes 32-bit float samples; channel j's frame n is samples[j * frames + n]. */
 PHYSVIB_API int physvib_wav_save(const char *path, const float *samples, int channels, physvib_int64 frames, int rate_hz);

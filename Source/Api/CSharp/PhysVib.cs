@@ -252,6 +252,12 @@ public static class Haptics {
     /// <summary>Of a law of panning, as they are counted from 0.</summary>
     public static string LawName(int law) { return Marshal.PtrToStringAnsi(Native.physvib_law_name(law)); }
     public static void SaveEvents(string path, Event[] events) { Native.Check(Native.physvib_events_save(Native.Utf8(path), events, events.Length)); }
+    /// <summary>The same, with the field that its places span, in metres.</summary>
+    public static void SaveEvents(string path, Event[] events, double widthM, double heightM) { Native.Check(Native.physvib_events_save_field(Native.Utf8(path), events, events.Length, widthM, heightM)); }
+    /// <summary>The field that a list says, in metres, for a renderer's settings; 0 and 0: none.</summary>
+    public static void LoadField(string path, out double widthM, out double heightM) { Native.Check(Native.physvib_events_load_field(Native.Utf8(path), out widthM, out heightM)); }
+    /// <summary>The same from text in memory.</summary>
+    public static void ParseField(string text, out double widthM, out double heightM) { Native.Check(Native.physvib_events_parse_field(Native.Utf8(text), out widthM, out heightM)); }
 }
 
 /// <summary>How the library is called on each system. Unity finds it by its bare name, and Mono by the name that Linux has.</summary>
@@ -324,6 +330,9 @@ static class Native {
     [DllImport(Library)] internal static extern int physvib_layout_save(byte[] path, byte[] name, ref Layout layout);
     [DllImport(Library)] internal static extern long physvib_events_load(byte[] path, [Out] Event[] events, long capacity);
     [DllImport(Library)] internal static extern int physvib_events_save(byte[] path, Event[] events, long count);
+    [DllImport(Library)] internal static extern int physvib_events_save_field(byte[] path, Event[] events, long count, double widthM, double heightM);
+    [DllImport(Library)] internal static extern int physvib_events_load_field(byte[] path, out double widthM, out double heightM);
+    [DllImport(Library)] internal static extern int physvib_events_parse_field(byte[] text, out double widthM, out double heightM);
     [DllImport(Library)] internal static extern int physvib_wav_save(byte[] path, float[] samples, int channels, long frames, int rateHz);
     [DllImport(Library)] internal static extern int physvib_render(ref RendererSettings settings, Event[] events, long count, long frames, [Out] float[] samples);
     [DllImport(Library)] internal static extern int physvib_renderer_create(ref RendererSettings settings, out IntPtr renderer);

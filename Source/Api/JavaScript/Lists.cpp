@@ -10,14 +10,14 @@ namespace physvib::js {
 
 extern "C" {
 
-/// An event list as text; an error as those of physvib.h.
-int PHYSVIB_JS(events_text)(const physvib_event* events, int count) {
+/// An event list as text, with its field, if that is one; an error as those of physvib.h.
+int PHYSVIB_JS(events_text)(const physvib_event* events, int count, double width, double height) {
     const std::span list{events, static_cast<std::size_t>(count)};
     if (const auto fault = api::faultOf(list); !fault.empty()) return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
     std::vector<CollisionEvent> own;
     own.reserve(list.size());
     for (const physvib_event& event : list) own.push_back(api::eventOf(event));
-    text() = eventsCsv(own, {PHYSVIB_VERSION, {}});
+    text() = eventsCsv(own, {width, height}, {PHYSVIB_VERSION, {}});
     return PHYSVIB_OK;
 }
 

@@ -104,10 +104,14 @@ int physvib_live_set_level(physvib_live name, double levelDb) {
 }
 
 int physvib_live_silence(physvib_live name, int isSilent) {
-    return in(name, [&](Live& live) {
+    const auto act = [&](Live& live) {
         live.output().setSilent(isSilent != 0);
         return PHYSVIB_OK;
-    });
+    };
+    const int code = in(name, act);
+    if (code != PHYSVIB_OK && isSilent != 0)
+        in(openLive(), act); // who has lost the name of it means that one
+    return code;
 }
 
 int physvib_live_get_status(physvib_live name, physvib_live_status* status) {

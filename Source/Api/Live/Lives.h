@@ -17,6 +17,9 @@ inline Handles<Live, 3>& lives() {
 
 inline std::uintptr_t nameOf(physvib_live live) noexcept { return reinterpret_cast<std::uintptr_t>(live); }
 
+/// The one that is open; null: none. Any thread.
+physvib_live openLive() noexcept;
+
 /// `call(live)`, or that there is none.
 template <class Call>
 auto in(physvib_live name, Call call) noexcept -> decltype(call(std::declval<Live&>())) {

@@ -2,6 +2,7 @@
 // A device and what is beside it, from physvib_live_open to physvib_live_close.
 #include "Api/Live/Lives.h"
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 
@@ -14,7 +15,7 @@ std::mutex& openMutex() {
     static std::mutex mutex;
     return mutex;
 }
-std::uintptr_t openName = 0; // under it
+std::atomic<std::uintptr_t> openName{0}; // changed under it
 
 int closeNamed(std::uintptr_t name) noexcept {
     return guarded([&] {
@@ -59,6 +60,10 @@ SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& ren
 
 } // namespace
 
+physvib_live api::openLive() noexcept {
+    return reinterpret_cast<physvib_live>(openName.load());
+}
+
 int physvib_live_settings_init(physvib_live_settings* settings, size_t size) {
     auto values = zeroed<physvib_live_settings>();
     values.steps_per_s = 100;
@@ -70,7 +75,6 @@ int physvib_live_settings_init(physvib_live_settings* settings, size_t size) {
 int physvib_live_open(const char* device, const physvib_renderer_settings* renderer, const physvib_live_settings* settings, physvib_live* name) {
     return guarded([&] {
         if (name == nullptr || device == nullptr) return nothingThere("live: expected a device and a place for it, found NULL");
-        *name = nullptr;
         physvib_live_settings taken;
         if (settings == nullptr) physvib_live_settings_init(&taken, sizeof taken);
         else if (!take(settings, taken, physvib_live_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
@@ -94,7 +98,7 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
         if (const std::string error = live->open(); !error.empty()) return fail(PHYSVIB_ERROR_DEVICE, error);
         openName = lives().add(std::move(live));
         closeAtExit();
-        *name = reinterpret_cast<physvib_live>(openName);
+        *name = openLive();
         return PHYSVIB_OK;
     });
 }

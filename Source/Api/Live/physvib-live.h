@@ -69,7 +69,8 @@ PHYSVIB_API int physvib_live_status_init(physvib_live_status *status, size_t siz
 /** Opens "JACK:system", for instance: that device and no other (`physvib devices` lists them); actuator j is its output j. Or a
  * four-channel board, "BOARD:auto" or "BOARD:/dev/ttyACM0"; or both, felt at the same moment: "JACK:system+BOARD:auto". "None:no device" plays in time without a device. Of
  * `renderer` the layout, channels, law, exponent, field and limiter are taken; it and `settings` may be NULL: the defaults. One device at
- * a time. A device or board that is disconnected is opened again when it returns. PHYSVIB_ERROR_DEVICE, PHYSVIB_ERROR_FULL. Any thread; waits for
+ * a time. A device or board that is disconnected is opened again when it returns. An error leaves `*live` as it was. PHYSVIB_ERROR_DEVICE,
+ * PHYSVIB_ERROR_FULL. Any thread; waits for
  * the device, and for a board that starts. */
 PHYSVIB_API int physvib_live_open(const char *device, const physvib_renderer_settings *renderer, const physvib_live_settings *settings, physvib_live *live);
 /** Silences the device within two blocks and closes it, also if it returns an error: PHYSVIB_ERROR_FILE, the session is not wholly saved. Waits for both. An
@@ -99,7 +100,8 @@ PHYSVIB_API int physvib_live_set_layout(physvib_live live, const physvib_rendere
 
 /** Sets the level of all channels, -90 to 0 dB, at once, with a ramp. Any thread. */
 PHYSVIB_API int physvib_live_set_level(physvib_live live, double level_db);
-/** Silences the device within a block, or ends that with a ramp. Any thread. */
+/** Silences the device within a block, or, with 0, ends that with a ramp. Also if `live` is not its name,
+ * which is an error. Any thread. */
 PHYSVIB_API int physvib_live_silence(physvib_live live, int is_silent);
 
 /** The status, at most 20 ms old. Any thread. */

@@ -36,7 +36,10 @@ int physvib_layout_parse(const char *, physvib_layout *);
 int physvib_layout_save(const char *, const char *, const physvib_layout *);
 int64_t physvib_events_load(const char *, physvib_event *, int64_t);
 int64_t physvib_events_parse(const char *, physvib_event *, int64_t);
+int physvib_events_load_field(const char *, double *, double *);
+int physvib_events_parse_field(const char *, double *, double *);
 int physvib_events_save(const char *, const physvib_event *, int64_t);
+int physvib_events_save_field(const char *, const physvib_event *, int64_t, double, double);
 int physvib_wav_save(const char *, const float *, int, int64_t, int);
 int physvib_render(const physvib_renderer_settings *, const physvib_event *, int64_t, int64_t, float *);
 int physvib_renderer_create(const physvib_renderer_settings *, physvib_renderer *);
@@ -118,9 +121,18 @@ local function filled(kind, values, from)
 end
 physvib.filled = filled
 
+-- Settings of a renderer that takes LÖVE's places: there y points down, in a layout up. So its layout is turned over: what hits at the
+-- top of the window is felt at the upper actuators.
+function physvib.rendered(values)
+    local made = filled("renderer_settings", values)
+    local layout = made.layout
+    for j = 0, layout.count - 1 do layout.y_m[j] = layout.extent_height_m - layout.y_m[j] end
+    return made
+end
+
 -- Events (a Lua list of physvib_event) to a sound file: 48 kHz, a channel per enchanter.
 function physvib.save_wav(path, events, seconds, settings)
-    local chosen, frames = filled("renderer_settings", settings), math.floor(seconds * 48000)
+    local chosen, frames = physvib.rendered(settings), math.floor(seconds * 48000)
     local list = ffi.new("physvib_event[?]", math.max(1, #events), events)
     local samples = ffi.new("float[?]", frames * chosen.layout.count)
     call("render", chosen, list, #events, frames, samples)
@@ -340,7 +352,7 @@ function physvib.open(device, settings, renderer)
     local from = ffi.load(os.getenv("PHYSVIB_LIVE_LIBRARY") or (library:gsub("libphysvib%.so", "libphysvib-live.so")))
     local self = setmetatable({c = from, call = caller(from, "physvib_live_"), start = ffi.new("int64_t[1]")}, Live)
     local name = ffi.new("physvib_live[1]")
-    self.call("open", device, filled("renderer_settings", renderer), filled("live_settings", settings, from), name)
+    self.call("open", device, physvib.rendered(renderer), filled("live_settings", settings, from), name)
     self.name = ffi.gc(name[0], from.physvib_live_close)
     return self
 end
@@ -364,7 +376,7 @@ function Live:latency_ns() return tonumber(self.c.physvib_live_latency_ns(self.n
 -- See physvib-live.h.
 function Live:set_gain(channel, gain) self.call("set_gain", self.name, channel, gain) end
 function Live:set_mute(channel, is_muted) self.call("set_mute", self.name, channel, is_muted and 1 or 0) end
-function Live:set_layout(renderer) self.call("set_layout", self.name, filled("renderer_settings", renderer)) end
+function Live:set_layout(renderer) self.call("set_layout", self.name, physvib.rendered(renderer)) end
 function Live:set_level(level_db) self.call("set_level", self.name, level_db) end
 function Live:silence(is_silent) self.call("silence", self.name, is_silent == false and 0 or 1) end
 function Live:status()

@@ -68,10 +68,14 @@ int LinkedLimiter::windowAt(int sampleRateHz) noexcept {
     return std::clamp(static_cast<int>(sampleRateHz * limits::limiterLookAheadSeconds), 1, limits::maxLookAheadFrames);
 }
 
-void LinkedLimiter::process(float* const* io, int frames, bool isSilent) noexcept {
-    if (isSilent && silentFrames_ >= window_ && isResting()) return rest(static_cast<std::size_t>(frames));
+bool LinkedLimiter::process(float* const* io, int frames, bool isSilent) noexcept {
+    if (isSilent && silentFrames_ >= window_ && isResting()) {
+        rest(static_cast<std::size_t>(frames));
+        return true;
+    }
     silentFrames_ = isSilent ? silentFrames_ + frames : 0;
     processAll(io, io, frames, nullptr);
+    return false;
 }
 
 void LinkedLimiter::pass(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {

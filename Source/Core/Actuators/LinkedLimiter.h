@@ -31,8 +31,8 @@ public:
 
     /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
     /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite). `isSilent`: all of it is +0, so
-    /// that once the delayed frames are as well there is nothing to do.
-    void process(float* const* io, int frames, bool isSilent = false) noexcept;
+    /// that once the delayed frames are as well there is nothing to do. True if it leaves silence as it came.
+    bool process(float* const* io, int frames, bool isSilent = false) noexcept;
 
     /// The same from `in` to `out`, and `in` is written to `kept` as well. Only where it canPass.
     void pass(const float* const* in, float* const* out, int frames, float* const* kept) noexcept;

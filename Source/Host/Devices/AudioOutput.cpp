@@ -3,6 +3,7 @@
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/InputTap.h"
 #include <algorithm>
+#include <array>
 #include <thread>
 
 namespace physvib {
@@ -102,6 +103,7 @@ std::string AudioOutput::openDevice(DeviceKeeper::Limit limit) {
                (isSampleRate(rate) ? ": the device does not start"
                                    : ": runs at " + std::to_string(rate) + " Hz; expected 5000 to 192000");
     }
+    wasConnected_ = !keeper_.device()->getActiveOutputChannels().isZero();
     settings_.device = keeper_.fullName(); // this one from now on, also where another driver knows its name
     return {};
 }
@@ -143,19 +145,23 @@ std::string AudioOutput::maintain(Clock::time_point now) {
         if (auto error = openDevice(reopening); !error.empty()) return error;
         watch_.lose(now);
     }
-    const std::string changed = follow();
+    std::string changed = follow();
+    if (changed.empty() && guard_.hasNews(status().guarded))
+        changed = settings_.device +
+                  ": an actuator was turned down: what it got held its coil at nearly direct current";
     if (!changed.empty() || map_.unfelt() == 0) return changed;
     return settings_.device + ": " + std::to_string(map_.unfelt()) + " of " +
            std::to_string(map_.enchanters()) + " actuators have no output there";
 }
 
-// Some drivers say so; JUCE's ALSA thread just ends.
+// Some drivers say so; JUCE's ALSA thread just ends. Whose outputs somebody disconnected is not called, and has
+// not gone; but JUCE may miss that JACK connects them, and then knows of none from the beginning.
 bool AudioOutput::hasGone(Clock::time_point now) {
     const auto* device = keeper_.device();
     if (!device || !keeper_.device()->isOpen() || !running_) return true;
-    return watch_.hasGone(
-        now, load_.read().blocks,
-        device->getActiveOutputChannels().isZero()); // nothing is connected, so nothing is called for
+    const bool isConnected = !device->getActiveOutputChannels().isZero();
+    wasConnected_ = wasConnected_ || isConnected;
+    return watch_.hasGone(now, load_.read().blocks, wasConnected_ && !isConnected);
 }
 
 // A block that is longer than all so far has to be covered by L; another rate is another session's time.
@@ -176,6 +182,7 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     played_.begin(rate, block, device->getOutputLatencyInSamples());
     inputTap_ = settings_.tap;
     exposure_.prepare(rate);
+    guard_.prepare(rate, played_.own().channels());
     motors_.prepare(settings_.onOff, rate, settings_.onOffThreshold);
     heard_.prepare(rate, block);
     map_.place(device->getActiveOutputChannels());
@@ -229,21 +236,27 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
         juce::FloatVectorOperations::clip(at, at, -session.rendered().ceiling(j), session.rendered().ceiling(j), frames);
     }
     master_.apply(samples, session.channels(), frames);
+    std::array<float*, limits::maxEnchanters> felt{}; // of each actuator that has a coil
     for (int j = 0; j < session.channels(); ++j) {
         float* at = samples[j];
         const int k = map_.play(j, at, frames);
         if (k < 0 || k >= outputs) continue;
         juce::FloatVectorOperations::copy(out[k] + first, at, frames);
-        if (!motors_.has(j)) exposure_.take(j, at, frames); // how a motor shakes, nobody says
+        if (!motors_.has(j)) felt[static_cast<std::size_t>(j)] = out[k] + first;
     }
-    exposure_.publish();
+    guard_.process(felt.data(), frames);
+    for (int j = 0; j < session.channels(); ++j)
+        if (const float* const at = felt[static_cast<std::size_t>(j)]) exposure_.take(j, at, frames);
+    exposure_.publish(); // how a motor shakes, nobody says
 }
 
 AudioOutputStatus AudioOutput::status() {
     const LoadMeter::Load load = load_.read();
+    const RenderStatus& rendered = played_.now().status().render;
     const bool isRunning = running_;
     return {load.blocks, load.last, load.worst, keeper_.device() ? keeper_.device()->getXRunCount() : -1,
-            isRunning,   watch_.losses()};
+            isRunning,   watch_.losses(), std::min(guard_.gain(), rendered.guardGain),
+            guard_.episodes() + rendered.guarded};
 }
 
 int AudioOutput::deviceLatencyFrames() const {

@@ -9,6 +9,7 @@
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Nonblocking.h"
 #include "Host/Devices/AudioOutputSettings.h"
+#include "Host/Devices/DeviceGuard.h"
 #include "Host/Devices/DeviceKeeper.h"
 #include "Host/Devices/DeviceWatch.h"
 #include "Host/Devices/HeardSignals.h"
@@ -103,6 +104,7 @@ private:
 
     // M
     DeviceWatch watch_;
+    bool wasConnected_ = false; // since it was opened
 
     // R, set while the device is stopped
     InputTap* inputTap_ = nullptr;
@@ -111,7 +113,7 @@ private:
     HeardSignals heard_{map_};
     ExposureMeter exposure_;
     OnOffMotors motors_;
-
+    DeviceGuard guard_;
     DeviceKeeper keeper_; // last: its thread calls the others
 };
 

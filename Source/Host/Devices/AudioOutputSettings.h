@@ -55,6 +55,8 @@ struct AudioOutputStatus {
     int deviceXruns = 0;     ///< as the device counts them; -1: it does not
     bool isRunning = false;
     int losses = 0;          ///< times the device had to be opened again
+    float guardGain = 1.0f;  ///< of the actuator that is turned down most, in the renderer or at the device
+    std::uint64_t guarded = 0; ///< how often it began to
 };
 
 } // namespace physvib

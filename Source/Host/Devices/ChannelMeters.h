@@ -12,6 +12,7 @@ struct ChannelMeters {
     int enchanters = 0;
     int connected = 0;
     float limiterGain = 1.0f;
+    float guardGain = 1.0f; ///< of the channel that OutputGuard turns down most
 };
 
 constexpr double meterFallDbPerSecond = 20.0;

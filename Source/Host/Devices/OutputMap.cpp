@@ -8,6 +8,8 @@ namespace physvib {
 
 namespace {
 
+constexpr int nowhere = -1, unsaid = -2;
+
 // Noise in a motor would be felt; a motor's drive in headphones would be far too loud.
 std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) {
     for (const Heard source : {Heard::noise, Heard::contacts}) {
@@ -35,7 +37,7 @@ std::string marksFault(const std::vector<int>& felt, const HeardOutputs& heard) 
 } // namespace
 
 std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int felt, const HeardOutputs& heard) {
-    std::vector<int> outputs(static_cast<std::size_t>(enchanters), -1);
+    std::vector<int> outputs(static_cast<std::size_t>(enchanters), unsaid);
     if (wanted.empty()) std::iota(outputs.begin(), outputs.end(), 0);
     else std::copy_n(wanted.begin(), std::min(wanted.size(), outputs.size()), outputs.begin());
     for (const int output : outputs)
@@ -98,7 +100,10 @@ int OutputMap::play(int enchanter, float* samples, int frames) noexcept {
 }
 
 int OutputMap::unfelt() const noexcept {
-    return static_cast<int>(std::count(at_.begin(), at_.begin() + enchanters(), -1));
+    int count = 0;
+    for (int j = 0; j < enchanters(); ++j)
+        if (wanted_[static_cast<std::size_t>(j)] != nowhere && at(j) < 0) ++count;
+    return count;
 }
 
 } // namespace physvib

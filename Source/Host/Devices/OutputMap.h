@@ -60,10 +60,10 @@ public:
     static constexpr int mostHeard = 8; ///< outputs per source: four pairs of headphones
 
     int enchanters() const noexcept { return felt_; } ///< that are to be felt
-    int unfelt() const noexcept; ///< of these: without a callback channel
+    int unfelt() const noexcept; ///< of these: without a callback channel, though nobody said -1
 
 private:
-    std::vector<int> wanted_; // per enchanter; -1: nowhere
+    std::vector<int> wanted_; // per enchanter; -1: nowhere, -2: nobody said where
     int felt_ = 0;
     HeardOutputs heard_;
     std::array<std::atomic<int>, limits::maxEnchanters> at_{};

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One callback, which copies, and a message thread, which waits.
 #include "Host/Devices/SweepRecorder.h"
+#include "Core/Actuators/OutputGuard.h"
 #include "Core/Nonblocking.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <thread>
 
 namespace physvib {
@@ -32,6 +34,14 @@ private:
     RecordedSweep& sweep_;
     std::atomic<std::size_t> done_{0};
 };
+
+/// What is measured with is what leaves.
+void guard(std::vector<float>& samples, int rateHz) {
+    const auto guard = std::make_unique<OutputGuard>();
+    guard->prepare(rateHz, 1, GuardPlace::last);
+    float* const at = samples.data();
+    guard->process(&at, static_cast<int>(samples.size()));
+}
 
 juce::BigInteger only(int channel) {
     juce::BigInteger mask;
@@ -67,6 +77,7 @@ Result<RecordedSweep> recordSweep(const SweepPorts& ports, const SweepSource& so
     RecordedSweep sweep;
     sweep.rateHz = device.getCurrentSampleRate();
     sweep.played = source(sweep.rateHz);
+    guard(sweep.played, juce::roundToInt(sweep.rateHz));
     sweep.recorded.resize(sweep.played.size());
     Callback callback{sweep};
     device.start(&callback);

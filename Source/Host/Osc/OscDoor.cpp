@@ -10,10 +10,28 @@ namespace {
 /// What such a program as this sends by itself.
 bool isReply(std::string_view address) { return address.starts_with(oscAnswerPrefix) || address == oscErrorAddress || address == oscHitAddress; }
 
+std::string_view textOf(std::span<const char> bytes) {
+    return {bytes.data(), bytes.size()};
+}
+
 /// Of a packet that is none of OSC's, as far as it looks like one.
 std::string_view addressIn(std::span<const char> bytes) {
-    const std::string_view text{bytes.data(), bytes.size()};
+    const std::string_view text = textOf(bytes);
     return text.starts_with('/') ? text.substr(0, text.find('\0')) : std::string_view{};
+}
+
+bool isForSilence(std::string_view address) {
+    return address.starts_with(oscPrefix) && namesSilence(address) && !isReply(address);
+}
+
+/// What a message to such an address asks for. What is not in its right form has a fault, and is on. A
+/// control needs no scene.
+Result<SilenceControl> silenceOf(const OscMessage& message) {
+    if (message.address != oscSilenceAddress) return Failure{"expected " + std::string(oscSilenceAddress)};
+    const auto plain = plainOf(oscSilenceAddress.substr(oscPrefix.size()), message.values);
+    if (!plain) return Failure{plain.error};
+    const auto input = readPlainInput(plain.value, {}, 1);
+    return input ? Result{std::get<SilenceControl>(input.value)} : Failure{input.error};
 }
 
 bool isMessage(const std::string& name) { return std::ranges::find(messageTable, name, &MessageDescription::name) != messageTable.end(); }
@@ -35,7 +53,9 @@ void OscDoor::take(std::span<const char> bytes, const OscClock& clock,
     const auto read = readOscPacket(bytes);
     if (!read) {
         ++counts_.bad;
-        refuse(addressIn(bytes), read.error);
+        origin_.address = addressIn(bytes);
+        refuse(origin_.address,
+               namesSilence(textOf(bytes)) ? silence(Failure{read.error}, answers) : read.error);
     }
     for (const OscMessage& message : read.value) {
         ++counts_.messages;
@@ -56,7 +76,8 @@ void OscDoor::refuse(std::string_view address, std::string_view reason) {
 }
 
 std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers) {
-    if (hooks_.closed && message.address != oscSilenceAddress)
+    if (isForSilence(message.address)) return silence(silenceOf(message), answers);
+    if (hooks_.closed)
         if (auto why = hooks_.closed(); !why.empty()) return why;
     const bool isOurs = message.address.starts_with(oscPrefix); // no phone is called so: /physvib/gravity is an input
     if (const auto* format = isOurs ? nullptr : sensorFormat(message.address)) return turn(*format, message);
@@ -64,19 +85,22 @@ std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::
     const auto plain = plainOf(std::string_view{message.address}.substr(oscPrefix.size()), message.values);
     if (!plain) return plain.error;
     if (isMessage(plain.value.name)) return route(plain.value, message.tag, clock, answers);
-    return actPlain(plain.value, answers);
+    return actPlain(plain.value);
 }
 
-std::string OscDoor::actPlain(const PlainMessage& plain, std::vector<std::vector<char>>& answers) {
+std::string OscDoor::actPlain(const PlainMessage& plain) {
     auto input = readPlainInput(plain, session_.world().state().scene->materials, session_.channels());
-    if (!input) return input.error;
-    auto* silence = std::get_if<SilenceControl>(&input.value);
-    if (silence != nullptr) silence->number = silence->isOn ? ++silences_ : silences_;
-    std::string fault = hooks_.act(input.value, origin_);
-    if (silence != nullptr && fault.empty())
-        answers.push_back(oscPacket(std::string(oscAnswerPrefix) + plain.name,
-                                    {plain.name, {{"on", silence->isOn ? 1.0 : 0.0}}}));
-    return fault;
+    return input ? hooks_.act(input.value, origin_) : input.error;
+}
+
+std::string OscDoor::silence(const Result<SilenceControl>& asked, std::vector<std::vector<char>>& answers) {
+    SilenceControl control = asked.value;
+    control.number = control.isOn ? ++silences_ : silences_;
+    const std::string fault = hooks_.act(control, origin_);
+    if (fault.empty())
+        answers.push_back(
+            oscPacket(std::string(oscAnswerPrefix) + "silence", {"", {{"on", control.isOn ? 1.0 : 0.0}}}));
+    return asked ? fault : asked.error + std::string(silencedAllTheSame);
 }
 
 std::string OscDoor::turn(const SensorFormat& format, const OscMessage& message) {
@@ -107,19 +131,13 @@ PlainMessage OscDoor::status() {
     return answer;
 }
 
-// Read as act() reads it; a control needs no scene.
 std::uint64_t silencesIn(std::span<const char> bytes) {
-    if (std::string_view(bytes.data(), bytes.size()).find(oscSilenceAddress) == std::string_view::npos)
-        return 0;
-    return static_cast<std::uint64_t>(
-        std::ranges::count_if(readOscPacket(bytes).value, [](const OscMessage& message) {
-            if (message.address != oscSilenceAddress) return false;
-            const auto plain = plainOf(oscSilenceAddress.substr(oscPrefix.size()), message.values);
-            if (!plain) return false;
-            const auto input = readPlainInput(plain.value, {}, 1);
-            const auto* silence = std::get_if<SilenceControl>(&input.value);
-            return silence != nullptr && silence->isOn;
-        }));
+    if (!namesSilence(textOf(bytes))) return 0;
+    const auto read = readOscPacket(bytes);
+    const auto silences = [](const OscMessage& message) {
+        return isForSilence(message.address) && silenceOf(message).value.isOn;
+    };
+    return read ? static_cast<std::uint64_t>(std::ranges::count_if(read.value, silences)) : 1;
 }
 
 } // namespace physvib

@@ -75,7 +75,8 @@ public:
 
 private:
     std::string act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers);
-    std::string actPlain(const PlainMessage& plain, std::vector<std::vector<char>>& answers);
+    std::string actPlain(const PlainMessage& plain);
+    std::string silence(const Result<SilenceControl>& asked, std::vector<std::vector<char>>& answers);
     std::string turn(const SensorFormat& format, const OscMessage& message);
     std::string route(const PlainMessage& plain, OscTag tag, const OscClock& clock, std::vector<std::vector<char>>& answers);
     void refuse(std::string_view address, std::string_view reason);
@@ -91,7 +92,8 @@ private:
     std::vector<OscRefusal> refusals_;
 };
 
-/// How many of a packet's messages ask for silence. Any thread but R.
+/// How many of a packet's messages silence: an address of ours with silence in it, and not off in its right
+/// form. A packet that cannot be read is one if the word stands in it. Any thread but R.
 std::uint64_t silencesIn(std::span<const char> bytes);
 
 } // namespace physvib

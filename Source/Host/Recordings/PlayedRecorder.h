@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a live session plays, to a WAV file: the render role fills a ring, the message thread empties it to disk.
+// What a live session plays, to a WAV file: the render role fills a ring, a thread empties it to disk.
 #pragma once
 #include "Io/Wav/WavSink.h"
 #include "Host/Devices/SignalTap.h"
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 namespace physvib {
 
 /// Every channel of the session, or the first ones, in their own level (before the output's master gain). A file has one rate, so it ends where
-/// another comes.
+/// another comes. From its first samples on it is in its place, a whole WAV of all but the last half second,
+/// whatever ends the program or fills the disk; nobody waits for the disk but finish().
 class PlayedRecorder final : public Sink {
 public:
-    /// Room for `seconds` until drain() is called. M.
-    PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds = 4.0)
-        : sampleRateHz_{sampleRateHz}
-        , wav_{path, channels, sampleRateHz}
-        , tap_{channels, static_cast<int>(seconds * sampleRateHz)} {}
+    /// Room for `seconds` that the disk is late. M.
+    PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds = 4.0);
+    ~PlayedRecorder() override { end(); }
 
     /// Empty, or one line with the reason. M.
-    const std::string& error() const noexcept { return wav_.error(); }
+    std::string error() const;
 
     int sampleRateHz() const noexcept { return sampleRateHz_; }
 
@@ -34,32 +36,39 @@ public:
     }
     bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); } ///< no other rate has come. Any thread
 
-    /// Says in the file at which session time it begins, by the session's play-out delay L; before the first drain(). M.
+    /// Says in the file at which session time it begins, by the session's play-out delay L; before the first frame. M.
     void tellBeginning(std::int64_t playOutFrames) noexcept { playOutFrames_ = playOutFrames; }
 
-    /// Writes what has come. M, often enough.
-    void drain();
-
-    /// The last samples, the header, and the file is in its place; empty or one line with the reason. M, after R stopped.
-    const std::string& finish();
+    /// The last samples and the header; empty or one line with the reason. M, after R stopped.
+    std::string finish();
 
     std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); } ///< of the session; -1: nothing yet
     /// What happens at session time t is felt t less this behind the file's first frame; none before tellBeginning() and that frame.
     std::optional<double> beginsSeconds() const noexcept {
-        if (!playOutFrames_ || firstFrame() < 0) return {};
-        return static_cast<double>(firstFrame() - *playOutFrames_) / sampleRateHz_;
+        if (playOutFrames_ < 0 || firstFrame() < 0) return {};
+        return static_cast<double>(firstFrame() - playOutFrames_) / sampleRateHz_;
     }
-    std::int64_t frames() const noexcept { return written_; }                                       ///< in the file. M
+    std::int64_t frames() const noexcept { return written_; } ///< that the file has got. M
     std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
 
 private:
+    void run();
+    void write();
+    void end();
+
     int sampleRateHz_;
-    WavSink wav_;
     SignalTap tap_;
-    std::atomic<std::int64_t> firstFrame_{-1};
+    std::atomic<std::int64_t> firstFrame_{-1}, playOutFrames_{-1}, written_{0};
     std::atomic<bool> isWhole_{true};
-    std::optional<std::int64_t> playOutFrames_;
-    std::int64_t written_ = 0;
+
+    WavSink wav_; // the thread's; M's once that has ended
+
+    mutable std::mutex mutex_; // guards what follows
+    std::condition_variable ends_;
+    bool isEnding_ = false;
+    std::string error_;
+
+    std::thread thread_; // last: it uses the others
 };
 
 } // namespace physvib

@@ -10,7 +10,7 @@ Recording::Recording(const std::filesystem::path& path, int channels, int sample
     : path_{path}
     , recorder_{path, channels, sampleRateHz} {}
 
-std::string Recording::finish(std::int64_t playOutFrames, const Provenance& provenance) {
+std::string Recording::finish(std::int64_t playOutFrames, FieldSize field, const Provenance& provenance) {
     if (auto error = recorder_.finish(); !error.empty()) return error;
     const std::int64_t rate = recorder_.sampleRateHz(), late = playOutFrames - recorder_.firstFrame();
     const std::int64_t shiftNs = late / rate * 1'000'000'000 + late % rate * 1'000'000'000 / rate;
@@ -18,7 +18,7 @@ std::string Recording::finish(std::int64_t playOutFrames, const Provenance& prov
     for (auto& event : played_) event.timeNs += shiftNs;
     std::erase_if(played_, [lengthNs](const CollisionEvent& e) { return e.timeNs < 0 || e.timeNs >= lengthNs; });
     std::ranges::stable_sort(played_, {}, &CollisionEvent::timeNs);
-    return writeFile(eventsPath(), eventsCsv(played_, provenance));
+    return writeFile(eventsPath(), eventsCsv(played_, field, provenance));
 }
 
 } // namespace physvib

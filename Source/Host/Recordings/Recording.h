@@ -15,15 +15,15 @@ public:
     /// `path` (.wav); the events stand beside it as .csv.
     Recording(const std::filesystem::path& path, int channels, int sampleRateHz);
 
-    const std::string& error() const noexcept { return recorder_.error(); }
+    std::string error() const { return recorder_.error(); }
     PlayedRecorder& recorder() noexcept { return recorder_; }
     std::filesystem::path eventsPath() const { return std::filesystem::path{path_}.replace_extension(".csv"); }
 
     void take(const PlayedEvent& played) { played_.push_back(played.event); }
-    void drain() { recorder_.drain(); }
 
-    /// Both files in their places, after R has stopped; `playOutFrames` is L. Empty, or one line with the reason.
-    std::string finish(std::int64_t playOutFrames, const Provenance& provenance);
+    /// Both files in their places, after R has stopped; `playOutFrames` is L; `field` is what places are in.
+    /// Empty, or one line with the reason.
+    std::string finish(std::int64_t playOutFrames, FieldSize field, const Provenance& provenance);
 
 private:
     std::filesystem::path path_;

@@ -72,6 +72,8 @@ AtomicFile::~AtomicFile() {
 bool AtomicFile::writeAt(std::int64_t position, std::string_view bytes) {
     if (!error_.empty() || file_.writeAt(position, bytes)) return error_.empty();
     fail(file_.reason());
+    file_.forgetError();
+    if (lock_ && position > 0) file_.resize(position); // the part that was written
     removeTemporary();
     return false;
 }
@@ -82,20 +84,37 @@ const std::string& AtomicFile::write(std::string_view bytes) {
     return error_;
 }
 
+const std::string& AtomicFile::show() {
+    if (!error_.empty() || lock_) return error_;
+    place();
+    if (!error_.empty()) return removeTemporary(), error_;
+    temporary_.clear();
+    onEnd_ = RemovedOnEnd();
+    lock_ = std::make_unique<AtomicFile>(named_);
+    return error_;
+}
+
 const std::string& AtomicFile::commit() {
     if (!error_.empty()) return error_;
+    place();
+    removeTemporary();
+    return error_;
+}
+
+// A file that is shown is there already.
+void AtomicFile::place() {
     std::error_code code;
-    file_.takePermissionsOf(target_);
+    if (!lock_) file_.takePermissionsOf(target_);
     if (!file_.sync()) {
         fail(file_.reason());
+    } else if (lock_) {
+        return;
     } else if (!file_.isAt(temporary_) && fs::exists(fs::symlink_status(temporary_, code))) {
         fail("its temporary file was replaced by another");
     } else if (fs::rename(temporary_, target_, code); code) {
         fail(code.message());
     }
     if (error_.empty()) SystemFile::syncFolder(folderOf(target_));
-    removeTemporary();
-    return error_;
 }
 
 std::string AtomicFile::prepare() {
@@ -139,6 +158,7 @@ void AtomicFile::removeTemporary() noexcept {
     temporary_.clear();
     onEnd_ = RemovedOnEnd();
     file_ = SystemFile(); // and with it the lock
+    lock_.reset();
 }
 
 std::string writeFile(const fs::path& path, std::string_view bytes) {

@@ -3,6 +3,7 @@
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,10 @@ public:
     /// Makes `bytes` all of the file. Returns error(); after an error nothing is left behind.
     const std::string& write(std::string_view bytes);
 
+    /// Puts what was written in its place already, once: what follows is written there, and stays, whatever
+    /// ends the program, also after an error. Returns error().
+    const std::string& show();
+
     /// Renames the temporary file onto the path, once; then both the file and its name are on the disk, so that what was whole stays whole
     /// when the machine loses its power. After an error nothing is left behind.
     [[nodiscard]] const std::string& commit();
@@ -43,6 +48,7 @@ public:
 private:
     std::string prepare(); // why it cannot be written, empty once the temporary file exists
     std::string make(const std::filesystem::path& sibling);
+    void place();
     void fail(std::string_view reason);
     void removeTemporary() noexcept;
 
@@ -51,6 +57,7 @@ private:
     std::filesystem::path temporary_;
     SystemFile file_;
     RemovedOnEnd onEnd_;
+    std::unique_ptr<AtomicFile> lock_; // of the path, once the file is there
     std::string error_;
     bool isTaken_ = false;
 };

@@ -2,6 +2,7 @@
 // Lines are broken where a person would: a list of objects item by item, a short list not at all.
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/NumberText.h"
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -14,35 +15,47 @@ std::string jsonNumber(double number) {
     return number == 0.0 && std::signbit(number) ? "-0.0" : numberText(number);
 }
 
-// Bytes that are no UTF-8 cannot stand in JSON and become U+FFFD.
-std::string jsonLine(const OrderedJson& value) {
-    if (value.is_number_float()) return jsonNumber(value.get<double>());
-    if (!value.is_structured()) return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-    std::string text = value.is_array() ? "[" : "{ ";
-    for (auto item = value.begin(); item != value.end(); ++item) {
-        if (item != value.begin()) text += ", ";
-        if (value.is_object()) text += jsonLine(OrderedJson(item.key())) + ": ";
-        text += jsonLine(*item);
-    }
-    return text + (value.is_array() ? "]" : " }");
+namespace {
+
+void appendLine(std::string& out, const OrderedJson& value);
+
+void appendName(std::string& out, const std::string& name) {
+    const auto isPlain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
+    if (std::ranges::all_of(name, isPlain)) out.append(1, '"').append(name).append("\": ");
+    else appendLine(out, OrderedJson(name)), out += ": ";
 }
 
-namespace {
+// Bytes that are no UTF-8 cannot stand in JSON and become U+FFFD.
+void appendLine(std::string& out, const OrderedJson& value) {
+    if (value.is_number_float()) out += jsonNumber(value.get<double>());
+    else if (!value.is_structured()) out += value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    if (!value.is_structured()) return;
+    out += value.is_array() ? "[" : "{ ";
+    for (auto item = value.begin(); item != value.end(); ++item) {
+        if (item != value.begin()) out += ", ";
+        if (value.is_object()) appendName(out, item.key());
+        appendLine(out, *item);
+    }
+    out += value.is_array() ? "]" : " }";
+}
 
 void appendLines(std::string& out, const OrderedJson& value, std::size_t indent, std::size_t column) {
     constexpr std::size_t longestLine = 140;
-    std::string line = jsonLine(value);
     const bool holdsObjects = value.is_array() && !value.empty() && value.front().is_object();
     const bool isTop = indent == 0 || (indent == 2 && holdsObjects); // a list of bodies is never a line
     const bool isList = value.is_structured() && !value.empty();
-    if (!isList || (!isTop && column + line.size() < longestLine)) {
-        out += line;
-        return;
+    if (!isList || !isTop) {
+        const std::string line = jsonLine(value);
+        if (!isList || column + line.size() < longestLine) {
+            out += line;
+            return;
+        }
     }
     const std::string margin(indent + 2, ' ');
     out += value.is_array() ? "[\n" : "{\n";
     for (auto item = value.begin(); item != value.end(); ++item) {
-        const std::string name = value.is_object() ? jsonLine(OrderedJson(item.key())) + ": " : "";
+        std::string name;
+        if (value.is_object()) appendName(name, item.key());
         out += margin + name;
         appendLines(out, *item, indent + 2, margin.size() + name.size());
         out += std::next(item) == value.end() ? "\n" : ",\n";
@@ -51,6 +64,12 @@ void appendLines(std::string& out, const OrderedJson& value, std::size_t indent,
 }
 
 } // namespace
+
+std::string jsonLine(const OrderedJson& value) {
+    std::string line;
+    appendLine(line, value);
+    return line;
+}
 
 std::string jsonLines(const OrderedJson& value) {
     std::string out;

@@ -40,15 +40,26 @@ bool WavSink::write(const float* const* channels, int frames) {
 }
 
 void WavSink::empty() {
-    file_.writeAt(wavHeadBytes + std::ssize(info_) + dataBytes_, waiting_);
-    dataBytes_ += std::ssize(waiting_);
+    if (file_.writeAt(wavHeadBytes + std::ssize(info_) + dataBytes_, waiting_))
+        dataBytes_ += std::ssize(waiting_);
     waiting_.clear();
+}
+
+// Behind the samples: it never tells of more than there is.
+void WavSink::writeHead() {
+    empty();
+    file_.writeAt(0, wavHead(channels_, sampleRateHz_, dataBytes_, info_));
+}
+
+const std::string& WavSink::show() {
+    if (isComplete_) return error();
+    writeHead();
+    return file_.show();
 }
 
 const std::string& WavSink::complete() {
     if (std::exchange(isComplete_, true)) return error();
-    empty();
-    file_.writeAt(0, wavHead(channels_, sampleRateHz_, dataBytes_, info_));
+    writeHead();
     return error();
 }
 

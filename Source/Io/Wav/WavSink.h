@@ -28,14 +28,19 @@ public:
     /// Appends `frames` samples of each channel. False after the first error.
     bool write(const float* const* channels, int frames);
 
+    /// What was written until now is a whole file in its place, whatever ends the program; what follows is
+    /// added to it. Returns error(); after one it is what it was at the call before.
+    const std::string& show();
+
     /// Every sample and the header are with the system: nothing but the name is missing. Returns error().
     const std::string& complete();
 
-    /// Completes the file and puts it in its place. Returns error(); after one there is no file.
+    /// Completes the file and puts it in its place. Returns error(); after one nothing but what was shown.
     const std::string& finish() { return complete().empty() ? file_.commit() : error(); }
 
 private:
     void empty();
+    void writeHead();
 
     AtomicFile file_;
     int channels_;

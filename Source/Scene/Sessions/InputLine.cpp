@@ -114,6 +114,29 @@ InputLine readInputLine(std::string_view line, const std::vector<Material>& mate
     return read;
 }
 
+bool namesSilence(std::string_view text) noexcept {
+    constexpr char toLower = 'a' - 'A';
+    const auto isSame = [](char found, char wanted) { return (found | toLower) == wanted; };
+    const auto end = text.end();
+    return std::search(text.begin(), end, silenceName.begin(), silenceName.end(), isSame) != end;
+}
+
+// Names may be spelled with escapes. A control needs no scene; whether an input fits one is told in its turn.
+bool asksForSilence(std::string_view line) {
+    if (!namesSilence(line) && line.find('\\') == line.npos) return false;
+    const auto read = readInputLine(line, {}, 1);
+    if (const auto* silence = std::get_if<SilenceControl>(&read.value)) return silence->isOn;
+    std::string kinds;
+    try {
+        const Json root = parseStrictly(line);
+        for (const char* kind : {"control", "input", "message"})
+            if (root.is_object() && root.contains(kind) && root[kind].is_string())
+                kinds += root[kind].get_ref<const std::string&>() + '\n';
+    } catch (const JsonError&) {
+    }
+    return namesSilence(kinds.empty() ? line : kinds);
+}
+
 Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials, int channels) {
     if (!isControl(plain.name) && std::ranges::find(actionNames, plain.name) == actionNames.end()) return Failure{inQuotes(plain.name) + ": expected the name of a message, an input or a control"};
     Json json{{isControl(plain.name) ? "control" : "input", plain.name}};

@@ -35,6 +35,16 @@ struct InputLine : Result<LineInput> {
 /// words, or lists of numbers or of pairs of them. Or, of the first thing that is wrong, one line `body: ...`. Any thread.
 InputLine readInputLine(std::string_view line, const std::vector<Material>& materials, int channels);
 
+/// Whether the word stands in it, in letters of any case. Any thread.
+bool namesSilence(std::string_view text) noexcept;
+
+/// Whether a line silences: its control, input or message is silence, and it is not off in its right form. A
+/// line that cannot be read silences if the word stands in it. Any thread.
+bool asksForSilence(std::string_view line);
+
+/// What is told of an error that silences.
+inline constexpr std::string_view silencedAllTheSame = "; silenced all the same";
+
 /// The same of an input or a control that comes as a name and named values (`gain`, with `channel` and `value`): those without nested
 /// fields; a number other than 0 is true. Any thread.
 Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials, int channels);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A board link for the length of a call.
 #include "CommandLine/Board/BoardCommand.h"
-#include "CommandLine/Command.h"
-#include "CommandLine/Board/BoardStatus.h"
-#include "System/ExitCode.h"
-#include "Core/Decibels.h"
-#include "System/StandardStreams.h"
 #include "Calls/LoadedRender.h"
+#include "Calls/RenderWords.h"
+#include "CommandLine/Board/BoardStatus.h"
+#include "CommandLine/Command.h"
+#include "Core/Decibels.h"
 #include "Scene/EventsCsv.h"
+#include "Scene/SilentWords.h"
 #include "Scene/World/Simulation.h"
+#include "System/ExitCode.h"
+#include "System/StandardStreams.h"
 #include "Wire/SelfTest.h"
 #include <iomanip>
 #include <iostream>
@@ -70,6 +72,20 @@ std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events,
     return std::min(end, BoardLink::nowNs() + 5000 * ms);
 }
 
+/// Which hits lie outside the field; false after a line that says why nothing can be felt.
+bool tellWhatIsFelt(const BoardOptions& o, const std::vector<CollisionEvent>& events,
+                    const PhantomPanner& panner, bool isGuessed) {
+    const double least = 0.5 / 127.0 / fromDecibels(o.levelDb); // a converter's code moves above it
+    const std::string silent = silentWords(events, panner, isGuessed, limits::maxTimeNs + 1, least);
+    const std::string outside = outsideWords(events, fieldOf(panner), isGuessed);
+    if (!silent.empty())
+        leave(exitFailed,
+              o.eventsPath + ": nothing can be felt at --level " + numberText(o.levelDb) + ": " + silent);
+    else if (!outside.empty())
+        tell("warning: " + outside);
+    return silent.empty();
+}
+
 int finish(const BoardLink& link, const wire::Telemetry& before) {
     const std::string trouble = reportBoard(link, before);
     return trouble.empty() ? exitDone : leave(exitFailed, trouble);
@@ -113,6 +129,7 @@ void declareBoardOptions(OptionTable& command, BoardOptions& o) {
     command.add("action", o.action, "info, play or test").required().oneOf({"info", "play", "test"});
     command.add("events", o.eventsPath, "event list to play").as("EVENTS.csv");
     command.add("--layout", o.layout, "layout of at most four actuators: preset or file");
+    addField(command, o.field);
     command.add("--level", o.levelDb, "master level of play in dB").in(-90.0, 0.0);
 }
 
@@ -123,12 +140,15 @@ int runBoard(const BoardOptions& o) {
     if (o.action == "play") {
         auto list = loadEventsCsv(o.eventsPath);
         if (!list) return leave(exitFailed, list.error);
-        events = std::move(list.value);
+        events = std::move(list.value.events);
         const auto layout = layoutNamed(o.layout);
         if (!layout) return leave(exitFailed, layout.error);
         const auto& geometry = layout.value.geometry;
         if (geometry.count > limits::board::channels) return leave(exitUsage, "--layout: the board has four channels, this layout " + std::to_string(geometry.count));
-        panner = {geometry, PanningLaw::linear, 1.0, geometry.extentWidthMetres, geometry.extentHeightMetres};
+        const FieldSize said = o.field.isKnown() ? o.field : list.value.field;
+        const FieldSize field = said.isKnown() ? said : extentOf(geometry);
+        panner = {geometry, PanningLaw::linear, 1.0, field.widthMetres, field.heightMetres};
+        if (!tellWhatIsFelt(o, events, panner, !said.isKnown())) return exitFailed;
     }
     heedInterrupts();
     sayWithoutWaiting();

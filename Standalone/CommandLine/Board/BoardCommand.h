@@ -2,6 +2,7 @@
 // `physvib board`: what a four-channel board is, how it does, and an event list on it.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
+#include "Scene/FieldSize.h"
 #include <string>
 
 namespace physvib {
@@ -13,6 +14,7 @@ struct BoardOptions {
     std::string action;            ///< info, play or test
     std::string eventsPath;        ///< for play
     std::string layout = "phone4"; ///< of at most four enchanters: the board's channels in their order
+    FieldSize field;               ///< of the list; not known: as it says, else the layout's extent
     double levelDb = safeStartDecibels; ///< master level of play
 };
 

@@ -27,10 +27,13 @@ struct MaterialOptions {
 };
 
 int listMaterials() {
-    const MaterialTable& table = builtInMaterials();
-    std::string text = "# " + table.source + "\nmaterial,frequency_hz,decay_per_s\n";
-    for (const Material& m : table.materials)
-        if (m.frequencyHz > 0.0) text += m.name + "," + numberText(m.frequencyHz) + "," + numberText(m.decayPerSecond) + "\n";
+    std::string text;
+    for (const MaterialTable& table : builtInMaterials()) {
+        text += "# " + table.source + '\n';
+        if (&table == &builtInMaterials().front()) text += "material,frequency_hz,decay_per_s\n";
+        for (const Material& m : table.materials)
+            if (m.frequencyHz > 0.0) text += m.name + "," + numberText(m.frequencyHz) + "," + numberText(m.decayPerSecond) + "\n";
+    }
     std::cout << text;
     return exitDone;
 }

@@ -166,7 +166,9 @@ int runStrikes(const BeatsOptions& o, const LayoutDescription& layout) {
         if (error.empty()) error = wav->complete();
         if (!error.empty()) return leave(exitFailed, error);
     }
-    if (list && (!list->write(eventsCsv(events, provenanceOf(o))).empty() || !list->commit().empty())) return leave(exitFailed, list->error());
+    if (list && (!list->write(eventsCsv(events, extentOf(layout.geometry), provenanceOf(o))).empty() ||
+                 !list->commit().empty()))
+        return leave(exitFailed, list->error());
     if (wav && !wav->finish().empty()) return leave(exitFailed, wav->error());
     std::cout << "beats";
     for (std::size_t band = 0; band < beatBands.size(); ++band) std::cout << (band > 0 ? ", " : ": ") << beatBands[band].name << ' ' << beats.counts()[band];

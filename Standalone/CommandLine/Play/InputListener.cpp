@@ -13,24 +13,18 @@ namespace physvib {
 namespace {
 
 constexpr int pollMilliseconds = 50; // only the end of the program waits for it
-
-/// Whether a line asks for silence: read as act() reads it; a control needs no scene. A name may be spelled
-/// with escapes.
-bool asksForSilence(std::string_view line) {
-    if (line.find("silence") == std::string_view::npos && line.find('\\') == std::string_view::npos)
-        return false;
-    const auto read = readInputLine(line, {}, 1);
-    const auto* silence = std::get_if<SilenceControl>(&read.value);
-    return silence != nullptr && silence->isOn;
-}
+constexpr double ringSeconds =
+    0.5; // an impact that was struck last rings as long; a board waits so long for its computer
 
 } // namespace
 
-InputListener::InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips)
+InputListener::InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips,
+                             bool keepsPlaying)
     : session_{session}
     , output_{output}
     , messages_{messages}
     , clips_{std::move(clips)}
+    , keepsPlaying_{keepsPlaying}
     , thread_{[this] { run(); }}
     , reader_{[this] { read(); }} {}
 
@@ -48,25 +42,43 @@ void InputListener::read() {
     while (!stop_) {
         const auto count = readInput(bytes, pollMilliseconds);
         if (!count) continue;
-        if (*count == 0) return lines.end(keepLine);
+        if (*count == 0) break;
         lines.add({bytes, *count}, keepLine);
     }
+    lines.end(keepLine);
+    isAllRead_ = true;
 }
 
 // Lines are not lost: while very many wait, who writes them waits as well.
 void InputListener::keep(std::string_view text, bool isWhole) {
-    if (isWhole && asksForSilence(text)) output_.silence().ask(SilenceHolder::standardInput);
-    while (!waiting_.push({std::string(text), isWhole, output_.silence().asked(SilenceHolder::standardInput)},
-                          text.size()) &&
-           !stop_)
+    const bool silences = asksForSilence(text);
+    if (silences) output_.silence().ask(SilenceHolder::standardInput);
+    const std::uint64_t asked = output_.silence().asked(SilenceHolder::standardInput);
+    while (!waiting_.push({std::string(text), isWhole, silences, asked}, text.size()) && !stop_)
         std::this_thread::sleep_for(std::chrono::milliseconds{1});
 }
 
 void InputListener::run() {
     while (!stop_) {
-        if (!waiting_.wait(std::chrono::milliseconds{pollMilliseconds})) continue;
-        if (const auto line = waiting_.pop()) take(*line);
+        const bool isAllRead = isAllRead_;
+        if (!waiting_.wait(std::chrono::milliseconds{pollMilliseconds})) {
+            if (isAllRead) return end();
+        } else if (const auto line = waiting_.pop()) {
+            take(*line);
+        }
     }
+}
+
+// Nobody is left who could lift it: who wrote may have died in the middle of an hour's tone.
+void InputListener::end() {
+    if (keepsPlaying_) return;
+    using Clock = std::chrono::steady_clock;
+    const std::chrono::duration<double> felt{session_.timeline().playOutSeconds() + ringSeconds};
+    for (const auto begin = Clock::now(); !stop_ && Clock::now() - begin < felt;)
+        std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    output_.silence().ask(SilenceHolder::standardInput);
+    if (!stop_) tell("standard input has ended: silence, and the end; --keep-playing plays on");
+    hasEnded_ = true;
 }
 
 void InputListener::take(const Line& line) {
@@ -75,6 +87,7 @@ void InputListener::take(const Line& line) {
     InputLine read = line.isWhole ? readInputLine(line.text, session_.world().state().scene->materials, session_.channels())
                                   : InputLine{Failure{"expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out"}};
     auto answer = read ? act(read.value, line) : Result<PlainMessage>{Failure{read.error}};
+    if (!answer && line.silences) answer.error += silencedAllTheSame;
     if (!answer) complain(answer.error);
     if (read.id && !answer) answer.value = {"error", {{"reason", answer.error}}};
     if (read.id && answer.value.name.empty()) answer.value.name = "done";
@@ -88,7 +101,7 @@ Result<PlainMessage> InputListener::act(LineInput& input, const Line& line) {
         if (answer.value.name == "status") answer.value.values.push_back({"unread", static_cast<double>(droppedLines(Standard::output))});
         return answer;
     }
-    if (auto* silence = std::get_if<SilenceControl>(&input)) silence->number = line.silences;
+    if (auto* silence = std::get_if<SilenceControl>(&input)) silence->number = line.asked;
     const std::string fault = actOn(input, session_, output_, SilenceHolder::standardInput);
     return fault.empty() ? Result<PlainMessage>{PlainMessage{}} : Failure{fault};
 }

@@ -15,24 +15,30 @@
 namespace physvib {
 
 /// One thread reads lines, and silences at once if one of them says so; another does what they say, in their
-/// order. Refusals are told on stderr, one of a cause in a second.
+/// order. Refusals are told on stderr, one of a cause in a second. When standard input ends, all that came
+/// has been done and what it struck had its time, that is silence, for good.
 class InputListener {
 public:
     /// All outlive the listener. M.
-    InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips);
+    InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips,
+                  bool keepsPlaying);
     ~InputListener();
+
+    /// That silence is there. Any thread.
+    bool hasEnded() const noexcept { return hasEnded_; }
 
 private:
     /// What was read and is still to be done.
     struct Line {
         std::string text;
-        bool isWhole = true;
-        std::uint64_t silences = 0; // asked for up to this line
+        bool isWhole = true, silences = false;
+        std::uint64_t asked = 0; // silences, up to this line
     };
     void read();
     void keep(std::string_view text, bool isWhole);
     void run();
     void take(const Line& line);
+    void end();
     Result<PlainMessage> act(LineInput& input, const Line& line); // the answer of a query; without a name: it is done
     void complain(const std::string& reason);
     void tellLeftOut();
@@ -44,7 +50,8 @@ private:
     std::uint64_t lines_ = 0;
     InputQueue<Line> waiting_;
     ComplaintLimit complaints_{1'000'000'000};
-    std::atomic<bool> stop_{false};
+    const bool keepsPlaying_; // whatever ends
+    std::atomic<bool> stop_{false}, isAllRead_{false}, hasEnded_{false};
     std::thread thread_, reader_;
 };
 

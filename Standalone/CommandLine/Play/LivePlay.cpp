@@ -6,6 +6,7 @@
 #include "System/Interrupt.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/OscReport.h"
+#include "CommandLine/Play/SoundPlay.h"
 #include "System/Process.h"
 #include "CommandLine/Render/MarkWords.h"
 #include "System/StandardStreams.h"
@@ -32,45 +33,51 @@ namespace {
 // the call.
 class Watch final : private juce::Timer {
 public:
-    Watch(Session& session, AudioOutput& output, PlayedRecorder* recorder, SessionJournal* journal,
-          OscPort* osc, double seconds)
+    Watch(Session& session, AudioOutput& output, PlayedRecorder* recorder, OscPort* osc,
+          const InputListener* listener, double seconds)
         : session_{session}
         , output_{output}
         , recorder_{recorder}
-        , journal_{journal}
         , osc_{osc}
+        , listener_{listener}
         , endNs_{std::llround(seconds * 1e9)} {
         startTimer(milliseconds);
     }
-    ~Watch() override {
-        stopTimer();
-        drain();
-        if (journal_) journal_->end(session_.status().sessionNs);
+    ~Watch() override { stopTimer(); }
+
+    /// What has been played and not yet told; how many all in all.
+    std::uint64_t drain() {
+        for (PlayedEvent e; session_.played().pop(e); ++played_)
+            session_.sinks().played(e, output_.sampleRateHz());
+        return played_;
     }
-    std::uint64_t played() const noexcept { return played_; }
 
 private:
     static constexpr int milliseconds = 20;
 
     void timerCallback() override {
         drain();
-        if (recorder_) recorder_->drain();
         const SessionStatus status = session_.status();
         if (++ticks_ % (1000 / milliseconds) == 0) everySecond(status);
-        if (interrupted || status.sessionNs >= endNs_)
+        const bool hasEnded = listener_ && listener_->hasEnded();
+        if (interrupted || hasEnded || status.sessionNs >= endNs_ || isLeft())
             juce::MessageManager::getInstance()->stopDispatchLoop();
     }
 
-    void drain() {
-        for (PlayedEvent e; session_.played().pop(e); ++played_)
-            session_.sinks().played(e, output_.sampleRateHz());
+    /// By the clock the time is over, and session time has stood still for long: no device asks for blocks.
+    bool isLeft() const noexcept {
+        constexpr int longestReturn = 10; // in seconds: of a server that was stopped, seven were measured
+        return stillSeconds_ >= longestReturn && std::int64_t{ticks_} * milliseconds * 1'000'000 >= endNs_;
     }
 
     void everySecond(const SessionStatus& status) {
+        stillSeconds_ = status.sessionNs == lastNs_ ? stillSeconds_ + 1 : 0;
+        lastNs_ = status.sessionNs;
         std::string trouble = output_.maintain();
         for (const SinkState& sink : session_.sinks().states())
             if (trouble.empty()) trouble = sink.trouble;
-        report(trouble);
+        if (trouble.empty() && recorder_) trouble = recorder_->error();
+        if (!interrupted) report(trouble); // else the device was not waited for
         if (osc_) oscReport_.tellWrong(osc_->status().counts);
         tellUnread();
         static const bool isTerminal = isErrorTerminal();
@@ -84,11 +91,12 @@ private:
         char words[200];
         std::snprintf(words, sizeof words,
                       "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  "
-                      "%llu dropped   ",
+                      "%llu dropped%s   ",
                       static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
                       static_cast<double>(session_.timeline().playOutFrames()) / rate, static_cast<double>(margin) / rate,
                       status.render.liveModes, static_cast<unsigned long long>(status.render.late),
-                      static_cast<unsigned long long>(session_.world().drops() + status.render.untold));
+                      static_cast<unsigned long long>(session_.world().drops() + status.render.untold),
+                      o.guardGain < 1.0f ? "  guard acts" : "");
         std::cerr << words << std::flush;
     }
 
@@ -106,12 +114,13 @@ private:
     Session& session_;
     AudioOutput& output_;
     PlayedRecorder* recorder_;
-    SessionJournal* journal_;
     OscPort* osc_;
+    const InputListener* listener_;
     std::int64_t endNs_;
     OscReport oscReport_;
     std::uint64_t played_ = 0, unread_ = 0;
-    int ticks_ = 0;
+    int ticks_ = 0, stillSeconds_ = 0;
+    std::int64_t lastNs_ = -1;
     std::string lastTrouble_;
 };
 
@@ -128,10 +137,15 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
     if (status.leastMarginFrames != noMargin)
         std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs
                   << " ms; ";
-    std::cout << "worst load " << 100 * o.worstLoad << " %, " << o.deviceXruns << " xruns of the device\n";
+    std::cout << "worst load " << 100 * o.worstLoad << " %, "
+              << (o.deviceXruns < 0 ? "xruns not counted by" : std::to_string(o.deviceXruns) + " xruns of")
+              << " the device\n";
     if (session.timeline().toldAheadNs() > 0)
         std::cout << "messages were felt " << 1e3 * session.timeline().directSeconds() << " ms after they came\n";
     if (session.rendered().marks()) std::cout << "marked: " << markWords(*session.rendered().marks()) << '\n';
+    if (o.guarded > 0)
+        std::cerr << "physvib: warning: actuators were turned down, as they would have got nearly direct current: "
+                  << o.guarded << " times\n";
     if (o.losses > 0)
         std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
 }
@@ -168,11 +182,10 @@ std::string playLive(LivePlay wanted) {
     for (const auto& sink : sinks) session.sinks().attach(*sink);
     std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
-    std::optional<FilesFirst> files;
     const auto inputs = wanted.beats ? std::make_unique<InputTap>() : nullptr; // outlives the output as well
     AudioOutput output{session, audioDeviceTypesAndNone, &interrupted};
     wanted.output.tap = inputs.get();
-    if (auto error = output.open(wanted.output); !error.empty()) return error;
+    if (auto error = output.open(wanted.output); !error.empty()) return interrupted ? "" : error;
     if (!wanted.recordPath.empty()) {
         recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
         if (!recording->error().empty()) return recording->error();
@@ -185,10 +198,13 @@ std::string playLive(LivePlay wanted) {
         journal.emplace(wanted.savePath, session, wanted.setup, provenance);
         if (!journal->error().empty()) return journal->error();
     }
-    if (recording || journal) files.emplace();
     std::uint64_t played = 0, beats = 0;
+    std::optional<OscStatus> told;
     std::string saved, recorded; // each, whatever becomes of the other
+    bool isWhole = true;
     MessageRouter messages{session};
+    if (wanted.sound)
+        if (auto error = beginSound(wanted, session, messages); !error.empty()) return error;
     {
         const Following together{session.sinks(), output};
         const auto driver = makeDriver(wanted, session);
@@ -196,7 +212,7 @@ std::string playLive(LivePlay wanted) {
         if (wanted.beats) heard.emplace(session, *inputs, *wanted.beats, wanted.beatSensitivity);
         std::optional<InputListener> listener;
         const ClipFolder clips{wanted.clips};
-        if (wanted.listens) listener.emplace(session, output, messages, clips);
+        if (wanted.listens) listener.emplace(session, output, messages, clips, wanted.keepsPlaying);
         std::optional<OscPort> osc;
         if (wanted.osc.port || !wanted.osc.receiver.empty()) {
             osc.emplace(wanted.osc, session, messages, output,
@@ -212,20 +228,25 @@ std::string playLive(LivePlay wanted) {
             Watch watch{session,
                         output,
                         recording ? &*recording : nullptr,
-                        journal ? &*journal : nullptr,
                         osc ? &*osc : nullptr,
+                        listener ? &*listener : nullptr,
                         wanted.seconds};
             juce::MessageManager::getInstance()->runDispatchLoop();
-            played = watch.played();
+            isWhole = !recording || recording->isWhole();
+            output.stop();
+            played = watch.drain();
         }
-        const bool isWhole = !recording || recording->isWhole();
-        if (files) files->finish(); // before all that may hang
-        output.stop();
-        saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : "";
-        files.reset();
+        if (recording) recorded = recording->finish(); // before what takes long, or may hang
+        listener.reset();
+        if (osc) told = osc->status();
+        osc.reset(); // whoever goes on sending does not hold up the end
+        if (journal) {
+            journal->end(session.status().sessionNs);
+            saved = interrupted ? journal->finish(SessionJournal::quickBytes) : journal->finish();
+        }
         if (!isWhole) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
         beats = heard ? heard->beats() : 0;
-        if (osc) summariseOsc(osc->status());
+        if (told) summariseOsc(*told);
     }
     summarise(session, output, played);
     if (inputs) std::cout << beats << " beats heard\n";

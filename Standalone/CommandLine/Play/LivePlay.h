@@ -5,6 +5,7 @@
 #include "Host/Devices/SinkTable.h"
 #include "Host/Music/BeatStrikes.h"
 #include "Host/Osc/OscPort.h"
+#include "Session/Messages/ClipSource.h"
 #include "Session/Session.h"
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct LivePlay {
     double beatSensitivity = 0.0;
     OscSettings osc;
     std::string clips = "."; ///< folder from which messages may have clips read
+    bool keepsPlaying = false; ///< when standard input has ended
+    std::optional<LoadedClip> sound{}; ///< played once, from the beginning
 };
 
 /// Empty, or one line with the reason. M.

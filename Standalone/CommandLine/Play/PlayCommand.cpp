@@ -7,6 +7,7 @@
 #include "CommandLine/Pads/DualSenseDevice.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
+#include "CommandLine/Play/SoundPlay.h"
 #include "Calls/JobSession.h"
 #include "Calls/RenderOptions.h"
 #include "CommandLine/Study/NumberList.h"
@@ -38,7 +39,7 @@ struct PlayOptions {
     std::string driver = "message"; ///< or "thread"
     std::string recordPath;         ///< WAV of what was played; empty: not wanted
     std::string savePath;           ///< the session as JSON; empty: not wanted
-    bool listens = false, hasHands = false, isDirect = false; ///< to standard input
+    bool listens = false, keepsPlaying = false, hasHands = false, isDirect = false; ///< to standard input
     std::string clips = ".";        ///< folder of its messages' clips, and of OSC's
     std::string beatInputs;         ///< as map: of the device, whose beats are struck; empty: none
     BeatOptions beats;
@@ -118,6 +119,9 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     command.add("--hands", o.hasHands, "disable the scene's scripted user input; take it from --listen instead");
     command.add("--direct", o.isDirect, "low-latency mode for messages and controls: one block plus the limiter's look-ahead. Collisions keep the normal output latency");
     command.add("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
+    command.add("--keep-playing", o.keepsPlaying,
+                "play on when standard input has ended, until --seconds are over: for a file of lines. "
+                "Without it that is silence and the end: who controls may have died");
     command.add("--clips", o.clips, "folder from which messages of --listen and --osc may have clips read").as("FOLDER").existingFolder();
     command.add("--osc", o.osc.port, "take messages by OSC (Docs/osc.md) at this port of UDP, or the next free one; 0: any").as("PORT").in(0, 65'535);
     command.add("--osc-interface", o.osc.address, "address of this computer at which they are taken; 0.0.0.0: any, for phones").as("ADDRESS");
@@ -133,7 +137,7 @@ int leaveWithoutDevice(const std::string& scene) {
     return leave(exitUsage, "play: expected --device, --board, or both");
 }
 
-int runPlay(PlayOptions& o) {
+int runPlay(const OptionTable& command, PlayOptions& o) {
     OutputNames outputs{o.device};
     o.device = outputs.device;
     if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
@@ -147,7 +151,16 @@ int runPlay(PlayOptions& o) {
     if (hasBoard && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
     if (o.isDirect && hasBoard) return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
     LoadedRender job{o.scene, {}, {}, {}, {}};
-    if (const int code = takeScene(job); code != exitDone) return code;
+    std::optional<LoadedClip> sound;
+    if (namesSound(o.scene.scene)) {
+        if (!outputs.sinks.empty())
+            return leave(exitUsage, o.scene.scene + ": boards and controllers play no recordings; "
+                                                    "expected a --device alone");
+        noteGiven(command, o.scene);
+        auto taken = takeSound(o.scene, job);
+        if (!taken) return leave(exitFailed, taken.error);
+        sound = std::move(taken.value);
+    } else if (const int code = takeScene(job); code != exitDone) return code;
     if (o.hasHands) job.scene = sceneForHands(std::move(*job.scene));
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");
     auto layout = layoutNamed(o.scene.layout);
@@ -159,6 +172,7 @@ int runPlay(PlayOptions& o) {
         return leave(exitUsage, "--board: the board has four channels, this layout " + std::to_string(job.channels()));
     if (auto fault = channelFault(outputs.sinks, job.channels()); !fault.empty()) return leave(exitUsage, fault);
     if (auto fault = fixedLevelFault(job); !fault.empty()) return leave(exitFailed, fault);
+    if (auto fault = sound ? soundFault(*sound, job) : ""; !fault.empty()) return leave(exitUsage, fault);
     auto actuators = chooseActuators(o.scene, job.layout);
     if (!actuators) return leave(exitFailed, actuators.error);
     job.actuators = std::move(actuators.value);
@@ -198,6 +212,8 @@ int runPlay(PlayOptions& o) {
     OscSettings osc = o.osc;
     osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
     LivePlay wanted{setup, settings, outputs.sinks, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens, {}, o.beats.sensitivity, osc, o.clips};
+    wanted.keepsPlaying = o.keepsPlaying;
+    wanted.sound = std::move(sound);
     if (!settings.inputs.empty()) wanted.beats = voices.value;
     const std::string error = playLive(std::move(wanted));
     return error.empty() ? exitDone : leave(exitFailed, error);
@@ -205,6 +221,8 @@ int runPlay(PlayOptions& o) {
 
 } // namespace
 
-Command playCommand() { return commandOf("play", "play a scene live on an audio device", declarePlayOptions, runPlay); }
+Command playCommand() {
+    return commandOf("play", "play a scene or a sound live on an audio device", declarePlayOptions, runPlay);
+}
 
 } // namespace physvib

@@ -6,6 +6,7 @@
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"
 #include "Pictures/WaveformEnvelope.h"
+#include "Scene/SilentWords.h"
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,7 +18,11 @@ inline std::string inG(double g) { return fixedNumber(g, g < 0.1 ? 4 : 2) + " g"
 /// "peak -6.0 dBFS (0.50 g)", g that of the enchanter that moves most. An equalised channel holds drive: what is felt is
 /// what was asked for, not what stands in the file.
 inline std::string peakWords(const LoadedRender& job, const WaveformEnvelope& whole) {
-    if (!(whole.peak() > 0.0f)) return "silent";
+    if (!(whole.peak() > 0.0f)) {
+        const std::string why =
+            job.clip ? "" : silentWords(job.made.events, job.panner(), job.hasGuessedField(), job.endNs());
+        return "silent" + (why.empty() ? "" : ": " + why);
+    }
     std::string words = "peak " + fixedNumber(toDecibels(static_cast<double>(whole.peak())), 1) + " dBFS";
     const auto equalised = job.equalised();
     if (std::ranges::any_of(equalised, &EqualisedActuator::isKnown)) return "drive " + words;

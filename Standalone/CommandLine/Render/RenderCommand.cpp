@@ -44,7 +44,11 @@ void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
     say(status.late, "events played late");
     say(status.stolen, "modes faded out early because too many different ones sounded at once");
     say(status.nonFinite, "samples that were not finite and became silence");
+    say(status.guarded, "times an actuator was turned down, as it would have got nearly direct current");
     say(static_cast<std::uint64_t>(beyond), "events that begin after the end of the render (see --seconds)");
+    if (job.scene || job.clip) return;
+    const std::string outside = outsideWords(events, job.field(), job.hasGuessedField());
+    if (!outside.empty()) tell("warning: " + outside);
 }
 
 OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderControl>& controls, const RecordedContacts& contacts) {

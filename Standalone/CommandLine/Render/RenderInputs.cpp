@@ -34,7 +34,8 @@ std::string readInputs(LoadedRender& job) {
     if (job.scene) return {};
     auto events = loadEventsCsv(job.options.fromEvents);
     if (!events) return events.error;
-    job.made.events = std::move(events.value);
+    job.made.events = std::move(events.value.events);
+    job.listField = events.value.field;
     return {};
 }
 

@@ -102,7 +102,8 @@ std::string RenderOutputs::finish() {
     std::string error;
     for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
         if (error.empty() && wav) error = wav->complete();
-    if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
+    if (error.empty() && eventsFile_)
+        error = eventsFile_->write(eventsCsv(job_.made.events, job_.saidField(), provenance()));
     if (error.empty() && movie_) error = movie_->draw(pictureInput(), poses());
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));

@@ -216,6 +216,13 @@ void Desk::setSilent(bool silent) {
     showSilence();
 }
 
+void Desk::stop() {
+    hasStopped_ = !isSilent_;
+    setSilent(true);
+}
+
+void Desk::takeEscape() { setSilent(std::exchange(hasStopped_, false) || !isSilent_); }
+
 void Desk::showSilence() {
     isSilent_ = output().isSilent();
     sendChangeMessage();

@@ -43,8 +43,7 @@ public:
         edit(name, next, goesOn);
     }
     juce::UndoManager& undoManager() noexcept { return undo_; }
-    /// Attaches an enchanter at a place of the field (shares of its width and height), quietly; false: no room.
-    bool attach(double shareX, double shareY);
+    bool attach(double shareX, double shareY); ///< at shares of the field, quietly; false: no room
     void detach(int enchanter); ///< one always stays
     std::uint64_t edits() const noexcept { return edits_; } ///< grows with every edit and every input: what a document has to be saved for
     const SavedSession& saved(); ///< the session until now: rendered again it is what was played
@@ -71,9 +70,10 @@ public:
     std::string monitorInstead(std::vector<int> outputs, double db);
     void setSilent(bool silent);                         ///< as a person at the machine wishes
     bool isSilent() const noexcept { return isSilent_; } ///< as it is shown: what is pressed then means that
+    void stop();       ///< what Esc does first of all
+    void takeEscape(); ///< of an Esc that nothing else took: lifts what was silent before it
 
-    /// How wide the display is that the world is seen on; 0: as the system says. A drag is measured by it.
-    void setDisplayWidth(double metres);
+    void setDisplayWidth(double metres); ///< of what the world is seen on, for drags; 0: as the system says
     double displayWidthMetres() const noexcept { return displayWidthMetres_; }
     DeskMoment look(); ///< what is new; at most about 30 times a second
     const juce::String& trouble() const noexcept { return trouble_; } ///< one line; empty while all is well
@@ -103,7 +103,7 @@ private:
     DeskWorld world_;
     juce::String trouble_, deviceTrouble_; // shown; the device's of the last look
     double displayWidthMetres_ = 0.0;
-    bool isSilent_ = false, isNews_ = false;
+    bool isSilent_ = false, hasStopped_ = false, isNews_ = false;
     std::uint64_t edits_ = 0;
     ToldMix told_;
     SavedSession saved_;

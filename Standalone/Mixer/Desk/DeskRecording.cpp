@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // When a recording begins, and when all of it has come.
 #include "Mixer/Desk/DeskRecording.h"
-#include "System/Interrupt.h"
 #include "Mixer/Desk/DeskWords.h"
 #include <utility>
 
@@ -15,8 +14,6 @@ DeskRecording::DeskRecording(Session& session, AudioOutput& output, const Mix& m
     , onChange_{std::move(onChange)} {}
 
 void DeskRecording::keep() {
-    FilesFirst files;
-    files.finish();
     if (recording_) close(); // whoever closes the window while it runs wants what is there
 }
 
@@ -59,8 +56,7 @@ void DeskRecording::take(const PlayedEvent& played) {
 // R has let go of it when a block has come since; events of the last frames have been played by then.
 void DeskRecording::look(const AudioOutputStatus& device) {
     if (!recording_) return;
-    recording_->drain();
-    if (!isEnding_ && recording_->recorder().isWhole()) return;
+    if (!isEnding_ && recording_->recorder().isWhole() && recording_->error().empty()) return;
     if (!isEnding_) letGo();
     if (device.isRunning && device.blocks <= endsAfterBlock_) return;
     from_ = recording_->recorder().firstFrame();
@@ -78,9 +74,10 @@ void DeskRecording::look(const AudioOutputStatus& device) {
 juce::String DeskRecording::close() {
     const Provenance provenance{PHYSVIB_VERSION,
                                 {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
+    const FieldSize field{mix_.scene->fieldWidthMetres, mix_.scene->fieldHeightMetres};
     session_.sinks().detach(recording_->recorder());
     for (PlayedEvent played; session_.played().pop(played);) recording_->take(played);
-    const auto error = utf8(recording_->finish(session_.timeline().playOutFrames(), provenance));
+    const auto error = utf8(recording_->finish(session_.timeline().playOutFrames(), field, provenance));
     recording_.reset();
     return error;
 }

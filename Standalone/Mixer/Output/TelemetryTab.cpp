@@ -30,6 +30,12 @@ Fact marginFact(const DeskMoment& moment, int rateHz) {
     return {"Margin", number(1e3 * static_cast<double>(frames) / rateHz, 1) + " ms at least", frames < 0 ? Shade::now : Shade::text};
 }
 
+Fact guardFact(const AudioOutputStatus& device) {
+    const double reduction = toDecibels(std::max(static_cast<double>(device.guardGain), 1e-3));
+    const auto times = device.guarded > 0 ? ", acted " + count(device.guarded) + " times" : juce::String{};
+    return {"Guard", number(reduction, 1) + " dB" + times, reduction < -0.05 ? Shade::limit : Shade::text};
+}
+
 Fact exposureFact(double daily) {
     const auto words = "A(8) " + number(daily, 2) + " m/s^2 (action value " + number(exposureActionValue, 1) + ", limit " + number(exposureLimitValue, 0) + ")";
     return {"Exposure", words, daily >= exposureLimitValue ? Shade::limit : daily >= exposureActionValue ? Shade::now : Shade::text};
@@ -52,6 +58,7 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
         {"Stalls", number(1e-6 * static_cast<double>(session.world().slippedNs()), 0) + " ms of the world"},
         {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early", noneIsGood(r.stolen)},
         {"Limiter", number(reduction, 1) + " dB", reduction < -0.05 ? Shade::limit : Shade::text},
+        guardFact(moment.device),
         exposureFact(moment.dailyExposure),
         clockFact(desk, moment),
         {"Render call", "median " + percent(medianLoad) + ", worst " + percent(moment.device.worstLoad), moment.device.worstLoad > 1.0f ? Shade::now : Shade::text},

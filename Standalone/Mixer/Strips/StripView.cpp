@@ -207,8 +207,11 @@ void MasterStrip::takeMix() {
 
 void MasterStrip::refresh(const DeskMoment& moment) {
     meter_.set(moment.masterPeak, moment.masterPeak);
-    const float db = juce::Decibels::gainToDecibels(moment.meters.limiterGain);
-    if (std::abs(db - limiterDb_) < 0.05f) return;
+    const auto& meters = moment.meters;
+    const bool isGuard = meters.guardGain < meters.limiterGain;
+    const float db = juce::Decibels::gainToDecibels(std::min(meters.guardGain, meters.limiterGain), -60.0f);
+    if (std::abs(db - limiterDb_) < 0.05f && isGuard == isGuard_) return;
+    isGuard_ = isGuard;
     limiterDb_ = db;
     repaint();
 }
@@ -226,7 +229,7 @@ void MasterStrip::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::limit));
     if (reduction > 0.004f) g.fillRoundedRectangle(limiterBar_.toFloat().withHeight(std::max(3.0f, reduction * static_cast<float>(limiterBar_.getHeight()))), 3.0f);
     g.setColour(shade(*this, limiterDb_ < -0.05f ? Shade::limit : Shade::muted));
-    g.drawText("limiter " + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1), limiterText_, juce::Justification::centred, false);
+    g.drawText((isGuard_ ? "guard " : "limiter ") + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1), limiterText_, juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::muted));
     g.drawText("at most", ceilingName_, juce::Justification::centred, false);
     double most = 0.0;

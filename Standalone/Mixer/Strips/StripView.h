@@ -62,7 +62,8 @@ private:
     Desk& desk_;
     PeakMeter meter_{"Master level"};
     juce::Slider fader_;
-    float limiterDb_ = 0.0f;
+    float limiterDb_ = 0.0f; // or the guard's
+    bool isGuard_ = false;
     juce::Rectangle<int> limiterBar_, limiterText_, ceilingName_, ceiling_;
 };
 

@@ -83,7 +83,7 @@ bool AnalysisScreen::keyPressed(const juce::KeyPress& key) {
 
 void AnalysisScreen::browse() {
     const auto folder = files_.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory) : files_.front().getParentDirectory();
-    chooser_ = std::make_unique<juce::FileChooser>("Trials of a study", folder, "*.csv");
+    chooser_ = std::make_unique<juce::FileChooser>("Trials of a study", folder, "*.csv", false);
     constexpr int which = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles | juce::FileBrowserComponent::canSelectMultipleItems;
     chooser_->launchAsync(which, [this](const juce::FileChooser& chooser) {
         const auto chosen = chooser.getResults();

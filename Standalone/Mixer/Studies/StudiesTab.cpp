@@ -124,7 +124,7 @@ void StudiesTab::pickProtocol() {
 }
 
 void StudiesTab::browseProtocol() {
-    chooser_ = std::make_unique<juce::FileChooser>("A protocol", juce::File{}, "*.json");
+    chooser_ = std::make_unique<juce::FileChooser>("A protocol", juce::File{}, "*.json", false);
     chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
         if (const auto file = chooser.getResult(); file != juce::File{}) chooseProtocol(file.getFullPathName().toStdString());
         else if (protocol_) choice_.setText(titleOf(protocol_->name), juce::dontSendNotification);
@@ -132,7 +132,7 @@ void StudiesTab::browseProtocol() {
 }
 
 void StudiesTab::browseFolder() {
-    chooser_ = std::make_unique<juce::FileChooser>("The folder of the trial files", juce::File{folder_.getText()});
+    chooser_ = std::make_unique<juce::FileChooser>("The folder of the trial files", juce::File{folder_.getText()}, "*", false);
     chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectDirectories, [this](const juce::FileChooser& chooser) {
         if (const auto file = chooser.getResult(); file != juce::File{}) setFolder(file);
     });
@@ -158,7 +158,7 @@ void StudiesTab::pickWords() {
 }
 
 void StudiesTab::browseWords() {
-    chooser_ = std::make_unique<juce::FileChooser>("Words of a language", juce::File{}, "*.json");
+    chooser_ = std::make_unique<juce::FileChooser>("Words of a language", juce::File{}, "*.json", false);
     chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
         if (const auto file = chooser.getResult(); file == juce::File{} || !chooseWords(file.getFullPathName().toStdString()).empty()) chooseWords(wordsPath_);
     });

@@ -205,7 +205,7 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (key.isKeyCode(KeyPress::tabKey)) return false; // moves the focus
     const int digit = static_cast<int>(key.getTextCharacter() - '1');
-    if (key.isKeyCode(KeyPress::escapeKey)) silence_.onClick();
+    if (key.isKeyCode(KeyPress::escapeKey)) desk_.takeEscape(), refresh();
     else if (page_ == Page::comment) return false;
     else if (page_ == Page::trial && pane_.takeKey(key)) {}
     else if (page_ == Page::trial && hasHands() && digit >= 0 && digit < static_cast<int>(parts_.size())) play(static_cast<std::size_t>(digit));

@@ -93,7 +93,7 @@ void StudyWorld::finish() {
     if (journal_ && journal_->error().empty()) {
         for (PlayedEvent played; session_->played().pop(played);) journal_->played(played, session_->timeline().sampleRateHz());
         journal_->end(endNs);
-        fault_ = journal_->finish();
+        fault_ = journal_->finish(SessionJournal::quickBytes); // the window waits
     }
     journal_.reset();
     session_.reset();

@@ -6,6 +6,7 @@
 #include "Host/Devices/NoDevice.h"
 #include "Pads/PadOutput.h"
 #include <algorithm>
+#include <optional>
 
 namespace physvib {
 namespace {
@@ -19,6 +20,12 @@ juce::String outputsText(int outputs) { return juce::String{outputs} + (outputs 
 
 } // namespace
 
+void keepTo(int outputs, Mix& mix) {
+    if (mix.count() <= outputs) return;
+    mix.layout = presetLayout(layoutFor(outputs), mix.layout.enchanters);
+    mix.resizeStrips();
+}
+
 std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads,
                                     const std::vector<SerialPortName>& ports) {
     const auto devices = byLikelihood(listAudioDevices(types));
@@ -26,9 +33,11 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
     for (const auto& device : devices) {
         if (device.type == noDeviceType) continue;
         const int outputs = ownOutputs(device);
-        FeltChoice choice{utf8(device.type + ": " + device.name) + ", " + outputsText(outputs) + (outputs > 2 ? "" : ": headphones, or two actuators"), {device.type + ":" + device.name}, outputs};
+        FeltChoice choice{utf8(device.type + ": " + device.name) + ", " + outputsText(outputs) + (outputs == 2 ? ": two actuators" : ""), {device.type + ":" + device.name}, outputs};
         (outputs > 2 ? many : few).push_back(std::move(choice));
     }
+    std::optional<FeltChoice> ears; // of sound devices alone
+    if (const auto& heard = few.empty() ? many : few; !heard.empty()) ears = heard.front();
     for (const SerialPortName& port : ports) {
         if (!port.isLikelyBoard) continue; // else it is anything: a modem, or a screen
         FeltChoice choice{"Four-channel board: " + utf8(port.path + "  " + port.description),
@@ -42,6 +51,11 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
         FeltChoice choice{"Game controller: " + utf8(pad), {std::string{noDeviceType} + ":" + noDeviceName}, 2, true}; // nothing but the controller plays
         choice.device.pad = pad;
         many.push_back(std::move(choice));
+    }
+    if (ears && ears->outputs >= 2) {
+        ears->title = "Headphones: " + utf8(ears->device.name);
+        ears->isHeard = true;
+        many.insert(many.begin() + std::min<std::ptrdiff_t>(std::ssize(many), mostRows - 1), *ears);
     }
     all = std::move(many);
     all.insert(all.end(), few.begin(), few.end());
@@ -92,17 +106,23 @@ void FirstStart::playHere() {
         return;
     }
     if (const auto error = desk_.open(choice.device); !error.empty()) return show();
+    if (choice.isHeard) return listen();
     test(std::max(1, std::min(choice.outputs, desk_.device().outputs())));
+}
+
+void FirstStart::listen() {
+    constexpr int ears = 2;
+    desk_.change("Headphones", [](Mix& mix) { keepTo(ears, mix); });
+    if (const auto error = desk_.monitorInstead({0, 1}, safeContactDb); !error.empty())
+        desk_.report(utf8(error));
+    end(true);
 }
 
 void FirstStart::test(int outputs) {
     slowness_ = std::max(1, desk_.session().world().slowness());
     desk_.setSlowness(0); // nothing but what is tested is felt
     desk_.change("First start", [outputs](Mix& mix) {
-        if (mix.count() > outputs) {
-            mix.layout = presetLayout(layoutFor(outputs), mix.layout.enchanters);
-            mix.resizeStrips();
-        }
+        keepTo(outputs, mix);
         for (int j = 0; j < mix.count(); ++j) mix.strips[static_cast<std::size_t>(j)].output = j;
         mix.levelDb = firstDb;
     });

@@ -16,12 +16,16 @@ struct FeltChoice {
     DeviceChoice device;
     int outputs = 0;
     bool isBeside = false; ///< a board or a controller: the session begins anew with it
+    bool isHeard = false;  ///< on headphones at its first two outputs; no actuator plays there
 };
 
 /// Audio devices, four-channel boards, game controllers and no device; the likely one first. M; asks the
 /// system, which takes a while.
 std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads,
                                     const std::vector<SerialPortName>& ports);
+
+/// No more actuators than there are outputs: those of a preset. M.
+void keepTo(int outputs, Mix& mix);
 
 /// A card over the window. All is done by keys as well: up, down and Return; then Return (felt), L (louder), N (not felt). M only.
 class FirstStart final : public juce::Component, private juce::Timer {
@@ -38,6 +42,7 @@ public:
     void choose(int index);
     int chosen() const noexcept { return chosen_; }
     void playHere();          ///< what is chosen: opens it, and the test begins
+    void listen();          ///< what is felt is heard on what is open
     void test(int outputs); ///< of as many actuators as there are outputs, four at most, from a low level; a
                             ///< board or controller is waited for
     void pulse();             ///< of the one that is tested, again

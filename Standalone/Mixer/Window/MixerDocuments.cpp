@@ -111,7 +111,7 @@ void MixerWindow::askThen(std::function<void()> goOn) {
 
 void MixerWindow::newDocument() {
     askThen([this] {
-        files_.forget();
+        files_.copies().forget();
         play(firstMix(), {});
     });
 }
@@ -123,7 +123,7 @@ void MixerWindow::openDocument() {
 void MixerWindow::openDocument(const juce::File& file) {
     askThen([this, file] {
         if (!load(file, file)) return;
-        files_.forget();
+        files_.copies().forget();
         files_.addRecent(file);
     });
 }
@@ -154,7 +154,7 @@ void MixerWindow::saveTo(const juce::File& file) {
     if (const auto error = writeFile(pathOf(file), sessionJson(desk_->saved(), std::filesystem::path{pathOf(file)}.parent_path())); !error.empty()) return say(utf8(error));
     document_ = file;
     savedEdits_ = edits;
-    files_.forget();
+    files_.copies().forget();
     files_.addRecent(file);
     nameWindow();
 }
@@ -221,30 +221,6 @@ void MixerWindow::exportLayout() {
 
 void MixerWindow::import(const juce::String& title) {
     chooseFile(title, sessionPattern, false, [this](const juce::File& file) { openFile(file); });
-}
-
-void MixerWindow::offerRecovery() {
-    const auto copies = files_.leftBehind();
-    if (copies.empty()) return;
-    auto card = std::make_unique<QuestionCard>(
-        "Take up the last session?",
-        "The mixer ended without being closed. A copy of its session was kept at " +
-            copies.front().getLastModificationTime().toString(true, true, false, true) + ".",
-        "Take it up", "Discard it");
-    card->onAnswer = [this, copies](bool isYes) {
-        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}, copies,
-                                         isYes] { // its button is still being clicked
-            if (safe != nullptr) safe->recover(copies, isYes);
-        });
-    };
-    view_->setQuestion(std::move(card));
-}
-
-void MixerWindow::recover(const std::vector<juce::File>& copies, bool isWanted) {
-    view_->setQuestion(nullptr);
-    if (isWanted && load(copies.front(), {}, true)) savedEdits_ = desk_->edits() + 1; // to be saved
-    for (const auto& copy : copies)
-        if (copy != copies.front() || !isWanted || desk_->trouble().isEmpty()) copy.deleteFile();
 }
 
 } // namespace physvib

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files in one folder; a copy bears the number of its process.
+// Files in one folder.
 #include "Mixer/Window/MixerFiles.h"
-#include "System/Process.h"
-#include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/ReadFile.h"
+#include "Mixer/Desk/DeskWords.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -12,7 +12,6 @@ namespace physvib {
 
 namespace {
 
-constexpr const char* copyPrefix = "recovery-";
 constexpr double keepMs = 2'000.0, longestKeepMs = 20'000.0, exposureMs = 5'000.0;
 
 juce::PropertiesFile::Options options() {
@@ -20,6 +19,38 @@ juce::PropertiesFile::Options options() {
     o.storageFormat = juce::PropertiesFile::storeAsXML;
     o.millisecondsBeforeSaving = 500;
     return o;
+}
+
+constexpr std::size_t mostSettingsBytes =
+    1u << 18; // eight recent documents of the longest paths, each letter escaped
+constexpr std::ptrdiff_t mostSettingsTags = 1'000; // there are about thirty
+
+/// Empty, or why the settings there are not read. JUCE's reader calls itself for each tag within a tag,
+/// follows what a document's type says, and waits at a pipe.
+std::string faultOfSettings(const juce::File& file) {
+    const std::filesystem::path path = file.getFullPathName().toStdString();
+    if (const auto there = openRegular(path, mostSettingsBytes); !there) return there.error;
+    const auto text = readFile(path, mostSettingsBytes);
+    if (!text) return text.error;
+    if (std::ranges::count(text.value, '<') > mostSettingsTags)
+        return path.string() + ": expected at most " + std::to_string(mostSettingsTags) + " tags, found more";
+    const bool isPlain = text.value.starts_with("<?xml") && text.value.find("<!") == std::string::npos;
+    if (isPlain && juce::parseXMLIfTagMatches(utf8(text.value), "PROPERTIES")) return {};
+    return path.string() +
+           ": expected settings as the mixer writes them, found something else, or a part of them";
+}
+
+/// Where settings are read and written. What cannot be read makes room, and `fault` says so.
+juce::File readableSettings(const juce::File& file, std::string& fault) {
+    if (file.exists()) fault = faultOfSettings(file);
+    if (fault.empty()) return file;
+    const juce::File aside = file.withFileExtension("settings.unread");
+    std::error_code code;
+    std::filesystem::rename(file.getFullPathName().toStdString(), aside.getFullPathName().toStdString(),
+                            code);
+    fault += code ? "; settings are not kept"
+                  : "; it is now " + aside.getFileName().toStdString() + ", and settings begin anew";
+    return code ? juce::File{} : file;
 }
 
 juce::String today() { return juce::Time::getCurrentTime().formatted("%Y-%m-%d"); }
@@ -34,9 +65,12 @@ juce::File mixerFolder() {
 
 MixerFiles::MixerFiles(const juce::File& folder)
     : folder_{folder}
-    , copy_{folder.getChildFile(copyPrefix + juce::String{processNumber()} + ".json")}
-    , settings_{folder.getChildFile("mixer.settings"), options()} {
+    , copies_{folder.getFullPathName().toStdString()}
+    , settings_{readableSettings(folder.getChildFile("mixer.settings"), fault_), options()} {
     folder_.createDirectory();
+    for (const auto& key :
+         juce::StringArray{settings_.getAllProperties().getAllKeys()}) // JUCE would read these as tags again
+        if (settings_.getValue(key).trimStart().startsWithChar('<')) settings_.removeValue(key);
     recent_.setMaxNumberOfItems(8);
     recent_.restoreFromString(settings_.getValue("recent"));
     recent_.removeNonExistentFiles();
@@ -72,23 +106,18 @@ juce::Array<juce::File> MixerFiles::ownScenes() const {
     return files;
 }
 
-std::vector<juce::File> MixerFiles::leftBehind() const {
-    std::vector<juce::File> found;
-    for (const auto& file : folder_.findChildFiles(juce::File::findFiles, false, juce::String{copyPrefix} + "*.json"))
-        if (!isProcessRunning(file.getFileNameWithoutExtension().fromFirstOccurrenceOf(copyPrefix, false, false).getIntValue())) found.push_back(file);
-    std::ranges::sort(found, std::greater{}, [](const juce::File& f) { return f.getLastModificationTime().toMilliseconds(); });
-    return found;
-}
-
 std::string MixerFiles::keep(Desk& desk, bool isChanged) {
     const double now = juce::Time::getMillisecondCounterHiRes(), passed = now - keptAtMs_;
     if (!isChanged || passed < (desk.edits() != keptEdits_ ? keepMs : longestKeepMs)) return {};
-    keptAtMs_ = now;
-    keptEdits_ = desk.edits();
-    settings_.saveIfNeeded(); // levels first: the copy must not be newer than what the desk allowed
-    return writeFile(copy_.getFullPathName().toStdString(), sessionJson(desk.saved(), std::filesystem::path{folder_.getFullPathName().toStdString()}));
+    return keepNow(desk);
 }
 
-void MixerFiles::forget() { copy_.deleteFile(); }
+std::string MixerFiles::keepNow(Desk& desk) {
+    keptAtMs_ = juce::Time::getMillisecondCounterHiRes();
+    keptEdits_ = desk.edits();
+    settings_.saveIfNeeded(); // levels first: the copy must not be newer than what the desk allowed
+    return copies_.keep(
+        sessionJson(desk.saved(), std::filesystem::path{folder_.getFullPathName().toStdString()}));
+}
 
 } // namespace physvib

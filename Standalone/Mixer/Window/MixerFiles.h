@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the mixer keeps between its runs: settings, recent documents, and a copy of the session in case it ends badly.
 #pragma once
-#include "Scene/Sessions/DeskLimits.h"
 #include "Mixer/Desk/Desk.h"
+#include "Mixer/Window/RecoveryCopies.h"
+#include "Scene/Sessions/DeskLimits.h"
 #include <juce_gui_extra/juce_gui_extra.h>
 
 namespace physvib {
@@ -17,6 +18,7 @@ public:
     ~MixerFiles();
 
     juce::PropertiesFile& settings() noexcept { return settings_; }
+    const std::string& settingsFault() const noexcept { return fault_; } ///< empty, or why they begin anew
     juce::RecentlyOpenedFilesList& recent() noexcept { return recent_; }
     void addRecent(const juce::File& file);
 
@@ -31,18 +33,17 @@ public:
     juce::File scenesFolder() const { return folder_.getChildFile("scenes"); } ///< where scenes of one's own are looked for
     juce::Array<juce::File> ownScenes() const;
 
-    /// Copies that runs which have ended left behind; the newest first.
-    std::vector<juce::File> leftBehind() const;
-
+    RecoveryCopies& copies() noexcept { return copies_; }
     /// Writes the copy of this run if there is something new, as often as it is worth. Empty, or why it cannot be written.
     std::string keep(Desk& desk, bool isChanged);
-    /// The run ends well, or its document was saved: no copy is needed.
-    void forget();
+    std::string keepNow(Desk& desk);
 
 private:
     static constexpr const char *limitsSetting = "desk", *exposureSetting = "exposure";
 
-    juce::File folder_, copy_;
+    juce::File folder_;
+    RecoveryCopies copies_;
+    std::string fault_;
     juce::PropertiesFile settings_;
     juce::RecentlyOpenedFilesList recent_;
     std::uint64_t keptEdits_ = 0;

@@ -164,7 +164,7 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
     if (question_ && question_->keyPressed(key)) return true; // whatever has the focus
     if (firstStart_ && firstStart_->keyPressed(key)) return true;
     setHint(false);
-    if (key == KeyPress::escapeKey) return bar_.toggleSilence(), true;
+    if (key == KeyPress::escapeKey) return desk_.takeEscape(), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
     if (key == KeyPress{'.'}) return desk_.session().world().stepOnce(), true;
     if (key == KeyPress{'z', juce::ModifierKeys::commandModifier, 0}) return desk_.undoManager().undo(), true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All of the mixer's window: the bar, the world, the tabs, the scope and the strips.
 #pragma once
+#include "Host/Views/EmergencyStop.h"
 #include "Mixer/Strips/StripsPanel.h"
 #include "Mixer/Window/FirstStart.h"
 #include "Mixer/Window/QuestionCard.h"
@@ -71,6 +72,7 @@ private:
     DeskMoment latest_;
     int restedLooks_ = 0;
     juce::TooltipWindow tooltips_{this, 600};
+    EmergencyStop stop_{*this, [this] { desk_.stop(); }};
 };
 
 } // namespace physvib

@@ -40,7 +40,8 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     device_.pad = settings.getValue("controller").toStdString();
     dragged_->setEnding(std::max(0, hitEndings().indexOf(settings.getValue("clip-ending"))));
     setUsingNativeTitleBar(true);
-    if (!files_.leftBehind().empty()) before_ = files_.limits();
+    const bool endedBadly = !files_.copies().leftBehind().empty();
+    if (endedBadly) before_ = files_.limits();
     start(file);
     setResizable(true, false);
     setResizeLimits(MixerView::leastWidth, MixerView::leastHeight, 7680, 4320);
@@ -53,13 +54,16 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     view_->grabKeyboardFocus();
     const auto& chosen = settings.getValue("device");
     const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) && (chosen.isEmpty() || chosen.startsWith(juce::String{noDeviceType} + ":"));
-    if (isFirst && files_.leftBehind().empty()) juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
-        if (safe != nullptr) safe->showFirstStart();
-    });
-    else if (!settings.getBoolValue("hint-seen")) view_->setHint(true);
-    settings.setValue("hint-seen", true);
+    if (isFirst && !endedBadly)
+        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
+            if (safe != nullptr) safe->showFirstStart();
+        });
+    else if (!endedBadly && !settings.getBoolValue("hint-seen"))
+        view_->setHint(true);
+    if (!endedBadly) settings.setValue("hint-seen", true); // it lies over a question
     tellInstead();
     offerRecovery();
+    if (!files_.settingsFault().empty()) sayAlso(utf8(files_.settingsFault()));
     startTimer(500);
 }
 
@@ -75,7 +79,7 @@ MixerWindow::~MixerWindow() {
 
 // Another document is another desk: its session begins at 0, with nothing to undo.
 void MixerWindow::play(Mix mix, const juce::File& document) {
-    const bool wasSilent = desk_ && desk_->isSilent();
+    const bool wasSilent = desk_ && desk_->isSilent(), wasAsked = view_ && view_->question() != nullptr;
     const double exposure = desk_ ? desk_->exposure().squareGSeconds() : files_.exposureToday();
     asked_.reset();
     clearContentComponent();
@@ -114,6 +118,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
     view_->setGround(files_.settings().getValue("look") == "light" ? Ground::light : Ground::dark);
     view_->grabKeyboardFocus();
     nameWindow();
+    if (wasAsked) offerRecovery();
 }
 
 void MixerWindow::useBoard(const DeviceChoice& choice) {
@@ -177,6 +182,10 @@ void MixerWindow::timerCallback() {
     device_ = desk_->device().choice();
     auto& settings = files_.settings();
     settings.setValue("device", utf8(device_.name));
+    const auto colon = device_.name.find(':');
+    if (const int all = desk_->device().outputs(); all > 0 && colon != std::string::npos)
+        settings.setValue("outputs",
+                          ownOutputs({device_.name.substr(0, colon), device_.name.substr(colon + 1), all}));
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
     settings.setValue("osc", oscUseNames[static_cast<std::size_t>(desk_->inputs().choice().use)]);
@@ -192,8 +201,12 @@ void MixerWindow::timerCallback() {
     if (const auto error = files_.keep(*desk_, isChanged()); !error.empty()) say(utf8(error));
 }
 
-Mix MixerWindow::firstMix() const {
+Mix MixerWindow::firstMix() {
+    const auto& settings = files_.settings();
     Mix mix = Desk::firstMix();
+    if (const int outputs = settings.getIntValue("outputs");
+        outputs > 0 && settings.getValue("device") == utf8(device_.name))
+        keepTo(outputs, mix);
     if (before_) mix.levelDb = before_->levelDb;
     for (Strip& strip : mix.strips)
         if (std::ranges::find(device_.monitor, strip.output) != device_.monitor.end()) strip.output = -1;
@@ -220,7 +233,7 @@ void MixerWindow::filesDropped(const juce::StringArray& files, int, int) {
 
 void MixerWindow::requestQuit() {
     askThen([this] {
-        files_.forget();
+        files_.copies().forget();
         juce::JUCEApplicationBase::quit();
     });
 }
@@ -285,6 +298,9 @@ void MixerWindow::showMenu(juce::Component& from) {
     menu.addSubMenu("Recent", recent, recent.getNumItems() > 0);
     item("Save", "Ctrl+S", [this] { save(); });
     item("Save as" + dots(), "Ctrl+Shift+S", [this] { saveAs(); });
+    item(
+        "Sessions left behind" + dots(), {}, [this] { offerRecovery(); },
+        !files_.copies().leftBehind().empty());
     menu.addSeparator();
     item(undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z", [&undo] { undo.undo(); }, undo.canUndo());
     item(undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z", [&undo] { undo.redo(); }, undo.canRedo());

@@ -73,15 +73,19 @@ private:
                     std::function<void(const juce::File&)> use,
                     const juce::String& suggested = {}); ///< `suggested`: a name, without its ending
     void offerRecovery();
-    void recover(const std::vector<juce::File>& copies, bool isWanted);
+    void showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at);
+    void takeUp(const std::filesystem::path& copy);
     void offerMonitor();
-    Mix firstMix() const; ///< whose enchanters leave the monitor's outputs alone
+    Mix firstMix(); ///< whose enchanters leave the monitor's outputs alone
     void showMenu(juce::Component& from);
     void setGround(Ground ground);
     void setDisplayWidth(double mm);
     void askDisplayWidth();
     void nameWindow();
     void say(const juce::String& words) { desk_->report(words); }
+    void sayAlso(const juce::String& words) {
+        say(desk_->trouble().isEmpty() || desk_->isNews() ? words : desk_->trouble() + "; " + words);
+    }
     juce::File folderOfDocuments() const;
     juce::String documentName() const;
     void make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work);
@@ -95,6 +99,7 @@ private:
     juce::File document_, lastRecording_;
     std::optional<Mix> asked_; // of the last file, if it was lowered
     std::optional<DeskLimits> before_; // the desk of a run that ended badly
+    static constexpr std::uint64_t neverSaved = UINT64_MAX; // as no count of edits
     std::uint64_t savedEdits_ = 0;
     std::unique_ptr<juce::FileChooser> chooser_;
     std::unique_ptr<juce::Thread> rendering_;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two lines and two buttons.
+// Some lines, and a button for each answer, three in a row.
 #include "Mixer/Window/QuestionCard.h"
 #include <utility>
 
 namespace physvib {
 
-QuestionCard::QuestionCard(const juce::String& title, const juce::String& words, const juce::String& yes,
-                           const juce::String& no)
-    : yes_{yes}
-    , no_{no} {
+QuestionCard::QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers)
+    : answers_{std::move(answers)} {
     setTitle(title);
     setDescription(words);
     setWantsKeyboardFocus(true);
@@ -17,27 +15,46 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
     words_.setText(words, juce::dontSendNotification);
     words_.setFont(juce::Font{text::medium});
     words_.setJustificationType(juce::Justification::topLeft);
-    words_.setMinimumHorizontalScale(1.0f); // it has room for two lines
-    yes_.onClick = [this] { answer(true); };
-    no_.onClick = [this] { answer(false); };
-    yes_.setTitle(yes);
-    no_.setTitle(no);
-    yes_.setTooltip(yes + " (Return)");
-    yes_.setToggleState(true, juce::dontSendNotification); // what Return does
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &words_, &yes_, &no_})
-        addAndMakeVisible(c);
+    words_.setMinimumHorizontalScale(1.0f); // it has room for all lines
+    for (juce::Component* c : {&title_, &words_}) addAndMakeVisible(c);
+    answers_.front().key = juce::KeyPress{juce::KeyPress::returnKey};
+    for (std::size_t k = 0; k < answers_.size(); ++k) {
+        const Answer& answer = answers_[k];
+        auto& button = *buttons_.emplace_back(std::make_unique<juce::TextButton>(answer.words));
+        button.setTitle(answer.words);
+        if (answer.key.isValid())
+            button.setTooltip(answer.words + " (" + answer.key.getTextDescription() + ")");
+        button.setEnabled(answer.isEnabled);
+        button.setToggleState(k == 0 && answer.isEnabled, juce::dontSendNotification); // what Return does
+        button.onClick = [this, k] { act(k); };
+        addAndMakeVisible(button);
+    }
     prepareControls(*this);
-    setSize(wide, high);
+    const int rows = (static_cast<int>(answers_.size()) + perRow - 1) / perRow;
+    setSize(wide, 174 + rows * (rowHigh + gap));
 }
 
-void QuestionCard::answer(bool isYes) {
-    if (const auto tell = std::exchange(onAnswer, nullptr)) tell(isYes);
+void QuestionCard::answer(const juce::String& words) {
+    for (std::size_t k = 0; k < answers_.size(); ++k)
+        if (answers_[k].words == words) return act(k);
+}
+
+// Later: the button is still being clicked, and the card may go.
+void QuestionCard::act(std::size_t which) {
+    if (!answers_[which].isEnabled) return;
+    juce::MessageManager::callAsync([safe = juce::Component::SafePointer<QuestionCard>{this}, which] {
+        if (safe == nullptr) return;
+        const auto act = safe->answers_[which].act;
+        act();
+    });
 }
 
 bool QuestionCard::keyPressed(const juce::KeyPress& key) {
-    if (key != juce::KeyPress::returnKey) return false;
-    answer(!no_.hasKeyboardFocus(false));
-    return true;
+    for (std::size_t k = 0; k < answers_.size(); ++k)
+        if (buttons_[k]->hasKeyboardFocus(false) && key == juce::KeyPress::returnKey) return act(k), true;
+    for (std::size_t k = 0; k < answers_.size(); ++k)
+        if (key == answers_[k].key) return act(k), true;
+    return false;
 }
 
 void QuestionCard::paint(juce::Graphics& g) { drawCard(g, *this); }
@@ -45,11 +62,15 @@ void QuestionCard::paint(juce::Graphics& g) { drawCard(g, *this); }
 void QuestionCard::resized() {
     auto area = getLocalBounds().reduced(24, 20);
     title_.setBounds(area.removeFromTop(30));
-    auto row = area.removeFromBottom(34);
-    words_.setBounds(area.withTrimmedTop(4));
-    yes_.setBounds(row.removeFromLeft(130));
-    row.removeFromLeft(gap);
-    no_.setBounds(row.removeFromLeft(130));
+    const int width = (area.getWidth() - (perRow - 1) * gap) / perRow;
+    auto rows = area.removeFromBottom(
+        static_cast<int>(buttons_.size() + perRow - 1) / perRow * (rowHigh + gap) - gap);
+    for (std::size_t k = 0; k < buttons_.size(); ++k) {
+        const auto at = static_cast<int>(k);
+        buttons_[k]->setBounds(rows.getX() + at % perRow * (width + gap),
+                               rows.getY() + at / perRow * (rowHigh + gap), width, rowHigh);
+    }
+    words_.setBounds(area.withTrimmedTop(4).withTrimmedBottom(gap));
 }
 
 } // namespace physvib

@@ -1,29 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A question over the window, in its own look: one answer by Return, the other by a button.
+// A question over the window, in its own look: the first answer by Return, the others by their buttons and
+// keys.
 #pragma once
 #include "Mixer/Window/Parts.h"
 #include <functional>
+#include <memory>
+#include <vector>
 
 namespace physvib {
 
 /// M only.
 class QuestionCard final : public juce::Component {
 public:
-    static constexpr int wide = 520, high = 190;
+    static constexpr int wide = 520, perRow = 3, rowHigh = 34;
 
-    QuestionCard(const juce::String& title, const juce::String& words, const juce::String& yes,
-                 const juce::String& no);
+    struct Answer {
+        juce::String words;
+        std::function<void()> act; ///< may destroy the card
+        bool isEnabled = true;
+        juce::KeyPress key{};
+    };
 
-    std::function<void(bool isYes)> onAnswer; ///< once; may destroy the card
+    QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers);
 
-    void answer(bool isYes);
+    /// As a click on that button; one that is not there or not enabled does nothing.
+    void answer(const juce::String& words);
+    juce::String words() const { return words_.getText(); }
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
+    void act(std::size_t which);
+
     juce::Label title_, words_;
-    juce::TextButton yes_, no_;
+    std::vector<Answer> answers_;
+    std::vector<std::unique_ptr<juce::TextButton>> buttons_;
 };
 
 } // namespace physvib

@@ -73,7 +73,7 @@ void chooseContacts(MixerView& view) {
 
 void showFirstStart(Desk& desk, MixerView& view) {
     const DeviceChoice none{std::string{noDeviceType} + ":" + noDeviceName};
-    view.setFirstStart(std::make_unique<FirstStart>(desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8}, {"Game controller: DualSense", none, 2, true}, {"ALSA: Built-in Audio, 2 outputs: headphones, or two actuators", none, 2}, {"No device: seen, not felt", none, 0}}));
+    view.setFirstStart(std::make_unique<FirstStart>(desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8}, {"Game controller: DualSense", none, 2, true}, {"Headphones: ALSA:Built-in Audio", none, 2, false, true}, {"ALSA: Built-in Audio, 2 outputs: two actuators", none, 2}, {"No device: seen, not felt", none, 0}}));
 }
 
 // Two hands; one of them and a strip rise and fall.

@@ -67,7 +67,7 @@ TopBar::TopBar(Desk& desk)
     silence_.getProperties().set(stopProperty, true);
     silence_.setTitle("Silence");
     silence_.setTooltip("Silence every actuator at once; again: play on (Esc)");
-    silence_.onClick = [this] { toggleSilence(); };
+    silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{&menu_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_, &seed_, &time_, &record_, &device_, &board_, &load_, &silence_})
         addAndMakeVisible(c);
     setRecording(false);
@@ -75,7 +75,6 @@ TopBar::TopBar(Desk& desk)
 }
 
 void TopBar::togglePause() { desk_.setSlowness(desk_.session().world().slowness() == 0 ? 1 : 0); }
-void TopBar::toggleSilence() { desk_.setSilent(!desk_.isSilent()); }
 
 void TopBar::setOwnScenes(const juce::Array<juce::File>& files) {
     if (files == own_) return;

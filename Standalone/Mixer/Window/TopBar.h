@@ -13,7 +13,6 @@ public:
     void refresh(const DeskMoment& moment);
     void takeMix(); ///< the desk has changed
     void togglePause();
-    void toggleSilence();
 
     std::function<void(juce::Component& from)> onMenu;
     std::function<void()> onRecord, onOpenScene;

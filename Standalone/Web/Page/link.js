@@ -29,7 +29,7 @@ async function unpacked(code) {
     }
 }
 
-/// Event lists do not say how large their field is, m.
+/// Event lists of old, and others', do not say how large their field is, m.
 export const isList = world => world.text !== null && world.scene.endsWith('.csv');
 
 /// What stands after the # for this world.

@@ -15,7 +15,7 @@ export function filesOf(compiled, title, { channels, rate, hits, since }, { plac
     const clip = ending => writeClip(compiled, events, `${title}.${ending}`, { layout, law: law || undefined, fieldWidth, fieldHeight });
     const made = {
         WAV: () => [{ name: `${title}.wav`, bytes: wav(compiled, channels, rate) }],
-        events: () => [{ name: `${title}.csv`, bytes: eventsText(compiled, events) }],
+        events: () => [{ name: `${title}.csv`, bytes: eventsText(compiled, events, { fieldWidth, fieldHeight }) }],
         '.haptic': () => clip('haptic'),
         '.ahap': () => clip('ahap'),
     };

@@ -27,11 +27,12 @@ struct Listening {
         EXPECT_EQ(pipe(ends), 0);
         before = dup(STDIN_FILENO);
         dup2(ends[0], STDIN_FILENO);
-        listener.emplace(session, output, messages, [this](const std::string&) {
+        const auto clips = [this](const std::string&) {
             isHeldUp = true;
             while (!goesOn) std::this_thread::sleep_for(std::chrono::milliseconds{1});
             return Result<LoadedClip>{Failure{"no clip"}};
-        });
+        };
+        listener.emplace(session, output, messages, clips, true);
     }
     ~Listening() {
         goesOn = true;

@@ -72,7 +72,7 @@ function finish()
     while live:now_ns() < stop do love.timer.sleep(0.005) end
     local status, latency = live:status(), live:latency_ns()
     live:close()
-    local settings = physvib.filled("renderer_settings", {field_width_m = 20, field_height_m = 20})
+    local settings = physvib.rendered({field_width_m = 20, field_height_m = 20})
     local frames = math.ceil(stop / second * rate)
     local samples, mixed = ffi.new("float[?]", 4 * frames), ffi.new("float[?]", 4 * frames)
     table.sort(told, function(a, b) return a.time_ns < b.time_ns end)

@@ -3,14 +3,15 @@
 // open again; the recorded file has what the actions say.
 #include "../MixerTesting.h"
 #include "Host/FakeAudioDevice.h"
-#include "Scene/SceneCatalogue.h"
-#include "Scene/SceneFile.h"
 #include "Host/Views/DisplayScale.h"
-#include "Session/OfflineRender.h"
-#include "Session/SessionRender.h"
 #include "Mixer/Materials/MaterialShots.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Window/MixerWindow.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
+#include "Session/OfflineRender.h"
+#include "Session/SessionRender.h"
+#include "Support/FullDisk.h"
 #include <cmath>
 
 namespace physvib {
@@ -234,7 +235,7 @@ TEST(Window, APersonsWayThroughTheMixer) {
     EXPECT_LE(recorded.getMagnitude(0, 0, recorded.getNumSamples()), ceilingOf(saved.value.mix->strips[0]));
     const auto events = loadEventsCsv(wav.withFileExtension("csv").getFullPathName().toStdString());
     ASSERT_TRUE(events) << events.error;
-    EXPECT_FALSE(events.value.empty());
+    EXPECT_FALSE(events.value.events.empty());
 
     const std::int64_t frames = from - playOut + recorded.getNumSamples(); // what was recorded is what the saved session renders, to the bit
     int wrong = 0;
@@ -324,13 +325,14 @@ TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
         loadEventsCsv(window.lastRecording().withFileExtension("csv").getFullPathName().toStdString());
     ASSERT_TRUE(live) << live.error;
     EXPECT_GT(rendered.size(), 2U);
-    ASSERT_GE(live.value.size(), rendered.size());
+    const auto& recorded = live.value.events;
+    ASSERT_GE(recorded.size(), rendered.size());
     const bool hasWaited = !desk.saved().log.takes[take].stalls.empty();
     std::size_t same = 0;
     for (std::size_t i = 0; i < rendered.size(); ++i) {
-        CollisionEvent felt = live.value[i];
+        CollisionEvent felt = recorded[i];
         if (!hasWaited)
-            EXPECT_EQ(felt.timeNs - rendered[i].timeNs, live.value[0].timeNs - rendered[0].timeNs) << i;
+            EXPECT_EQ(felt.timeNs - rendered[i].timeNs, recorded[0].timeNs - rendered[0].timeNs) << i;
         felt.timeNs = rendered[i].timeNs;
         same += felt == rendered[i] ? 1 : 0;
     }
@@ -563,7 +565,7 @@ TEST(Window, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
         EXPECT_LE(std::abs(beside.x), 1) << "in the middle";
         EXPECT_EQ(window.desk().mix().levelDb, -40.0) << "before it is answered";
         EXPECT_GE(window.desk().exposure().squareGSeconds(), 12.5) << "hands have felt that today";
-        question->answer(isTakenUp);
+        question->answer(isTakenUp ? "Take it up" : "Discard it");
         ASSERT_TRUE(runUntil([&] { return !again("config/recovery-99999999.json").existsAsFile(); }));
         EXPECT_EQ(window.desk().mix().levelDb, -40.0)
             << (isTakenUp ? "the copy is older than the desk was" : "discarded");
@@ -586,6 +588,102 @@ TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
         window.save();
         EXPECT_TRUE(copies().isEmpty());
     }
+}
+
+/// Copies that runs left behind, the first the newest; of each the words of its scene's name.
+struct LeftBehind : TestFolder {
+    explicit LeftBehind(int count) {
+        Mix mix = Desk::firstMix();
+        for (int k = 0; k < count; ++k) {
+            Scene scene = *mix.scene;
+            scene.name = "s" + std::to_string(k);
+            mix.scene = std::make_shared<const Scene>(scene);
+            Desk desk{onlyNoDevice(), noDevice, mix};
+            const auto file = copy(k);
+            file.create();
+            file.replaceWithText(utf8(sessionJson(desk.saved())));
+            file.setLastModificationTime(juce::Time::getCurrentTime() -
+                                         juce::RelativeTime::seconds(10.0 * k));
+        }
+    }
+    juce::File copy(int k) const {
+        return folder.getChildFile("config/recovery-" + juce::String{90'000'000 + k} + ".json");
+    }
+    int copies() const {
+        return folder.getChildFile("config").getNumberOfChildFiles(juce::File::findFiles, "recovery-*.json");
+    }
+};
+
+TEST(Window, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
+    LeftBehind left{4};
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+    const auto words = [&] { return window.view().question()->words(); };
+    const auto answer = [&](const char* with, auto isDone) {
+        window.view().question()->answer(with);
+        ASSERT_TRUE(runUntil(isDone)) << with;
+    };
+    EXPECT_TRUE(words().contains("S0 on 4 actuators") && words().contains("Copy 1 of 4")) << words();
+    answer("Older", [&] { return words().contains("S1 on"); });
+    answer("Discard it", [&] { return !left.copy(1).existsAsFile(); });
+    EXPECT_EQ(left.copies(), 3);
+    ASSERT_NE(window.view().question(), nullptr) << "there are others";
+    EXPECT_TRUE(words().contains("Copy 1 of 3")) << words();
+    window.view().question()->keyPressed(juce::KeyPress{juce::KeyPress::rightKey});
+    ASSERT_TRUE(runUntil([&] { return words().contains("S2 on"); }));
+    answer("Take it up", [&] { return window.view().question() == nullptr; });
+    EXPECT_EQ(window.desk().mix().scene->name, "s2");
+    EXPECT_TRUE(window.isChanged());
+    window.desk().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
+    EXPECT_TRUE(window.isChanged()) << "after one edit as well";
+    EXPECT_FALSE(left.copy(2).existsAsFile()) << "this run's own is on the disk";
+    EXPECT_TRUE(left.copy(0).existsAsFile() && left.copy(3).existsAsFile());
+    EXPECT_EQ(left.copies(), 3);
+}
+
+TEST(Window, ANewestCopyThatIsCutIsToldAndTheOlderOneIsOffered) {
+    LeftBehind left{2};
+    left.copy(0).replaceWithText(left.copy(0).loadFileAsString().dropLastCharacters(500));
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+    EXPECT_TRUE(window.desk().trouble().contains("recovery-90000000.json: ")) << window.desk().trouble();
+    EXPECT_FALSE(window.desk().trouble().containsChar('\n'));
+    auto* question = window.view().question();
+    ASSERT_NE(question, nullptr);
+    EXPECT_TRUE(question->words().contains("S1 on 4 actuators")) << question->words();
+    question->answer("Not now");
+    ASSERT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
+    EXPECT_EQ(left.copies(), 2);
+}
+
+TEST(Window, OnAFullDiskWhatWasTakenUpStaysUntilThereIsRoom) {
+    LeftBehind left{1};
+    {
+        MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+        const FileSizeLimit full{4000};
+        window.view().question()->answer("Take it up");
+        ASSERT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
+        EXPECT_TRUE(window.desk().trouble().contains("cannot be written")) << window.desk().trouble();
+        EXPECT_TRUE(left.copy(0).existsAsFile());
+    }
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+    ASSERT_NE(window.view().question(), nullptr) << "offered again";
+    window.view().question()->answer("Take it up");
+    EXPECT_TRUE(runUntil([&] { return !left.copy(0).existsAsFile(); }));
+    EXPECT_EQ(left.copies(), 1);
+}
+
+TEST(Window, OfVeryManyCopiesTheNewestAreOfferedAndTheOthersStay) {
+    LeftBehind left{1};
+    for (int k = 1; k < 45; ++k) left.copy(0).copyFileTo(left.copy(k));
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+    auto* question = window.view().question();
+    ASSERT_NE(question, nullptr);
+    EXPECT_TRUE(question->words().contains("Copy 1 of 20") &&
+                question->words().contains("25 older ones stay in "))
+        << question->words();
+    question->answer("Discard all 20");
+    EXPECT_TRUE(runUntil([&] { return left.copies() == 25; }));
+    EXPECT_TRUE(runUntil([&] { return window.view().question()->words().contains("5 older ones stay"); }))
+        << "the next are offered";
 }
 
 } // namespace

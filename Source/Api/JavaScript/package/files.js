@@ -27,12 +27,19 @@ export const parseEvents = (compiled, text) => apart(compiled, 'events', module 
     const count = Number(module.call('events_parse', from, 0, 0n));
     return module.borrow(count * module.sizeOf('event'), to => {
         module.call('events_parse', from, to, BigInt(count));
-        return module.eventsAt(to, count);
+        return Object.assign(module.eventsAt(to, count), fieldSaid(module, from));
     });
 }));
 
-export const eventsText = (compiled, events) => apart(compiled, 'events', module => module.withEvents(events, (at, count) => {
-    module.check('js_events_text', at, count);
+/** Of the list of that text: fieldWidth and fieldHeight; nothing, if it says none. */
+const fieldSaid = (module, from) => module.borrow(16, to => {
+    module.call('events_parse_field', from, to, to + 8);
+    const [fieldWidth, fieldHeight] = module.doubles(to, 2);
+    return fieldWidth > 0 ? { fieldWidth, fieldHeight } : {};
+});
+
+export const eventsText = (compiled, events, { fieldWidth = 0, fieldHeight = 0 } = events) => apart(compiled, 'events', module => module.withEvents(events, (at, count) => {
+    module.check('js_events_text', at, count, fieldWidth, fieldHeight);
     return new TextDecoder().decode(textOf(module));
 }));
 

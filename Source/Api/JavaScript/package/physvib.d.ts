@@ -240,8 +240,10 @@ export class PhysVib {
     /** L: see Docs/threads.md. */
     playOutNs(rate: number, blockFrames: number, stepsPerSecond: number, longestGapSeconds?: number): Nanoseconds;
     parseLayout(text: string): Promise<Layout>;
-    parseEvents(text: string): Promise<FullHapticEvent[]>;
-    eventsText(events: readonly HapticEvent[]): Promise<string>;
+    /** With the field that the list says, if it does; render() takes it where its settings say none. */
+    parseEvents(text: string): Promise<FullHapticEvent[] & { fieldWidth?: number; fieldHeight?: number }>;
+    /** `field`: what their places span, m; left out, that of parseEvents. */
+    eventsText(events: readonly HapticEvent[], field?: { fieldWidth?: number; fieldHeight?: number }): Promise<string>;
     /** A WAVE file of 32-bit floats. */
     wav(channels: readonly Float32Array[], rate?: number): Promise<Uint8Array>;
     /** A .hjif, .hmpg, .haptic or .ahap, to samples. */

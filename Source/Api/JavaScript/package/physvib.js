@@ -40,8 +40,8 @@ export class PhysVib {
 
     /** Events, in the order of their times, to samples: a Float32Array per channel. */
     render(events, { seconds, ...settings }) {
-        const module = this.#module;
-        return withSettings(module, settings, at => {
+        const module = this.#module, { fieldWidth, fieldHeight } = events; // of parseEvents
+        return withSettings(module, { fieldWidth, fieldHeight, ...settings }, at => {
             const frames = Math.round(seconds * module.get('renderer_settings', at).rate), channels = channelsOf(module, at);
             if (!(frames >= 0)) throw new PhysVibError(-2, 'seconds: expected a number from 0 on');
             return module.withEvents(events, (list, count) => module.borrow(4 * channels * frames, to => {
@@ -69,7 +69,7 @@ export class PhysVib {
     async #filesModule() { return this.#files = await compile(await this.#files); }
     async parseLayout(text) { return files.parseLayout(await this.#filesModule(), text); }
     async parseEvents(text) { return files.parseEvents(await this.#filesModule(), text); }
-    async eventsText(events) { return files.eventsText(await this.#filesModule(), events); }
+    async eventsText(events, field) { return files.eventsText(await this.#filesModule(), events, field); }
     async wav(channels, rate = 48000) { return files.wav(await this.#filesModule(), channels, rate); }
     async readClip(data, name, { rate = 48000 } = {}) { return files.readClip(await this.#filesModule(), data, name, rate); }
     async writeClip(events, name, settings = {}) { return files.writeClip(await this.#filesModule(), events, name, settings); }

@@ -104,7 +104,9 @@ _signatures = {
     "events_parse": (c_int64, c_char_p, _events, c_int64),
     "layout_preset": (c_int, c_char_p, POINTER(CLayout)), "layout_load": (c_int, c_char_p, POINTER(CLayout)),
     "layout_save": (c_int, c_char_p, c_char_p, POINTER(CLayout)),
-    "events_load": (c_int64, c_char_p, _events, c_int64), "events_save": (c_int, c_char_p, _events, c_int64),
+    "events_load": (c_int64, c_char_p, _events, c_int64),
+    "events_load_field": (c_int, c_char_p, POINTER(c_double), POINTER(c_double)), "events_parse_field": (c_int, c_char_p, POINTER(c_double), POINTER(c_double)),
+    "events_save_field": (c_int, c_char_p, _events, c_int64, c_double, c_double),
     "wav_save": (c_int, c_char_p, _samples, c_int, c_int64, c_int),
     "render": (c_int, POINTER(CRendererSettings), _events, c_int64, c_int64, _samples),
     "renderer_create": (c_int, POINTER(CRendererSettings), POINTER(_handle)), "renderer_free": (c_int, _handle),
@@ -124,7 +126,7 @@ _signatures = {
     "world_time_ns": (c_int64, _handle), "world_take": (c_int64, _handle, _events, c_int64, c_int),
     "world_send": (c_int64, _handle, _handle, c_int64, c_int), "world_drops": (c_int64, _handle), "world_thinned": (c_int64, _handle),
 }
-_long = frozenset({"layout_load", "layout_save", "events_load", "events_save", "wav_save", "render", "renderer_create", "renderer_pull"})
+_long = frozenset({"layout_load", "layout_save", "events_load", "events_load_field", "events_save_field", "wav_save", "render", "renderer_create", "renderer_pull"})
 library = load(_path(), _signatures, _long)
 
 

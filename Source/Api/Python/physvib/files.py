@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import warnings
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,27 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._library import EVENT, HIT, PhysVibError, call, encoded
 from .layout import Layout, settings
+
+
+class EventList(np.ndarray):
+    """Events of a file: an array of dtype EVENT that knows the field its list says, and so do its slices and copies."""
+
+    field_m: tuple[float, float] | None = None  #: width and height that x_m and y_m span; None: the list says none
+
+    def __array_finalize__(self, of: Any) -> None:
+        self.field_m = getattr(of, "field_m", None)
+
+
+def _listed(count: int, name: str, source: bytes) -> EventList:
+    made, width, height = np.zeros(count, dtype=EVENT).view(EventList), ctypes.c_double(), ctypes.c_double()
+    call(name, source, ctypes.byref(width), ctypes.byref(height))
+    made.field_m = (width.value, height.value) if width.value > 0 else None
+    return made
+
+
+def field_of(list_of: Any) -> tuple[float, float] | None:
+    """The field that events, or a table of them, know."""
+    return getattr(list_of, "attrs", {}).get("field_m") or getattr(list_of, "field_m", None)
 
 
 def events(time_s: ArrayLike, *, frequency_hz: ArrayLike, decay_per_s: ArrayLike, amplitude: ArrayLike = 1.0, x_m: ArrayLike = 0.0, y_m: ArrayLike = 0.0,
@@ -41,11 +63,15 @@ def frame(list_of: NDArray[np.void]) -> Any:
     array = checked(list_of)
     columns = {column: array[field] * 1e-9 if field.endswith("_ns") else array[field] for column, field in COLUMNS.items()}
     columns["kind"] = np.array(KINDS)[array["kind"]]
-    return pandas.DataFrame(columns)
+    table = pandas.DataFrame(columns)
+    if field_of(list_of):
+        table.attrs["field_m"] = field_of(list_of)
+    return table
 
 
 def events_of(table: Any) -> NDArray[np.void]:
-    """Events (dtype EVENT, sorted) of a pandas.DataFrame with columns of event lists, as pandas.read_csv reads one; the first six must be there."""
+    """Events (dtype EVENT, sorted) of a pandas.DataFrame with columns of event lists; the first six must be there. To the bit of a file:
+    frame(load_events(path)), or pandas.read_csv(path, comment="#", float_precision="round_trip"), which knows no field."""
     missing = [name for name in list(COLUMNS)[:6] if name not in table.columns]
     if missing:
         raise PhysVibError(f"{missing[0]}: expected this column", -2)
@@ -73,34 +99,41 @@ def checked(list_of: ArrayLike) -> NDArray[np.void]:
     return array.reshape(-1)
 
 
-def load_events(path: str | os.PathLike[str]) -> NDArray[np.void]:
-    """An event list (CSV): dtype EVENT, shape (n,)."""
-    made = np.zeros(call("events_load", encoded(path), None, 0), dtype=EVENT)
+def load_events(path: str | os.PathLike[str]) -> EventList:
+    """An event list (CSV): dtype EVENT, shape (n,), and its field_m."""
+    made = _listed(call("events_load", encoded(path), None, 0), "events_load_field", encoded(path))
     call("events_load", encoded(path), made.ctypes.data, len(made))
     return made
 
 
-def parse_events(text: str) -> NDArray[np.void]:
-    """The text of an event list (CSV): dtype EVENT, shape (n,)."""
-    made = np.zeros(call("events_parse", text.encode(), None, 0), dtype=EVENT)
+def parse_events(text: str) -> EventList:
+    """The text of an event list (CSV): dtype EVENT, shape (n,), and its field_m."""
+    made = _listed(call("events_parse", text.encode(), None, 0), "events_parse_field", text.encode())
     call("events_parse", text.encode(), made.ctypes.data, len(made))
     return made
 
 
-def save_events(path: str | os.PathLike[str], list_of: NDArray[np.void]) -> None:
-    """An event list (CSV) of events in time order; load_events gives them back to the bit."""
-    array = checked(list_of)
-    call("events_save", encoded(path), array.ctypes.data, len(array))
+def save_events(path: str | os.PathLike[str], list_of: NDArray[np.void], *, field_m: tuple[float, float] | None = None) -> None:
+    """An event list (CSV) of events in time order; load_events gives them back to the bit. `field_m`: width and height that x_m and y_m
+    span, which the list then says; None: what load_events knew, or nothing."""
+    array, field = checked(list_of), field_m or field_of(list_of) or (0.0, 0.0)
+    call("events_save_field", encoded(path), array.ctypes.data, len(array), *field)
 
 
 def render(list_of: NDArray[np.void], seconds: float, *, layout: str | Layout = "phone4", rate_hz: int = 48000, law: str = "linear", exponent: float = 1.0,
            field_m: tuple[float, float] | None = None, limiter: bool = True) -> NDArray[np.float32]:
     """Samples of events in time order: float32, shape (enchanters, round(seconds * rate_hz)), frame n at n / rate_hz.
 
-    The same samples as `physvib render --from-events`. `field_m`: width and height that x_m and y_m span; None: the layout's extent."""
-    array, chosen = checked(list_of), settings(layout, rate_hz, law, exponent, field_m, limiter, 0)
+    The same samples as `physvib render --from-events`. `field_m`: width and height that x_m and y_m span; None: what load_events knew,
+    or the layout's extent. A warning counts hits outside it."""
+    array, chosen = checked(list_of), settings(layout, rate_hz, law, exponent, field_m or field_of(list_of), limiter, 0)
     if not 0.0 <= seconds <= 1e6:
         raise PhysVibError("seconds: expected 0 to 10^6", -2)
+    width, height = chosen.field_width_m or chosen.layout.extent_width_m, chosen.field_height_m or chosen.layout.extent_height_m
+    near = [np.abs(array[axis] - 0.5 * length) <= 0.55 * length for axis, length in (("x_m", width), ("y_m", height))]  # as outsideWords of the library
+    outside = len(array) - np.count_nonzero(near[0] & near[1])
+    if outside:
+        warnings.warn(f"{outside} of {len(array)} hits lie outside the field of {width:g} x {height:g} m (see field_m)", stacklevel=2)
     samples = np.zeros((chosen.layout.count, round(seconds * rate_hz)), dtype=np.float32)
     call("render", ctypes.byref(chosen), array.ctypes.data, len(array), samples.shape[1], samples.ctypes.data)
     return samples

@@ -104,8 +104,9 @@ class Live:
         live_call("live_set_level", self._handle, level_db)
 
     def silence(self, is_silent: bool = True) -> None:
-        """Within a block; back in a ramp."""
-        live_call("live_silence", self._handle, int(is_silent))
+        """Within a block. Only False or 0 lifts it, in a ramp: anything else silences."""
+        is_off = getattr(is_silent, "shape", ()) == () and is_silent == 0  # numpy's False as well
+        live_call("live_silence", self._handle, 0 if is_off else 1)
 
     @property
     def status(self) -> LiveStatus:

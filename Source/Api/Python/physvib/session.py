@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ._library import EVENT, CRendererSettings, Owned, PhysVibError, encoded, filled
 from ._live_library import live_call
-from .files import checked
+from .files import checked, field_of
 from .layout import LAWS, Layout, settings
 
 
@@ -25,7 +25,7 @@ class Session(Owned):
                  exponent: float = 1.0, field_m: tuple[float, float] | None = None, limiter: bool = True) -> None:
         """One of events alone (dtype EVENT, in time order), without a world; it lasts so many seconds."""
         array, self._handle = checked(list_of), c_void_p()
-        renderer = settings(layout, 48000, law, exponent, field_m, limiter, channels)
+        renderer = settings(layout, 48000, law, exponent, field_m or field_of(list_of), limiter, channels)
         live_call("session_create", ctypes.byref(renderer), array.ctypes.data, len(array), _ns(seconds), ctypes.byref(self._handle))
 
     @classmethod

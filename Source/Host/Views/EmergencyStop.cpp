@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One listener for all windows of the process. JUCE gives a key to the component that has the focus, or to
+// the modal one; whoever listens there is asked before the component itself.
+#include "Host/Views/EmergencyStop.h"
+#include "Host/Views/Look.h"
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+class StopKeys final : juce::KeyListener, juce::MouseListener, juce::FocusChangeListener, juce::Timer {
+public:
+    StopKeys() {
+        juce::Desktop::getInstance().addGlobalMouseListener(this);
+        juce::Desktop::getInstance().addFocusChangeListener(this);
+        startTimer(lookMs);
+    }
+    ~StopKeys() override {
+        juce::Desktop::getInstance().removeGlobalMouseListener(this);
+        juce::Desktop::getInstance().removeFocusChangeListener(this);
+        for (auto& component : heard_)
+            if (component != nullptr) component->removeKeyListener(this);
+    }
+    std::vector<EmergencyStop*> stops;
+
+private:
+    static constexpr int lookMs = 20; // shorter than a finger can press a key
+
+    // What opened by itself, or by a key, is heard from now on. An Esc that came before is still held.
+    void timerCallback() override {
+        listen();
+        const auto* target = targetOf(nullptr);
+        const bool isDown = juce::Desktop::getInstance().getNumComponents() > 0 && isEscapeDown();
+        if (isDown && !isHeld_ && target != nullptr) silence(*target);
+        isHeld_ = isDown;
+    }
+    void globalFocusChanged(juce::Component*) override { listen(); }
+    void mouseUp(const juce::MouseEvent&) override { listen(); }
+    void mouseDown(const juce::MouseEvent& e) override {
+        listen();
+        auto& pressed = *e.eventComponent;
+        if (!pressed.getProperties()[stopProperty] || !pressed.isCurrentlyBlockedByAnotherModalComponent())
+            return;
+        for (EmergencyStop* stop : stops)
+            if (stop->window_.isParentOf(&pressed)) stop->silence_();
+    }
+    bool keyPressed(const juce::KeyPress& key, juce::Component* at) override {
+        if (!key.isKeyCode(juce::KeyPress::escapeKey)) return false;
+        const auto* target = targetOf(at);
+        if (at != target && isHeard(target)) return false; // on its way up: heard before
+        silence(*at);
+        return std::exchange(isHeld_, isEscapeDown()); // a key that repeats silences, and does nothing else
+    }
+
+    static bool isEscapeDown() { return juce::KeyPress::isKeyCurrentlyDown(juce::KeyPress::escapeKey); }
+    /// Who gets a key now, as juce::ComponentPeer finds it. `at`: a component of the window that has the
+    /// keyboard.
+    static juce::Component* targetOf(juce::Component* at) {
+        auto* const focused = juce::Component::getCurrentlyFocusedComponent();
+        auto* const target = focused != nullptr || at == nullptr ? focused : at->getTopLevelComponent();
+        auto* const modal = juce::Component::getCurrentlyModalComponent();
+        const bool isBlocked = target == nullptr || target->isCurrentlyBlockedByAnotherModalComponent();
+        return isBlocked && modal != nullptr ? modal : target;
+    }
+    bool isHeard(const juce::Component* c) const {
+        return std::ranges::any_of(heard_, [c](const auto& other) { return other.get() == c; });
+    }
+    void listen() {
+        std::erase_if(heard_, [](const auto& component) { return component == nullptr; });
+        const auto& desktop = juce::Desktop::getInstance();
+        for (int i = 0; i < desktop.getNumComponents(); ++i)
+            hear(desktop.getComponent(i)); // without a focus: these
+        hear(targetOf(nullptr));
+    }
+    void hear(juce::Component* component) {
+        if (component == nullptr) return;
+        component->removeKeyListener(this);
+        component->addKeyListener(this); // who came last is asked first
+        if (!isHeard(component)) heard_.emplace_back(component);
+    }
+    void silence(const juce::Component& at) {
+        const auto isHere = [&at](const EmergencyStop* s) {
+            return s->window_.getTopLevelComponent() == at.getTopLevelComponent();
+        };
+        const bool isAny = std::ranges::any_of(stops, isHere);
+        for (const EmergencyStop* stop : stops)
+            if (!isAny || isHere(stop)) stop->silence_();
+    }
+
+    std::vector<juce::WeakReference<juce::Component>> heard_;
+    bool isHeld_ = false; // Esc, when it was looked at last
+};
+
+EmergencyStop::EmergencyStop(juce::Component& window, std::function<void()> silence)
+    : window_{window}
+    , silence_{std::move(silence)} {
+    keys_->stops.push_back(this);
+}
+
+EmergencyStop::~EmergencyStop() {
+    std::erase(keys_->stops, this);
+}
+
+} // namespace physvib

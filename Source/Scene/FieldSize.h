@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// The field that x and y of events span: as a word of options and lists, and what lies outside it.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Core/PhantomPanner.h"
+#include "Io/Text/NumberText.h"
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+/// Width and height, in metres. 0: not known.
+struct FieldSize {
+    double widthMetres = 0.0, heightMetres = 0.0;
+    bool isKnown() const noexcept { return widthMetres > 0.0 && heightMetres > 0.0; }
+    bool operator==(const FieldSize&) const = default;
+};
+
+inline constexpr std::string_view expectedField = "expected W,H in metres (0.001 to 1e6), found ";
+
+inline bool isField(FieldSize field) noexcept {
+    const auto isLength = [](double metres) { return metres >= 1e-3 && metres <= 1e6; };
+    return isLength(field.widthMetres) && isLength(field.heightMetres);
+}
+
+/// Of `6.4,3.6`; none if it is anything else. Any thread.
+inline std::optional<FieldSize> parseField(std::string_view word) {
+    const auto comma = std::min(word.find(','), word.size());
+    const auto width = parseNumber<double>(word.substr(0, comma));
+    const auto height = parseNumber<double>(word.substr(std::min(comma + 1, word.size())));
+    const FieldSize field{width.value_or(0.0), height.value_or(0.0)};
+    return isField(field) ? std::optional{field} : std::nullopt;
+}
+
+/// What parseField takes. Any thread.
+inline std::string fieldWord(FieldSize field) {
+    return numberText(field.widthMetres) + ',' + numberText(field.heightMetres);
+}
+
+inline FieldSize extentOf(const EnchanterLayout& layout) noexcept {
+    return {layout.extentWidthMetres, layout.extentHeightMetres};
+}
+inline FieldSize fieldOf(const PhantomPanner& panner) noexcept {
+    return {panner.fieldWidthMetres(), panner.fieldHeightMetres()};
+}
+
+/// `67 of 67 hits lie outside the field of 0.12 x 0.06 m (see --field)`, or empty. `isGuessed`: the layout's
+/// extent stands in for what a list does not say. Bodies sink into walls at the edge: up to a twentieth of
+/// the field beyond it is inside. Any thread.
+inline std::string outsideWords(std::span<const CollisionEvent> events, FieldSize field, bool isGuessed) {
+    const auto isBeside = [](double at, double length) {
+        return !(std::abs(at - 0.5 * length) <= 0.55 * length);
+    };
+    const auto outside = std::ranges::count_if(events, [&](const CollisionEvent& e) {
+        return isBeside(e.x, field.widthMetres) || isBeside(e.y, field.heightMetres);
+    });
+    if (outside == 0) return {};
+    return std::to_string(outside) + " of " + std::to_string(events.size()) +
+           " hits lie outside the field of " + numberText(field.widthMetres) + " x " +
+           numberText(field.heightMetres) + " m" +
+           (isGuessed ? ", the layout's, as the list says none (see --field)" : " (see --field)");
+}
+
+} // namespace physvib

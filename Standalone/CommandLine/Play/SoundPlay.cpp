@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The message `clip`, which a door could send as well: each channel on its own actuator alone.
+#include "CommandLine/Play/SoundPlay.h"
+#include "Host/Devices/LikelyDevices.h"
+#include "Host/Recordings/ClipFolder.h"
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace physvib {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> endings{".wav", ".flac", ".ogg"};
+constexpr int mostOfPresets = 4;
+
+std::string channelsOf(const LoadedClip& sound) {
+    return std::to_string(sound.channels.size()) + " channels";
+}
+
+/// Whether channel j belongs to actuator j: else there is one, or the file says where each is.
+bool hasOneEach(const LoadedClip& sound) { return sound.channels.size() > 1 && sound.shares.empty(); }
+
+} // namespace
+
+bool namesSound(std::string_view file) {
+    std::string small{file};
+    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto ends = [&](std::string_view ending) { return small.ends_with(ending); };
+    return clipFormatOf(file) || std::ranges::any_of(endings, ends);
+}
+
+Result<LoadedClip> takeSound(RenderJob& options, LoadedRender& job) {
+    auto sound = loadWholeClip(options.scene);
+    if (!sound) return sound;
+    const auto count = static_cast<int>(sound.value.channels.size());
+    const ContactRecording& first = sound.value.channels.front();
+    if (!options.given.contains("--layout") && hasOneEach(sound.value)) {
+        if (count > mostOfPresets)
+            return Failure{options.scene + ": " + channelsOf(sound.value) +
+                           ": expected --layout with a file of as many actuators (Docs/render.md)"};
+        options.layout = layoutFor(count);
+    }
+    if (!options.given.contains("--seconds"))
+        options.seconds = static_cast<double>(first.samples.size()) / first.sampleRateHz;
+    Scene& scene = job.scene.emplace();
+    scene.name = std::filesystem::path{options.scene}.filename().string();
+    scene.fieldWidthMetres = scene.fieldHeightMetres = 1.0;
+    if (!first.note.empty()) tell(first.note);
+    return sound;
+}
+
+std::string soundFault(const LoadedClip& sound, const LoadedRender& job) {
+    if (!hasOneEach(sound) || std::ssize(sound.channels) == job.channels()) return {};
+    return job.options.scene + ": expected a channel for each of " + std::to_string(job.channels()) +
+           " actuators (--layout), or one channel, found " + channelsOf(sound);
+}
+
+std::string beginSound(LivePlay& wanted, const Session& session, MessageRouter& messages) {
+    PlainMessage message{"clip", {{"file", wanted.setup.scene.name}}};
+    if (hasOneEach(*wanted.sound)) message.values.push_back({"law", "alone"});
+    const auto read = [&](const std::string&) { return Result<LoadedClip>{std::move(*wanted.sound)}; };
+    const auto begun = messages.take(message, nullptr, read);
+    wanted.seconds += session.timeline().playOutSeconds();
+    return begun.error;
+}
+
+} // namespace physvib

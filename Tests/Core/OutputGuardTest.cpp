@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// OutputGuard against what is worst for a coil: what left is measured by another law than the one it decides
+// by.
+#include "Core/Actuators/OutputGuard.h"
+#include "Support/ClosedForm.h"
+#include "Support/Rendering.h"
+#include "Support/SlowFigures.h"
+#include <functional>
+#include <gtest/gtest.h>
+#include <memory>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+constexpr double most = limits::guardShare, turn = 2.0 * std::numbers::pi;
+using Samples = std::vector<float>;
+using Signal = std::function<double(double seconds)>;
+
+Samples samplesOf(const Signal& signal, int rate, double seconds) {
+    Samples all(static_cast<std::size_t>(seconds * rate));
+    for (std::size_t n = 0; n < all.size(); ++n)
+        all[n] = static_cast<float>(std::clamp(signal(static_cast<double>(n) / rate), -1.0, 1.0));
+    return all;
+}
+
+/// What leaves, block by block.
+Samples guarded(Samples samples, int rate, GuardPlace place = GuardPlace::rendered, int block = 100) {
+    const auto guard = std::make_unique<OutputGuard>();
+    guard->prepare(rate, 1, place);
+    for (std::size_t done = 0; done < samples.size(); done += static_cast<std::size_t>(block)) {
+        float* at = samples.data() + done;
+        guard->process(&at,
+                       static_cast<int>(std::min(samples.size() - done, static_cast<std::size_t>(block))));
+    }
+    return samples;
+}
+
+Signal tone(double hz) {
+    return [hz](double t) { return std::sin(turn * hz * t); };
+}
+Signal square(double hz) {
+    return [hz](double t) { return std::sin(turn * hz * t) < 0.0 ? -1.0 : 1.0; };
+}
+
+std::vector<std::pair<std::string, Signal>> hazards() {
+    std::vector<std::pair<std::string, Signal>> all;
+    for (const double hz : {0.1, 0.5, 1.0, 2.0, 3.0, 4.0, 4.9, 6.0, 10.0, 14.0, 20.0, 25.0}) {
+        all.emplace_back("tone of " + std::to_string(hz), tone(hz));
+        all.emplace_back("square of " + std::to_string(hz), square(hz));
+    }
+    all.emplace_back("full scale", [](double) { return 1.0; });
+    all.emplace_back("a little more than allowed", [](double) { return 0.055; });
+    all.emplace_back("rectified 200 Hz", [](double t) { return std::abs(std::sin(turn * 200.0 * t)); });
+    all.emplace_back("200 Hz, one side, 3 Hz", [](double t) {
+        return std::max(0.0, std::sin(turn * 200.0 * t)) * std::sin(turn * 3.0 * t);
+    });
+    all.emplace_back("a pulse of 50 ms a second",
+                     [](double t) { return std::fmod(t, 1.0) < 0.05 ? 1.0 : 0.0; });
+    all.emplace_back("3 s of 4.5 Hz, 3 s of nothing",
+                     [](double t) { return std::fmod(t, 6.0) < 3.0 ? std::sin(turn * 4.5 * t) : 0.0; });
+    all.emplace_back("9 s of nothing, 1 s of 4 Hz",
+                     [](double t) { return std::fmod(t, 10.0) < 9.0 ? 0.0 : std::sin(turn * 4.0 * t); });
+    return all;
+}
+
+TEST(OutputGuard, KeepsMeanAndWhatIsSlowWithinItsShareAtEveryRate) {
+    for (const int rate : {5000, 8000, 44100, 48000, 192000})
+        for (const auto& [name, signal] : hazards()) {
+            if (rate == 192000 && name.starts_with("square")) continue;
+            for (const auto place : {GuardPlace::rendered, GuardPlace::last}) {
+                const auto left =
+                    test::slowFigures(guarded(samplesOf(signal, rate, 12.0), rate, place), rate);
+                EXPECT_LE(left.mean, most) << name << " at " << rate;
+                EXPECT_LE(left.rms, most) << name << " at " << rate;
+            }
+        }
+}
+
+/// One of many kinds of noise: sums of tones, pulses, random telegraphs, sweeps that decay.
+Signal randomSignal(test::Random& random) {
+    const double a = random.uniform(0, 2), b = random.uniform(0, 2), c = random.uniform(-0.5, 0.5),
+                 d = random.uniform(0.1, 3.0), slow = random.uniform(0.1, 10),
+                 fast = 0.1 + 30 * std::pow(random.uniform(0, 1), 2.0);
+    const auto seed = static_cast<std::uint32_t>(random.uniform(1, 1e9));
+    switch (static_cast<int>(random.uniform(0, 4))) {
+    case 0:
+        return [=](double t) { return a * std::sin(turn * fast * t) + b * std::sin(turn * slow * t) + c; };
+    case 1:
+        return [=](double t) { return std::fmod(t, d) < 0.5 * d * b ? a * std::sin(turn * fast * t) : c; };
+    case 2:
+        return [=, noise = std::make_shared<test::Random>(seed), value = 0.0, until = 0.0](double t) mutable {
+            if (t >= until) until = t + 0.1 * noise->uniform(0, d), value = 3.0 * noise->uniform(-1, 1);
+            return value;
+        };
+    default:
+        return [=](double t) {
+            return a * std::sin(turn * (fast + slow * std::sin(t)) * t) *
+                   std::exp(-d * std::fmod(t, 1.0 + c));
+        };
+    }
+}
+
+TEST(OutputGuard, RandomSignalsDoNotPassIt) {
+    test::Random random{50};
+    test::SlowFigures worst;
+    for (int i = 0; i < 400; ++i)
+        worst.join(test::slowFigures(
+            guarded(samplesOf(randomSignal(random), 8000, 5.0), 8000, GuardPlace::last), 8000));
+    EXPECT_LE(worst.mean, most);
+    EXPECT_LE(worst.rms, most);
+    EXPECT_GT(worst.mean, 0.8 * most) << "it would turn down more than it must";
+}
+
+// It sees the gain, and pushes to one side for as long as it is open.
+TEST(OutputGuard, AnAdversaryThatSeesTheGainDoesNotPassIt) {
+    constexpr int rate = 8000;
+    for (const float shut : {0.02f, 0.3f, 0.9f})
+        for (const double holdSeconds : {0.0, 0.05, 0.12, 0.3}) {
+            const auto guard = std::make_unique<OutputGuard>();
+            guard->prepare(rate, 1, GuardPlace::last);
+            Samples left(20 * rate);
+            float side = 1.0f;
+            int held = 0;
+            for (float& x : left) {
+                if (guard->gain() < shut && ++held > holdSeconds * rate) side = -side, held = 0;
+                x = side;
+                float* const at = &x;
+                guard->process(&at, 1);
+            }
+            const auto figures = test::slowFigures(left, rate);
+            EXPECT_LE(figures.mean, most) << shut << ' ' << holdSeconds;
+            EXPECT_LE(figures.rms, most) << shut << ' ' << holdSeconds;
+        }
+}
+
+// What stops in the middle of a period has a mean as well.
+TEST(OutputGuard, NoShorterStretchHoldsMore) {
+    constexpr int rate = 8000;
+    for (const auto& [name, signal] : hazards()) {
+        const Samples left = guarded(samplesOf(signal, rate, 3.0), rate);
+        std::vector<double> sums(left.size() + 1);
+        for (std::size_t n = 0; n < left.size(); ++n) sums[n + 1] = sums[n] + double(left[n]) / rate;
+        for (std::size_t n = 0; n + 2000 < sums.size(); n += 50) {
+            const auto [low, high] =
+                std::minmax_element(sums.begin() + static_cast<std::ptrdiff_t>(n),
+                                    sums.begin() + static_cast<std::ptrdiff_t>(n + 2001));
+            ASSERT_LE(*high - *low, most * limits::guardSeconds) << name;
+        }
+    }
+}
+
+TEST(OutputGuard, WhatIsFeltStaysAsItIs) {
+    for (const int rate : {8000, 48000})
+        for (const double hz : {40.0, 48.0, 80.0, 250.0, 1000.0}) {
+            const Samples steady = samplesOf(tone(hz), rate, 3.0);
+            EXPECT_TRUE(guarded(steady, rate) == steady) << hz << " Hz at " << rate;
+            const auto hit = [hz](double t) {
+                return std::sin(turn * hz * std::fmod(t, 0.5)) * std::exp(-12.0 * std::fmod(t, 0.5));
+            };
+            const Samples hits = samplesOf(hit, rate, 3.0);
+            EXPECT_TRUE(guarded(hits, rate) == hits) << hz << " Hz at " << rate;
+        }
+    const Samples offset =
+        samplesOf([](double t) { return 0.02 + 0.9 * std::sin(turn * 200.0 * t); }, 48000, 3.0);
+    EXPECT_EQ(guarded(offset, 48000), offset);
+}
+
+TEST(OutputGuard, BlocksDoNotMatter) {
+    constexpr int rate = 44100;
+    const Samples in = samplesOf(
+                      [](double t) { return std::sin(turn * 2.0 * t) + 0.3 * std::sin(turn * 90.0 * t); },
+                      rate, 3.0),
+                  out = guarded(in, rate);
+    EXPECT_NE(in, out);
+    for (const int block : {1, 7, 64, 333, 8192})
+        EXPECT_EQ(guarded(in, rate, GuardPlace::rendered, block), out) << block;
+}
+
+TEST(OutputGuard, OpensAgainAndCountsHowOftenItActed) {
+    constexpr int rate = 48000;
+    const auto guard = std::make_unique<OutputGuard>();
+    guard->prepare(rate, 2, GuardPlace::rendered);
+    EXPECT_EQ(guard->gain(), 1.0f);
+    for (int times = 1; times <= 2; ++times) {
+        Samples slow(rate, 0.5f), felt = samplesOf(tone(200.0), rate, 1.0), silence(rate, 0.0f);
+        const Samples before = felt;
+        std::array<float*, 2> at{slow.data(), felt.data()};
+        guard->process(at.data(), rate);
+        EXPECT_LT(guard->gain(), 0.2f);
+        EXPECT_EQ(felt, before) << "the other channel plays on";
+        for (int second = 0; second < 2; ++second)
+            at = {silence.data(), silence.data()}, guard->process(at.data(), rate, true);
+        EXPECT_EQ(guard->gain(), 1.0f);
+        EXPECT_EQ(guard->episodes(), static_cast<std::uint32_t>(times));
+        Samples hit = samplesOf(tone(100.0), rate, 1.0);
+        const Samples whole = hit;
+        at = {hit.data(), hit.data()};
+        guard->process(at.data(), rate);
+        EXPECT_EQ(hit, whole);
+    }
+}
+
+CollisionEvent eventAt(double seconds, double hz, double decay, double amplitude) {
+    CollisionEvent e;
+    e.timeNs = std::llround(seconds * 1e9);
+    e.frequencyHz = hz;
+    e.decayPerSecond = decay;
+    e.amplitude = amplitude;
+    e.x = e.y = 0.5;
+    return e;
+}
+
+RendererSettings settingsFor(int channels) {
+    return {.channels = channels,
+            .panner = {test::gridLayout(channels, 1), PanningLaw::linear, 1.0, 1.0, 1.0}};
+}
+
+// Each of them may be played.
+TEST(OutputGuard, StrikesThatAreSlowTogetherDoNotAddUp) {
+    constexpr int rate = 48000, frames = 11 * rate;
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < 44; ++i) events.push_back(eventAt(0.25 * i, 1.0, 1.0, 1.0));
+    const auto out = test::renderEvents(events, settingsFor(2), frames);
+    for (const auto& channel : out.channels) {
+        const auto figures = test::slowFigures(channel, rate);
+        EXPECT_LE(figures.mean, most);
+        EXPECT_LE(figures.rms, most);
+    }
+    EXPECT_GT(out.status.guarded, 0U);
+    EXPECT_EQ(test::renderEvents(events, settingsFor(2), frames, {1, 700, 64, 3}).channels, out.channels)
+        << "blocks do not matter";
+}
+
+TEST(OutputGuard, ARenderWithoutTheLimiterIsRaw) {
+    std::vector<CollisionEvent> events{eventAt(0.0, 1.0, 1.0, 1.0)};
+    auto settings = settingsFor(1);
+    settings.limiterEnabled = false;
+    EXPECT_GT(test::slowFigures(test::renderEvents(events, settings, 48000).channels[0], 48000).mean, 0.3);
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// SILENCE and Esc in every state that the mixer can be brought into by its own controls and menus.
+#include "Host/StopWalk.h"
+#include "../MixerTesting.h"
+#include "Mixer/Window/MixerWindow.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
+    juce::Desktop::setMousePosition({0, 0});
+    TestFolder folder;
+    folder.folder.setAsCurrentWorkingDirectory(); // what is saved on the way
+    const SystemChooser chooser{folder.folder};
+    std::unique_ptr<MixerWindow> window;
+    const char* const device =
+        std::getenv("PHYSVIB_STOP_DEVICE"); // measured there as well, by Tests/Hostile/stop-walk.sh
+    StopWalk walk{
+        {[&] {
+             window.reset();
+             window = std::make_unique<MixerWindow>(
+                 device ? AudioDeviceTypes{audioDeviceTypesAndNone} : onlyNoDevice(),
+                 device ? device : "None:no device", juce::File{}, folder("config"));
+             if (device == nullptr) window->desk().setSlowness(0); // pictures of a world at rest are few
+         },
+         [&] {
+             if (!window->isChanged()) window->desk().change("Level", [](Mix& mix) { mix.levelDb -= 0.01; });
+         },
+         [&] { return window->desk().isSilent() && window->desk().output().isSilent(); },
+         [&] { window->desk().setSilent(false); },
+         [](const juce::StringArray& steps) { return steps.size() > 2 && steps[1] == "item Quit"; }}};
+    if (device != nullptr)
+        walk.setMeasure([&](const juce::String& what) {
+            window->desk().inputs().use({OscUse::thisComputer}); // a tone comes there
+            runFor(0.6);
+            std::cout << "stop " << juce::Time::currentTimeMillis() << ' ' << what << std::endl;
+        });
+    walk.run(280.0);
+    for (const auto& state : walk.modal()) std::cout << state << '\n';
+    std::cout << walk.steps() << " steps, " << walk.states() << " menus, lists and dialogs" << std::endl;
+    EXPECT_GT(walk.states(), 15);
+    EXPECT_GT(walk.steps(), 150);
+    EXPECT_FALSE(chooser.wasCalled());
+    EXPECT_TRUE(walk.faults.isEmpty()) << walk.faults.size() << " faults\n"
+                                       << walk.faults.joinIntoString("\n");
+    window.reset();
+}
+
+} // namespace
+} // namespace physvib
+
+int main(int argc, char** argv) {
+    juce::JUCEApplicationBase::createInstance = [] {
+        return static_cast<juce::JUCEApplicationBase*>(nullptr);
+    }; // as in a program of its own, JUCE bears errors of X
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}
