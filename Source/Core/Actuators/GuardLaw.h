@@ -7,7 +7,8 @@
 // limits::guardShare, nor does one if the channel is muted in between. Load: what a low-pass of
 // limits::slowestToneHz lets through, squared, forgotten within a second, and half of what the filter would
 // still give of what it holds. Both grow by what a tile adds, so the gain is the room that is left: it closes
-// before a bound is reached, and opens within limits::guardReleaseSeconds.
+// before a bound is reached. What closes it again and again lowers the gain at which it rests, until a tone
+// passes whole at that gain. It rises again within limits::guardReleaseSeconds.
 #pragma once
 #include "Core/Limits.h"
 #include <algorithm>
@@ -24,6 +25,7 @@ constexpr float guardLoad =
     0.00125f; // of full scale squared, below slowestToneHz: half of it passes at that very frequency
 constexpr float guardPerLoad = 7000.0f;     // the gain closes over the last ninth of it
 constexpr float guardReleaseSeconds = 1.0f; // silence to full gain: slower than what it turns down
+constexpr float guardRestSeconds = 0.1f;    // how fast the gain comes to rest: a few periods of such a tone
 } // namespace limits
 
 /// Where a guard stands. `rendered` has lower bounds than `last`, which therefore seldom has anything left to
@@ -53,6 +55,8 @@ public:
         maxArea_ = static_cast<float>(limits::guardShare * limits::guardSeconds) -
                    (isLast ? 1.0f : 1.25f + zone) * seconds;
         perArea_ = 1.0f / (zone * seconds);
+        rise_ = seconds / limits::guardReleaseSeconds;
+        fall_ = seconds / limits::guardRestSeconds;
         maxLoad_ = (isLast ? 1.0f : 0.88f) * limits::guardLoad;
         partTiles_ = static_cast<int>(limits::guardSeconds / (parts * seconds)) + 1;
     }
@@ -97,6 +101,7 @@ private:
         for (auto& row : lows_) row.fill(0.0f);
         from_.fill(1.0f);
         to_.fill(1.0f);
+        rest_.fill(1.0f);
         gain_ = 1.0f;
         silentSeconds_ = forgetSeconds;
         partTile_ = 0;
@@ -123,8 +128,10 @@ private:
             const float room =
                 std::min((maxArea_ - most) * perArea_, (maxLoad_ - load) * limits::guardPerLoad);
             from_[j] = to_[j];
-            to_[j] =
-                std::max(0.0f, std::min(room, std::min(1.0f, to_[j] + tile_ / limits::guardReleaseSeconds)));
+            to_[j] = std::max(0.0f, std::min(room, rest_[j]));
+            // Above half of a bound it only falls: a tone that is turned down finds one gain, and keeps its shape.
+            const bool mayRise = most < 0.5f * maxArea_ && load < 0.5f * maxLoad_;
+            rest_[j] = mayRise ? std::min(1.0f, rest_[j] + rise_) : rest_[j] - fall_ * (rest_[j] - to_[j]);
         }
     }
 
@@ -146,13 +153,13 @@ private:
 
     std::uint32_t channels_ = 0, part_ = 0; // of 32 bits, so that a board and a computer have one layout
     GuardPlace place_ = GuardPlace::last;
-    float tile_ = 0.0f, maxArea_ = 0.0f, perArea_ = 0.0f, maxLoad_ = 0.0f, silentSeconds_ = 0.0f,
-          gain_ = 1.0f;
+    float tile_ = 0.0f, maxArea_ = 0.0f, perArea_ = 0.0f, maxLoad_ = 0.0f, rise_ = 0.0f, fall_ = 0.0f,
+          silentSeconds_ = 0.0f, gain_ = 1.0f;
     int partTiles_ = 1, partTile_ = 0;
     std::uint32_t episodes_ = 0;
     Row sum_{}, high_{}, low_{}, oldHigh_{}, oldLow_{}; // since the part began; of it; of those before
     std::array<Row, parts> highs_{}, lows_{};
-    Row slow_{}, speed_{}, load_{}, from_{}, to_{};
+    Row slow_{}, speed_{}, load_{}, from_{}, to_{}, rest_{};
 };
 
 } // namespace physvib
