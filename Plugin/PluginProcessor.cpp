@@ -165,6 +165,7 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, usual);
     outputs_ = BusMap{*this};
     open_.prepare(rate, limits::channelRampSeconds, parameter(Parameter::bypass).value() > 0.5 ? 0.0f : 1.0f);
+    guard_.prepare(static_cast<int>(rate), std::min(getTotalNumOutputChannels(), limits::maxEnchanters), GuardPlace::last);
     transport_.reset();
     points_.reset();
     measured_ = {};

@@ -7,6 +7,7 @@
 #include "BeatInput.h"
 #include "BusPlan.h"
 #include "ControlPace.h"
+#include "Core/Actuators/OutputGuard.h"
 #include "FeltExport.h"
 #include "Host/Devices/ChannelMeters.h"
 #include "HeldNotes.h"
@@ -165,6 +166,7 @@ private:
     Transport transport_;
     int blockFrames_ = 0;
     GainRamp open_; // shut by bypass
+    OutputGuard guard_; // of what takes add up to while one follows another
     bool isShut_ = false;
     ChannelMeters measured_;
     PointSource* source_ = nullptr;

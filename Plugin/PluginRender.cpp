@@ -53,6 +53,7 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
         for (int c = 0; c < channels; ++c) out[static_cast<std::size_t>(c)] = buffer.getWritePointer(c) + first;
         open_.moveTo(bypassed || isShut_ ? 0.0f : 1.0f);
         open_.apply(out.data(), channels, end - first);
+        guard_.process(out.data(), end - first);
         first = end;
     }
     takePoints(frames); // of the next block's first frame
@@ -97,6 +98,8 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
         at = next;
     }
     buffer.clear(first, end - first);
+    // Tiles on the grid of the take that plays, so that neither blocks nor L change a sample.
+    if (const Session* const session = takes_.session()) guard_.moveTo(session->timeline().nextRenderedFrame(0));
     takes_.render(end - first, mode);
     mix(buffer, first, end - first);
     return end;
@@ -333,6 +336,7 @@ void PluginProcessor::measure(const juce::AudioBuffer<float>& buffer) noexcept {
         measured_.limiterGain = render.limiterGain;
         measured_.guardGain = render.guardGain;
     }
+    measured_.guardGain = std::min(measured_.guardGain, guard_.gain());
     for (std::size_t j = 0; j < measured_.peaks.size(); ++j) {
         const int channel = outputs_.channelOf[j];
         measured_.isConnected[j] = channel >= 0;

@@ -2,6 +2,7 @@
 // Stimuli are rendered as a participant would feel them, without the limiter.
 #include "Studies/StudyCheck.h"
 #include "Core/Actuators/HandWeighting.h"
+#include "Core/Actuators/OutputGuard.h"
 #include "Core/Actuators/PerceivedLevel.h"
 #include "Core/Decibels.h"
 #include "Io/Text/CleanText.h"
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 namespace physvib {
 namespace {
@@ -26,6 +28,30 @@ namespace {
 constexpr int checkRateHz = 48000;
 constexpr double longestWithoutBreakSeconds = 30.0 * 60.0;
 constexpr double weakDb = 6.0;          // above the threshold of detection: what most people feel at once
+
+/// The least gain that the guard has for what it is shown.
+class GuardTrial {
+public:
+    explicit GuardTrial(int channels) { guard_->prepare(checkRateHz, channels, GuardPlace::rendered); }
+    /// `blocks` times `gains`, clipped as the device would.
+    void take(const float* const* blocks, const std::vector<float>& gains, int frames) {
+        std::array<float*, static_cast<std::size_t>(limits::maxEnchanters)> at{};
+        samples_.resize(gains.size() * static_cast<std::size_t>(frames));
+        for (std::size_t j = 0; j < gains.size(); ++j) {
+            at[j] = samples_.data() + j * static_cast<std::size_t>(frames);
+            std::transform(blocks[j], blocks[j] + frames, at[j],
+                           [&](float x) { return std::clamp(x * gains[j], -1.0f, 1.0f); });
+        }
+        guard_->process(at.data(), frames);
+        least_ = std::min(least_, static_cast<double>(guard_->gain()));
+    }
+    double leastGain() const noexcept { return least_; }
+
+private:
+    std::unique_ptr<OutputGuard> guard_ = std::make_unique<OutputGuard>();
+    std::vector<float> samples_;
+    double least_ = 1.0;
+};
 
 /// One per actuator.
 struct ChannelSums {
@@ -36,6 +62,7 @@ struct ChannelSums {
 void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
     const auto channels = static_cast<std::size_t>(felt.stimulus.panner.channels());
     std::vector<ChannelSums> sums(channels);
+    GuardTrial guard{static_cast<int>(channels)};
     const ContactSounds sounds{felt.recordings, checkRateHz};
     const OfflineSettings settings{.renderer = {checkRateHz, 0, felt.stimulus.panner, false}, .frames = std::llround(felt.stimulus.seconds * checkRateHz), .contacts = {sounds.contacts()}};
     renderOffline(felt.stimulus.events, settings, [&](const float* const* blocks, int frames) {
@@ -46,9 +73,11 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
                 sums[j].squares += sample * sample;
                 sums[j].weightedSquares += weighted * weighted;
             }
+        guard.take(blocks, felt.gains, frames);
         return true;
     });
     checked.seconds = felt.stimulus.seconds;
+    checked.guardGain = guard.leastGain();
     for (std::size_t j = 0; j < channels; ++j) {
         const double fullScaleG = felt.layout.enchanters[j].fullScaleG;
         if (sums[j].peak > checked.peakShare) checked.peakShare = sums[j].peak, checked.neededG = sums[j].peak * fullScaleG;
@@ -92,6 +121,11 @@ double aboveThresholdDb(const CheckedStimulus& s) { return inDb(s.peakG / detect
 void judge(const Protocol& protocol, const CheckedStimulus& s, StudyCheck& check) {
     if (!s.error.empty()) return void(check.errors.push_back(nameOf(protocol, s) + ": " + s.error));
     if (needsLimiter(s)) (s.isOpenEnded ? check.warnings : check.errors).push_back(limiterWords(protocol, s));
+    if (s.guardGain < 1.0)
+        check.warnings.push_back(nameOf(protocol, s) +
+                                 ": turned down to " + fixedNumber(100.0 * s.guardGain, 0) +
+                                 " % where it is slowest, as its actuator would get nearly direct current: what is "
+                                 "felt differs from what is asked for");
     if (s.peakG <= 0.0) check.warnings.push_back(nameOf(protocol, s) + ": nothing is felt");
     else if (const double db = aboveThresholdDb(s); db < weakDb && !s.isOpenEnded)
         check.warnings.push_back(nameOf(protocol, s) + ": weak at its highest level: " + fixedNumber(1e3 * s.peakG, 1) + " mg, " + fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A study looked at before anybody takes part: how strong each stimulus is, what the limiter would alter, how long it takes, how orders balance.
+// A study looked at before anybody takes part: how strong each stimulus is, what limiter and guard would alter, how long it takes, how orders balance.
 #pragma once
 #include "Study/Protocol.h"
 #include <string>
@@ -18,6 +18,7 @@ struct CheckedStimulus {
     double neededG = 0.0;       ///< full scale that this actuator would need for it
     double peakG = 0.0, rmsG = 0.0; ///< of the strongest actuator, the latter over the time that it lasts
     double squareGSeconds = 0.0; ///< hand-weighted, of all actuators together: see HandWeighting.h
+    double guardGain = 1.0; ///< the least that OutputGuard leaves of it; 1: all
     bool isOpenEnded = false;    ///< a world with hands: as its own script has it
     std::string error;           ///< it cannot be played: one line
 };

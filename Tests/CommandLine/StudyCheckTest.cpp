@@ -63,6 +63,21 @@ TEST_F(StudyCheckCommand, WhatNeedsTheLimiterIsRefusedWithWhatItWouldNeed) {
     refuses("study run mine.json --observer simulated --out other", 1, "which the limiter would lower", 1);
 }
 
+TEST_F(StudyCheckCommand, WhatTheGuardTurnsDownIsSaid) {
+    const auto outcome = call("study check eight-methods");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("AF-FV"), std::string::npos);
+    int told = 0;
+    std::istringstream lines{outcome.out};
+    for (std::string line; std::getline(lines, line);)
+        if (line.find("nearly direct current") != line.npos) {
+            EXPECT_NE(line.find("AF-FV"), line.npos) << line;
+            ++told;
+        }
+    EXPECT_GT(told, 0);
+    EXPECT_EQ(call("study check model-or-sound").out.find("nearly direct current"), std::string::npos);
+}
+
 TEST_F(StudyCheckCommand, ALevelBeyondTheLayoutIsRefused) {
     change("phantom-grids", {{"\"PHONE-3x3\",", "\"PHONE-3x3\", \"level_g\": 5,"}});
     const auto outcome = call("study check mine.json");

@@ -3,6 +3,7 @@
 #include "PluginTesting.h"
 #include "Support/Growth.h"
 #include "Support/RendererMemory.h"
+#include "Support/SlowFigures.h"
 #include <atomic>
 #include <cmath>
 #include <future>
@@ -56,6 +57,41 @@ TEST(Takes, WhatIsOwedIsPlayedHoweverManyJumpsFollow) {
         EXPECT_GT(owed, 0.01f);
         EXPECT_EQ(host.plugin->takes().status().take, 5);
         EXPECT_EQ(host.plugin->takes().status().delayedBlocks, 0u);
+    }
+}
+
+// Each take's renderer guards what it plays, and begins anew: what follows every 100 ms adds up behind them.
+TEST(Takes, WhatFollowsQuicklyDoesNotAddUpToDirectCurrent) {
+    auto state = strikeAt(0, 1);
+    state.transport = TransportMode::restartOnPlay;
+    auto& slow = state.scene.materials[static_cast<std::size_t>(state.notes[0].material)];
+    slow.frequencyHz = slow.decayPerSecond = 1.0;
+    for (const int block : {480, 96}) {
+        TestHost host;
+        ASSERT_TRUE(host.plugin->apply(state));
+        host.plugin->parameter(Parameter::strikeLevel).setValue(1.0f);
+        host.prepare(48000, block);
+        host.playHead.isThere = host.playHead.isPlaying = true;
+        Samples left;
+        for (int jump = 1; jump <= 40; ++jump) {
+            juce::MidiBuffer midi;
+            midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
+            host.block(block, midi);
+            left.resize(static_cast<std::size_t>(host.buffer.getNumChannels()));
+            for (std::size_t c = 0; c < left.size(); ++c) {
+                const float* const at = host.buffer.getReadPointer(static_cast<int>(c));
+                left[c].insert(left[c].end(), at, at + block);
+            }
+            host.play(4800 - block, left);
+            host.playHead.frame = 1'000'000 * jump;
+        }
+        EXPECT_EQ(host.plugin->takes().status().take, 40);
+        EXPECT_GT(peakOf(left), 0.02f);
+        for (const auto& channel : left) {
+            const auto figures = slowFigures(channel, 48000);
+            EXPECT_LE(figures.mean, limits::guardShare);
+            EXPECT_LE(figures.rms, limits::guardShare);
+        }
     }
 }
 

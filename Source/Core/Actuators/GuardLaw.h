@@ -8,7 +8,7 @@
 // limits::slowestToneHz lets through, squared, forgotten within a second, and half of what the filter would
 // still give of what it holds. Both grow by what a tile adds, so the gain is the room that is left: it closes
 // before a bound is reached. What closes it again and again lowers the gain at which it rests, until a tone
-// passes whole at that gain. It rises again within limits::guardReleaseSeconds.
+// passes whole at that gain. Below half of both bounds it rises, within limits::guardReleaseSeconds.
 #pragma once
 #include "Core/Limits.h"
 #include <algorithm>

@@ -34,8 +34,12 @@ public:
     }
 
     /// Which frame process() gets next: tiles lie on the grid of these, so that samples do not depend on the
-    /// output latency either. Without it they lie on the grid of the frames since prepare.
-    void moveTo(std::int64_t frame) noexcept { filled_ = static_cast<int>((frame % tile_ + tile_) % tile_); }
+    /// output latency either. Without it they lie on the grid of the frames since prepare. R.
+    void moveTo(std::int64_t frame) noexcept {
+        const auto at = static_cast<int>((frame % tile_ + tile_) % tile_);
+        if (at != filled_ && hasSums_) endTile();
+        filled_ = at;
+    }
 
     /// In place: io[channel][0..frames), finite, up to 8 times full scale; null: nothing leaves there.
     /// `isSilent`: all of it is 0.

@@ -236,14 +236,12 @@ std::string playLive(LivePlay wanted) {
             output.stop();
             played = watch.drain();
         }
-        if (recording) recorded = recording->finish(); // before what takes long, or may hang
+        if (journal) journal->end(session.status().sessionNs); // rows that wait, then what may take long or hang
+        if (recording) recorded = recording->finish();
         listener.reset();
         if (osc) told = osc->status();
         osc.reset(); // whoever goes on sending does not hold up the end
-        if (journal) {
-            journal->end(session.status().sessionNs);
-            saved = interrupted ? journal->finish(SessionJournal::quickBytes) : journal->finish();
-        }
+        if (journal) saved = interrupted ? journal->finish(SessionJournal::quickBytes) : journal->finish();
         if (!isWhole) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
         beats = heard ? heard->beats() : 0;
         if (told) summariseOsc(*told);
