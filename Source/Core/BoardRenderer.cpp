@@ -16,14 +16,24 @@ std::uint8_t codeOf(float sample) noexcept { return static_cast<std::uint8_t>(st
 // Without a sign, floats compare as their bits do; that costs the board less than their own comparison.
 std::uint32_t magnitude(float sample) noexcept { return std::bit_cast<std::uint32_t>(sample) & 0x7FFFFFFF; }
 
+bool exceeds(const PhasorBank::Block& block) noexcept {
+    std::uint32_t most = 0;
+    for (const auto& row : block)
+#pragma GCC unroll 4
+        for (const float sample : row) most = std::max(most, magnitude(sample));
+    return most > magnitude(1.0f);
+}
+
 } // namespace
 
 void BoardRenderer::prepare() noexcept {
     bank_.clear();
     legs_.clear();
     pending_.clear();
+    nextDue_ = never;
     for (auto& gain : gains_) gain.prepare(limits::board::sampleRateHz, limits::channelRampSeconds, 1.0f);
     linkedGain_ = 1.0f;
+    guard_.prepare();
     frame_ = 0;
     played_ = late_ = dropped_ = 0;
 }
@@ -31,6 +41,7 @@ void BoardRenderer::prepare() noexcept {
 bool BoardRenderer::schedule(const BoardEvent& event) noexcept {
     const auto ahead = static_cast<std::int32_t>(event.frame - frame());
     const bool isTaken = isPlayable(event) && pending_.push(frame_ + ahead, event);
+    if (isTaken) nextDue_ = std::min(nextDue_, frame_ + ahead);
     dropped_ += isTaken ? 0 : 1;
     return isTaken;
 }
@@ -51,52 +62,59 @@ void BoardRenderer::stopAll() noexcept {
     bank_.clear();
     legs_.clear();
     pending_.clear();
+    nextDue_ = never;
     linkedGain_ = 1.0f;
 }
 
 void BoardRenderer::render(Codes& out) noexcept {
     PhasorBank::Block block;
     bank_.render(frame(), block);
-    strikeDue(block);
+    if (nextDue_ < frame_ + blockFrames) strikeDue(block);
     if (legs_.count() > 0) legs_.render(frame(), block);
     for (int j = 0; j < channels; ++j) {
         float* const channel = block[at(j)].data();
         gains_[at(j)].apply(&channel, 1, blockFrames);
     }
+    if (linkedGain_ < 1.0f || exceeds(block)) limit(block);
+    if (guard_.acts()) guard_.turnDown(block);
     encode(block, out);
     frame_ += blockFrames;
 }
 
 void BoardRenderer::strikeDue(PhasorBank::Block& io) noexcept {
-    while (!pending_.empty() && pending_.nextTime() < frame_ + blockFrames) {
-        const bool isLate = pending_.nextTime() < frame_; // then the whole vibration, at once
-        bank_.strike(pending_.next(), isLate ? frame() : pending_.next().frame, io);
+    while (nextDue_ < frame_ + blockFrames) {
+        const bool isLate = nextDue_ < frame_; // then the whole vibration, at once
+        const BoardEvent& event = pending_.next();
+        bank_.strike(event, isLate ? frame() : event.frame, io);
         late_ += isLate ? 1 : 0;
         ++played_;
         pending_.pop();
+        nextDue_ = pending_.empty() ? never : pending_.nextTime();
     }
 }
 
-void BoardRenderer::encode(const PhasorBank::Block& block, Codes& out) noexcept {
-    std::uint32_t most = 0;
-    for (const auto& row : block)
-        for (const float sample : row) most = std::max(most, magnitude(sample));
-    if (linkedGain_ < 1.0f || most > magnitude(1.0f)) return encodeWithGain(block, out);
-    for (int j = 0; j < channels; ++j)
-        for (int k = 0; k < blockFrames; ++k) out[at(k)][at(j)] = codeOf(block[at(j)][at(k)]);
-}
-
-void BoardRenderer::encodeWithGain(const PhasorBank::Block& block, Codes& out) noexcept {
+void BoardRenderer::limit(PhasorBank::Block& io) noexcept {
     float gain = linkedGain_;
     for (int k = 0; k < blockFrames; ++k) {
         std::uint32_t most = 0;
-        for (const auto& row : block) most = std::max(most, magnitude(row[at(k)]));
+        for (const auto& row : io) most = std::max(most, magnitude(row[at(k)]));
         const auto peak = std::bit_cast<float>(most);
         gain = std::min(1.0f, gain + release);
         if (peak * gain > 1.0f) gain = 1.0f / peak;
-        for (int j = 0; j < channels; ++j) out[at(k)][at(j)] = codeOf(block[at(j)][at(k)] * gain);
+        for (auto& row : io) row[at(k)] *= gain;
     }
     linkedGain_ = gain;
+}
+
+void BoardRenderer::encode(const PhasorBank::Block& block, Codes& out) noexcept {
+    BoardGuard::Areas areas;
+    for (int j = 0; j < channels; ++j) {
+        int sum = -blockFrames * midScale;
+#pragma GCC unroll 4 // a quarter of a percent of the board's time
+        for (int k = 0; k < blockFrames; ++k) sum += out[at(k)][at(j)] = codeOf(block[at(j)][at(k)]);
+        areas[at(j)] = BoardGuard::area(sum);
+    }
+    guard_.take(areas);
 }
 
 BoardStatus BoardRenderer::status() const noexcept {

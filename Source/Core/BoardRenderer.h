@@ -4,15 +4,18 @@
 //
 // Order of one block: the modes are summed; events that are due are struck into it; legs of what moves are added; each
 // channel goes through its gain; one gain for all channels takes at once what exceeds full scale and comes back within
-// limits::limiterReleaseSeconds, so that a phantom stays where it is; the codes saturate.
+// limits::limiterReleaseSeconds, so that a phantom stays where it is; the guard turns down what would only
+// warm a coil; the codes saturate.
 #pragma once
 #include "Core/BoardEvent.h"
+#include "Core/Actuators/BoardGuard.h"
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Modes/MovingLegs.h"
 #include "Core/Modes/PhasorBank.h"
 #include "Core/TimeOrdered.h"
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace physvib {
 
@@ -48,6 +51,9 @@ public:
     /// Nothing sounds, nothing waits, from the next block on. (Whoever owns the converters fades what they hold.)
     void stopAll() noexcept;
 
+    /// The guard lets the next block through as it is: for one that does not leave (the self-test's).
+    void letThrough() noexcept { guard_.letThrough(); }
+
     /// The next block.
     void render(Codes& out) noexcept;
 
@@ -55,18 +61,22 @@ public:
     std::uint32_t frame() const noexcept { return static_cast<std::uint32_t>(frame_); }
     BoardStatus status() const noexcept;
     const PhasorBank& bank() const noexcept { return bank_; }
+    const BoardGuard& guard() const noexcept { return guard_; }
 
 private:
     void strikeDue(PhasorBank::Block& io) noexcept;
+    void limit(PhasorBank::Block& io) noexcept;
     void encode(const PhasorBank::Block& block, Codes& out) noexcept;
-    void encodeWithGain(const PhasorBank::Block& block, Codes& out) noexcept;
 
     PhasorBank bank_;
     MovingLegs legs_;
     TimeOrdered<BoardEvent, limits::board::maxPending> pending_;
     std::array<GainRamp, static_cast<std::size_t>(channels)> gains_{};
     float linkedGain_ = 1.0f;
+    BoardGuard guard_;
     std::int64_t frame_ = 0; // does not wrap, so that waiting events keep their order
+    static constexpr auto never = std::numeric_limits<std::int64_t>::max();
+    std::int64_t nextDue_ = never; // when the first of those that wait is due: asked in every block
     std::uint32_t played_ = 0, late_ = 0, dropped_ = 0;
 };
 

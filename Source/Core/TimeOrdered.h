@@ -5,6 +5,7 @@
 #include "Core/Storage.h"
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 namespace physvib {
 
@@ -67,7 +68,8 @@ public:
     /// Gives every item a new time: `newTime(oldTime, item)`, which may change the item too. M, not while rendering.
     template <class Function>
     void retime(Function newTime) noexcept {
-        for (; first_ != none; first_ = node(first_).next) heap_[index(heaped_++)] = first_;
+        for (; first_ != none; first_ = node(first_).next)
+            heap_[index(heaped_++)] = static_cast<Place>(first_);
         std::for_each(heap_.data(), heap_.data() + heaped_, [&](std::int32_t at) { node(at).time = newTime(node(at).time, items_[index(at)]); });
         std::make_heap(heap_.data(), heap_.data() + heaped_, later());
     }
@@ -89,7 +91,7 @@ private:
         return [this](std::int32_t a, std::int32_t b) { return isLater(node(a), node(b)); };
     }
     void heapUp(std::int32_t at) noexcept {
-        heap_[index(heaped_++)] = at;
+        heap_[index(heaped_++)] = static_cast<Place>(at);
         std::push_heap(heap_.data(), heap_.data() + heaped_, later());
     }
     std::int32_t firstPlace() const noexcept {
@@ -100,7 +102,8 @@ private:
     static constexpr auto most = static_cast<std::size_t>(Capacity);
     Storage<Node, most, isOnHeap> nodes_;
     Storage<T, most, isOnHeap> items_;
-    Storage<std::int32_t, most, isOnHeap> heap_; // places of what came out of order
+    using Place = std::conditional_t<(Capacity < 128), std::int8_t, std::int32_t>; // a board has few bytes
+    Storage<Place, most, isOnHeap> heap_; // places of what came out of order
     std::uint32_t arrivals_ = 0;
     std::int32_t first_ = none, last_ = none; // of the queue
     std::int32_t free_ = none, used_ = 0;     // places from `used_` on have never been taken

@@ -17,6 +17,7 @@ public:
 
     /// Before a block: eight notes of the coming one, each of its own frequency and decay.
     void strike(BoardRenderer& renderer) noexcept {
+        renderer.letThrough(); // nobody hears it
         for (int i = 0; i < notesPerBlock && step_ <= blocks; ++i) {
             const int note = (step_ - 1) * notesPerBlock + i;
             const auto amplitude = static_cast<std::int16_t>(20 + note);

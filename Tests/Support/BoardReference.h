@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the board has to play, in double precision from the closed form, and random lists of events for it.
 #pragma once
+#include "Core/Actuators/GuardLaw.h"
 #include "Core/BoardRenderer.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
@@ -13,10 +14,50 @@ namespace physvib::test {
 
 using BoardFrame = std::array<std::uint8_t, 4>;
 
-/// The sum of Eq. 5.1 over the events, the linked gain and the converters' rounding, all in double.
-inline std::vector<BoardFrame> boardClosedForm(const std::vector<BoardEvent>& events, std::size_t frames) {
+/// Which guard the reference has.
+struct ReferenceGuard {
+    bool isThere = true;
+    /// It decides from these codes instead of the reference's own: where it acts for long, one code that is
+    /// rounded otherwise moves those after it.
+    const std::vector<BoardFrame>* left = nullptr;
+    std::uint32_t episodes = 0; ///< comes back: how often it began to act
+};
+
+using ReferenceSums = std::vector<std::array<double, 4>>;
+
+/// Limited sums become codes behind the law of the guard, which decides after every four frames from what
+/// has left.
+inline std::vector<BoardFrame> guardedCodes(const ReferenceSums& limited, ReferenceGuard& guard) {
+    constexpr std::size_t tile = 4;
+    GuardLaw<4> law;
+    law.prepare(4, GuardPlace::last);
+    law.setTile(static_cast<float>(tile) / limits::board::sampleRateHz);
+    std::vector<BoardFrame> codes(limited.size());
+    bool acts = false;
+    GuardLaw<4>::Row areas{};
+    for (std::size_t n = 0; n < limited.size(); ++n) {
+        for (std::size_t j = 0; j < 4; ++j) {
+            const double way = static_cast<double>(n % tile + 1) / tile;
+            const double gain = acts ? law.from(j) + (law.to(j) - law.from(j)) * way : 1.0;
+            const double code = std::floor(limited[n][j] * gain * 127.0 + 128.5);
+            codes[n][j] = static_cast<std::uint8_t>(std::clamp(code, 1.0, 255.0));
+            const double left = guard.left != nullptr ? (*guard.left)[n][j] : codes[n][j];
+            areas[j] += static_cast<float>((left - 128.0) / (127.0 * limits::board::sampleRateHz));
+        }
+        if (n % tile != tile - 1) continue;
+        acts = guard.isThere && law.take(areas);
+        areas.fill(0.0f);
+    }
+    guard.episodes = law.episodes();
+    return codes;
+}
+
+/// The sum of Eq. 5.1 over the events, the linked gain, the guard and the converters' rounding, all in double
+/// but for the guard's law.
+inline std::vector<BoardFrame> boardClosedForm(const std::vector<BoardEvent>& events, std::size_t frames,
+                                               ReferenceGuard& guard) {
     constexpr double rate = limits::board::sampleRateHz, grid = limits::board::gridPerHz;
-    std::vector<std::array<double, 4>> sums(frames);
+    ReferenceSums sums(frames);
     for (const BoardEvent& e : events) {
         const std::size_t end = e.durationMs > 0 ? std::min<std::size_t>(frames, e.frame + e.durationMs * 8u) : frames;
         for (std::size_t n = e.frame; n < end; ++n) {
@@ -27,16 +68,19 @@ inline std::vector<BoardFrame> boardClosedForm(const std::vector<BoardEvent>& ev
             for (std::size_t j = 0; j < 4; ++j) sums[n][j] += e.amplitudes[j] * y;
         }
     }
-    std::vector<BoardFrame> codes(frames);
     double gain = 1.0;
-    for (std::size_t n = 0; n < frames; ++n) {
+    for (auto& sum : sums) {
         double peak = 0.0;
-        for (const double y : sums[n]) peak = std::max(peak, std::abs(y));
+        for (const double y : sum) peak = std::max(peak, std::abs(y));
         gain = std::min(1.0, gain + 1.0 / (limits::limiterReleaseSeconds * rate));
         if (peak * gain > 1.0) gain = 1.0 / peak;
-        for (std::size_t j = 0; j < 4; ++j) codes[n][j] = static_cast<std::uint8_t>(std::clamp(std::floor(sums[n][j] * gain * 127.0 + 128.5), 1.0, 255.0));
+        for (double& y : sum) y *= gain;
     }
-    return codes;
+    return guardedCodes(sums, guard);
+}
+inline std::vector<BoardFrame> boardClosedForm(const std::vector<BoardEvent>& events, std::size_t frames) {
+    ReferenceGuard guard;
+    return boardClosedForm(events, frames, guard);
 }
 
 /// What a random list is made of.

@@ -63,16 +63,14 @@ public:
 
     /// `areas` of the tile that has just left, seconds at full scale. False: the next one is played as it is.
     bool take(const Row& areas) noexcept {
-        const bool isSilent =
-            std::all_of(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(channels_),
-                        [](float a) { return a == 0.0f; });
+        std::size_t silent = 0;
+        while (silent < channels_ && areas[silent] == 0.0f) ++silent;
+        const bool isSilent = silent == channels_;
         silentSeconds_ = isSilent ? silentSeconds_ + tile_ : 0.0f;
         if (silentSeconds_ >= forgetSeconds) clear();
         if (isAtRest()) return false;
-        follow(areas);
+        const float least = follow(areas);
         if (++partTile_ >= partTiles_) endPart();
-        const float least =
-            *std::min_element(to_.begin(), to_.begin() + static_cast<std::ptrdiff_t>(channels_));
         episodes_ += least < 1.0f && gain_ == 1.0f ? 1 : 0;
         const bool acts = least < 1.0f || gain_ < 1.0f;
         gain_ = least;
@@ -95,7 +93,8 @@ private:
     static constexpr int parts = 4; // whole ones, and the one that goes on
     static constexpr float forgetSeconds = 8.0f, root2 = 1.41421356f;
 
-    void clear() noexcept {
+    // Apart, as is endPart: a board keeps what runs for every tile in a small memory of its own.
+    [[gnu::noinline]] void clear() noexcept {
         for (Row* row : {&sum_, &high_, &low_, &oldHigh_, &oldLow_, &slow_, &speed_, &load_}) row->fill(0.0f);
         for (auto& row : highs_) row.fill(0.0f);
         for (auto& row : lows_) row.fill(0.0f);
@@ -109,10 +108,11 @@ private:
     }
 
     // A Butterworth low-pass of the second order in steps of a tile; the quadratic form is what the square of
-    // its output adds up to if nothing more comes in.
-    void follow(const Row& areas) noexcept {
+    // its output adds up to if nothing more comes in. Returns the least of the new gains.
+    float follow(const Row& areas) noexcept {
         constexpr auto w = static_cast<float>(6.283185307 * limits::slowestToneHz);
         const float step = w * tile_;
+        float least = 1.0f;
         for (std::size_t j = 0; j < channels_; ++j) {
             const float sum = sum_[j] + areas[j];
             sum_[j] = sum;
@@ -129,14 +129,16 @@ private:
                 std::min((maxArea_ - most) * perArea_, (maxLoad_ - load) * limits::guardPerLoad);
             from_[j] = to_[j];
             to_[j] = std::max(0.0f, std::min(room, rest_[j]));
+            least = std::min(least, to_[j]);
             // Above half of a bound it only falls: a tone that is turned down finds one gain, and keeps its shape.
             const bool mayRise = most < 0.5f * maxArea_ && load < 0.5f * maxLoad_;
             rest_[j] = mayRise ? std::min(1.0f, rest_[j] + rise_) : rest_[j] - fall_ * (rest_[j] - to_[j]);
         }
+        return least;
     }
 
     // Sums begin at 0 again, so that they stay as exact as they are.
-    void endPart() noexcept {
+    [[gnu::noinline]] void endPart() noexcept {
         highs_[part_] = high_;
         lows_[part_] = low_;
         part_ = (part_ + 1) % parts;
