@@ -112,6 +112,7 @@ void Link::sendTelemetry() noexcept {
     t.modes = static_cast<std::uint8_t>(status.modes);
     t.pending = static_cast<std::uint8_t>(status.pending);
     t.silenced = silenced_ ? 1 : 0;
+    t.guarded = static_cast<std::uint16_t>(renderer_->guard().episodes());
     worstBlockCycles_ = 0;
     send(t);
 }

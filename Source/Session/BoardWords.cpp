@@ -37,6 +37,8 @@ std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
         {"On board",
          count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost",
          t.late + t.dropped + t.lost > 0});
+    if (t.guarded > 0)
+        facts.push_back({"Guard of the board", "acted " + count(t.guarded) + " times", true});
     return facts;
 }
 
@@ -65,11 +67,14 @@ std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
     if (s.legs > 0)
         lines = count(s.legs) + " segments of moving strikes, " + count(s.coarseLegs) +
                 " of them longer than their law asks for, as the line was full\n";
+    std::string guarded;
+    if (const auto times = static_cast<std::uint16_t>(t.guarded - before.guarded); times > 0)
+        guarded = ", turned down " + count(times) + " times, as it would have been nearly direct current";
     return lines + "felt " + fixedNumber(s.playOutMs, 1) + " ms after the call; " + count(s.sent) +
            " strikes sent, " + count(s.thinned) + " thinned, " + count(s.refused) +
            " refused; the board played " + count(t.played - before.played) + ", " +
            count(t.late - before.late) + " late, " + count(t.dropped - before.dropped) + " dropped, " +
-           count(t.lost) + " lost\n";
+           count(t.lost) + " lost" + guarded + '\n';
 }
 
 } // namespace physvib

@@ -130,9 +130,12 @@ struct Telemetry {
     std::uint16_t stackFree = 0;       ///< bytes never used
     std::uint8_t modes = 0, pending = 0;
     std::uint8_t silenced = 0;         ///< 1: fell silent for want of messages
+    std::uint16_t guarded = 0;         ///< how often the guard began to act; wraps. 0 of an image without one
+    static constexpr std::size_t addedLater = 2; ///< bytes at the end, which an older image does not send
     void visit(auto&& field) {
         field(frame), field(good), field(bad), field(lost), field(overruns), field(played), field(late), field(dropped), field(stolen);
         field(missedFrames), field(worstBlockCycles), field(stackFree), field(modes), field(pending), field(silenced);
+        field(guarded);
     }
 };
 
@@ -183,7 +186,7 @@ public:
             if (at_ < in_.size()) bits = static_cast<std::make_unsigned_t<T>>(bits | static_cast<std::make_unsigned_t<T>>(in_[at_]) << (8 * i));
         value = static_cast<T>(bits);
     }
-    constexpr bool isComplete() const { return at_ <= in_.size(); }
+    constexpr bool isComplete(std::size_t mayLack = 0) const { return at_ <= in_.size() + mayLack; }
 
 private:
     std::span<const std::uint8_t> in_;
@@ -210,7 +213,9 @@ constexpr bool decode(std::span<const std::uint8_t> payload, Message& message) n
     Reader read{payload.subspan(1)};
     Message found;
     found.visit(read);
-    if (!read.isComplete()) return false;
+    std::size_t mayLack = 0;
+    if constexpr (requires { Message::addedLater; }) mayLack = Message::addedLater;
+    if (!read.isComplete(mayLack)) return false;
     message = found;
     return true;
 }

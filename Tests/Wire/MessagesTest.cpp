@@ -76,8 +76,22 @@ TEST(Messages, EveryFieldOfTelemetryTravels) {
     sent.visit([&](auto& field) { a.push_back(field); });
     got.visit([&](auto& field) { b.push_back(field); });
     EXPECT_EQ(a, b);
-    EXPECT_EQ(a.size(), 15u);
+    EXPECT_EQ(a.size(), 16u);
     EXPECT_LE(framed(sent).size(), wire::maxFrame);
+}
+
+TEST(Messages, TelemetryOfAnImageWithoutAGuardIsRead) {
+    wire::Telemetry sent, got;
+    sent.silenced = 1;
+    sent.guarded = 7;
+    std::array<std::uint8_t, wire::maxPayload> payload{static_cast<std::uint8_t>(wire::Type::telemetry)};
+    wire::Writer write{std::span(payload).subspan(1)};
+    sent.visit(write);
+    const std::size_t older = 1 + write.size() - wire::Telemetry::addedLater;
+    ASSERT_TRUE(wire::decode(std::span(payload).first(older), got));
+    EXPECT_EQ(got.silenced, 1);
+    EXPECT_EQ(got.guarded, 0);
+    EXPECT_FALSE(wire::decode(std::span(payload).first(older - 1), got));
 }
 
 TEST(Messages, TheCompactFormKeepsAllButHalfAStepOfAmplitude) {

@@ -19,7 +19,8 @@ void printBoardInfo(const BoardLinkStatus& s) {
               << (b.version < wire::legsSince ? "what moves is a row of still bursts on this image, an older one" : "what moves is within one step of a device") << '\n'
               << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call at the earliest; drift " << s.driftPpm << " ppm\n"
               << t.played << " strikes played, " << t.late << " late, " << t.dropped << " dropped, " << t.stolen << " modes stolen; link: " << t.good << " good, " << t.bad
-              << " bad, " << t.lost << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; " << t.stackFree << " bytes of stack never used\n";
+              << " bad, " << t.lost << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; "
+              << "guard acted " << t.guarded << " times; " << t.stackFree << " bytes of stack never used\n";
 }
 
 std::string reportBoard(const BoardLink& link, const wire::Telemetry& before) {
