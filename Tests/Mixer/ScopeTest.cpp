@@ -42,6 +42,27 @@ TEST(SpectrumTrace, AxisAndLevelsMeetAtItsEnds) {
     EXPECT_EQ(spectrumLevels(short_, 10.0, 1.0).back(), FrequencyAxis::floorDb);
 }
 
+// A column of the old rate may already be longer than those of the new one: the mixer crashed there.
+TEST(ScopeTrace, AnotherRateInTheMiddleOfAColumnBeginsItAnew) {
+    for (const int before : {44100, 48000, 192000})
+        for (const int after : {8000, 44100, 96000}) {
+            ScopeTrace trace;
+            trace.setRate(before);
+            const int longest = before / ScopeTrace::columns; // frames of a column
+            const std::vector<float> loud(static_cast<std::size_t>(longest - 1), 0.5f),
+                soft(static_cast<std::size_t>(after / ScopeTrace::columns), 0.25f);
+            const float *ofLoud = loud.data(), *ofSoft = soft.data();
+            trace.add(&ofLoud, 1, longest - 1);
+            EXPECT_EQ(trace.columnsBegun(), 0);
+            trace.setRate(after);
+            trace.add(&ofSoft, 1, after / ScopeTrace::columns);
+            EXPECT_EQ(trace.columnsBegun(), 1) << before << " to " << after << " Hz";
+            const auto newest = trace.at(0, ScopeTrace::columns - 2); // the last that is whole
+            EXPECT_EQ(newest.lowest, 0.25f);
+            EXPECT_EQ(newest.highest, 0.25f);
+        }
+}
+
 struct Scope : testing::Test {
     Desk desk{onlyNoDevice(), noDevice};
     MixerView view{desk};

@@ -18,7 +18,11 @@ public:
 
     ScopeTrace() { clear(); }
 
-    void setRate(int sampleRateHz) { framesPerColumn_ = std::max(1, static_cast<int>(seconds * sampleRateHz / columns)); }
+    /// A column that has begun begins anew.
+    void setRate(int sampleRateHz) {
+        framesPerColumn_ = std::max(1, static_cast<int>(seconds * sampleRateHz / columns));
+        filled_ = 0;
+    }
     void clear() {
         for (auto& lane : lanes_) lane.assign(columns, {});
         newest_ = 0;
