@@ -51,10 +51,13 @@ public:
     /// What is called before silence is asked for in a menu, list or dialog.
     void setMeasure(std::function<void(const juce::String& what)> measure) { measure_ = std::move(measure); }
 
-    void run(double seconds) {
-        const double end = now() + 1e3 * seconds;
+    /// Until nothing is left, or so many steps have been taken: a busy machine takes the same ones, later.
+    /// `seconds` end a walk that would not end.
+    void run(int mostSteps, double seconds) {
+        mostSteps_ = mostSteps;
+        endMs_ = now() + 1e3 * seconds;
         open({});
-        while (now() < end) {
+        while (!isEnough()) {
             bool isAny = false;
             for (const char* how : {"press ", "menu ", "twice ", "drag "}) { // what opens most comes first
                 const auto next = nextHere(how);
@@ -64,7 +67,8 @@ public:
             }
             if (!isAny) return;
         }
-        std::cout << "the walk was ended after " << seconds << " s" << std::endl;
+        std::cout << "the walk was ended after " << (steps() < mostSteps ? seconds : 1.0 * steps())
+                  << (steps() < mostSteps ? " s" : " steps") << std::endl;
     }
 
     int states() const {
@@ -80,6 +84,7 @@ private:
         std::function<void()> act;
     };
 
+    bool isEnough() const { return steps() >= mostSteps_ || now() >= endMs_; }
     static double now() { return juce::Time::getMillisecondCounterHiRes(); }
     static juce::Component* modalNow() { return juce::Component::getCurrentlyModalComponent(); }
     static void settle() { runFor(0.04); }
@@ -282,6 +287,7 @@ private:
         if (reach(steps))
             for (const auto& action : actions()) keys.addIfNotAlreadyThere(action.key);
         for (const auto& key : keys) {
+            if (isEnough()) return;
             auto deeper = steps;
             deeper.add(key);
             if (program_.isTheEnd(deeper) || !reach(deeper)) continue;
@@ -357,6 +363,8 @@ private:
     std::set<juce::String> done_, lost_, modal_;
     std::map<juce::String, juce::StringArray> whereSeen_; // and what had to be done before
     juce::StringArray revealing_;
+    int mostSteps_ = 0;
+    double endMs_ = 0.0;
     juce::Component::SafePointer<juce::Component> held_;
     bool isPressed_ = false;
 };

@@ -321,6 +321,7 @@ try_dialogs() {
     stop_in "Render" x key ctrl+e
     stop_in "Width of the display" x key F10 sleep 0.3 key Up key Up key Up key Return
     x key F10 sleep 0.5; t=$(now); x keydown Escape sleep 1.2 keyup Escape; zero "Esc, held down" "main menu" "$t" 150; stays "Esc, held down"
+    told "$mixer_door"
     ended
     end_server
 }

@@ -3,6 +3,7 @@
 #include "Host/StopWalk.h"
 #include "../PluginTesting.h"
 #include "PluginEditor.h"
+#include <limits>
 
 namespace physvib {
 namespace {
@@ -30,7 +31,7 @@ TEST(StopWalk, EveryStateOfTheEditorIsSilencedByEscAndByAPress) {
                    [] {}, [&] { return bypass.getValue() >= 0.5f; },
                    [&] { bypass.setValueNotifyingHost(0.0f); },
                    [](const juce::StringArray&) { return false; }}};
-    walk.run(250.0);
+    walk.run(std::numeric_limits<int>::max(), 250.0);
     for (const auto& state : walk.modal()) std::cout << state << '\n';
     std::cout << walk.steps() << " steps, " << walk.states() << " menus, lists and dialogs" << std::endl;
     EXPECT_GT(walk.states(), 8);
