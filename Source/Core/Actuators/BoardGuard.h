@@ -3,7 +3,7 @@
 //
 // It counts codes, not samples, so that what the converters round is in its sums. The one guard there, so it
 // has the bounds of the last. A decision per block (half a millisecond) costs more than one per two, but with
-// it full scale passes as it is from 31 Hz on, as it does on a computer; with two it would be 38 Hz.
+// it full scale passes as it is from 31 Hz on, as it does on a computer; with two it would be 37 Hz.
 #pragma once
 #include "Core/Actuators/GuardLaw.h"
 #include "Core/Modes/PhasorBank.h"
@@ -25,8 +25,8 @@ public:
 
     /// True if the next block has to be turned down.
     bool acts() const noexcept { return acts_; }
-    [[gnu::noinline]] void
-    turnDown(PhasorBank::Block& io) const noexcept { // seldom, so not in the fast memory
+    /// Seldom, so a board does not keep it in its fast memory.
+    [[gnu::noinline]] void turnDown(PhasorBank::Block& io) const noexcept {
         for (std::size_t j = 0; j < io.size(); ++j) {
             const float step = (law_.to(j) - law_.from(j)) / PhasorBank::blockFrames;
             float gain = law_.from(j);
