@@ -156,7 +156,11 @@ void FirstStart::next() {
 
 void FirstStart::felt() { next(); }
 
+// What was tested may have been detached meanwhile, by a message or in the window behind.
+bool FirstStart::isGone() const { return tested_ >= desk_.mix().count(); }
+
 void FirstStart::feltAt(double shareX, double shareY) {
+    if (isGone()) return next();
     desk_.change("Place of an actuator", [&](Mix& mix) {
         auto& layout = mix.layout.geometry;
         layout.places[static_cast<std::size_t>(tested_)] = {juce::jlimit(0.0, 1.0, shareX) * layout.extentWidthMetres, juce::jlimit(0.0, 1.0, shareY) * layout.extentHeightMetres};
@@ -166,11 +170,13 @@ void FirstStart::feltAt(double shareX, double shareY) {
 }
 
 void FirstStart::notFelt() {
+    if (isGone()) return next();
     desk_.change("Not felt", [this](Mix& mix) { mix.strips[static_cast<std::size_t>(tested_)].output = -1; });
     next();
 }
 
 void FirstStart::louder() {
+    if (isGone()) return next();
     desk_.change("Louder", [](Mix& mix) { mix.levelDb = std::min(mostDb, mix.levelDb + louderDb); }, true);
     pulse();
     show();

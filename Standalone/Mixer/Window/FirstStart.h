@@ -60,6 +60,7 @@ public:
 
 private:
     void timerCallback() override;
+    bool isGone() const;
     bool isPlayed() const;
     void next();
     void show();
