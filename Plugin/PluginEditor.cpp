@@ -40,7 +40,8 @@ ParameterControl::ParameterControl(HostParameter& parameter)
         return;
     }
     knob_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
-    knob_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack); // asked for when the box is made
+    // asked for when the box is made
+    knob_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
     knob_.setTextBoxStyle(juce::Slider::TextBoxBelow, false, 76, 20);
     knob_.setTitle(words(row.name));
     knob_.setTooltip(words(row.help));

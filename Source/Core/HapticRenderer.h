@@ -29,7 +29,8 @@ namespace physvib {
 /// Its memory follows channels and modes and is taken in prepare; the object itself is large: keep it on the heap.
 class HapticRenderer {
 public:
-    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(limits::playedQueueSize)>; ///< What was played, and when.
+    /// What was played, and when.
+    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(limits::playedQueueSize)>;
 
     /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most limits::maxEnchanters outputs, or
     /// if there is no memory: then render writes zeros, takes no events and moves nowhere, as before the first call. M, not while rendering.
@@ -57,7 +58,8 @@ public:
 
     /// Frames by which the output lags the event times (the limiter's look-ahead). Any thread after prepare.
     int latencyFrames() const noexcept { return limiter_.latencyFrames(); }
-    static int latencyFramesAt(int sampleRateHz) noexcept { return LinkedLimiter::latencyFramesAt(sampleRateHz); } ///< Any thread.
+    /// Any thread.
+    static int latencyFramesAt(int sampleRateHz) noexcept { return LinkedLimiter::latencyFramesAt(sampleRateHz); }
 
     /// R only.
     RenderStatus status() const noexcept;

@@ -169,7 +169,8 @@ std::vector<float> sweepOf(const SweepSettings& s, double rateHz) {
 }
 
 FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand& swept) const {
-    const double least = fromDecibels(-decibels) * std::max(1.0, 1.0 / resonator.q); // of the peak or the plateau
+    // of the peak or the plateau
+    const double least = fromDecibels(-decibels) * std::max(1.0, 1.0 / resonator.q);
     FrequencyBand band{};
     for (double hz = std::ceil(swept.lowHz); hz <= swept.highHz; hz += 1.0) {
         if (std::abs(resonator.at(hz)) < least) continue;
@@ -185,7 +186,8 @@ Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std
     addPoints(points, played, recorded, rateHz, band, 240);
     const Resonator guess = firstGuess(points);
     const Trial rough = refine(points, {points, {std::log(guess.resonanceHz), std::log(guess.q), delayOf(points, [&guess](double hz) { return guess.at(hz); })}});
-    addPoints(points, played, recorded, rateHz, peakOf({std::exp(rough.at[0]), std::exp(rough.at[1])}, band), 120); // where resonance and Q are decided
+    // where resonance and Q are decided
+    addPoints(points, played, recorded, rateHz, peakOf({std::exp(rough.at[0]), std::exp(rough.at[1])}, band), 120);
     const double energy = energyOf(points);
     if (!std::isfinite(energy)) return Failure{unswept};
     const Trial best = refine(points, {points, rough.at});

@@ -42,7 +42,8 @@ double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
     constexpr double smoothSeconds = 0.00025, leastLikeness = 0.6;
     const std::vector<double> slope = smoothSlope(samples, rateHz, smoothSeconds);
     if (slope.size() < 200) return 0.0;
-    const auto likeness = likenessOf(std::span{slope}.subspan(slope.size() / 5)); // without what it begins with
+    // without what it begins with
+    const auto likeness = likenessOf(std::span{slope}.subspan(slope.size() / 5));
     const std::size_t n = likeness.size();
     const double far = highestWithin(likeness, n / 4, n / 2).height; // what rings is not alike for so long
     if (far < leastLikeness) return 0.0;

@@ -149,7 +149,8 @@ void BoardLink::receive() {
 
 void BoardLink::handle(std::span<const std::uint8_t> payload) {
     heardNs_ = nowNs();
-    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting) return meet(hello); // the first of several
+    // the first of several
+    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting) return meet(hello);
     if (wire::Pong pong; wire::decode(payload, pong) && now_.state >= State::synchronising) return take(pong);
     if (wire::Telemetry telemetry; wire::decode(payload, telemetry)) now_.telemetry = telemetry;
     if (wire::SelfTestReply reply; wire::decode(payload, reply)) now_.selfTest = reply;

@@ -85,7 +85,8 @@ std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
     for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
         for (const auto& [name, db] : partsOf(protocol, protocol.sessions[s]))
             if (const auto [at, isNew] = parts.try_emplace(name, db, s); !isNew && db > at->second.first) at->second = {db, s};
-    if (parts.size() > 1) parts.erase(std::string{}); // trainings without alternatives feel what the others feel
+    // trainings without alternatives feel what the others feel
+    if (parts.size() > 1) parts.erase(std::string{});
     std::vector<PlannedStimulus> planned;
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (const StimulusItem& item : stimuliOf(protocol.conditions[c]))

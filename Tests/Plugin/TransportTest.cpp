@@ -62,7 +62,8 @@ TEST(Transport, ImperfectOnesMakeNoStarts) {
         Random random{4};
         EXPECT_EQ(startsIn(tenMinutes, [&](int b) { return speed * 512 * b + random.below(512); }), 1) << "jitter of a block, at " << speed;
     }
-    const auto tape = [](int b) { return 512.0 * (b + 100 * std::sin(0.005 * b)); }; // half to one and a half times the speed, and back
+    // half to one and a half times the speed, and back
+    const auto tape = [](int b) { return 512.0 * (b + 100 * std::sin(0.005 * b)); };
     EXPECT_EQ(startsIn(tenMinutes, tape), 1);
 }
 

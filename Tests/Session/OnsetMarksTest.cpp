@@ -122,7 +122,8 @@ TEST(OnsetMarks, AMarkAndItsOnsetAreOnTheSameSampleWhateverTheBlockAndOffline) {
         for (std::size_t k = 0; k < edges.size(); ++k) {
             const FramePosition onset = clock.at(atNs[k]);
             EXPECT_EQ(edges[k], onset.frame) << "the first frame at or after it";
-            const auto frame = static_cast<std::size_t>(onset.frame) + (onset.leadFrames > 0.0 ? 0 : 1); // a sine begins with 0
+            // a sine begins with 0
+            const auto frame = static_cast<std::size_t>(onset.frame) + (onset.leadFrames > 0.0 ? 0 : 1);
             EXPECT_GT(std::abs(offline[frame]), 1e-9f) << k;
             if (k == 0) EXPECT_LT(std::abs(offline[frame - 1]), 1e-9f);
         }

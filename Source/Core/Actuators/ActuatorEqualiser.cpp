@@ -22,7 +22,8 @@ ActuatorEqualiser::ActuatorEqualiser(const EqualisedActuator& actuator, int samp
     const double lowHz = edgeRatio * band.lowHz, highHz = band.highHz / edgeRatio;
     const auto poles = [this](double hz, double q) { return RootPair::of(hz, q, sampleRateHz_); };
     section_[0] = {1.0, poles(resonator.resonanceHz, resonator.q), poles(lowHz, butterworthQ[0])};
-    section_[1] = {1.0, atZero, poles(lowHz, butterworthQ[1])}; // the other two zeros at 0 Hz cancel those of H
+    // the other two zeros at 0 Hz cancel those of H
+    section_[1] = {1.0, atZero, poles(lowHz, butterworthQ[1])};
     section_[2] = {1.0, atZero, poles(lowHz, butterworthQ[2])};
     sections_ = 3;
     if (highHz < highestShare * sampleRateHz_)

@@ -67,7 +67,8 @@ void BeatDetector::follow(Band& band) noexcept {
     const auto kept = [=](double seconds) { return std::exp(-hopSeconds / seconds); };
     band.strongest *= kept(strongestSeconds);
     band.masked *= kept(maskedSeconds);
-    band.usual += std::max(1.0 - kept(usualSeconds), 1.0 / static_cast<double>(hops_)) * (band.latest.back() - band.usual); // at first the plain mean
+    // at first the plain mean
+    band.usual += std::max(1.0 - kept(usualSeconds), 1.0 / static_cast<double>(hops_)) * (band.latest.back() - band.usual);
 }
 
 bool BeatDetector::isOnset(const Band& band, double height, std::int64_t frame) const noexcept {

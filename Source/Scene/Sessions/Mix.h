@@ -82,7 +82,8 @@ struct Mix {
     int count() const noexcept { return layout.geometry.count; }
     PhantomPanner panner() const noexcept {
         PhantomPanner made{layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres};
-        if (law == PanningLaw::linear && exponent == 1.0) made.setGrains(grainSpread); // nothing else was asked for
+        // nothing else was asked for
+        if (law == PanningLaw::linear && exponent == 1.0) made.setGrains(grainSpread);
         return made;
     }
 

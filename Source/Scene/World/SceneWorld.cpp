@@ -241,7 +241,8 @@ bool SceneWorld::act(const RemoveAction& action) {
     b2Body& body = *bodies_.at(number).body;
     if (number >= scripted_) {
         bodyNames_.erase(place);
-        const auto scripted = scriptedNames_.find(action.body); // the one that was changed: the script may want it
+        // the one that was changed: the script may want it
+        const auto scripted = scriptedNames_.find(action.body);
         if (scripted == scriptedNames_.end()) dropJoints(body);
         else {
             moveJoints(body, *bodies_.at(scripted->second).body);

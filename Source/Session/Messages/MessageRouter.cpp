@@ -128,7 +128,8 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
     const double sceneGain = session_.shaping().gain;
     for (CollisionEvent& strike : strikes) {
         strike.timeNs += start;
-        if (sceneGain > 0.0 && !isClip(strike.frequencyHz)) strike.amplitude /= sceneGain; // a level is of full scale, in every scene
+        // a level is of full scale, in every scene
+        if (sceneGain > 0.0 && !isClip(strike.frequencyHz)) strike.amplitude /= sceneGain;
     }
     if (auto taken = session_.take({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
 }

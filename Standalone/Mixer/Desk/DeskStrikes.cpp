@@ -68,7 +68,8 @@ void DeskStrikes::testSweep(int enchanter) {
     for (int k = 0; k < count; ++k) {
         CollisionEvent tone;
         tone.timeNs = k * std::int64_t{60'000'000};
-        tone.frequencyHz = 40.0 * std::pow(10.0, static_cast<double>(k) / (count - 1)); // 40 to 400 Hz: what is felt
+        // 40 to 400 Hz: what is felt
+        tone.frequencyHz = 40.0 * std::pow(10.0, static_cast<double>(k) / (count - 1));
         tone.durationNs = softEndNs(tone.frequencyHz, 60'000'000);
         tone.amplitude = 0.3;
         tones.push_back(tone);

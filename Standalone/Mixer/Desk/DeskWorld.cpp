@@ -63,7 +63,8 @@ std::optional<BodyPose> DeskWorld::poseNow(const std::string& body) const {
     session_.world().readPoses(poses);
     std::size_t last = cast.size(); // of that name
     while (last-- > 0 && cast[last].name != body) {}
-    if (last >= poses.size() || !poses[last].isPresent) return std::nullopt; // none; or it waits for a step, and starts as drawn
+    // none; or it waits for a step, and starts as drawn
+    if (last >= poses.size() || !poses[last].isPresent) return std::nullopt;
     return poses[last];
 }
 
