@@ -232,7 +232,8 @@ void PluginEditor::nameMaterials() {
 void PluginEditor::takeState() {
     shown_ = plugin_.stateCount();
     state_ = plugin_.state();
-    const auto select = [](juce::ComboBox& box, const std::string& name) { // a scene or layout of one's own is its name only
+    // a scene or layout of one's own is its name only
+    const auto select = [](juce::ComboBox& box, const std::string& name) {
         const auto shown = words(name);
         box.setText(shown.isEmpty() ? juce::String{"(no name)"} : shown, juce::dontSendNotification);
     };

@@ -103,7 +103,8 @@ private:
     int channels_ = 1;
     bool isPrepared_ = false;
     bool othersAreModes_ = false; // events without a recording
-    std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, strikesSilentUntilNs_ = INT64_MIN; // no event before it is played; none that is apart from a world
+    // no event before it is played; none that is apart from a world
+    std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, strikesSilentUntilNs_ = INT64_MIN;
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
 };
 

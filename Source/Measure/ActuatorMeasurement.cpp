@@ -141,7 +141,8 @@ double energyOf(const std::vector<Point>& points) {
     for (const Point& p : points) energy += std::norm(p.response);
     return energy;
 }
-constexpr const char* unswept = "what was played: expected a sweep through the whole band"; // its energy is not finite
+// its energy is not finite
+constexpr const char* unswept = "what was played: expected a sweep through the whole band";
 
 std::string faultOf(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band) {
     if (!band.isKnown() || band.highHz >= 0.5 * rateHz || band.highHz < band.lowHz + 10.0) return "expected a band of at least 10 Hz below half the rate";

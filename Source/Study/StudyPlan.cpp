@@ -81,7 +81,8 @@ TrialJob PlannedStimulus::job(const Protocol& protocol) const {
 }
 
 std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
-    std::map<std::string, std::pair<double, std::size_t>> parts; // highest level, and the session that sets it
+    // highest level, and the session that sets it
+    std::map<std::string, std::pair<double, std::size_t>> parts;
     for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
         for (const auto& [name, db] : partsOf(protocol, protocol.sessions[s]))
             if (const auto [at, isNew] = parts.try_emplace(name, db, s); !isNew && db > at->second.first) at->second = {db, s};

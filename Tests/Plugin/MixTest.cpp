@@ -137,7 +137,8 @@ TEST(PluginMix, TheLevelStandsOnTopOfTheTrims) {
     ASSERT_TRUE(host.plugin->apply(state));
     host.prepare(48000, 512);
     const int latency = host.plugin->getLatencySamples();
-    for (const auto& [level, shift] : {std::pair{1.0f, 0.0}, {0.9f, -6.0}, {0.0f, 2.0 * leastStripDb}}) { // the least is silence
+    // the least is silence
+    for (const auto& [level, shift] : {std::pair{1.0f, 0.0}, {0.9f, -6.0}, {0.0f, 2.0 * leastStripDb}}) {
         auto& parameter = host.plugin->parameter(Parameter::level);
         parameter.setValue(level);
         EXPECT_NEAR(std::max(parameter.value(), leastStripDb), std::max(shift, leastStripDb), 0.01);

@@ -115,7 +115,8 @@ bool takesAreEqual(TestHost& host, bool offline, int takes, std::int64_t loopFra
     EXPECT_EQ(status.delayedBlocks, 0u);
 
     std::vector<std::vector<CollisionEvent>> events(static_cast<std::size_t>(takes));
-    const std::int64_t owedNs = loopFrames * 1'000'000'000 / 44100; // what is played while a take fades may differ
+    // what is played while a take fades may differ
+    const std::int64_t owedNs = loopFrames * 1'000'000'000 / 44100;
     for (const auto& e : log)
         if (e.played.event.timeNs < owedNs) events[static_cast<std::size_t>(e.take - 1)].push_back(e.played.event);
     const std::int64_t latency = host.plugin->getLatencySamples();

@@ -104,7 +104,8 @@ std::array<std::vector<float>, 2> playedLive(const std::vector<CollisionEvent>& 
 
 TEST(OnsetMarks, AMarkAndItsOnsetAreOnTheSameSampleWhateverTheBlockAndOffline) {
     for (const int rate : {44100, 48000}) {
-        const std::int64_t atNs[] = {100'000'000, 300'000'007, 500'010'000, 700'123'457}; // on a frame, and between two
+        // on a frame, and between two
+        const std::int64_t atNs[] = {100'000'000, 300'000'007, 500'010'000, 700'123'457};
         std::vector<CollisionEvent> strikes;
         for (const auto at : atNs) strikes.push_back(hitAt(at));
         std::vector<float> offline, offlineMarks;

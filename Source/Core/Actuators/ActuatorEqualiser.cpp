@@ -6,7 +6,8 @@
 namespace physvib {
 namespace {
 
-constexpr double butterworthQ[] = {0.51763809020504148, 0.70710678118654752, 1.9318516525781366}; // sixth order
+// sixth order
+constexpr double butterworthQ[] = {0.51763809020504148, 0.70710678118654752, 1.9318516525781366};
 constexpr double edgeRatio = 0.80;   // of a slope's corner to the band's edge: there it costs 0.3 dB
 constexpr double highestShare = 0.45; // of the rate: a corner above it is left to the converter's own filter
 constexpr RootPair atZero{-2.0, 1.0}; // 0 Hz twice

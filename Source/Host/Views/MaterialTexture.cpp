@@ -23,7 +23,8 @@ const LookFacts& factsOf(MaterialLook look) { return looks[static_cast<std::size
 
 /// Lighter or darker at a pixel, -1 to 1.
 float grainOf(MaterialLook look, int x, int y, juce::Random& random) {
-    constexpr float turn = juce::MathConstants<float>::twoPi / tilePixels; // whole periods, so that tiles join
+    // whole periods, so that tiles join
+    constexpr float turn = juce::MathConstants<float>::twoPi / tilePixels;
     const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
     switch (look) {
     // knobs

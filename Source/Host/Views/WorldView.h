@@ -72,13 +72,15 @@ public:
     std::function<void(const std::string& body, Vector pointMetres, Vector toMetres)> onHold;
     std::function<void(const std::string& body)> onLetGo;                                     ///< of what was held
     std::function<juce::String(double screenMetres)> pullText; ///< beside the line while it is pulled
-    std::function<void(int enchanter, FieldShare to)> onMove;                                ///< while it is moved
+    /// while it is moved
+    std::function<void(int enchanter, FieldShare to)> onMove;
     std::function<void(int enchanter)> onDetach;                                             ///< dropped outside
     std::function<void(FieldShare at)> onAttach;
     std::function<void(int enchanter)> onSelect;
     std::function<void(const std::string& body, FieldShare at)> onMenu; ///< right click; body may be empty
     std::function<void(FieldShare at)> onSpot;                          ///< a click that drags nothing
-    std::function<bool(const juce::StringArray& files)> takesFiles;     ///< whether those that are dragged here may be dropped
+    /// whether those that are dragged here may be dropped
+    std::function<bool(const juce::StringArray& files)> takesFiles;
     /// dropped on that enchanter; -1: in the field
     std::function<void(const juce::StringArray& files, int enchanter, FieldShare at)> onFiles;
 

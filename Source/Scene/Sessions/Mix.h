@@ -66,7 +66,8 @@ inline bool isSilent(std::span<const Strip> strips, std::size_t strip) noexcept 
     return strips[strip].isMuted || (!strips[strip].isSolo && std::ranges::any_of(strips, &Strip::isSolo));
 }
 
-constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0; // N s per metre of the screen (thesis 5.3.1)
+// N s per metre of the screen (thesis 5.3.1)
+constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0;
 
 struct Mix {
     std::shared_ptr<const Scene> scene; ///< never null

@@ -220,7 +220,8 @@ bool SceneWorld::act(const VelocityAction& action) {
 bool SceneWorld::act(const SpawnAction& action, int repetition) {
     const std::size_t number = spawned_.at(&action) + static_cast<std::size_t>(repetition);
     Body& body = bodies_.at(number);
-    if (std::size_t& named = bodyNames_.find(body.described.name)->second; named != number) { // it was changed since
+    // it was changed since
+    if (std::size_t& named = bodyNames_.find(body.described.name)->second; named != number) {
         moveJoints(*bodies_.at(named).body, *body.body);
         retire(std::exchange(named, number));
     }

@@ -14,7 +14,8 @@ namespace physvib {
 
 namespace {
 
-constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz; // of any rate: what is that much later has a later frame
+// of any rate: what is that much later has a later frame
+constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz;
 
 /// Of a path whose law the felt place does not follow; else empty.
 std::string lagNote(Spread spread, const PhantomPanner& panner) {

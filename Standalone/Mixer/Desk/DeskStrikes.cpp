@@ -56,7 +56,8 @@ std::string DeskStrikes::audition(int material, double shareX, double shareY) {
 void DeskStrikes::testPulse(int enchanter) {
     CollisionEvent pulse;
     const auto profile = findActuator(mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].actuator);
-    pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0; // where the thesis' actuators are strongest
+    // where the thesis' actuators are strongest
+    pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0;
     pulse.decayPerSecond = 30.0;
     pulse.amplitude = strikeAmplitude;
     strike({pulse}, placeOf(enchanter));

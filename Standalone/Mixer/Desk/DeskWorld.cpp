@@ -19,7 +19,8 @@ public:
     bool perform() override { return run(true); }
     bool undo() override { return run(false); }
     int getSizeInUnits() override { return 1; }
-    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override { // a sound or a texture that is turned
+    // a sound or a texture that is turned
+    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
         const auto* other = dynamic_cast<Edit*>(next);
         if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other))) return nullptr;
         return new Edit{world_, edit_.followedBy(other->edit_)};
