@@ -99,7 +99,8 @@ std::vector<std::vector<Action>> actionGroups(const PluginState& state) {
     std::vector<std::vector<Action>> groups;
     for (int m = asTheScene; m < static_cast<int>(state.scene.materials.size()); ++m) {
         const bool isFelt = m == asTheScene || state.scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
-        groups.push_back(isFelt ? materialActions(state.scene, m) : std::vector<Action>{}); // a camera needs a sound
+        // a camera needs a sound
+        groups.push_back(isFelt ? materialActions(state.scene, m) : std::vector<Action>{});
     }
     for (const auto& rule : state.notes) groups.push_back(noteActions(rule, state.scene));
     return groups;

@@ -27,22 +27,23 @@ constexpr auto lawNames = atTheirPlaces<4>(panningLawNames);
 constexpr std::array<std::string_view, 9> materialNames{"as the scene", "1", "2", "3", "4", "5", "6", "7", "8"};
 constexpr std::array<std::string_view, 2> switchNames{"off", "on"};
 constexpr std::array<std::string_view, 2> sideNames{"summed", "left and right"};
+constexpr std::span<const std::string_view> noWords{};
 constexpr double silentDb = -60.0; // below it nobody feels anything: full scale is some g
 
 using enum ParameterScale;
 constexpr std::array<ParameterRow, parameterCount> table{{
-    {Parameter::level, "level", "Level", "Level", "dB", silentDb, 0.0, -12.0, linear, {}, 1, "Master level; the least is silence"},
+    {Parameter::level, "level", "Level", "Level", "dB", silentDb, 0.0, -12.0, linear, noWords, 1, "Master level; the least is silence"},
     {Parameter::law, "law", "Panning law", "Law", "", 0, 3, 0, choice, lawNames, 1, "How an impact is spread over the actuators"},
-    {Parameter::exponent, "exponent", "Panning exponent", "Exponent", "", 0.25, 4.0, 1.0, log, {}, 1, "Exponent of the panning law"},
-    {Parameter::gravity, "gravity", "Gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, {}, 1, "Gravity, times the scene's"},
-    {Parameter::tilt, "tilt", "Tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, {}, 1, "How the device is held: gravity turns counter-clockwise"},
+    {Parameter::exponent, "exponent", "Panning exponent", "Exponent", "", 0.25, 4.0, 1.0, log, noWords, 1, "Exponent of the panning law"},
+    {Parameter::gravity, "gravity", "Gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, noWords, 1, "Gravity, times the scene's"},
+    {Parameter::tilt, "tilt", "Tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, noWords, 1, "How the device is held: gravity turns counter-clockwise"},
     {Parameter::material, "material", "Material", "Material", "", 0, 8, 0, choice, materialNames, 1, "Material of what is felt: the scene's own, or the n-th of its list"},
-    {Parameter::strikeLevel, "strike_level", "Strike level", "Hit lev", "dB", silentDb, 12.0, 6.0, linear, {}, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
-    {Parameter::strikeX, "strike_x", "Strike shift x", "X shift", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes to the right, in parts of the field's width"},
-    {Parameter::strikeY, "strike_y", "Strike shift y", "Y shift", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes upwards, in parts of the field's height"},
+    {Parameter::strikeLevel, "strike_level", "Strike level", "Hit lev", "dB", silentDb, 12.0, 6.0, linear, noWords, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
+    {Parameter::strikeX, "strike_x", "Strike shift x", "X shift", "%", -100.0, 100.0, 0.0, linear, noWords, 1, "Shifts MIDI strikes to the right, in parts of the field's width"},
+    {Parameter::strikeY, "strike_y", "Strike shift y", "Y shift", "%", -100.0, 100.0, 0.0, linear, noWords, 1, "Shifts MIDI strikes upwards, in parts of the field's height"},
     {Parameter::bypass, "bypass", "Bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1, "Silence; the world goes on"},
-    {Parameter::beats, "beats", "Beats", "Beats", "%", 0.0, 100.0, 0.0, linear, {}, 2, "How readily beats of the side chain strike; the least is never"},
-    {Parameter::music, "music", "Music", "Music", "dB", silentDb, 12.0, silentDb, linear, {}, 3, "Level of the side chain's own low frequencies (20 to 400 Hz) on the actuators; the least is silence"},
+    {Parameter::beats, "beats", "Beats", "Beats", "%", 0.0, 100.0, 0.0, linear, noWords, 2, "How readily beats of the side chain strike; the least is never"},
+    {Parameter::music, "music", "Music", "Music", "dB", silentDb, 12.0, silentDb, linear, noWords, 3, "Level of the side chain's own low frequencies (20 to 400 Hz) on the actuators; the least is silence"},
     {Parameter::musicSides, "music_sides", "Music channels", "Sides", "", 0, 1, 0, choice, sideNames, 3, "Where the side chain is played: summed, on all actuators, or its left on the left ones and its right on the right ones"},
 }};
 static_assert(std::ranges::all_of(table, [](const ParameterRow& row) { return &row == &table[static_cast<std::size_t>(row.parameter)]; }));

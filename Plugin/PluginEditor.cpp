@@ -40,7 +40,8 @@ ParameterControl::ParameterControl(HostParameter& parameter)
         return;
     }
     knob_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
-    knob_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack); // asked for when the box is made
+    // asked for when the box is made
+    knob_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
     knob_.setTextBoxStyle(juce::Slider::TextBoxBelow, false, 76, 20);
     knob_.setTitle(words(row.name));
     knob_.setTooltip(words(row.help));
@@ -231,7 +232,8 @@ void PluginEditor::nameMaterials() {
 void PluginEditor::takeState() {
     shown_ = plugin_.stateCount();
     state_ = plugin_.state();
-    const auto select = [](juce::ComboBox& box, const std::string& name) { // a scene or layout of one's own is its name only
+    // a scene or layout of one's own is its name only
+    const auto select = [](juce::ComboBox& box, const std::string& name) {
         const auto shown = words(name);
         box.setText(shown.isEmpty() ? juce::String{"(no name)"} : shown, juce::dontSendNotification);
     };

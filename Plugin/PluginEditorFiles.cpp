@@ -43,7 +43,8 @@ void PluginEditor::showFiles() {
 }
 
 void PluginEditor::askSave(const juce::String& title, const juce::File& initial, const juce::String& endings, void (PluginEditor::*save)(const juce::File&)) {
-    if (endings == "*.json") (void)initial.getParentDirectory().createDirectory(); // or the chooser begins elsewhere
+    // or the chooser begins elsewhere
+    if (endings == "*.json") (void)initial.getParentDirectory().createDirectory();
     chooser_ = std::make_unique<juce::FileChooser>(title, initial, endings, false);
     using Browser = juce::FileBrowserComponent;
     chooser_->launchAsync(Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting, [this, save](const juce::FileChooser& chooser) {

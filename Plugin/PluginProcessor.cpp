@@ -150,7 +150,8 @@ void PluginProcessor::parameterGestureChanged(int which, bool begins) {
 
 // Tells the host what it may have to know anew.
 void PluginProcessor::publish() {
-    if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate)) setLatencySamples(0); // nothing is played
+    // nothing is played
+    if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate)) setLatencySamples(0);
     else if (const auto frames = static_cast<int>(takes_.latencyFrames()); frames > 0) setLatencySamples(frames);
 }
 

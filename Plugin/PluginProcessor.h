@@ -36,8 +36,10 @@ public:
     void keepEditorSize(int width, int height);
     PluginState state() const; ///< with the parameters as they are
     juce::String trouble() const; ///< empty while all is well
-    bool keepsRefused() const; ///< the next save gives back the chunk that was refused, since nothing has been edited
-    std::uint64_t stateCount() const noexcept { return stateCount_; } ///< grows with every state that was taken
+    /// the next save gives back the chunk that was refused, since nothing has been edited
+    bool keepsRefused() const;
+    /// grows with every state that was taken
+    std::uint64_t stateCount() const noexcept { return stateCount_; }
     int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
     /// How many frames a block usually has where a host announces far more (LV2); 0: as announced. M, before prepareToPlay.

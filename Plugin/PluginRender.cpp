@@ -143,7 +143,8 @@ template <class Send>
 void PluginProcessor::send(std::initializer_list<Parameter> those, Send what) noexcept {
     if (std::ranges::none_of(those, [this](Parameter which) { return hasNews(which); })) return;
     auto told = sent_;
-    for (const auto which : those) told[static_cast<std::size_t>(which)] = value(which); // before: the host may change it meanwhile
+    // before: the host may change it meanwhile
+    for (const auto which : those) told[static_cast<std::size_t>(which)] = value(which);
     if (what()) sent_ = told;
 }
 

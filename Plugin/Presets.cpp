@@ -127,7 +127,8 @@ void take(PluginState& state, const Instrument& instrument) {
         rule.y = note.y;
         state.notes.push_back(rule);
     }
-    setParameter(state, Parameter::strikeLevel, rowOf(Parameter::strikeLevel).initial); // with the level that is safe at first: -6 dB of full scale
+    // with the level that is safe at first: -6 dB of full scale
+    setParameter(state, Parameter::strikeLevel, rowOf(Parameter::strikeLevel).initial);
     setParameter(state, Parameter::beats, instrument.beats);
     fitToLayout(state);
 }

@@ -13,7 +13,8 @@ Take::Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFr
     out.assign(static_cast<std::size_t>(session.channels()), std::vector<float>(static_cast<std::size_t>(blockFrames)));
     rewind(leadFrames);
     if (longestLeadFrames == 0) return;
-    const std::int64_t longest = session.timeline().playOutFrames() + longestLeadFrames + blockFrames; // L, and the block before it is rendered
+    // L, and the block before it is rendered
+    const std::int64_t longest = session.timeline().playOutFrames() + longestLeadFrames + blockFrames;
     music_ = std::make_unique<MusicDelay>(order_->settings.layout, session.channels(), sampleRateHz, longest);
     session.callback().add(*music_);
 }

@@ -67,7 +67,8 @@ void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<St
         if (block > 0) take = newTake(wanted, rate, block);
         else Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond}; // throws if it cannot be simulated
         lock.lock();
-        if (rate != sampleRateHz_ || block != blockFrames_ || known != knownAfterSeconds_) continue; // the host has prepared us meanwhile
+        // the host has prepared us meanwhile
+        if (rate != sampleRateHz_ || block != blockFrames_ || known != knownAfterSeconds_) continue;
         strips_ = std::move(strips);
         return exchange(wanted, std::move(take));
     }
@@ -131,7 +132,8 @@ void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds,
     }
     sampleRateHz_ = sampleRateHz;
     blockFrames_ = blockFrames;
-    if (!isAheadNeeded_ && runFrames_ > HostPace::calmNs * sampleRateHz / 1'000'000'000) leadSeconds_ = 0.0; // that run did without
+    // that run did without
+    if (!isAheadNeeded_ && runFrames_ > HostPace::calmNs * sampleRateHz / 1'000'000'000) leadSeconds_ = 0.0;
     leadFrames_ = aheadFrames_ = std::max<std::int64_t>(blockFrames, std::llround(leadSeconds_ * sampleRateHz));
     isAheadNeeded_ = false;
     runFrames_ = neededNs_ = 0;
@@ -194,7 +196,8 @@ void Takes::tick() {
 void Takes::stepWorld(Take& take) {
     if (take.isStill) return;
     try {
-        take.session.advance([this](auto) { return !stop_; }); // release() waits for one step of a heavy world, not for all
+        // release() waits for one step of a heavy world, not for all
+        take.session.advance([this](auto) { return !stop_; });
     } catch (const std::exception& error) {
         take.isStill = true;
         fault_ = std::string{"the world stands still: "} + error.what();

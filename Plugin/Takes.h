@@ -99,7 +99,8 @@ public:
     bool isPlaying() const noexcept { return playing_ != nullptr; } ///< R
     Session* session() noexcept { return playing_ ? &playing_->session : nullptr; } ///< R: the playing take's
     Take* take() noexcept { return playing_; } ///< R: the playing one
-    const TakeSettings& settings() const noexcept { return playing_ ? playing_->settings() : newSettings_; } ///< R: the playing take's; none: the newest
+    /// R: the playing take's; none: the newest
+    const TakeSettings& settings() const noexcept { return playing_ ? playing_->settings() : newSettings_; }
 
     /// Before each part of a block; true if a take starts with it, which knows no controls yet. R, wait-free if realtime.
     bool begin(RenderMode mode) noexcept;
@@ -118,8 +119,10 @@ public:
     std::int64_t poses(std::vector<BodyPose>& now);
     std::uint64_t lostFromLog() const noexcept { return lost_; }
     TakesStatus status() noexcept { return status_.read(); } ///< one reader
-    std::string fault() const; ///< why no take can be made, or a world stands still; empty while all is well. Any thread but R
-    std::uint64_t made() const noexcept { return made_; } ///< takes that were built, not made of ended ones. Any thread
+    /// why no take can be made, or a world stands still; empty while all is well. Any thread but R
+    std::string fault() const;
+    /// takes that were built, not made of ended ones. Any thread
+    std::uint64_t made() const noexcept { return made_; }
 
 private:
     static constexpr std::size_t logSize = 16384; // ten minutes of "shake the box", if nobody looks

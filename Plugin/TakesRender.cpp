@@ -43,7 +43,8 @@ bool Takes::begin(RenderMode mode) noexcept {
     hasNext_ = false;
     playing_->session.startLater(leadFrames_ - playing_->leadFrames()); // what the host asked for meanwhile
     playing_->number = ++started_;
-    playOutFrames_ = playing_->session.timeline().playOutFrames() - std::max<std::int64_t>(0, playing_->leadFrames() - leadFrames_); // it may have been made for more
+    // it may have been made for more
+    playOutFrames_ = playing_->session.timeline().playOutFrames() - std::max<std::int64_t>(0, playing_->leadFrames() - leadFrames_);
     return true;
 }
 
@@ -108,7 +109,8 @@ void Takes::coverBurst(int frames) noexcept {
     if (!isGrowing && spareSeconds < 0.0) return;
     const bool goesAhead = hostPace_.goesAhead();
     if (needed > lead && !goesAhead && !hostPace_.stuttersAgain(now) && !isGrowing) return;
-    needed += static_cast<std::int64_t>(std::max(0.0, spareSeconds) * sampleRateHz_); // the thread may come so much later the next time
+    // the thread may come so much later the next time
+    needed += static_cast<std::int64_t>(std::max(0.0, spareSeconds) * sampleRateHz_);
     if (needed <= lead) return;
     const auto step = static_cast<std::int64_t>(TakePace::growthSeconds * sampleRateHz_);
     const auto most = std::max(lead, static_cast<std::int64_t>(TakePace::mostLeadSeconds * sampleRateHz_));

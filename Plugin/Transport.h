@@ -22,7 +22,8 @@ public:
     /// block jumps, a hand is on the transport: that is one start, and another when it has let go.
     Change follow(std::optional<bool> isPlaying, std::optional<std::int64_t> frame, int frames) noexcept {
         const bool plays = isPlaying.value_or(!isThere_ || wasPlaying_);
-        const bool wasPlaying = wasPlaying_ && (isThere_ || !isPlaying); // what was assumed counts until the host tells
+        // what was assumed counts until the host tells
+        const bool wasPlaying = wasPlaying_ && (isThere_ || !isPlaying);
         isThere_ = isThere_ || isPlaying;
         const bool jumped = plays && wasPlaying && frame && expected_ && std::abs(*frame - *expected_) >= 2 * std::max(frames, lastFrames_);
         const auto change = plays ? follow(!wasPlaying, jumped) : wasPlaying ? Change::stopped : Change::none;

@@ -76,7 +76,8 @@ void Link::greet(const wire::Hello& hello) noexcept {
     order_ = {};
     watchdogFrames_ = watchdogFrames(hello.watchdogMs);
     wire::HelloReply reply;
-    reply.version = std::min(hello.version, wire::protocolVersion); // an older computer takes it for one of its own
+    // an older computer takes it for one of its own
+    reply.version = std::min(hello.version, wire::protocolVersion);
     reply.channels = BoardRenderer::channels;
     reply.sampleRateHz = limits::board::sampleRateHz;
     reply.maxModes = limits::board::maxModes;
@@ -141,7 +142,8 @@ void Link::afterBlock(BoardRenderer::Codes& block, std::uint32_t cycles) noexcep
 template <class Message>
 void Link::send(const Message& message) noexcept {
     std::array<std::uint8_t, wire::maxFrame> frame;
-    serial_->send({frame.data(), wire::encode(message, frame)}); // a full line drops answers, never what is asked again
+    // a full line drops answers, never what is asked again
+    serial_->send({frame.data(), wire::encode(message, frame)});
 }
 
 } // namespace physvib::board

@@ -95,7 +95,8 @@ private:
 #else
     static constexpr std::uint32_t port = usart::usart2;
 #endif
-    static constexpr std::uint32_t wantsToSend = 1u << 7, enabled = 1u | 1u << 2 | 1u << 3 | 1u << 5; // UE, RE, TE, RXNEIE
+    // UE, RE, TE, RXNEIE
+    static constexpr std::uint32_t wantsToSend = 1u << 7, enabled = 1u | 1u << 2 | 1u << 3 | 1u << 5;
 
     void receive(std::uint8_t byte) noexcept {
         if (static_cast<std::uint8_t>(receivedAt_ + 1) == readAt_) {

@@ -15,12 +15,14 @@
 namespace physvib::board {
 namespace {
 
-alignas(BoardRenderer) unsigned char rendererMemory[sizeof(BoardRenderer)]; // made at start: 10 KB of image less
+// made at start: 10 KB of image less
+alignas(BoardRenderer) unsigned char rendererMemory[sizeof(BoardRenderer)];
 Outputs outputs;
 SerialPort serial;
 Link link;
 
-void startLed() noexcept { reg(gpio::a + gpio::moder) = (reg(gpio::a + gpio::moder) & ~(3u << 10)) | 1u << 10; } // PA5
+// PA5
+void startLed() noexcept { reg(gpio::a + gpio::moder) = (reg(gpio::a + gpio::moder) & ~(3u << 10)) | 1u << 10; }
 
 // Steady: somebody talks to us. Blinking twice a second: silent.
 void showLed() noexcept {

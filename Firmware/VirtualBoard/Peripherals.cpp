@@ -82,7 +82,8 @@ void Peripherals::writePort(std::uint32_t output, std::uint64_t cycle) {
 
 void Peripherals::setPins(std::uint64_t cycle) {
     std::uint32_t pins = 0;
-    for (int i = 0; i < 12; ++i) pins |= (portMode_ >> (2 * i) & 3) == 1 ? portOutput_ & 1u << i : 1u << i; // not driven: pulled up
+    // not driven: pulled up
+    for (int i = 0; i < 12; ++i) pins |= (portMode_ >> (2 * i) & 3) == 1 ? portOutput_ & 1u << i : 1u << i;
     if (!converters.levels(pins, static_cast<double>(cycle) * 1e9 / hz())) return;
     if (timerNext_ == never) return; // mid-scale at start-up
     frames.push_back(converters.codes());

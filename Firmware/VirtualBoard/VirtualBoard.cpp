@@ -162,7 +162,8 @@ void VirtualBoard::enterException(int vector, int number, int priority) {
     frame[6] &= ~1u;
     for (std::size_t i = 0; i < stackedFloat.size(); ++i) frame[8 + i] = reg(stackedFloat[i]);
     frame[24] = reg(UC_ARM_REG_FPSCR);
-    setReg(UC_ARM_REG_XPSR, frame[7] & ~ifThenBits); // Unicorn may stop between an IT instruction and what hangs on it
+    // Unicorn may stop between an IT instruction and what hangs on it
+    setReg(UC_ARM_REG_XPSR, frame[7] & ~ifThenBits);
     const std::uint32_t before = reg(UC_ARM_REG_SP), stack = (before & ~7u) - frameBytes;
     demand(uc_mem_write(engine_, stack, frame.data(), frameBytes), "stack");
     setReg(UC_ARM_REG_SP, stack);

@@ -15,7 +15,8 @@ constexpr std::string_view withinStep = "step: expected not to be within one";
 
 bool isFinite(Vector2 v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y); }
 
-bool isWithin(double value, double least, double most) noexcept { return value >= least && value <= most; } // not NaN
+// not NaN
+bool isWithin(double value, double least, double most) noexcept { return value >= least && value <= most; }
 
 bool isUnit(Vector2 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; } // not NaN; engines round
 
@@ -195,7 +196,8 @@ bool ContactFeed::isNewPoint(Pair& pair, const FedContact& contact) {
     constexpr double trembleMetres = 0.002;
     const double slide = bodies_.slide(contact.a, contact.b, contact.point, contact.normal) * events_.stepSeconds();
     return points_.isNew(pair.points, contact.pointId, contact.point, contact.normal, trembleMetres + 1.5 * slide) &&
-           (pair.isNew || speedOf(contact) > 0.0); // by an impulse alone nobody can tell a blow from a load that shifts
+           // by an impulse alone nobody can tell a blow from a load that shifts
+           (pair.isNew || speedOf(contact) > 0.0);
 }
 
 void ContactFeed::tell(Pair& pair, const FedContact& contact, bool isNew) {
@@ -258,7 +260,8 @@ void ContactFeed::strikeByMomentum() {
 void ContactFeed::settle(const Pair& pair) {
     together_.clear();
     for (std::int32_t at = pair.waiting; at != FedPoints::none; at = waiting_[static_cast<std::size_t>(at)].next)
-        if (const Waiting& each = waiting_[static_cast<std::size_t>(at)]; each.isNew || pair.isAsked) together_.push_back(&each); // who tells may tell of one point twice
+        // who tells may tell of one point twice
+        if (const Waiting& each = waiting_[static_cast<std::size_t>(at)]; each.isNew || pair.isAsked) together_.push_back(&each);
     if (together_.empty()) return;
     std::reverse(together_.begin(), together_.end());
     const FedContact& first = together_.front()->contact;

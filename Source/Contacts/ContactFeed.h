@@ -42,7 +42,8 @@ struct FedContact {
 
     /// Of what goes on touching a rough surface (HapticFixture::texture), with its impulse: how fast the point of contact moves along
     /// each of the two surfaces, m/s. Rolling: both alike; sliding: 0 along what drags its own point. Both, or it is not felt.
-    std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond; ///< each along its own surface; nullopt: unknown
+    /// each along its own surface; nullopt: unknown
+    std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond;
 
     /// Which point of its pair it is: a number of the engine's (>= 0), `byPlace` for engines that do not number them, or `none` if
     /// the pair is told as a whole. A point that was not there in the step before and nears fast is a blow even while its pair touches
@@ -68,7 +69,8 @@ public:
 
     /// Takes effect with the next step. Throws as the constructor does.
     void configure(const ImpactSettings& settings);
-    const ImpactSettings& settings() const noexcept { return events_.settings(); } ///< Any thread but while it is stepped.
+    /// Any thread but while it is stepped.
+    const ImpactSettings& settings() const noexcept { return events_.settings(); }
 
     /// A body, at first or again. What is wrong with it; empty: it is set. Each of the following says so.
     std::string_view set(std::int32_t id, const FedBody& body, const HapticFixture& values);
@@ -84,7 +86,8 @@ public:
     /// A body that goes: what it felt and gave so far stays, or not (ImpactSettings::keepsHitsOfDestroyed). Not within a step.
     std::string_view remove(std::int32_t id);
 
-    std::string_view setPair(int surface, int other, const PairSound& sound) { return events_.setPair(surface, other, sound); } ///< Empty, or what is wrong with it: see PairSounds.
+    /// Empty, or what is wrong with it: see PairSounds.
+    std::string_view setPair(int surface, int other, const PairSound& sound) { return events_.setPair(surface, other, sound); }
 
     /// The step ends at `endNs` (not before timeNs()); gravity, m/s^2, says what a resting body is pushed by.
     std::string_view beginStep(std::int64_t endNs, double gravityMetresPerSecond2);
@@ -102,14 +105,21 @@ public:
     std::string_view endStep(); ///< All that touches has been told.
 
     std::int64_t timeNs() const noexcept { return events_.timeNs(); } ///< After the steps done.
-    std::int64_t settledNs() const noexcept { return events_.settledNs(); } ///< No event before it is still to come.
-    void take(std::vector<CollisionEvent>& events) { events_.take(events); } ///< Those before settledNs(), in time order, to the end of `events`.
+    /// No event before it is still to come.
+    std::int64_t settledNs() const noexcept { return events_.settledNs(); }
+    /// Those before settledNs(), in time order, to the end of `events`.
+    void take(std::vector<CollisionEvent>& events) { events_.take(events); }
     void flush(std::vector<CollisionEvent>& events) { events_.flush(events); } ///< All of them.
-    std::uint64_t drops() const noexcept { return events_.drops(); } ///< Hits lost because more came in a step than there is room for.
-    std::uint64_t overBudget() const noexcept { return events_.overBudget(); } ///< Hits left out by ImpactSettings::hitsPerStep.
-    std::uint64_t thinned() const noexcept { return events_.thinned(); } ///< Grains left out, their power being in the others.
-    ContactCounts counts() const noexcept { return events_.counts(); } ///< What became of all contacts so far; see explain().
-    const ImpactModel& impactModel() const noexcept { return events_.impactModel(); } ///< How hard a hit is felt.
+    /// Hits lost because more came in a step than there is room for.
+    std::uint64_t drops() const noexcept { return events_.drops(); }
+    /// Hits left out by ImpactSettings::hitsPerStep.
+    std::uint64_t overBudget() const noexcept { return events_.overBudget(); }
+    /// Grains left out, their power being in the others.
+    std::uint64_t thinned() const noexcept { return events_.thinned(); }
+    /// What became of all contacts so far; see explain().
+    ContactCounts counts() const noexcept { return events_.counts(); }
+    /// How hard a hit is felt.
+    const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }
 
 private:
     struct Pair {

@@ -40,7 +40,8 @@ constexpr bool isEndless(double frequencyHz, double decayPerSecond) noexcept {
 
 /// What is wrong with values, and what was expected; empty if they can be used. Any thread.
 inline std::string_view faultOf(const HapticFixture& values) noexcept {
-    constexpr auto isWithin = [](double value, double most) { return value >= 0.0 && value <= most; }; // not NaN
+    // not NaN
+    constexpr auto isWithin = [](double value, double most) { return value >= 0.0 && value <= most; };
     if (!isWithin(values.frequencyHz, limits::maxFrequencyHz)) return "frequency: expected 0 to 20000 Hz";
     if (!isWithin(values.decayPerSecond, limits::maxDecayPerSecond)) return "decay: expected 0 to 2000 per second";
     if (isEndless(values.frequencyHz, values.decayPerSecond)) return "decay: expected more than 0 per second (below 5 Hz at least 1), else the frequency is never felt";

@@ -47,7 +47,8 @@ void ReleaseImpacts::open(const StepSpan& span) {
     for (const Strike& strike : strikes_) underWay_.set(strike.camera, strike.isDirect ? direct : handedOn);
     findCauses(span);
     for (std::size_t i = 0; i < catcher_.blows().size(); ++i)
-        if (impulses_[i] > 0.0) openDirect(catcher_.blows()[i], span); // one that its user has switched off has none
+        // one that its user has switched off has none
+        if (impulses_[i] > 0.0) openDirect(catcher_.blows()[i], span);
     openHandedOn(span);
 }
 

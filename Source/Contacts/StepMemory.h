@@ -77,7 +77,8 @@ private:
 
     std::int32_t placeBefore(std::uint64_t key) {
         if (next_ < before_.size() && before_[next_].key == key) return static_cast<std::int32_t>(next_++);
-        if (next_ > 0 && before_[next_ - 1].key == key) return static_cast<std::int32_t>(next_ - 1); // told again
+        // told again
+        if (next_ > 0 && before_[next_ - 1].key == key) return static_cast<std::int32_t>(next_ - 1);
         if (!isMapped_) map();
         const std::int32_t place = placeOf_.find(key);
         if (place != none) next_ = static_cast<std::size_t>(place) + 1;

@@ -20,7 +20,8 @@ struct Texture {
     GrainPattern pattern = GrainPattern::random; ///< how they lie
     double rolling = 0.2; ///< share that is felt of what rolls; 1: as much as of what slides
 
-    bool isRough() const noexcept { return grainMetres >= finestMetres && roughness > 0.0; } ///< Something is felt of it.
+    /// Something is felt of it.
+    bool isRough() const noexcept { return grainMetres >= finestMetres && roughness > 0.0; }
 };
 
 /// N s that one grain gives, for a load in N and the speed in m/s at which it is passed: it lifts the mass that presses

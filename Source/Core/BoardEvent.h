@@ -38,7 +38,8 @@ struct BoardLeg {
     std::uint16_t frames = 0;
     std::uint16_t phase16 = 0;  ///< at the first frame, in turns / 2^16
     std::uint16_t decay16 = 0;  ///< tau in 1/16 per second
-    std::array<std::int16_t, limits::board::channels> start{}, end{}; ///< at the first and at the last frame, in 1/4096 of full scale
+    /// at the first and at the last frame, in 1/4096 of full scale
+    std::array<std::int16_t, limits::board::channels> start{}, end{};
     bool operator==(const BoardLeg&) const = default;
 };
 

@@ -35,8 +35,10 @@ struct ClockLaw {
     std::int64_t longestLagNs() const noexcept {
         return safeLagNs() + static_cast<std::int64_t>(1e9 * blockFrames / sampleRateHz);
     }
-    double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; } ///< L.
-    std::int64_t framesUp(double seconds) const noexcept { return static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999); } ///< Any thread.
+    /// L.
+    double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; }
+    /// Any thread.
+    std::int64_t framesUp(double seconds) const noexcept { return static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999); }
 };
 
 /// How long a driver may be silent and still be in time, as measured: a JUCE timer of 10 ms under load waits up to

@@ -14,7 +14,8 @@ namespace physvib {
 /// Moves what is felt into a band, in its order: frequencies a musical interval apart stay an interval apart, only a
 /// smaller one. The same for every list of events, so that live and offline agree. Any thread.
 struct FrequencyRemap {
-    static constexpr double feltLowHz = 20.0, feltHighHz = 1000.0; ///< go to the band's ends; what lies beyond, too
+    /// go to the band's ends; what lies beyond, too
+    static constexpr double feltLowHz = 20.0, feltHighHz = 1000.0;
     FrequencyBand band;                                            ///< not known: nothing is moved
 
     double operator()(double frequencyHz) const noexcept {

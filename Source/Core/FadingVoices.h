@@ -58,7 +58,8 @@ private:
     }
 
     int fadeFrames_ = 1;
-    std::array<Voice, static_cast<std::size_t>(2 * mostSounding)> voices_{}; // those that end in this tile wait in it
+    // those that end in this tile wait in it
+    std::array<Voice, static_cast<std::size_t>(2 * mostSounding)> voices_{};
     std::size_t count_ = 0;
 };
 

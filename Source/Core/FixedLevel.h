@@ -54,7 +54,8 @@ private:
         auto at = std::find_if(sounding_.begin(), sounding_.end(), isSame);
         if (at == sounding_.end())
             at = std::min_element(sounding_.begin(), sounding_.end(), [&](const Envelope& a, const Envelope& b) { return a.at(event.timeNs) < b.at(event.timeNs); });
-        const double rest = at->at(event.timeNs); // also of what is replaced: it counts on, if longer or shorter than it lasts
+        // also of what is replaced: it counts on, if longer or shorter than it lasts
+        const double rest = at->at(event.timeNs);
         *at = {rest + event.amplitude, event.decayPerSecond, event.timeNs, untilNs};
     }
 

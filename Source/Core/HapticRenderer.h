@@ -29,7 +29,8 @@ namespace physvib {
 /// Its memory follows channels and modes and is taken in prepare; the object itself is large: keep it on the heap.
 class HapticRenderer {
 public:
-    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(limits::playedQueueSize)>; ///< What was played, and when.
+    /// What was played, and when.
+    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(limits::playedQueueSize)>;
 
     /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most limits::maxEnchanters outputs, or
     /// if there is no memory: then render writes zeros, takes no events and moves nowhere, as before the first call. M, not while rendering.
@@ -57,7 +58,8 @@ public:
 
     /// Frames by which the output lags the event times (the limiter's look-ahead). Any thread after prepare.
     int latencyFrames() const noexcept { return limiter_.latencyFrames(); }
-    static int latencyFramesAt(int sampleRateHz) noexcept { return LinkedLimiter::latencyFramesAt(sampleRateHz); } ///< Any thread.
+    /// Any thread.
+    static int latencyFramesAt(int sampleRateHz) noexcept { return LinkedLimiter::latencyFramesAt(sampleRateHz); }
 
     /// R only.
     RenderStatus status() const noexcept;
@@ -101,7 +103,8 @@ private:
     int channels_ = 1;
     bool isPrepared_ = false;
     bool othersAreModes_ = false; // events without a recording
-    std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, strikesSilentUntilNs_ = INT64_MIN; // no event before it is played; none that is apart from a world
+    // no event before it is played; none that is apart from a world
+    std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, strikesSilentUntilNs_ = INT64_MIN;
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
 };
 

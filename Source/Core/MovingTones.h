@@ -80,7 +80,8 @@ private:
         if (voice.last > tile) return;
         voice.first = std::max(tile, voice.onset);
         voice.last = std::min(tile + limits::tileFrames, voice.closeFrame);
-        voice.from = voice.first == voice.onset ? at(voice, voice.first, driveAt) : voice.to; // as it was: the law may be another by now
+        // as it was: the law may be another by now
+        voice.from = voice.first == voice.onset ? at(voice, voice.first, driveAt) : voice.to;
         voice.to = at(voice, voice.last, driveAt);
     }
 

@@ -168,7 +168,8 @@ void PhantomPanner::scatteredGains(Vector p, Gains& gains) const noexcept {
     double sum = 0.0;
     for (std::size_t j = 0; j < count; ++j) sum += weight[j];
     if (isPlain())
-        for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - (1.0 - weight[j] / sum); // within 0 and 1, as factor() has it
+        // within 0 and 1, as factor() has it
+        for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - (1.0 - weight[j] / sum);
     else
         for (std::size_t j = 0; j < count; ++j) gains[j] = factor(1.0 - weight[j] / sum);
 }

@@ -30,7 +30,8 @@ struct RendererSettings {
     /** What grows with the modes: of `most` at `mostModes` as many, but for `least`. */ int shareOf(int most, int mostModes, int least) const noexcept {
         return modes == 0 ? most : std::min(most, std::max(least, static_cast<int>(static_cast<std::int64_t>(most) * modes / mostModes)));
     }
-    int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); } ///< Channels that are rendered.
+    /// Channels that are rendered.
+    int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
 
     static constexpr std::array<float, limits::maxEnchanters> fullScale() {
         std::array<float, limits::maxEnchanters> all{};

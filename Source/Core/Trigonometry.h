@@ -40,7 +40,8 @@ constexpr Complex<Real> unitPhasor(std::uint64_t phase) noexcept {
     constexpr int sign = 8 * static_cast<int>(sizeof(Bits)) - 1;
     const auto isOdd = static_cast<Bits>(0) - static_cast<Bits>(quadrant & 1);
     const auto c = std::bit_cast<Bits>(cosine), swapped = static_cast<Bits>((c ^ std::bit_cast<Bits>(sine)) & isOdd);
-    const auto re = static_cast<Bits>((quadrant + 1) >> 1 & 1), im = static_cast<Bits>(quadrant >> 1 & 1); // whether negative
+    // whether negative
+    const auto re = static_cast<Bits>((quadrant + 1) >> 1 & 1), im = static_cast<Bits>(quadrant >> 1 & 1);
     return {std::bit_cast<Real>(static_cast<Bits>((c ^ swapped) ^ re << sign)),
             std::bit_cast<Real>(static_cast<Bits>((std::bit_cast<Bits>(sine) ^ swapped) ^ im << sign))};
 }

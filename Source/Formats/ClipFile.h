@@ -14,7 +14,8 @@
 namespace physvib {
 
 enum class ClipFormat { hjif, hmpg, haptic, ahap };
-constexpr std::array<std::string_view, 4> clipEndings{".hjif", ".hmpg", ".haptic", ".ahap"}; ///< as ClipFormat
+/// as ClipFormat
+constexpr std::array<std::string_view, 4> clipEndings{".hjif", ".hmpg", ".haptic", ".ahap"};
 
 /// By the file's ending, in any case of letters. Any thread.
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept;

@@ -25,7 +25,8 @@ constexpr int bandTypeBits = 3, curveTypeBits = 4, blockLengthBits = 8, bandLimi
 constexpr int effectTypeBits = 2, semanticBits = 4 + 8, positionBits = 25, phaseBits = 16, waveformBits = 4;
 constexpr int ticksBits = 16, amplitudeBits = 8, hertzBits = 16;
 
-constexpr BitRange phases{0.0, mpeg::mostPhase}, amplitudes{-1.0, 1.0}, gains{-10'000.0, 10'000.0}, positives{0.0, 10'000.0}; // also of Hz
+// also of Hz
+constexpr BitRange phases{0.0, mpeg::mostPhase}, amplitudes{-1.0, 1.0}, gains{-10'000.0, 10'000.0}, positives{0.0, 10'000.0};
 
 constexpr int vibrotactile = 6; // of perceptions' modalities
 constexpr int noDevice = 255;

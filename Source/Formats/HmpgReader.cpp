@@ -133,7 +133,8 @@ private:
 
     void readChannel(BitReader& packet) {
         const std::uint32_t id = packet.number(channelBits);
-        if (!libraries_.contains(packet.number(perceptionBits)) || channels_.contains(id)) return; // told again at a later moment
+        // told again at a later moment
+        if (!libraries_.contains(packet.number(perceptionBits)) || channels_.contains(id)) return;
         if (clip_.channels.size() == static_cast<std::size_t>(limits::maxEnchanters)) packet.fail("expected at most " + std::to_string(limits::maxEnchanters) + " channels, found more");
         packet.skip(priorityBits);
         ClipChannel channel;

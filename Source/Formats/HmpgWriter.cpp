@@ -134,7 +134,8 @@ public:
 private:
     static void addWords(BitWriter& out, std::string_view words) {
         std::size_t bytes = std::min(words.size(), most(textLengthBits));
-        while (bytes < words.size() && bytes > 0 && (static_cast<unsigned char>(words[bytes]) & 0xc0) == 0x80) --bytes; // not within a character
+        // not within a character
+        while (bytes < words.size() && bytes > 0 && (static_cast<unsigned char>(words[bytes]) & 0xc0) == 0x80) --bytes;
         out.number(bytes, textLengthBits);
         for (const char c : words.substr(0, bytes)) out.number(static_cast<unsigned char>(c), 8);
     }

@@ -64,8 +64,10 @@ struct RenderJob {
     std::string coupling; ///< path of a measured coupling that drives shall make up for; empty: none
 
     std::set<std::string> given; ///< names of the options that were chosen, with their dashes: a session keeps its own where they are not
-    std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, moviePath, patternPath, contactSound, marker}; } ///< of `render`
-    std::optional<MarkedOnsets> marks() const { return marker.empty() ? std::nullopt : std::optional{marked}; } ///< nullopt: not wanted
+    /// of `render`
+    std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, moviePath, patternPath, contactSound, marker}; }
+    /// nullopt: not wanted
+    std::optional<MarkedOnsets> marks() const { return marker.empty() ? std::nullopt : std::optional{marked}; }
     std::string methodName() const; ///< "AV-FV-DRV", or "SV"
 
     bool operator==(const RenderJob&) const = default;

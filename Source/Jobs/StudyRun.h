@@ -43,7 +43,8 @@ public:
     /// What of the apparatus is not as it was when the last trial before was felt: empty, or one line that says what to set. Its program may be
     /// a newer version: rows say which. Any thread (allocates).
     std::string apparatusFault(const Apparatus& now) const;
-    double exposureToday() const noexcept { return exposureToday_; } ///< A(8) in m/s^2 of those, if the last of them is of today
+    /// A(8) in m/s^2 of those, if the last of them is of today
+    double exposureToday() const noexcept { return exposureToday_; }
 
     /// The answer to the experiment's trial: its row is in the file before this returns. False, and error(), if it is not an
     /// answer, or cannot be written.

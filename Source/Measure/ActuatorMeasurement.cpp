@@ -141,7 +141,8 @@ double energyOf(const std::vector<Point>& points) {
     for (const Point& p : points) energy += std::norm(p.response);
     return energy;
 }
-constexpr const char* unswept = "what was played: expected a sweep through the whole band"; // its energy is not finite
+// its energy is not finite
+constexpr const char* unswept = "what was played: expected a sweep through the whole band";
 
 std::string faultOf(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band) {
     if (!band.isKnown() || band.highHz >= 0.5 * rateHz || band.highHz < band.lowHz + 10.0) return "expected a band of at least 10 Hz below half the rate";
@@ -169,7 +170,8 @@ std::vector<float> sweepOf(const SweepSettings& s, double rateHz) {
 }
 
 FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand& swept) const {
-    const double least = fromDecibels(-decibels) * std::max(1.0, 1.0 / resonator.q); // of the peak or the plateau
+    // of the peak or the plateau
+    const double least = fromDecibels(-decibels) * std::max(1.0, 1.0 / resonator.q);
     FrequencyBand band{};
     for (double hz = std::ceil(swept.lowHz); hz <= swept.highHz; hz += 1.0) {
         if (std::abs(resonator.at(hz)) < least) continue;
@@ -185,7 +187,8 @@ Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std
     addPoints(points, played, recorded, rateHz, band, 240);
     const Resonator guess = firstGuess(points);
     const Trial rough = refine(points, {points, {std::log(guess.resonanceHz), std::log(guess.q), delayOf(points, [&guess](double hz) { return guess.at(hz); })}});
-    addPoints(points, played, recorded, rateHz, peakOf({std::exp(rough.at[0]), std::exp(rough.at[1])}, band), 120); // where resonance and Q are decided
+    // where resonance and Q are decided
+    addPoints(points, played, recorded, rateHz, peakOf({std::exp(rough.at[0]), std::exp(rough.at[1])}, band), 120);
     const double energy = energyOf(points);
     if (!std::isfinite(energy)) return Failure{unswept};
     const Trial best = refine(points, {points, rough.at});

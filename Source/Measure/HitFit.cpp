@@ -50,7 +50,8 @@ double HitFit::noiseAbout(const Partial& partial) const {
     }
     const auto rest = std::span<const double>(left).subspan(first);
     for (std::size_t i = 0; i < rest.size(); ++i) weight += std::exp(-2.0 * partial.tau * static_cast<double>(i) / rateHz_);
-    constexpr std::array<double, 10> besides{-6, -5, -4, -3, -2, 2, 3, 4, 5, 6}; // decays: where the partial's own line has sunk
+    // decays: where the partial's own line has sunk
+    constexpr std::array<double, 10> besides{-6, -5, -4, -3, -2, 2, 3, 4, 5, 6};
     for (const double by : besides) {
         const auto point = pointOfSpectrum(rest, rateHz_, std::abs(partial.omega + by * partial.tau), partial.tau);
         density += (point.re * point.re + point.im * point.im) / besides.size();

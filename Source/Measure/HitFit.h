@@ -19,10 +19,13 @@ public:
     HitFit(const HitFit&) = delete; // the fits refer to the samples
     HitFit& operator=(const HitFit&) = delete;
 
-    std::vector<Partial> partials() const { return struck_ ? struck_->partials() : fit_.partials(); } ///< time 0 is the onset
-    PartialError errorOf(std::size_t partial) const; ///< Cramer-Rao bound in noise of the residual's density about the partial
+    /// time 0 is the onset
+    std::vector<Partial> partials() const { return struck_ ? struck_->partials() : fit_.partials(); }
+    /// Cramer-Rao bound in noise of the residual's density about the partial
+    PartialError errorOf(std::size_t partial) const;
     double onsetSeconds() const noexcept { return struck_ ? struck_->onsetSeconds() : static_cast<double>(onset_) / rateHz_; }
-    double seconds() const noexcept { return static_cast<double>(samples_.size()) / rateHz_ - onsetSeconds(); } ///< after the onset
+    /// after the onset
+    double seconds() const noexcept { return static_cast<double>(samples_.size()) / rateHz_ - onsetSeconds(); }
     double energy() const noexcept { return energy_; }
     double unexplainedEnergy() const { return struck_ ? struck_->residualEnergy() : energyBeforeOnset() + fit_.residualEnergy(); }
 

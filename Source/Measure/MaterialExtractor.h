@@ -20,7 +20,8 @@ struct ExtractionBand {
 struct ContactSound {
     double frequencyHz = 0.0;
     double decayPerSecond = 0.0;
-    double frequencyErrorHz = 0.0, decayErrorPerSecond = 0.0; ///< standard errors (HitFit::errorOf); 0 with twoPeaks
+    /// standard errors (HitFit::errorOf); 0 with twoPeaks
+    double frequencyErrorHz = 0.0, decayErrorPerSecond = 0.0;
     double residualShare = 0.0; ///< of the hit's energy: what frequency, decay and the other partials do not explain
     double ownShare = 0.0;      ///< of the hit's energy: what this partial explains
     int partials = 0;           ///< found, in the band or not

@@ -74,7 +74,8 @@ Result<ScrapedTexture> textureOf(const AutoregressiveModel& model, const Scrape&
     found.grainsPerSecond = grainsPerPeriod * found.frequencyHz;
     found.texture.grainMetres = scrape.metresPerSecond / found.grainsPerSecond;
     const double omega = 2.0 * std::numbers::pi * found.frequencyHz, tau = found.decayPerSecond;
-    const double ringing = omega * omega / (4.0 * tau * (omega * omega + tau * tau)); // energy of exp(-tau t) sin(omega t)
+    // energy of exp(-tau t) sin(omega t)
+    const double ringing = omega * omega / (4.0 * tau * (omega * omega + tau * tau));
     found.strength = std::sqrt(power / (found.grainsPerSecond * unevenPower() * ringing));
     found.texture.roughness = found.strength / omega * scrape.massKg / grainImpulse(1.0, scrape.loadNewtons, scrape.metresPerSecond);
     if (const auto fault = faultOf(found.texture); !fault.empty()) return Failure{std::string{fault}};

@@ -85,7 +85,8 @@ void PowerSpectrum::add(const float* const* channels, int frames) {
 }
 
 std::vector<double> PowerSpectrum::finish() {
-    for (std::size_t rest = 2 * state_->hop - state_->kept; rest > 0; --rest) state_->next(); // silence, until the last sample has been in two windows
+    // silence, until the last sample has been in two windows
+    for (std::size_t rest = 2 * state_->hop - state_->kept; rest > 0; --rest) state_->next();
     std::vector<double> shares = std::move(state_->power);
     double whole = 0.0;
     for (const double power : shares) whole += power;

@@ -42,7 +42,8 @@ double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
     constexpr double smoothSeconds = 0.00025, leastLikeness = 0.6;
     const std::vector<double> slope = smoothSlope(samples, rateHz, smoothSeconds);
     if (slope.size() < 200) return 0.0;
-    const auto likeness = likenessOf(std::span{slope}.subspan(slope.size() / 5)); // without what it begins with
+    // without what it begins with
+    const auto likeness = likenessOf(std::span{slope}.subspan(slope.size() / 5));
     const std::size_t n = likeness.size();
     const double far = highestWithin(likeness, n / 4, n / 2).height; // what rings is not alike for so long
     if (far < leastLikeness) return 0.0;
@@ -50,7 +51,8 @@ double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
     for (std::size_t i = 1; lag == 0.0 && i + 1 < n / 2; ++i)
         if (isPeak(likeness, i))
             if (const Peak peak = vertex(likeness, i); peak.height >= 1.0 - 3.0 * (1.0 - far) - 0.003) lag = peak.at;
-    for (double times = 2.0; lag > 4.0 && lag * times < 0.5 * static_cast<double>(n) - lag; times *= 2.0) // the longer, the finer
+    // the longer, the finer
+    for (double times = 2.0; lag > 4.0 && lag * times < 0.5 * static_cast<double>(n) - lag; times *= 2.0)
         lag = highestWithin(likeness, static_cast<std::size_t>((times - 0.25) * lag), static_cast<std::size_t>((times + 0.25) * lag) + 2).at / times;
     return lag > 4.0 ? rateHz / lag : 0.0;
 }

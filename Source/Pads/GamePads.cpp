@@ -78,7 +78,8 @@ public:
         info_.hasAccelerometer = controller_ && sdl.GameControllerHasSensor(controller_, SDL_SENSOR_ACCEL);
     }
     ~SdlPad() override {
-        if (hasRumbled_) sdl_.JoystickRumble(joystick_, 0, 0, 0); // who only looked leaves alone what others play
+        // who only looked leaves alone what others play
+        if (hasRumbled_) sdl_.JoystickRumble(joystick_, 0, 0, 0);
         if (controller_) sdl_.GameControllerClose(controller_);
         if (joystick_) sdl_.JoystickClose(joystick_);
         const std::lock_guard lock{openedMutex};
@@ -126,7 +127,8 @@ void giveHints(const SdlLibrary& sdl, GamePads::Driver driver) {
     hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     hint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
 #ifdef __linux__
-    hint(SDL_HINT_JOYSTICK_HIDAPI, driver == GamePads::Driver::sdl ? "1" : "0"); // the kernel ends what a killed program played
+    // the kernel ends what a killed program played
+    hint(SDL_HINT_JOYSTICK_HIDAPI, driver == GamePads::Driver::sdl ? "1" : "0");
 #else
     static_cast<void>(driver);
 #endif

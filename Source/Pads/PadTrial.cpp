@@ -77,7 +77,8 @@ Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTr
         PadTrialTime listening = time;
         listening.tick = [&] {
             time.tick();
-            if (pad.acceleration(now) && now != before) step.samples.push_back({time.seconds() - begin, now}); // a report is told once
+            // a report is told once
+            if (pad.acceleration(now) && now != before) step.samples.push_back({time.seconds() - begin, now});
             before = now;
         };
         const bool isWhole = holdMotors(pad, isHeavy ? step.command : 0.0, isHeavy ? 0.0 : step.command, onSeconds, listening) && holdMotors(pad, 0.0, 0.0, restSeconds, listening);

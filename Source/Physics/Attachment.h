@@ -41,7 +41,8 @@ public:
     /// Takes effect with the next step; with another timing, what is under way is lost. Throws as the
     /// constructor does.
     void configure(const ImpactSettings& settings) { events_.configure(settings); }
-    const ImpactSettings& settings() const noexcept { return events_.settings(); } ///< Any thread but while it steps.
+    /// Any thread but while it steps.
+    const ImpactSettings& settings() const noexcept { return events_.settings(); }
 
     /// Gives a fixture its values, at first or again (the camera may come and go). Its id in events is `id` (>= 0), if
     /// given (a number of the game's own for it), else 0, 1, 2... in order of first calls, never used twice. Refused, told by the result, are values that
@@ -72,7 +73,8 @@ public:
     /// World time after the steps done, and the time before which all events are final: one step earlier,
     /// since a contact is noticed up to one step after it was made.
     std::int64_t timeNs() const noexcept { return events_.timeNs(); }
-    std::int64_t settledNs() const noexcept { return events_.settledNs(); } ///< No event before it is still to come.
+    /// No event before it is still to come.
+    std::int64_t settledNs() const noexcept { return events_.settledNs(); }
 
     /// Appends the events that are final now, in the order of their times.
     void take(std::vector<CollisionEvent>& events) { events_.take(events); }

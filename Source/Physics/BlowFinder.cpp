@@ -154,7 +154,8 @@ void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manif
 double BlowFinder::momentOf(const b2Contact& contact, double secondsAgo) const noexcept {
     if (!events_.catcher().isStepping()) return 0.0;
     const double now = sweeps_.stepSeconds(), before = sweeps_.lastStepSeconds();
-    const double seconds = fractionOf(contact) * now - std::min(secondsAgo, std::max(now, before)); // deeper than that: it was made there
+    // deeper than that: it was made there
+    const double seconds = fractionOf(contact) * now - std::min(secondsAgo, std::max(now, before));
     const double length = seconds < 0.0 ? before : now;
     return length > 0.0 ? std::max(-1.0, seconds / length) : 0.0;
 }

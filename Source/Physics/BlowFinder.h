@@ -28,7 +28,8 @@ public:
 
     void begin(const b2Contact& contact);                                 ///< in BeginContact
     void end(const b2Contact& contact);                                   ///< in EndContact
-    void look(const b2Contact& contact, const b2Manifold& before);        ///< in PreSolve, after the game's own
+    /// in PreSolve, after the game's own
+    void look(const b2Contact& contact, const b2Manifold& before);
     void push(const b2Contact& contact, const b2ContactImpulse& impulse); ///< in PostSolve
 
     /// Right after b2World::Step.

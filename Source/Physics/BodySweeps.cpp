@@ -45,7 +45,8 @@ const BodySweeps::Sweep* BodySweeps::find(const b2Body& body) const noexcept {
 
 double BodySweeps::fraction(const b2Body& body) const noexcept {
     const Sweep* sweep = find(body);
-    const bool hasMoved = sweep != nullptr && body.GetWorldCenter() != sweep->centre; // else what Box2D knows is of an older step
+    // else what Box2D knows is of an older step
+    const bool hasMoved = sweep != nullptr && body.GetWorldCenter() != sweep->centre;
     return hasMoved ? static_cast<double>(advancedPartOf(body)) : 0.0;
 }
 

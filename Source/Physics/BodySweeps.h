@@ -19,7 +19,8 @@ public:
     void beginStep(const b2World& world, double stepSeconds);
 
     double stepSeconds() const noexcept { return stepSeconds_; }
-    double lastStepSeconds() const noexcept { return lastStepSeconds_; } ///< of the one before; 0: there was none
+    /// of the one before; 0: there was none
+    double lastStepSeconds() const noexcept { return lastStepSeconds_; }
 
     /// The largest mass of an enabled dynamic body, kg (m_max of Eq. 5.7).
     double largestMassKg() const noexcept { return largestMassKg_; }

@@ -31,7 +31,8 @@ unsigned FreshPoints::look(const b2Contact& contact, const b2Manifold& before, b
         known = -1;
     }
     if (known < 0 && isSame(before, now)) return 0U; // the rule
-    const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved; // all of it is fresh still
+    // all of it is fresh still
+    const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
     for (int i = 0; i < now.pointCount; ++i) {
         const std::uint32_t id = now.points[i].id.key;
         if (!isWaiting && hasPoint(before, id)) continue;

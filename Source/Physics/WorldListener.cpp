@@ -38,7 +38,8 @@ void WorldListener::EndContact(b2Contact* contact) {
     if (!call) return;
     if (finder_) {
         const b2Body &a = *contact->GetFixtureA()->GetBody(), &b = *contact->GetFixtureB()->GetBody();
-        if (!a.GetWorld()->IsLocked()) bodies_.doubt(&a, &b); // cut by the game, which may have destroyed others unheard
+        // cut by the game, which may have destroyed others unheard
+        if (!a.GetWorld()->IsLocked()) bodies_.doubt(&a, &b);
         finder_->end(*contact);
     }
     if (chained_ != nullptr) chained_->EndContact(contact);

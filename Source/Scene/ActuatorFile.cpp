@@ -14,7 +14,8 @@
 
 namespace physvib {
 
-const std::vector<EmbeddedFile>& embeddedActuators(); // Source/Scene/Actuators/*.json, in the order of their listing
+// Source/Scene/Actuators/*.json, in the order of their listing
+const std::vector<EmbeddedFile>& embeddedActuators();
 
 namespace {
 

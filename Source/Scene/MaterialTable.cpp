@@ -12,7 +12,8 @@
 
 namespace physvib {
 
-const std::vector<EmbeddedFile>& embeddedMaterials(); // Source/Scene/Materials/*.json, in the order of their listing
+// Source/Scene/Materials/*.json, in the order of their listing
+const std::vector<EmbeddedFile>& embeddedMaterials();
 
 void visitFields(auto& v, FieldsOf<MaterialTable>) {
     v.field("name", &MaterialTable::name, anyText, Need::required);

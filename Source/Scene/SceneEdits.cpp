@@ -10,7 +10,8 @@ namespace physvib {
 namespace {
 
 BodyDescription* findBody(Scene& scene, const std::string& name) {
-    for (auto input = scene.inputs.rbegin(); input != scene.inputs.rend(); ++input) { // the last of that name is there
+    // the last of that name is there
+    for (auto input = scene.inputs.rbegin(); input != scene.inputs.rend(); ++input) {
         if (auto* spawn = std::get_if<SpawnAction>(&input->action); spawn != nullptr && spawn->body.name == name) return &spawn->body;
         if (auto* change = std::get_if<ChangeAction>(&input->action); change != nullptr && change->body.name == name) return &change->body;
     }

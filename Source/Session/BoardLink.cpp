@@ -17,7 +17,8 @@ constexpr std::int64_t tooOld = 50 * ms;                // a strike this late is
 constexpr std::int64_t lineAhead = 4 * ms;              // in the system's buffers at most: the rest can still be thinned
 constexpr double marginMs = 4.0 + 3.0 + 2.1;            // lineAhead, this thread's naps, one strike on the line
 constexpr std::int64_t longestAnswer = second;           // no line delays an answer by more
-constexpr double restartFrames = limits::board::sampleRateHz; // nor does a clock that runs on differ by as much
+// nor does a clock that runs on differ by as much
+constexpr double restartFrames = limits::board::sampleRateHz;
 constexpr int crowded = 4;                              // from here on strikes go in the compact form
 
 /// Why nothing is sent to this board; empty: it is what this program plays on.
@@ -149,7 +150,8 @@ void BoardLink::receive() {
 
 void BoardLink::handle(std::span<const std::uint8_t> payload) {
     heardNs_ = nowNs();
-    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting) return meet(hello); // the first of several
+    // the first of several
+    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting) return meet(hello);
     if (wire::Pong pong; wire::decode(payload, pong) && now_.state >= State::synchronising) return take(pong);
     if (wire::Telemetry telemetry; wire::decode(payload, telemetry)) now_.telemetry = telemetry;
     if (wire::SelfTestReply reply; wire::decode(payload, reply)) now_.selfTest = reply;

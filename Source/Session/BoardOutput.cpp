@@ -37,7 +37,8 @@ void BoardOutput::follow(FeltOutput* device) {
 }
 
 void BoardOutput::made(const CollisionEvent& event) noexcept {
-    if (!isClip(event.frequencyHz)) events_.push(event); // the board has no recordings; a full queue counts what nobody takes
+    // the board has no recordings; a full queue counts what nobody takes
+    if (!isClip(event.frequencyHz)) events_.push(event);
 }
 
 SinkState BoardOutput::state() const {
@@ -112,7 +113,8 @@ void BoardOutput::takeLegs() {
         if (first == paths_.end() || first->isOver()) return;
         const std::int64_t due = clock_.steadyAt(first->nextNs());
         if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.takesLeg(due)) sendLeg(*first);
-        else if (due < now - mostLateNs) first->skip(), link_.refuseLeg(); // the line is gone, or others take it
+        // the line is gone, or others take it
+        else if (due < now - mostLateNs) first->skip(), link_.refuseLeg();
         else return;
     }
 }

@@ -53,7 +53,8 @@ private:
     void takeLegs();
     void sendLeg(BoardPath& path);
 
-    static constexpr std::ptrdiff_t mostPaths = limits::board::maxLegs / 2; // of each, the leg that sounds and the next
+    // of each, the leg that sounds and the next
+    static constexpr std::ptrdiff_t mostPaths = limits::board::maxLegs / 2;
 
     BoardLink link_;
     double latencySeconds_;

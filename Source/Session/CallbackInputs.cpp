@@ -22,7 +22,8 @@ bool CallbackInputs::silence(int frame) noexcept {
     control.kind = RenderControl::Kind::silence;
     control.timeNs = time_.nextRenderedNs(frame); // which leaves us now
     control.untilNs = time_.nextNs(frame);
-    control.value = time_.isBornDirect() ? 1.0f : 0.0f; // strikes that come behind it stand before the world's
+    // strikes that come behind it stand before the world's
+    control.value = time_.isBornDirect() ? 1.0f : 0.0f;
     return controls_.push(control);
 }
 

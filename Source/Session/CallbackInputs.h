@@ -20,7 +20,8 @@ public:
     /// the session is direct, at an exact frame.
     /// False, and counted, if it found no room. R, wait-free.
     bool strike(CollisionEvent event, int frame) noexcept { return strike(event, frame, 0); }
-    bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept; ///< so long after that frame, which may be past
+    /// so long after that frame, which may be past
+    bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept;
     bool control(RenderControl control, int frame) noexcept;
     bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step
 

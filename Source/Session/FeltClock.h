@@ -19,7 +19,8 @@ public:
     /// Moments in the order of time; the same again changes nothing.
     void add(const FeltMoment& moment) noexcept {
         const std::int64_t lag = moment.steadyNs - moment.sessionNs, age = moment.steadyNs - halfBeganNs_;
-        if (!isReady_ || age > 2 * halfWindowNs) before_ = now_ = lag; // the first, or the first after a pause
+        // the first, or the first after a pause
+        if (!isReady_ || age > 2 * halfWindowNs) before_ = now_ = lag;
         if (!isReady_ || age > halfWindowNs) {
             before_ = now_;
             now_ = lag;

@@ -44,7 +44,8 @@ public:
     void strike(const CollisionEvent& event, std::int64_t frame) noexcept {
         if (!isMarked(event)) return;
         if (frame <= lastEdge_ + apart_) return count(shared_);
-        if (last_ - first_ == edges_.size()) return count(shared_); // not while blocks are as long as they may be
+        // not while blocks are as long as they may be
+        if (last_ - first_ == edges_.size()) return count(shared_);
         edges_[last_++ % edges_.size()] = lastEdge_ = frame;
         count(made_);
     }

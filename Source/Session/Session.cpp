@@ -52,7 +52,8 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz));
     channels_.prepare(sampleRateHz, -renderer_->latencyFrames());
     const ClockLaw law = lawAt(sampleRateHz, maxBlockFrames);
-    setTime(law, setup_.direct == Direct::born ? law.playOutFrames() - law.limiterFrames : 0); // the renderer begins with the first block where something may be felt in it
+    // the renderer begins with the first block where something may be felt in it
+    setTime(law, setup_.direct == Direct::born ? law.playOutFrames() - law.limiterFrames : 0);
     world_.prepare();
     callback_.forget();
     scheduler_.prepare();

@@ -84,7 +84,8 @@ void SessionJournal::write(std::optional<std::int64_t> endNs) {
     std::string rows;
     for (CollisionEvent event : played) {
         if (rows_++ >= limits::maxEventRows) break;
-        event.timeNs = lastNs_ = std::max(lastNs_, event.timeNs); // a late one was played after others, and must not come before them
+        // a late one was played after others, and must not come before them
+        event.timeNs = lastNs_ = std::max(lastNs_, event.timeNs);
         appendEventRow(rows, event, hasKinds_);
     }
     events_.append(rows);

@@ -50,7 +50,8 @@ struct SessionSetup {
     int modes = 0; ///< of RendererSettings
     PhantomPanner panner; ///< at most `channels` enchanters
     bool limiterEnabled = true;
-    std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel, > 0
+    /// drive ceiling per channel, > 0
+    std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale();
     EqualisedActuators equalised{};
     EventShaping shaping; ///< of all collisions, and of what is struck in the render call
     std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes

@@ -43,7 +43,8 @@ public:
     /// A valid input that acts at `sessionNs`, or in the next step if that is past.
     void addInput(std::int64_t sessionNs, Action action);
 
-    const SceneTake& take() const noexcept { return take_; } ///< the one that runs; of its inputs and stalls, what nobody has read
+    /// the one that runs; of its inputs and stalls, what nobody has read
+    const SceneTake& take() const noexcept { return take_; }
     std::size_t takeCount() const noexcept { return takeCount_; }
     /// In Box2D's world; inputs that wait, or that nobody has read.
     SessionSize size() const noexcept;

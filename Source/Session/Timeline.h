@@ -134,7 +134,8 @@ private:
     mutable std::mutex mutex_; // taken last; guards the law against those who hold no other
     ClockLaw law_;
     bool isToldDirect_ = false, isBornDirect_ = false;
-    std::atomic<std::int64_t> playOutFrames_{0}, grownFrames_{0}; // L, and what of it R has added to the law's
+    // L, and what of it R has added to the law's
+    std::atomic<std::int64_t> playOutFrames_{0}, grownFrames_{0};
     std::atomic<std::int64_t> sessionFrames_{0};
 };
 

@@ -57,7 +57,8 @@ class CouplingDrives {
 public:
     CouplingDrives() = default;
     explicit CouplingDrives(const MeasuredCoupling& measured);
-    DriveMatrices view() const noexcept { return {frequenciesHz_, entries_, channels_}; } ///< this object outlives it
+    /// this object outlives it
+    DriveMatrices view() const noexcept { return {frequenciesHz_, entries_, channels_}; }
 
 private:
     std::vector<double> frequenciesHz_;

@@ -108,7 +108,8 @@ private:
     std::optional<AdaptiveLevel> adaptive_;
     int inSession_ = 0;                   // trials answered
 
-    std::map<std::pair<std::size_t, std::string>, std::map<std::string, std::vector<double>>> adjusted_; // (condition, session), stimulus
+    // (condition, session), stimulus
+    std::map<std::pair<std::size_t, std::string>, std::map<std::string, std::vector<double>>> adjusted_;
     std::optional<Trial> trial_;
     int taken_ = 0;
 };

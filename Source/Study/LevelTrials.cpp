@@ -60,7 +60,8 @@ double staircaseThreshold(const Run& run, LevelSummary& summary) {
 double questThreshold(const Run& run, LevelSummary& summary) {
     QuestPlus quest{*questPlan(run.front()->quest)};
     for (const LevelTrial* trial : run) quest.answerAt(trial->levelDb, trial->value > 0.5);
-    summary.halfInterval = std::hypot(summary.halfInterval, quest.thresholdHalfInterval(0.95)); // of the sum of thresholds
+    // of the sum of thresholds
+    summary.halfInterval = std::hypot(summary.halfInterval, quest.thresholdHalfInterval(0.95));
     return quest.estimate().threshold;
 }
 

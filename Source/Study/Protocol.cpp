@@ -119,7 +119,8 @@ std::vector<StimulusItem> itemsOf(const PatternSet& set) {
     std::vector<StimulusItem> items;
     for (const double seconds : set.pulseSeconds)
         for (PulsePattern pattern : allPulsePatterns(set.enchanters)) {
-            if (pattern.pulseSeconds != pulseDurationsSeconds.front()) continue; // the combinations once per duration of ours
+            // the combinations once per duration of ours
+            if (pattern.pulseSeconds != pulseDurationsSeconds.front()) continue;
             pattern.pulseSeconds = seconds;
             items.push_back({patternLabel(pattern), {}});
         }

@@ -160,7 +160,8 @@ struct SessionPlan {
     AnswerKind answer() const noexcept { return describe(task).answer; }
     /// Which alternative's level follows the answers, by a staircase or QUEST+; none if no level does.
     const std::string* adaptedAlternative() const noexcept { return staircase ? &staircase->alternative : quest ? &quest->alternative : nullptr; }
-    double guessRate() const noexcept { return 1.0 / static_cast<double>(alternatives.size()); } ///< of choices
+    /// of choices
+    double guessRate() const noexcept { return 1.0 / static_cast<double>(alternatives.size()); }
 };
 
 struct Protocol {

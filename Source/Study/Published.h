@@ -15,7 +15,8 @@ struct Identification {
     double bitsTolerance = 0.0, percentTolerance = 0.0; ///< one step of tolerance; 0: none
 };
 
-inline constexpr double patternsPercentMean = 92.1, patternsPercentLeast = 89.2, patternsPercentMost = 95.0; ///< 3.2.2, over conditions
+/// 3.2.2, over conditions
+inline constexpr double patternsPercentMean = 92.1, patternsPercentLeast = 89.2, patternsPercentMost = 95.0;
 
 inline constexpr std::array identifications{
     Identification{"patterns", "PHONE-2", 28, 4.55},

@@ -35,7 +35,8 @@ public:
 
     /// A whole number from 0 to below `count` > 0, all equally likely.
     std::size_t below(std::size_t count) noexcept {
-        const std::uint64_t range = count, rest = (0 - range) % range; // so many of the lowest numbers would come once too often
+        // so many of the lowest numbers would come once too often
+        const std::uint64_t range = count, rest = (0 - range) % range;
         std::uint64_t number = next();
         while (number < rest) number = next();
         return static_cast<std::size_t>(number % range);

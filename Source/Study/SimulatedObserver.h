@@ -20,7 +20,8 @@ struct ObserverSettings {
     double firstAlternativePreference = 0.59;  ///< of alternatives at equal levels
     double levelNoiseDb = 2.0;                 ///< of comparisons and adjustments
     double scoreBase = 38.0, scoreNoise = 14.0; ///< ratings
-    double amplitudeScore = 8.0, frequencyScore = 23.2, decayScore = 2.0; ///< more for AV, FV, DRV (thesis 5.3.2)
+    /// more for AV, FV, DRV (thesis 5.3.2)
+    double amplitudeScore = 8.0, frequencyScore = 23.2, decayScore = 2.0;
     double ringBlur = 0.0; ///< placeBlur where the layout's name begins with ring; 0: the same
     // Standard deviations between participants; 0: all are alike.
     double blurSpread = 0.0; ///< of the blurs' natural logarithms, each by itself

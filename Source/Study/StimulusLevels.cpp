@@ -9,7 +9,8 @@
 namespace physvib {
 
 std::vector<StimulusLevel> averageLevels(const std::vector<LevelTrial>& trials, const std::string& alternative) {
-    std::map<std::pair<std::string, std::string>, std::map<std::string, std::vector<double>>> settings; // (condition, stimulus), participant
+    // (condition, stimulus), participant
+    std::map<std::pair<std::string, std::string>, std::map<std::string, std::vector<double>>> settings;
     for (const LevelTrial& trial : trials)
         if (trial.kind == LevelTrial::Kind::adjustment) settings[{trial.condition, trial.stimulus}][trial.participant].push_back(trial.value);
     std::vector<StimulusLevel> levels;

@@ -28,7 +28,8 @@ std::vector<std::size_t> latinSquareRow(std::size_t count, std::size_t row) {
         const std::size_t zigzag = i % 2 ? (i + 1) / 2 : (count - i / 2) % count;
         order.push_back((zigzag + shift) % count);
     }
-    if (count % 2 && row / count % 2) std::ranges::reverse(order); // an odd square balances with its mirror image
+    // an odd square balances with its mirror image
+    if (count % 2 && row / count % 2) std::ranges::reverse(order);
     return order;
 }
 

@@ -81,11 +81,13 @@ TrialJob PlannedStimulus::job(const Protocol& protocol) const {
 }
 
 std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
-    std::map<std::string, std::pair<double, std::size_t>> parts; // highest level, and the session that sets it
+    // highest level, and the session that sets it
+    std::map<std::string, std::pair<double, std::size_t>> parts;
     for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
         for (const auto& [name, db] : partsOf(protocol, protocol.sessions[s]))
             if (const auto [at, isNew] = parts.try_emplace(name, db, s); !isNew && db > at->second.first) at->second = {db, s};
-    if (parts.size() > 1) parts.erase(std::string{}); // trainings without alternatives feel what the others feel
+    // trainings without alternatives feel what the others feel
+    if (parts.size() > 1) parts.erase(std::string{});
     std::vector<PlannedStimulus> planned;
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (const StimulusItem& item : stimuliOf(protocol.conditions[c]))

@@ -61,7 +61,8 @@ std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record
     const auto add = [&](const Part& part) { jobs.push_back(std::visit([&](const auto& set) { return maker(set, part); }, condition.stimuli)); };
     for (std::size_t i = 0; i < record.trial.parts.size(); ++i) {
         const std::string& name = record.trial.parts[i];
-        const bool isAdjusted = session.adjustment && session.adjustment->alternative == name; // felt at the level that was answered
+        // felt at the level that was answered
+        const bool isAdjusted = session.adjustment && session.adjustment->alternative == name;
         add({name, isAdjusted ? record.answer.value : i < record.trial.partLevelsDb.size() ? record.trial.partLevelsDb[i] : 0.0});
     }
     if (jobs.empty()) add({{}, 0.0});

@@ -136,7 +136,8 @@ private:
     bool hasBegun_ = false, isCoarse_ = false;
     bool isJoined_ = false; // the leg before is on its way, up to after_
     Joint after_, following_;
-    std::array<Gains, static_cast<std::size_t>(mostFrames)> samples_{}; // of the frames that the next leg may have
+    // of the frames that the next leg may have
+    std::array<Gains, static_cast<std::size_t>(mostFrames)> samples_{};
 };
 
 } // namespace physvib

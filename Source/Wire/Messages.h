@@ -91,7 +91,8 @@ struct Leg {
 
 struct Gains {
     static constexpr Type type = Type::gains;
-    std::array<std::int16_t, limits::board::channels> gains{}; ///< 1/4096; negative: polarity turned; 0: muted
+    /// 1/4096; negative: polarity turned; 0: muted
+    std::array<std::int16_t, limits::board::channels> gains{};
     void visit(auto&& field) {
         for (auto& g : gains) field(g);
     }

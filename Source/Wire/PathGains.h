@@ -27,7 +27,8 @@ public:
     template <class GainsAt>
     Gains at(double seconds, GainsAt& gainsAt) noexcept {
         constexpr std::int64_t tile = limits::tileFrames;
-        const double frame = std::max(0.0, seconds * rate_ - onset_.leadFrames); // from the onset's on, as all here
+        // from the onset's on, as all here
+        const double frame = std::max(0.0, seconds * rate_ - onset_.leadFrames);
         const std::int64_t before = onset_.frame % tile;
         const std::int64_t first = (static_cast<std::int64_t>(frame) + before) / tile * tile - before;
         enter(std::max<std::int64_t>(first, 0), std::min(first + tile, endFrame_), gainsAt);

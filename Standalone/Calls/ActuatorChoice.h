@@ -15,7 +15,8 @@ namespace physvib {
 /// What is wanted of the actuators of a layout.
 struct ActuatorChoice {
     EqualisedActuators equalised{}; ///< per enchanter
-    std::array<double, limits::maxEnchanters> voltageScale{}; ///< from a sample to the interface's full scale; 0: not wanted
+    /// from a sample to the interface's full scale; 0: not wanted
+    std::array<double, limits::maxEnchanters> voltageScale{};
     FrequencyRemap remap;           ///< one for all: an event has one frequency
 };
 

@@ -11,7 +11,8 @@ namespace physvib {
 
 struct Command {
     const char *name, *meaning;
-    std::function<std::function<int()>(OptionTable&)> declare; ///< what it adds to the table; what runs, after parsing, for an exit code
+    /// what it adds to the table; what runs, after parsing, for an exit code
+    std::function<std::function<int()>(OptionTable&)> declare;
 };
 
 /// Of a structure of options that `declare` adds and `run` is given, with the parsed table before it if it asks for one.

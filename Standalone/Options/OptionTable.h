@@ -53,7 +53,8 @@ struct Option {
     Option& single() { return isSingle = true, *this; }  ///< it may be repeated, with a value each time
     Option& listed(int most) { return mostListed = most, *this; }
     Option& existingFolder() { return range = "DIR", check = Check::folder, *this; }
-    Option& positive() { return range = "POSITIVE", check = Check::positive, unshown(); } ///< more than 0, and finite
+    /// more than 0, and finite
+    Option& positive() { return range = "POSITIVE", check = Check::positive, unshown(); }
     Option& oneOf(std::vector<std::string> words);
     Option& numbered(std::vector<std::pair<std::string, int>> words); ///< of a function
 

@@ -22,7 +22,8 @@ namespace {
 std::optional<DWORD> waitingInPipe(HANDLE pipe, int milliseconds) noexcept {
     for (int waited = 0;; ++waited) {
         DWORD waiting = 0;
-        if (PeekNamedPipe(pipe, nullptr, 0, nullptr, &waiting, nullptr) == 0) return 0; // its other end is closed
+        // its other end is closed
+        if (PeekNamedPipe(pipe, nullptr, 0, nullptr, &waiting, nullptr) == 0) return 0;
         if (waiting > 0) return waiting;
         if (waited >= milliseconds) return std::nullopt;
         Sleep(1);

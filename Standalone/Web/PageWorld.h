@@ -48,8 +48,10 @@ public:
     void grip(int finger, std::size_t body, Vector toMetres); ///< pulled there until it is let go
     void letGo(int finger);
 
-    EnchanterLayout& layout() noexcept { return layout_; } ///< at most as many as outputs; placed() makes it audible
-    void placed(int law); ///< of panningLaws; another: none was asked for, so linear, and grains by grainSpread
+    /// at most as many as outputs; placed() makes it audible
+    EnchanterLayout& layout() noexcept { return layout_; }
+    /// of panningLaws; another: none was asked for, so linear, and grains by grainSpread
+    void placed(int law);
 
     bool pop(CollisionEvent& event) noexcept { return take(events_, event); } // these two: for the renderer
     bool pop(RenderControl& change) noexcept { return take(controls_, change); }
@@ -67,7 +69,8 @@ private:
         return true;
     }
     PhantomPanner panner() const noexcept;
-    std::int64_t firstFrame() const noexcept { return law_.playOutFrames() - law_.limiterFrames; } // the renderer's frame 0
+    // the renderer's frame 0
+    std::int64_t firstFrame() const noexcept { return law_.playOutFrames() - law_.limiterFrames; }
     std::int64_t nsOf(std::int64_t frame) const noexcept;
     void pull(const Hand& hand);
     void stepTo(std::int64_t frame);

@@ -162,7 +162,8 @@ TEST(Calls, WhatRollsOverGrainsIsFelt) {
     }
     EXPECT_NEAR(static_cast<double>(physvib_world_take(world, nullptr, 0, 1)), 0.0, 0.0);
     std::vector<physvib_event> events(1000);
-    EXPECT_NEAR(static_cast<double>(physvib_world_take(world, events.data(), 1000, 1)), 98.0, 2.0); // 200 a second, from the second step on
+    // 200 a second, from the second step on
+    EXPECT_NEAR(static_cast<double>(physvib_world_take(world, events.data(), 1000, 1)), 98.0, 2.0);
     EXPECT_EQ(physvib_world_thinned(world), 0);
     EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
 }

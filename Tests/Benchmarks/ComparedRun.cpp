@@ -79,7 +79,8 @@ void strikes(InstructionSet set) {
             whole.push_back(4e6 * with);
         }
         const std::string name = std::to_string(perSecond) + " strikes a second, ";
-        if (perSecond < 1000) tell((name + "us for all of it").c_str(), median(whole)); // too few to tell what one costs
+        // too few to tell what one costs
+        if (perSecond < 1000) tell((name + "us for all of it").c_str(), median(whole));
         else tell((name + "ns each").c_str(), median(costs));
     }
 }

@@ -67,7 +67,8 @@ void stepOfAShakenBox(benchmark::State& state) {
 const int registered = [] {
     const auto add = [](int bodies, int cameras, int release) {
         benchmark::RegisterBenchmark("stepOfAShakenBox", stepOfAShakenBox)->ArgNames({"bodies", "cameras", "release"})->Args({bodies, cameras, release})
-            ->Iterations(timedSteps(bodies))->UseManualTime()->Unit(benchmark::kMicrosecond); // one run each: setting up costs more than stepping
+            // one run each: setting up costs more than stepping
+            ->Iterations(timedSteps(bodies))->UseManualTime()->Unit(benchmark::kMicrosecond);
     };
     for (const int bodies : {10, 100, 1000})
         for (const int cameras : {0, 4, 5000}) add(bodies, cameras, 0);

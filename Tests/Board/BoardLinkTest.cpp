@@ -32,7 +32,8 @@ protected:
     }
     /// As the board told after all that was sent before.
     wire::Telemetry telemetry() const {
-        std::this_thread::sleep_for(std::chrono::milliseconds(300)); // what is struck last is felt 75 ms later
+        // what is struck last is felt 75 ms later
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
         const auto seen = link.status().telemetry.frame;
         EXPECT_TRUE(test::comesTrue([&] { return link.status().telemetry.frame != seen; }));
         return link.status().telemetry;

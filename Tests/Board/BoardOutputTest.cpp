@@ -41,7 +41,8 @@ private:
             const auto due = began + static_cast<std::int64_t>(static_cast<double>(done) * nsPerFrame);
             if (const auto wait = due + random() % (3 * ms) - BoardLink::nowNs(); wait > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(wait));
             const auto out = thing_.play(thing_.block);
-            for (int n = 0; !out.empty() && n < thing_.block; ++n) take(out, n, due + static_cast<std::int64_t>((n + thing_.block) * nsPerFrame)); // the latency it tells
+            // the latency it tells
+            for (int n = 0; !out.empty() && n < thing_.block; ++n) take(out, n, due + static_cast<std::int64_t>((n + thing_.block) * nsPerFrame));
         }
     }
     void take(const std::vector<std::vector<float>>& out, int n, std::int64_t at) {

@@ -63,7 +63,8 @@ private:
         if (wire::Hello hello; wire::decode(payload, hello)) send(reply_);
         if (wire::Ping ping; wire::decode(payload, ping)) {
             const auto frame = static_cast<std::uint32_t>(static_cast<std::uint64_t>(frameAt(BoardLink::nowNs())));
-            if (lies_) send(wire::Pong{static_cast<std::uint8_t>(ping.id + 100), frame + 800, 0}); // of a ping that was never sent, or is answered
+            // of a ping that was never sent, or is answered
+            if (lies_) send(wire::Pong{static_cast<std::uint8_t>(ping.id + 100), frame + 800, 0});
             send(wire::Pong{ping.id, frame, 0});
             if (lies_) send(wire::Pong{ping.id, frame + 400, 0}); // once more
         }

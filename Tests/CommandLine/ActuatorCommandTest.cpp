@@ -50,7 +50,8 @@ TEST_F(ActuatorCommand, RemapsEventsInOrderAndWarnsOfMaterialsThatBecomeOne) {
     const auto moved = read("b.csv");
     EXPECT_NE(moved.find("\n0.100000000,196."), std::string::npos) << moved;
     ASSERT_EQ(call("render --from-events b.csv --layout phone1 --seconds 1 --out b.wav").exitCode, 0);
-    const auto tail = [](const std::string& wav) { return wav.substr(wav.size() - 100'000); }; // without the line on its origin
+    // without the line on its origin
+    const auto tail = [](const std::string& wav) { return wav.substr(wav.size() - 100'000); };
     EXPECT_EQ(tail(read("b.wav")), tail(read("a.wav")));
     const auto whole = call("render --from-events hits.csv --layout phone1 --seconds 1 --out c.wav --actuator haptuator-mark-2 --equalise off --remap on");
     EXPECT_EQ(whole.exitCode, 0) << whole.err;

@@ -49,7 +49,8 @@ TEST_F(BeatsCommand, WritesTheBeatsOfASongAsStrikesOnTheEnchantersOfTheirBands) 
     EXPECT_GE(found * 100, song.hits.size() * 95);
     for (const CollisionEvent& e : events.value.events) {
         EXPECT_LE(e.amplitude, 0.3);
-        const bool isLow = e.decayPerSecond == 15.0, isHigh = e.decayPerSecond == 60.0; // C: lower left; D: lower right
+        // C: lower left; D: lower right
+        const bool isLow = e.decayPerSecond == 15.0, isHigh = e.decayPerSecond == 60.0;
         EXPECT_TRUE(!(isLow || isHigh) || e.y == 0.0);
         EXPECT_TRUE(!isLow || e.x == 0.0);
     }

@@ -123,7 +123,8 @@ TEST_F(CouplingCommand, APhantomIsFeltWhereItIsMeant) {
 
 TEST_F(CouplingCommand, TheDriveIsAtMostThreeDecibelsStrongerEvenWhereThatIsNotEnough) {
     const Signals plain = rendered("");
-    write("bad.json", coupling(180.0, 1.95)); // the four nearly cancel each other out: all at once they would need 32 dB more
+    // the four nearly cancel each other out: all at once they would need 32 dB more
+    write("bad.json", coupling(180.0, 1.95));
     const double extra = 20.0 * std::log10(peakOf(rendered("--coupling bad.json")) / peakOf(plain));
     RecordProperty("extra_db", std::to_string(extra));
     EXPECT_LT(extra, 3.1); // peaks of other phases lie elsewhere under the envelope

@@ -50,7 +50,8 @@ TEST_F(ExportCommand, EveryScenePlaysAsItsRenderDoes) {
         runs("export " + scene + " --seconds 3 --error 0.001 --to a.hjif");
         runs("render a.hjif --seconds 3 --limiter off --out again.wav");
         EXPECT_LE(farthest(wav("direct.wav"), wav("again.wav")), 1e-3) << scene;
-        EXPECT_GE(farthest(wav("direct.wav"), ClipSignals(4, std::vector<float>(144000))), 1e-3) << scene; // there is something to compare
+        // there is something to compare
+        EXPECT_GE(farthest(wav("direct.wav"), ClipSignals(4, std::vector<float>(144000))), 1e-3) << scene;
     }
 }
 

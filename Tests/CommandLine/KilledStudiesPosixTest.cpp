@@ -108,7 +108,8 @@ TEST_P(KilledStudies, GoOnInEveryPhaseWithTheSameSettingsOnly) {
             if (trials == 0 || trials > phases.back()) continue;
             takeAndBeKilled(trials);
             if (HasFatalFailure()) return;
-            if (++kills % 2 == 0) std::ofstream{run("killed").trialFile(), std::ios::app} << "P01,person,half a r"; // the disk got no more of the next one
+            // the disk got no more of the next one
+            if (++kills % 2 == 0) std::ofstream{run("killed").trialFile(), std::ios::app} << "P01,person,half a r";
             if (kills < 5) expectChangesRefused();
         }
     const StudyRun killed = run("killed");

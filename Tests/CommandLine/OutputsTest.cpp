@@ -43,7 +43,8 @@ protected:
         for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
         words.push_back(nullptr);
         for (const int standard : {STDOUT_FILENO, STDERR_FILENO}) dup2(open((folder_ / ".out").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600), standard);
-        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL); // whoever runs the tests may ignore some
+        // whoever runs the tests may ignore some
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
         if (chdir(folder_.c_str()) == 0) execv(words.front(), words.data());
         _exit(127);
     }
@@ -183,7 +184,8 @@ TEST_F(Outputs, AFullDiskIsToldAndLeavesTheOldFiles) {
         std::size_t most = 0;
         for (const auto& name : outputs) most = std::max(most, read(name).size()), write(name, "old");
         for (std::size_t blocks = 0; blocks * 512 < most; blocks = blocks * 2 + 1) {
-            shell("sh -c \"(ulimit -f " + std::to_string(blocks) + "; " + program_ + words + "; echo \\$?) 2>&1 | cat >.out\""); // words go through a pipe
+            // words go through a pipe
+            shell("sh -c \"(ulimit -f " + std::to_string(blocks) + "; " + program_ + words + "; echo \\$?) 2>&1 | cat >.out\"");
             EXPECT_TRUE(read(".out").ends_with("cannot be written: File too large\n1\n")) << words << ' ' << blocks << read(".out");
             for (const auto& name : outputs) EXPECT_EQ(read(name), "old") << words << ' ' << blocks;
         }

@@ -37,7 +37,8 @@ TEST_F(PerceivedLevelCommand, WeighsTheEventsThatAreListedAndPlayed) {
     for (const char* row : {"\n0.100000000,20,10,0.125,", "\n0.200000000,80,34.13,0.25,", "\n0.500000000,500,50,0.5,", "\n0.700000000,500,50,1,"})
         EXPECT_NE(listed.find(row), std::string::npos) << row << listed;
     ASSERT_EQ(call("render --from-events b.csv --layout phone1 --seconds 1 --out b.wav").exitCode, 0);
-    const auto tail = [](const std::string& wav) { return wav.substr(wav.size() - 100'000); }; // without the line on its origin
+    // without the line on its origin
+    const auto tail = [](const std::string& wav) { return wav.substr(wav.size() - 100'000); };
     EXPECT_EQ(tail(read("b.wav")), tail(read("a.wav")));
 }
 

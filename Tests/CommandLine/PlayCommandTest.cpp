@@ -19,7 +19,8 @@ TEST_F(PlayCommand, WithoutADeviceItSaysWhatThereIsAndWhatToType) {
     ASSERT_NE(begin, std::string::npos) << left.out;
     EXPECT_EQ(listed.out.rfind(left.out.substr(0, left.out.rfind('\n', begin) + 1), 0), 0u) << "the devices as `devices` lists them: " << left.out;
     const std::string typed = left.out.substr(begin + 8, left.out.find('\n', begin) - begin - 8);
-    EXPECT_NE(call(typed + " --seconds 0.1").exitCode, 2) << typed; // it is a call, whether or not the device can be opened
+    // it is a call, whether or not the device can be opened
+    EXPECT_NE(call(typed + " --seconds 0.1").exitCode, 2) << typed;
 }
 
 TEST_F(PlayCommand, ThereHasToBeSomethingToPlayOn) {

@@ -234,7 +234,8 @@ TEST_F(Render, AFixedLevelIsInG) {
     ASSERT_FALSE(events.value.events.empty());
     const CollisionEvent& first = events.value.events.front();
     const double omega = 2.0 * std::numbers::pi * first.frequencyHz, peakAt = std::atan(omega / first.decayPerSecond) / omega;
-    EXPECT_NEAR(first.amplitude * std::sin(omega * peakAt) * std::exp(-first.decayPerSecond * peakAt), 0.5, 1e-9); // 1.5 g of 3
+    // 1.5 g of 3
+    EXPECT_NEAR(first.amplitude * std::sin(omega * peakAt) * std::exp(-first.decayPerSecond * peakAt), 0.5, 1e-9);
     refuses("render drop --method AF-FV-DRV --layout mixed.json --out b.wav", 1, "mixed.json: --method AF-FV-DRV: expected one full_scale_g for all actuators, found 3 and 1", 3);
     EXPECT_EQ(call("render drop --seconds 1 --method AV-FF-DRF --layout mixed.json --events b.csv").exitCode, 0);
     refuses("render drop --method AF --out b.wav", 2, "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"AF\"", 4);

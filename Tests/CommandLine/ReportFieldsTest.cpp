@@ -25,7 +25,8 @@ protected:
             std::istringstream lines{read(name)};
             std::string text;
             for (std::string line; std::getline(lines, line);) {
-                if (line.ends_with(",,,,")) line.replace(line.size() - 4, 4, apparatus + ",1.0"); // limiter_db, master_db, noise_db, device, version
+                // limiter_db, master_db, noise_db, device, version
+                if (line.ends_with(",,,,")) line.replace(line.size() - 4, 4, apparatus + ",1.0");
                 for (std::size_t at = line.find("simulated"); at != std::string::npos; at = line.find("simulated")) line.replace(at, 9, "person");
                 text += line + "\n";
             }

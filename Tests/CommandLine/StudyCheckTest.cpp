@@ -44,7 +44,8 @@ TEST_F(StudyCheckCommand, EveryConditionOfTheFallingObjectsKeepsItsDistancesBelo
         for (const char* size : {"small", "medium", "large"})
             for (const std::string part : {"AV-FV-DRV", "SV"}) {
                 const auto at = [&](const char* height) { return toDecibels(peaks.at(std::string{"pair="} + pair + " size=" + size + " height=" + height + " " + part)); };
-                EXPECT_NEAR(at("2") - at("1"), 3.01, 0.1) << pair << size << part; // Eq. 5.4: as the root of the height
+                // Eq. 5.4: as the root of the height
+                EXPECT_NEAR(at("2") - at("1"), 3.01, 0.1) << pair << size << part;
                 EXPECT_NEAR(at("3") - at("1"), 4.77, 0.1) << pair << size << part;
             }
     EXPECT_NE(outcome.out.find("warning: condition drop, pair=rubber-concrete size=small height=1"), std::string::npos) << outcome.out;

@@ -120,7 +120,8 @@ TEST_F(Study, KilledInTheMiddleOfATrialItGoesOnAndTheFileIsTheSame) {
         ASSERT_LT(cut.size(), whole.size()) << "and not all";
         EXPECT_EQ(cut, whole.substr(0, cut.size()));
         EXPECT_EQ(cut.back(), '\n');
-        write(file, cut + whole.substr(cut.size(), 17)); // as if the machine had gone down while a row was written
+        // as if the machine had gone down while a row was written
+        write(file, cut + whole.substr(cut.size(), 17));
         const auto outcome = call(study);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         EXPECT_NE(outcome.out.find("of them there before"), std::string::npos) << outcome.out;

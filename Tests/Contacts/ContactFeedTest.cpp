@@ -188,7 +188,8 @@ TEST_F(ContactFeedTest, ABlowBesideTheCentreHasLessMass) {
     ASSERT_EQ(feed.set(ball, {.massKg = 2.0, .inertiaKgSquareMetres = 0.5}, camera()), "");
     ASSERT_EQ(feed.move(ball, {0.0F, 0.5F}, {{0.0F, -3.0F}, 0.0F}), "");
     beginStep(0.01);
-    EXPECT_EQ(feed.begin({.a = ground, .b = ball, .point = {0.5F, 0.0F}, .restitution = 1.0}), ""); // neither is told: the motion is
+    // neither is told: the motion is
+    EXPECT_EQ(feed.begin({.a = ground, .b = ball, .point = {0.5F, 0.0F}, .restitution = 1.0}), "");
     endStep();
     const auto felt = events();
     ASSERT_EQ(felt.size(), 1U);
@@ -301,7 +302,8 @@ TEST_F(ContactFeedRubs, WhatRollsGivesTheTonesOfItsRidgesAndTravels) {
     }
     ASSERT_GT(slid.size(), 190U);
     EXPECT_EQ(slid.back().source.kind, ContactKind::slide);
-    EXPECT_NEAR(slid.back().amplitude, 5.0 * rolled.back().amplitude, 1.0e-6); // a fifth is felt of what rolls
+    // a fifth is felt of what rolls
+    EXPECT_NEAR(slid.back().amplitude, 5.0 * rolled.back().amplitude, 1.0e-6);
     EXPECT_NEAR(slid.back().source.impulseNewtonSeconds, 0.1 * 2.0 * g / 9.80665 * 0.4, 1.0e-3);
 }
 

@@ -93,7 +93,8 @@ std::vector<double> thirdOctaves(const Grains& grains, double metresPerSecond, s
 TEST(Grains, SoundAlikeBelow500HertzThinnedOrNot) {
     const Texture texture{0.001};
     const Grains grains{5, texture};
-    for (const auto& [speed, every] : {std::pair{5.0, 4}, std::pair{20.0, 16}}) { // as LastingContacts does: 1,250 a second
+    // as LastingContacts does: 1,250 a second
+    for (const auto& [speed, every] : {std::pair{5.0, 4}, std::pair{20.0, 16}}) {
         const auto all = thirdOctaves(grains, speed, 1), thinned = thirdOctaves(grains, speed, every);
         ASSERT_EQ(all.size(), 10U);
         for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(thinned[i], all[i], 1.0) << speed << " m/s, band " << i;

@@ -60,7 +60,8 @@ TEST(RenderingMethod, TheFixedPulseLastsExactlyTwentyMilliseconds) {
     for (const std::int64_t onset : {std::int64_t{10'000'000}, std::int64_t{10'007'301}}) { // on a frame, and between two
         hit.timeNs = onset;
         const auto samples = rendered({hit}, named("AF-FF-DRF"), 4800).front();
-        const auto first = static_cast<std::size_t>((onset * rate + 999'999'999) / 1'000'000'000); // the first frame not before it
+        // the first frame not before it
+        const auto first = static_cast<std::size_t>((onset * rate + 999'999'999) / 1'000'000'000);
         for (std::size_t n = 0; n < samples.size(); ++n)
             if (n < first || n >= first + 960) ASSERT_EQ(samples[n], 0.0f) << n;
         EXPECT_NE(samples[first + 959], 0.0f) << "20 ms are 960 frames";

@@ -19,12 +19,14 @@ inline bool drop(const char* name, Engine& engine, int rate) {
     engine.world = plainWorld();
     engine.begin(dt, gravity, engine.restitution, 0.0);
     engine.floor();
-    engine.add({.y = radius + h, .vy = (engine.movesFirst ? -0.5 : 0.5) * gravity * dt / engine.subSteps, .isSource = true}); // ends of steps lie on the parabola
+    // ends of steps lie on the parabola
+    engine.add({.y = radius + h, .vy = (engine.movesFirst ? -0.5 : 0.5) * gravity * dt / engine.subSteps, .isSource = true});
     double onsets[2] = {}, speeds[2] = {};
     int hits = 0;
     for (int step = 0; step < 2 * rate && hits < 2; ++step) {
         const double gap = engine.motion(1).y - radius, now = -engine.motion(1).vy, atFloor = std::sqrt(std::fmax(0.0, now * now + 2.0 * gravity * gap));
-        const double falling = engine.subSteps > 1 ? 0.5 * (now + atFloor) : (engine.movesFirst ? 0.0 : gravity * dt) + now; // on the way to the floor
+        // on the way to the floor
+        const double falling = engine.subSteps > 1 ? 0.5 * (now + atFloor) : (engine.movesFirst ? 0.0 : gravity * dt) + now;
         const bool isNext = hits == 0 || step * dt > onsets[0] + 0.05; // some land in two steps
         if (isNext && falling > 1.0 && gap > 0.0 && gap <= falling * dt) {
             onsets[hits] = step * dt + gap / falling;
@@ -35,7 +37,8 @@ inline bool drop(const char* name, Engine& engine, int rate) {
     for (int step = 0; step < 4; ++step) engine.step(); // soft ones take their time
     const auto events = engine.take();
     physvib_world_free(engine.world);
-    bool isFine = hits > 0 && events.size() >= static_cast<std::size_t>(hits); // a contact that damps has no bounce
+    // a contact that damps has no bounce
+    bool isFine = hits > 0 && events.size() >= static_cast<std::size_t>(hits);
     if (!isFine) return std::printf("%s,%d,%d hits,%zu events,FAILED\n", name, rate, hits, events.size()), false;
     double onsetMs = 0.0, ofMotion = 0.0;
     for (int i = 0; i < hits; ++i) {

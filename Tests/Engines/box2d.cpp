@@ -44,7 +44,8 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         b2CircleShape disc;
         disc.m_radius = static_cast<float>(from.width / 2);
         b2PolygonShape polygon;
-        polygon.SetAsBox(static_cast<float>(from.width / 2) - b2_polygonRadius, static_cast<float>(from.height / 2) - b2_polygonRadius); // with its skin as large as told
+        // with its skin as large as told
+        polygon.SetAsBox(static_cast<float>(from.width / 2) - b2_polygonRadius, static_cast<float>(from.height / 2) - b2_polygonRadius);
         bodies[from.id] = box2d->CreateBody(&def);
         const double area = from.isBox ? (from.width - 2 * b2_polygonRadius) * (from.height - 2 * b2_polygonRadius) : b2_pi * disc.m_radius * disc.m_radius;
         number(bodies[from.id]->CreateFixture(from.isBox ? static_cast<b2Shape*>(&polygon) : &disc, static_cast<float>(from.massKg / area)), from.id, from.isSource,

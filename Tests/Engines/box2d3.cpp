@@ -21,7 +21,8 @@ struct Box2d3 final : scenes::Engine {
     void floor() override { add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0}); }
     void tiles(double left, double right, int count) override {
         std::vector<b2Vec2> points;
-        for (int i = count + 1; i >= -1; --i) points.push_back({static_cast<float>(left + (right - left) * i / count), 0}); // two ghosts
+        // two ghosts
+        for (int i = count + 1; i >= -1; --i) points.push_back({static_cast<float>(left + (right - left) * i / count), 0});
         const b2BodyDef still = b2DefaultBodyDef();
         const b2BodyId ground = b2CreateBody(haptics.box2d, &still);
         b2ChainDef chain = b2DefaultChainDef();

@@ -14,7 +14,8 @@ struct Bullet final : scenes::Engine {
         bullet->setGravity(vector(0, -g));
         haptics = std::make_unique<PhysVibBullet>(*bullet, world);
     }
-    void end() { bodies.clear(), joints.clear(), haptics.reset(), bullet.reset(), shapes.clear(), platform = nullptr; } // in this order
+    // in this order
+    void end() { bodies.clear(), joints.clear(), haptics.reset(), bullet.reset(), shapes.clear(), platform = nullptr; }
     void floor() override { add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0}); }
     void add(const scenes::Body& from) override {
         tell(from);

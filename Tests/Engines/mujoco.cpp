@@ -16,7 +16,8 @@ struct MuJoCo final : scenes::Engine {
         balls.clear();
         model.reset();
     }
-    void floor() override { xml += "<geom type='plane' size='5 5 1' solref='0.02 0.2155'/>"; } // a damping that gives half of the speed back
+    // a damping that gives half of the speed back
+    void floor() override { xml += "<geom type='plane' size='5 5 1' solref='0.02 0.2155'/>"; }
     void add(const scenes::Body& from) override {
         physvib_body still; // the floor is its body 0
         physvib_body_init(&still, sizeof still);

@@ -25,7 +25,8 @@ int main() {
 
     // PhysVib: how the ball vibrates, and four enchanters on the corners of a field of 1 m x 1 m.
     physvib::Attachment haptics(world);
-    if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return 1; // refused: it says why
+    // refused: it says why
+    if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return 1;
     physvib::EnchanterLayout layout;
     physvib::layoutPreset("phone4", layout);
     const auto renderer = std::make_unique<physvib::HapticRenderer>();

@@ -40,7 +40,8 @@ void stepTheWorld() {
     physvib::ImpactSettings settings;
     settings.driveGain = 0.5; // a field of 1 m is crossed slowly: hits are hard in it
     physvib::Attachment haptics(world, settings);
-    if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return; // refused: it says why
+    // refused: it says why
+    if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return;
 
     const auto laterNs = static_cast<std::int64_t>(law.playOutSeconds() * 1.0e9);
     std::vector<physvib::CollisionEvent> events;
@@ -76,7 +77,8 @@ int main() {
     float peak = 0.0f;
     for (std::int64_t frame = 0; frame < std::int64_t{rate} * seconds; frame += block) {
         sessionNs = frame * 1'000'000'000 / rate;
-        while (worldNs < sessionNs - law.safeLagNs()) std::this_thread::yield(); // a device waits by itself; its callback only renders
+        // a device waits by itself; its callback only renders
+        while (worldNs < sessionNs - law.safeLagNs()) std::this_thread::yield();
         renderer->render(queue, channels.data(), block);
         for (const auto& channel : out)
             for (const float sample : channel) peak = std::max(peak, std::abs(sample));

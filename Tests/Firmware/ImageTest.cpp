@@ -24,7 +24,8 @@ TEST(BoardImage, FitsTheProcessor) {
 TEST(BoardImage, HasNoHeapAndNoExceptions) {
     for (const auto& [name, symbol] : virtualboard::readElf(PHYSVIB_BOARD_IMAGE).symbols)
         for (const char* word : {"malloc", "calloc", "_sbrk", "_Znw", "_Zna", "__cxa_throw", "__aeabi_d", "printf"})
-            EXPECT_FALSE(name.starts_with(word)) << name; // __aeabi_d: double precision, which the processor has not
+            // __aeabi_d: double precision, which the processor has not
+            EXPECT_FALSE(name.starts_with(word)) << name;
 }
 
 TEST(BoardImage, SelfTestGivesTheBitsOfThisComputer) {

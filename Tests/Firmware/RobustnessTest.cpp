@@ -139,7 +139,8 @@ TEST(BoardRobustness, NothingIsStruckBeforeAHelloOrTwice) {
     rig.connect();
     const std::uint32_t first = rig.frame() + 400;
     for (std::uint8_t i = 0; i < 3; ++i) rig.send(wire::Strike{i, tone(first + 100u * i, 5)});
-    for (std::uint8_t i = 0; i < 3; ++i) rig.send(wire::Strike{i, tone(first + 100u * i, 5)}); // the line says it all again
+    // the line says it all again
+    for (std::uint8_t i = 0; i < 3; ++i) rig.send(wire::Strike{i, tone(first + 100u * i, 5)});
     rig.runTo(first + 600);
     rig.send(wire::Strike{0, tone(first, 5)}); // and later
     rig.runTo(first + 1000);
@@ -159,7 +160,8 @@ TEST(BoardRobustness, StopAllIsSilenceWithinTwoMilliseconds) {
     }
     for (int i = 0; i < 20; ++i) {
         for (std::size_t k = 0; k < events.size(); ++k) events[k].frame = rig.frame() + 600 + 30u * static_cast<std::uint32_t>(k);
-        rig.play(events, events.back().frame + 50 + static_cast<std::uint32_t>(i)); // each time at another moment of a block
+        // each time at another moment of a block
+        rig.play(events, events.back().frame + 50 + static_cast<std::uint32_t>(i));
         const auto bytes = test::framed(wire::StopAll{});
         const double at = rig.board.seconds() + i * 0.000037;
         rig.board.send(bytes, at);

@@ -47,7 +47,8 @@ std::string vectorial(const std::string& effects) { return R"({"band_type": "Vec
 TEST(HjifFile, SoundsTheSameWhenReadAgain) {
     const Clip clip = scene();
     const Clip again = read(hjifText(clip));
-    EXPECT_LE(farthest(clipSound(clip, rateHz).channels, clipSound(again, rateHz).channels), 6e-6); // a phase just below 2 pi is rounded to their limit
+    // a phase just below 2 pi is rounded to their limit
+    EXPECT_LE(farthest(clipSound(clip, rateHz).channels, clipSound(again, rateHz).channels), 6e-6);
     EXPECT_EQ(again.title, "hits");
     for (std::size_t j = 0; j < 4; ++j) {
         EXPECT_EQ(again.channels[j].label, clip.channels[j].label);
@@ -91,7 +92,8 @@ TEST(HjifFile, ReadsWhatOthersWrite) {
     const ClipWave first{0.1, 1.0, ClipWaveform::square, {{0.05, 0.5}, {0.2, 0.5}}, {{0.0, 60.0}, {0.2, 90.0}}};
     const ClipWave second{0.4, 0.0, ClipWaveform::sine, {{0.0, 0.5}, {0.03, 0.0}}, {{0.0, 100.0}}};
     EXPECT_EQ(channel.bands[0].waves, (std::vector<ClipWave>{first, second}));
-    EXPECT_NEAR(valueAt(channel.bands[1].waves[0].amplitude, 0.002), 0.5 * (0.0625 * 2.5), 1e-12); // 3 s^2 - 2 s^3
+    // 3 s^2 - 2 s^3
+    EXPECT_NEAR(valueAt(channel.bands[1].waves[0].amplitude, 0.002), 0.5 * (0.0625 * 2.5), 1e-12);
     EXPECT_EQ(channel.transients, (std::vector<ClipTransient>{{0.015, 0.5, 90.0}}));
 }
 

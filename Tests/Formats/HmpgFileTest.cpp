@@ -146,7 +146,8 @@ TEST(HmpgFile, ReadsWhatOthersWrite) {
     EXPECT_NEAR(second.startSeconds, 0.356, 1e-12);
     EXPECT_NEAR(valueAt(second.amplitude, 0.0), 0.5, 1e-5);
     EXPECT_NEAR(valueAt(second.amplitude, 0.03), -0.5, 1e-5);
-    EXPECT_NEAR(valueAt(channel.bands[1].waves[0].amplitude, 0.002), 0.5 * (0.0625 * 2.5), 0.003); // 3 s^2 - 2 s^3
+    // 3 s^2 - 2 s^3
+    EXPECT_NEAR(valueAt(channel.bands[1].waves[0].amplitude, 0.002), 0.5 * (0.0625 * 2.5), 0.003);
     ASSERT_EQ(channel.transients.size(), 1u);
     EXPECT_NEAR(channel.transients[0].seconds, 0.143, 1e-12);
     EXPECT_EQ(channel.transients[0].frequencyHz, 90.0);

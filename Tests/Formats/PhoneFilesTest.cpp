@@ -155,7 +155,8 @@ TEST(PhoneFiles, ReadAppleAsAppleSays) {
         {"Event": {"Time": 0, "EventType": "HapticTransient"}}, {"Event": {"EventType": "AudioCustom", "Time": 3}}, {"Other": 1}]})", "f", {100.0, 200.0});
     ASSERT_EQ(clip.error, "");
     const ClipChannel& channel = clip.value.channels[0];
-    EXPECT_EQ(channel.transients, (std::vector<ClipTransient>{{0.0, 1.0, 150.0}})); // assumed intensity and sharpness
+    // assumed intensity and sharpness
+    EXPECT_EQ(channel.transients, (std::vector<ClipTransient>{{0.0, 1.0, 150.0}}));
     const ClipWave& wave = channel.bands[0].waves[0];
     EXPECT_EQ(wave.startSeconds, 0.5);
     EXPECT_NEAR(valueAt(wave.amplitude, 0.0), 0.25, 1e-12); // (0.5 x 1)^2: beyond 1 is 1

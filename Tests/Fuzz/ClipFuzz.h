@@ -17,7 +17,8 @@ inline void tryClip(std::string_view bytes, ClipFormat format) {
         const auto bytes = clipBytes(clip.value, other);
         if (!bytes) continue; // more bands than it has numbers for
         const auto again = readClip(bytes.value, "f", other);
-        const bool isNothing = again.error.find("silence") != std::string::npos || again.error.find("at most") != std::string::npos; // of one channel of several, or longer by a rise
+        // of one channel of several, or longer by a rise
+        const bool isNothing = again.error.find("silence") != std::string::npos || again.error.find("at most") != std::string::npos;
         demand(static_cast<bool>(again) || isNothing, "cannot read what was written", again.error);
     }
     constexpr double briefly = 1.0;

@@ -7,7 +7,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;
     if (size == 0) return 0;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(fmemopen(const_cast<std::uint8_t*>(data), size, "rb"), std::fclose); // only read
+    // only read
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(fmemopen(const_cast<std::uint8_t*>(data), size, "rb"), std::fclose);
     const auto sound = readWav(*file);
     fuzz::demand(static_cast<bool>(sound) != sound.value.channels.empty(), "half-loaded", sound.error);
     std::size_t samples = 0;

@@ -59,7 +59,8 @@ TEST(BeatDetector, FindsTheBeatsOfASongWithinTenMilliseconds) {
                     hats = scoreOf(onsets, song, rateHz, 2, {Drum::snare, Drum::hat});
         for (const Score& score : {kicks, snares, hats}) {
             EXPECT_GE(score.found * 100, score.hits * 90) << rateHz;
-            EXPECT_LT(std::abs(score.medianSeconds), 0.001) << rateHz; // the detector's own delay is made up for
+            // the detector's own delay is made up for
+            EXPECT_LT(std::abs(score.medianSeconds), 0.001) << rateHz;
         }
     }
 }

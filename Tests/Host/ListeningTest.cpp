@@ -283,7 +283,8 @@ TEST(Listening, WhatIsSilencedIsNotMarkedAndNoPulseBeginsInItsMiddle) {
     hit.amplitude = 0.5;
     const auto marksAfter = [&](bool isSilentAtFirst) {
         EXPECT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
-        const auto blocks = static_cast<int>(rig.session.timeline().playOutFrames() / blockFrames); // the pulse of 96 frames begins in the last of these
+        // the pulse of 96 frames begins in the last of these
+        const auto blocks = static_cast<int>(rig.session.timeline().playOutFrames() / blockFrames);
         float most = 0.0f;
         for (int b = 0; b < blocks + 20; ++b) {
             rig.output.setSilent(isSilentAtFirst && b <= blocks);

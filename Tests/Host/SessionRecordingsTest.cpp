@@ -66,7 +66,8 @@ TEST_F(Recordings, OfAContactWhatLiesBelow5HzIsTakenAwayAndTold) {
     EXPECT_EQ(plain.value.note, "");
     const std::string path = (folder / "leaning.wav").string();
     std::vector<float> samples(2400);
-    for (int n = 0; n < 24000; ++n) samples.push_back(static_cast<float>(0.3 * std::sin(0.04 * n) * std::exp(-n / 4000.0) - 0.1)); // an accelerometer that the hit has turned
+    // an accelerometer that the hit has turned
+    for (int n = 0; n < 24000; ++n) samples.push_back(static_cast<float>(0.3 * std::sin(0.04 * n) * std::exp(-n / 4000.0) - 0.1));
     const float* at = samples.data();
     WavSink sink{path, 1, 48000};
     sink.write(&at, static_cast<int>(samples.size()));

@@ -67,7 +67,8 @@ private:
     // The block of the recording at `at` is the render's at `there`.
     bool isEqual(std::int64_t at, std::int64_t there) const {
         if (there + block_ > render_.frames()) return false;
-        const auto before = static_cast<int>(std::clamp<std::int64_t>(-there, 0, block_)); // frames before the render begins
+        // frames before the render begins
+        const auto before = static_cast<int>(std::clamp<std::int64_t>(-there, 0, block_));
         const float* recorded = recording_.at(at);
         if (!std::all_of(recorded, recording_.at(at + before), [](float x) { return x == 0.0f; })) return false;
         const auto bytes = static_cast<std::size_t>((block_ - before) * render_.channels) * sizeof(float);

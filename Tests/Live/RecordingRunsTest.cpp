@@ -53,7 +53,8 @@ TEST(RecordingRuns, BlankTornAndRepeatedBlocksAreOneBreakEach) {
     auto recording = recorded(render, 17);
     std::fill(at(recording, 20), at(recording, 21), 0.0f);                                  // blank
     at(recording, 40)[30] += 0.5f;                                                          // torn
-    recording.samples.insert(at(recording, 60), at(recording, 59), at(recording, 60));      // repeated, then goes on
+    // repeated, then goes on
+    recording.samples.insert(at(recording, 60), at(recording, 59), at(recording, 60));
     const auto result = RecordingRuns{recording, render, block}.compare();
     ASSERT_EQ(result.breaks.size(), 3u);
     EXPECT_EQ(result.breaks[0].foreign, 1);

@@ -228,7 +228,8 @@ TEST(MaterialExtractor, WhatIsNoHitIsTold) {
 
 TEST(MaterialExtractor, RoundedPeaksAreNotClipped) {
     auto samples = hit({{40, 5}}, clean, 1);
-    for (float& x : samples) x = std::round(x * 2048.0f) / 2048.0f; // 12 bits: a peak is flat for several samples
+    // 12 bits: a peak is flat for several samples
+    for (float& x : samples) x = std::round(x * 2048.0f) / 2048.0f;
     const auto found = extractMaterial(samples, rate);
     ASSERT_TRUE(found) << found.error;
     EXPECT_NEAR(found.value.frequencyHz, 40, 0.02);

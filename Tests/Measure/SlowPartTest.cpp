@@ -60,10 +60,12 @@ TEST(SlowPart, WhatChangesSlowlyGoesAsFarAsItsFrequencySays) {
         EXPECT_GT(takeSlowPart(samples, rate).rest, 0.39) << hz;
         EXPECT_NEAR(peakBetween(samples, 1.0, 9.0), left, 0.01) << hz;
     }
-    auto steps = samplesOf(10.0, [](double t) { return (t < 5.0 ? 1.0 : -1.0) + 0.1 * sine(205.0, t); }); // its mean is zero
+    // its mean is zero
+    auto steps = samplesOf(10.0, [](double t) { return (t < 5.0 ? 1.0 : -1.0) + 0.1 * sine(205.0, t); });
     EXPECT_GT(takeSlowPart(steps, rate).rest, 0.99);
     EXPECT_NEAR(peakBetween(steps, 0.2, 4.8), 0.1, 0.01);
-    auto burst = samplesOf(60.0, [](double t) { return t > 20.0 && t < 30.0 ? 1.0 : 0.0; }); // a sixth of it is its mean
+    // a sixth of it is its mean
+    auto burst = samplesOf(60.0, [](double t) { return t > 20.0 && t < 30.0 ? 1.0 : 0.0; });
     const auto taken = takeSlowPart(burst, rate);
     EXPECT_NEAR(taken.mean, 1.0 / 6.0, 1e-3);
     EXPECT_EQ(taken.text().substr(0, 83), "what lies below 5 Hz is not played: a mean of 0.17, and up to 0.83 beside it, of fu");

@@ -149,7 +149,8 @@ TEST(TextureExtractor, WhatIsNoScrapeIsTold) {
     std::vector<float> noise(48000), ringing(48000);
     for (float& x : noise) x = static_cast<float>(0.1 * random.normal());
     expectFault(noise, "expected a scrape whose grains stand out or repeat, found none that do");
-    const double r = std::exp(-50.0 / rate), turn = 2.0 * r * std::cos(2.0 * std::numbers::pi * 300.0 / rate); // a material that noise shakes
+    // a material that noise shakes
+    const double r = std::exp(-50.0 / rate), turn = 2.0 * r * std::cos(2.0 * std::numbers::pi * 300.0 / rate);
     for (std::size_t n = 2; n < ringing.size(); ++n) ringing[n] = noise[n] * 0.01f + static_cast<float>(turn) * ringing[n - 1] - static_cast<float>(r * r) * ringing[n - 2];
     expectFault(ringing, "found none that do");
     for (std::size_t n = 0; n < ringing.size(); ++n) ringing[n] = static_cast<float>(0.5 * std::sin(0.03 * static_cast<double>(n)) * std::exp(-5.0 * static_cast<double>(n) / rate));
@@ -167,7 +168,8 @@ TEST(TextureExtractor, WhatIsNoScrapeIsTold) {
 AutoregressiveModel model(double hz, double tau, double rms) {
     constexpr double modelRate = 10'000.0;
     const double r = std::exp(-tau / modelRate), angle = 2.0 * std::numbers::pi * hz / modelRate, a1 = -2.0 * r * std::cos(angle), a2 = r * r;
-    const double gain = (1.0 + a2) / ((1.0 - a2) * ((1.0 + a2) * (1.0 + a2) - a1 * a1)); // power of y for noise of 1
+    // power of y for noise of 1
+    const double gain = (1.0 + a2) / ((1.0 - a2) * ((1.0 + a2) * (1.0 + a2) - a1 * a1));
     return {modelRate, rms * rms / gain, {a1, a2}};
 }
 

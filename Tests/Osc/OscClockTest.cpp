@@ -27,7 +27,8 @@ struct Device {
 TEST(OscClocks, TagsAreSecondsSince1900) {
     EXPECT_EQ(unixNsOf(OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32), 0);
     EXPECT_EQ(unixNsOf((OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32) + 0x8000'0000u), 500'000'000);
-    for (const std::int64_t ns : {std::int64_t{0}, std::int64_t{1}, unixAhead + 123'456'789, std::int64_t{999'999'999}, std::int64_t{2'500'000'000'999'999'999}}) EXPECT_EQ(unixNsOf(tagOf(ns)), ns); // the last is behind 2036
+    // the last is behind 2036
+    for (const std::int64_t ns : {std::int64_t{0}, std::int64_t{1}, unixAhead + 123'456'789, std::int64_t{999'999'999}, std::int64_t{2'500'000'000'999'999'999}}) EXPECT_EQ(unixNsOf(tagOf(ns)), ns);
 }
 
 TEST(OscClocks, WhatIsTaggedIsMeantForThePresentAndFeltLater) {

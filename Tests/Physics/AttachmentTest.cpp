@@ -261,7 +261,8 @@ TEST(Attachment, ContactsAtTheAddressOfDestroyedOnesAreFelt) {
             attachment.endStep();
         }
         b2Fixture& next = foreign.add(0.4F);
-        EXPECT_EQ(step(attachment, 30, 0.01F).size(), 4U) << round; // of those that broke, and its first bounce
+        // of those that broke, and its first bounce
+        EXPECT_EQ(step(attachment, 30, 0.01F).size(), 4U) << round;
         foreign.world.DestroyBody(next.GetBody());
     }
 }

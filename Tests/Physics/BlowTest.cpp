@@ -143,7 +143,8 @@ class BlowsOnAChain : public Blows, public testing::WithParamInterface<float> {
 protected:
     b2Fixture& chain() {
         std::vector<b2Vec2> points;
-        for (int i = 0; i <= 100; ++i) points.push_back({50.0F - static_cast<float>(i), 0.0F}); // this winding: solid from above
+        // this winding: solid from above
+        for (int i = 0; i <= 100; ++i) points.push_back({50.0F - static_cast<float>(i), 0.0F});
         b2ChainShape shape;
         shape.CreateChain(points.data(), static_cast<int>(points.size()), {51.0F, 0.0F}, {-51.0F, 0.0F});
         const b2BodyDef def;
@@ -205,7 +206,8 @@ TEST_P(BlowsBesideAMachine, SmallStrikeDoesNotHandOnItsHumming) {
     (void)attachment.set(ground, camera);
     b2Fixture& machine = block({50.0F, 0.5F}, {0.5F, 0.5F}, 0.0F, 600.0F);
     (void)attachment.set(machine, object);
-    for (const float x : {0.0F, 3.0F}) (void)attachment.set(ball(x, 0.25F, 0.0F, 0.0F, 0.0F), object); // lie, and carry the pebbles
+    // lie, and carry the pebbles
+    for (const float x : {0.0F, 3.0F}) (void)attachment.set(ball(x, 0.25F, 0.0F, 0.0F, 0.0F), object);
     run(50);
     double pebbles = 0.0;
     for (const float x : {0.0F, 3.0F}) {
@@ -213,7 +215,8 @@ TEST_P(BlowsBesideAMachine, SmallStrikeDoesNotHandOnItsHumming) {
         pebble.SetDensity(0.15F);
         pebble.GetBody()->ResetMassData();
         (void)attachment.set(pebble, object);
-        pebbles += massKg(pebble) * (2.0 + 2 * 0.1); // it falls at 2 m/s, and lies for the two steps of a blow
+        // it falls at 2 m/s, and lies for the two steps of a blow
+        pebbles += massKg(pebble) * (2.0 + 2 * 0.1);
     }
     for (int i = 0; i < 60; ++i) { // it shakes the floor by 60 N s
         machine.GetBody()->ApplyLinearImpulseToCenter({0.0F, i % 2 == 0 ? -60.0F : 30.0F}, true);

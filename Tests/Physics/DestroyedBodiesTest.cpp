@@ -17,7 +17,8 @@ public:
         settings.timing = timing;
         attachment_.configure(settings);
         const b2BodyDef ground;
-        const b2Vec2 corners[] = {{0.0F, 0.0F}, {0.0F, 4.0F}, {4.0F, 4.0F}, {4.0F, 0.0F}}; // clockwise: they stay inside
+        // clockwise: they stay inside
+        const b2Vec2 corners[] = {{0.0F, 0.0F}, {0.0F, 4.0F}, {4.0F, 4.0F}, {4.0F, 0.0F}};
         b2ChainShape chain;
         chain.CreateLoop(corners, 4);
         (void)attachment_.set(*world_.CreateBody(&ground)->CreateFixture(&chain, 0.0F), {300.0, 50.0, true, 100.0, Voice::both}, next_++);

@@ -106,12 +106,14 @@ TEST_F(Lasting, SlidesThenRollsThenRests) {
     b2Fixture& ball = ballOnSlope(0.2F);
     ball.GetBody()->SetLinearVelocity({2.0F, 0.0F});
     ball.GetBody()->SetAngularVelocity(8.0F); // back-spin of as much again: it slides until 2/3 (v - w r / 2)
-    const double friction = std::sqrt(0.2), v = 2.0, spin = 8.0 * 0.25; // Box2D mixes frictions by their geometric mean
+    // Box2D mixes frictions by their geometric mean
+    const double friction = std::sqrt(0.2), v = 2.0, spin = 8.0 * 0.25;
     const double slides = (v + spin) / (3.0 * friction * g), rolling = v - friction * g * slides;
     const std::vector<CollisionEvent> events = lasting(100);
     const auto firstRoll = std::ranges::find(events, ContactKind::roll, [](const CollisionEvent& e) { return e.source.kind; });
     ASSERT_NE(firstRoll, events.end());
-    EXPECT_NEAR(seconds(*firstRoll), (0.5 * v + spin) / (2.5 * friction * g), 0.01); // slips half as fast as it goes
+    // slips half as fast as it goes
+    EXPECT_NEAR(seconds(*firstRoll), (0.5 * v + spin) / (2.5 * friction * g), 0.01);
     EXPECT_NEAR(static_cast<double>(ball.GetBody()->GetLinearVelocity().x), rolling, 0.02);
     ball.GetBody()->SetLinearVelocity({0.0F, 0.0F});
     ball.GetBody()->SetAngularVelocity(0.0F);
@@ -127,13 +129,15 @@ TEST_F(Lasting, ThrownWithBackSpinItTurnsBackAndRolls) {
     const double deceleration = std::sqrt(0.2) * g, v = 1.0, spin = 20.0 * 0.25;
     const std::vector<CollisionEvent> events = lasting(100);
     const double furthest = v * v / (2.0 * deceleration);
-    const double rolls = (1.5 * v + spin) / (3.5 * deceleration); // on its way back; slips half as fast as it goes
+    // on its way back; slips half as fast as it goes
+    const double rolls = (1.5 * v + spin) / (3.5 * deceleration);
     ASSERT_GT(events.size(), 300U);
     for (const CollisionEvent& event : events) {
         const double t = seconds(event);
         EXPECT_LT(event.x, furthest + 0.001) << t;
         if (std::abs(t - rolls) > 0.015) EXPECT_EQ(event.source.kind, t < rolls ? ContactKind::slide : ContactKind::roll) << t;
-        const double slid = (v - 0.5 * deceleration * t) * t - 0.5 * 0.01 * v; // half a step behind what was thrown at once
+        // half a step behind what was thrown at once
+        const double slid = (v - 0.5 * deceleration * t) * t - 0.5 * 0.01 * v;
         if (t < rolls - 0.02) EXPECT_NEAR(event.x, slid, 0.001) << t;
     }
     EXPECT_NEAR(static_cast<double>(ball.GetBody()->GetLinearVelocity().x), v - (v + spin) / 3.0, 0.02);
@@ -218,7 +222,8 @@ TEST_F(Lasting, RestIsSilentAndLandingIsABlowOnly) {
 
 TEST_F(Lasting, SeamsOfAChainAreNotHeard) {
     std::vector<b2Vec2> links;
-    for (int i = -2; i < 60; ++i) links.push_back({-0.1F * static_cast<float>(i), 0.0F}); // from right to left: its upper side is solid
+    // from right to left: its upper side is solid
+    for (int i = -2; i < 60; ++i) links.push_back({-0.1F * static_cast<float>(i), 0.0F});
     b2ChainShape shape;
     shape.CreateChain(links.data(), static_cast<int>(links.size()), {0.3F, 0.0F}, {-6.1F, 0.0F});
     const b2BodyDef def;

@@ -97,7 +97,8 @@ TEST_F(OnsetImpactsWorld, RestingNeighboursFeelNothing) {
         if (body->GetType() == b2_dynamicBody) (void)attachment.set(*body->GetFixtureList(), camera);
     const std::int32_t roof = attachment.set(ball(5.0F, 0.249F, 0.0F, 0.0F, 0.0F), camera).id;
     for (const CollisionEvent& event : run(200)) EXPECT_EQ(event.source.fixture, roof);
-    (void)attachment.set(ball(5.0F, 2.0F, 0.0F, 0.0F, 0.0F), object); // strikes another stack on the same floor
+    // strikes another stack on the same floor
+    (void)attachment.set(ball(5.0F, 2.0F, 0.0F, 0.0F, 0.0F), object);
     bool isStruck = false;
     for (const CollisionEvent& event : run(100)) {
         isStruck = isStruck || event.source.fixture == roof;
@@ -198,7 +199,8 @@ TEST_F(OnsetImpactsWorld, MiddleOfARowFeelsOnlyWhatItKeeps) {
 TEST_F(OnsetImpactsWorld, ContactOfTheStepBeforeHandsOnInFull) {
     b2Fixture& last = ball(0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
     (void)attachment.set(last, camera);
-    (void)attachment.set(ball(-0.5005F, 0.0F, 0.1F, 0.0F, 0.0F), object); // touches in the second step, gently
+    // touches in the second step, gently
+    (void)attachment.set(ball(-0.5005F, 0.0F, 0.1F, 0.0F, 0.0F), object);
     (void)attachment.set(ball(-1.0455F, 0.0F, 3.0F, 0.0F, 0.0F), object); // strikes in the third
     const auto events = run(20);
     ASSERT_EQ(events.size(), 1U);
@@ -250,7 +252,8 @@ TEST_F(OnsetImpactsWorld, LastPendulumOfANewtonsCradleFeelsItsOwnImpulseOnce) {
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].source.other, 3);
     const double spin = static_cast<double>(balls[4]->GetBody()->GetAngularVelocity());
-    const double inertia = massKg(*balls[4]) * static_cast<double>(length * length + 0.5F * radius * radius); // about the hinge
+    // about the hinge
+    const double inertia = massKg(*balls[4]) * static_cast<double>(length * length + 0.5F * radius * radius);
     const double own = inertia * spin / static_cast<double>(length);
     EXPECT_GT(own, 1.0);
     EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.02 * own);

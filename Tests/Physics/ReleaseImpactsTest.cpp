@@ -124,7 +124,8 @@ TEST_F(ReleaseImpactsWorld, FallingNeighboursFeelNothing) {
     struck.SetFriction(0.0F);
     (void)attachment.set(ball(0.0F, 0.0F, 0.0F, 0.0F), camera);
     (void)attachment.set(struck, object);
-    (void)attachment.set(ball(0.499F, 0.8F, 0.0F, -3.0F, 0.0F), object); // from above, while all fall, and stays
+    // from above, while all fall, and stays
+    (void)attachment.set(ball(0.499F, 0.8F, 0.0F, -3.0F, 0.0F), object);
     EXPECT_TRUE(run(30).empty());
 }
 

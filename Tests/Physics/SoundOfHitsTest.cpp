@@ -100,7 +100,8 @@ TEST_F(SoundOfHits, BudgetKeepsTheStrongestHitsOfAStep) {
     for (int i = 0; i < 8; ++i) (void)attachment.set(ball(static_cast<float>(i), 0.24F, 0.0F, -1.0F - static_cast<float>((5 * i) % 8)), camera);
     const auto events = run(1);
     ASSERT_EQ(events.size(), 3U);
-    for (const CollisionEvent& event : events) EXPECT_GT(event.amplitude, 1.5 * 5.9); // m v (1 + e) of 6, 7 and 8 m/s
+    // m v (1 + e) of 6, 7 and 8 m/s
+    for (const CollisionEvent& event : events) EXPECT_GT(event.amplitude, 1.5 * 5.9);
     EXPECT_EQ(attachment.overBudget(), 5U);
     EXPECT_EQ(attachment.drops(), 0U);
     settings.hitsPerStep = -1;

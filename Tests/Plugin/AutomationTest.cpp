@@ -190,7 +190,8 @@ double differenceDb(const Samples& a, const Samples& b) {
 
 TEST(Automation, ALineThatAHostDrawsIsFollowedInLargeBlocksAsInSmallOnes) {
     const auto fine = drawn(64, 96000);
-    for (const auto& [block, mostDb] : {std::pair{128, -50.0}, {512, -45.0}, {1024, -45.0}, {2048, -35.0}}) { // the last: chords of a 2 Hz sine, 43 ms long
+    // the last: chords of a 2 Hz sine, 43 ms long
+    for (const auto& [block, mostDb] : {std::pair{128, -50.0}, {512, -45.0}, {1024, -45.0}, {2048, -35.0}}) {
         const double db = differenceDb(fine, drawn(block, 96000));
         RecordProperty("block" + std::to_string(block), std::to_string(db));
         EXPECT_LT(db, mostDb) << block;

@@ -150,7 +150,8 @@ TEST(Midi, AllNotesOffLetsTheWorldGoOn) {
         host.play(48000, *signal);
         juce::MidiBuffer midi;
         if (signal == &told)
-            for (int mode = 123; mode < 128; ++mode) midi.addEvent(Message::controllerEvent(1, mode, 0), 100); // those that imply it as well
+            // those that imply it as well
+            for (int mode = 123; mode < 128; ++mode) midi.addEvent(Message::controllerEvent(1, mode, 0), 100);
         const auto& out = host.block(480, midi);
         for (std::size_t c = 0; c < 4; ++c) (*signal)[c].insert((*signal)[c].end(), out.getReadPointer(static_cast<int>(c)), out.getReadPointer(static_cast<int>(c)) + 480);
         host.play(48000, *signal);

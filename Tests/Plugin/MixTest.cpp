@@ -24,7 +24,8 @@ Strip strip(double gainDb, double delayMs, double ceilingDb, bool inverted = fal
 /// A new instance with something of everything.
 PluginState mixedState() {
     PluginState s = shakenBox();
-    s.strips = {strip(0.0, 0.0, 0.0), strip(6.0, 0.0, -12.0), strip(-3.0, 2.5, 0.0, true), strip(6.0, 50.0, -30.0)}; // C and D are struck first
+    // C and D are struck first
+    s.strips = {strip(0.0, 0.0, 0.0), strip(6.0, 0.0, -12.0), strip(-3.0, 2.5, 0.0, true), strip(6.0, 50.0, -30.0)};
     s.strips[0].isMuted = true;
     const auto actuator = findActuator("lra-205");
     s.equalised[2] = {actuator.value.resonator(), *actuator.value.band};
@@ -136,7 +137,8 @@ TEST(PluginMix, TheLevelStandsOnTopOfTheTrims) {
     ASSERT_TRUE(host.plugin->apply(state));
     host.prepare(48000, 512);
     const int latency = host.plugin->getLatencySamples();
-    for (const auto& [level, shift] : {std::pair{1.0f, 0.0}, {0.9f, -6.0}, {0.0f, 2.0 * leastStripDb}}) { // the least is silence
+    // the least is silence
+    for (const auto& [level, shift] : {std::pair{1.0f, 0.0}, {0.9f, -6.0}, {0.0f, 2.0 * leastStripDb}}) {
         auto& parameter = host.plugin->parameter(Parameter::level);
         parameter.setValue(level);
         EXPECT_NEAR(std::max(parameter.value(), leastStripDb), std::max(shift, leastStripDb), 0.01);

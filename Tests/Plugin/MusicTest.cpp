@@ -51,7 +51,8 @@ TEST(Music, LowFrequenciesAreFeltInTimeAtTheirLevelAndHighOnesAreNot) {
     std::vector<float> wanted{low.samples.begin(), low.samples.end()};
     BandPass{MusicInput::band, songRateHz}.process(wanted);
     for (const auto& channel : felt)
-        for (std::size_t i = 4'800; i < channel.size(); ++i) ASSERT_NEAR(channel[i], wanted[i], 2e-6) << i; // what the host takes out is all that it is late by
+        // what the host takes out is all that it is late by
+        for (std::size_t i = 4'800; i < channel.size(); ++i) ASSERT_NEAR(channel[i], wanted[i], 2e-6) << i;
     for (const double hz : {4.0, 2000.0}) EXPECT_LT(settled(MusicHost{}.feel(tone(hz, 0.5f))[0]), 0.005f) << hz;
     EXPECT_NEAR(settled(MusicHost{-12.0}.feel(low)[2]), 0.5 * std::pow(10.0, -0.6), 0.01);
 }
@@ -124,11 +125,13 @@ TEST(Music, ATakeBeginsWithSilenceAndEqualMusicFeelsEqual) {
     const auto latency = static_cast<std::size_t>(host.plugin->getLatencySamples());
     const auto& one = all[1];
     std::size_t unequal = 0;
-    for (std::size_t i = 600; i < loop; ++i) unequal += one[latency + loop + i] == one[latency + 2 * loop + i] ? 0 : 1; // the first 10 ms have the end of the take before
+    // the first 10 ms have the end of the take before
+    for (std::size_t i = 600; i < loop; ++i) unequal += one[latency + loop + i] == one[latency + 2 * loop + i] ? 0 : 1;
     EXPECT_EQ(unequal, 0u);
     float step = 0.0f;
     for (std::size_t i = latency; i + 1 < one.size(); ++i) step = std::max(step, std::abs(one[i + 1] - one[i]));
-    EXPECT_LT(step, 0.02f) << "no click where one take ends and the next begins"; // the tone itself moves by 0.0085 a frame
+    // the tone itself moves by 0.0085 a frame
+    EXPECT_LT(step, 0.02f) << "no click where one take ends and the next begins";
 }
 
 /// The first channel of half a second of a tone, All Sound Off, and another half: where in time it is felt.

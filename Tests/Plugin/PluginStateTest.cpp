@@ -168,7 +168,8 @@ TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenesAndBehindThemInstruments) {
     TestHost host;
     const int worlds = static_cast<int>(builtInScenes().size()), count = host.plugin->getNumPrograms();
     ASSERT_EQ(count, worlds + 12);
-    ASSERT_EQ(host.plugin->getProgramName(4), "box-study"); // saved projects know them by their places: new ones come at the end
+    // saved projects know them by their places: new ones come at the end
+    ASSERT_EQ(host.plugin->getProgramName(4), "box-study");
     for (int i = 0; i < count; ++i) {
         host.plugin->setCurrentProgram(i);
         EXPECT_EQ(host.plugin->getProgramName(i).toStdString(), host.plugin->state().scene.name);
@@ -274,7 +275,8 @@ TEST(PluginChunk, NoLockIsHeldWhileTheHostIsTold) {
     state.stepsPerSecond = 500;
     host.plugin->edit(state); // a latency, an edit
     host.plugin->parameter(Parameter::tilt).setValue(0.75f);
-    host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize())); // a latency, a parameter
+    // a latency, a parameter
+    host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
     host.plugin->parameter(Parameter::level).setByController(0.5f);
     for (int i = 0; i < 100 && curious.looks < 5; ++i) runFor(0.05); // the timer tells of the controller
     EXPECT_EQ(curious.looks, 5);

@@ -43,7 +43,8 @@ TEST(SideChain, EachBeatIsFeltLAfterItOrDirectlyWhenItIsSureToBeKnown) {
         host.turnOn(1);
         host.listen();
         const Samples signal = host.felt(song(), {64}, song().samples.size());
-        const std::int64_t delay = isDirect ? BeatDetector{songRateHz}.delayFrames() : 0; // beyond what the host takes out
+        // beyond what the host takes out
+        const std::int64_t delay = isDirect ? BeatDetector{songRateHz}.delayFrames() : 0;
         const auto status = host.plugin->takes().status();
         EXPECT_EQ(status.late, 0u);
         EXPECT_GT(status.session.render.played, song().hits.size() / 2);

@@ -38,7 +38,8 @@ public:
     void feed(const BeatSong& song, int at, int frames, Samples& signal) {
         signal.resize(4);
         buffer.setSize(4, frames, false, false, true);
-        for (int c = 0; c < 4; ++c) buffer.copyFrom(c, 0, (c == 1 && right ? right->samples : song.samples).data() + at, frames); // whatever stands in a host's buffer
+        // whatever stands in a host's buffer
+        for (int c = 0; c < 4; ++c) buffer.copyFrom(c, 0, (c == 1 && right ? right->samples : song.samples).data() + at, frames);
         auto midi = notes(at, frames);
         plugin->processBlock(buffer, midi);
         for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)), buffer.getReadPointer(static_cast<int>(c)) + frames);

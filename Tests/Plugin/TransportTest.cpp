@@ -62,7 +62,8 @@ TEST(Transport, ImperfectOnesMakeNoStarts) {
         Random random{4};
         EXPECT_EQ(startsIn(tenMinutes, [&](int b) { return speed * 512 * b + random.below(512); }), 1) << "jitter of a block, at " << speed;
     }
-    const auto tape = [](int b) { return 512.0 * (b + 100 * std::sin(0.005 * b)); }; // half to one and a half times the speed, and back
+    // half to one and a half times the speed, and back
+    const auto tape = [](int b) { return 512.0 * (b + 100 * std::sin(0.005 * b)); };
     EXPECT_EQ(startsIn(tenMinutes, tape), 1);
 }
 
@@ -114,7 +115,8 @@ bool takesAreEqual(TestHost& host, bool offline, int takes, std::int64_t loopFra
     EXPECT_EQ(status.delayedBlocks, 0u);
 
     std::vector<std::vector<CollisionEvent>> events(static_cast<std::size_t>(takes));
-    const std::int64_t owedNs = loopFrames * 1'000'000'000 / 44100; // what is played while a take fades may differ
+    // what is played while a take fades may differ
+    const std::int64_t owedNs = loopFrames * 1'000'000'000 / 44100;
     for (const auto& e : log)
         if (e.played.event.timeNs < owedNs) events[static_cast<std::size_t>(e.take - 1)].push_back(e.played.event);
     const std::int64_t latency = host.plugin->getLatencySamples();

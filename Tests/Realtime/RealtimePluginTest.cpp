@@ -52,7 +52,8 @@ void expectNothingForbidden(BusPlan plan) {
             if (random.below(50) == 0) host.playHead.isPlaying = !host.playHead.isPlaying;
             if (random.below(90) == 0) host.playHead.frame = random.below(100'000);
             host.buffer.setSize(host.buffer.getNumChannels(), frames, false, false, true);
-            for (int i = 0; i < frames && b % 100 < 3; ++i) host.buffer.setSample(0, i, static_cast<float>(random.uniform(-1, 1))); // a stroke at the side chain
+            // a stroke at the side chain
+            for (int i = 0; i < frames && b % 100 < 3; ++i) host.buffer.setSample(0, i, static_cast<float>(random.uniform(-1, 1)));
             auto* parameter = plugin.getParameters()[random.below(static_cast<int>(parameterCount))];
             const bool bypassed = random.below(100) == 0;
             {

@@ -74,7 +74,8 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
     setup.equalised[1] = {{205, 8}, {180, 230}};
     setup.equalised[5] = {{110, 2}, {90, 1000}};
     setup.shaping.remap.band = {90, 1000};
-    setup.contactSound = std::vector<ContactRecording>{{430.0, 48000, std::vector<float>(4800, 0.5f)}}; // heard as a recording; the others as modes
+    // heard as a recording; the others as modes
+    setup.contactSound = std::vector<ContactRecording>{{430.0, 48000, std::vector<float>(4800, 0.5f)}};
     Session session{setup};
     session.prepare(48000, 64);
     std::atomic<bool> stop{false};

@@ -73,7 +73,8 @@ TEST(FruitBasket, FruitsLandByTheirWeightAndSpring) {
         const Fall fall(fruit);
         const double impulse = fall.massKg * speed * (1.0 + materialNamed(kind).restitution);
         EXPECT_NEAR(fall.landing.source.impulseNewtonSeconds, impulse, 0.02 * impulse) << kind;
-        const double basketMass = massKg(*std::ranges::find(basket().bodies, "basket", &BodyDescription::name), basket()); // also the largest: m_h of Eq. 5.7
+        // also the largest: m_h of Eq. 5.7
+        const double basketMass = massKg(*std::ranges::find(basket().bodies, "basket", &BodyDescription::name), basket());
         const double amplitude =
             basket().driveGain * impulse / (2.0 * basket().fieldWidthMetres * 2.0 * basketMass);
         EXPECT_NEAR(fall.landing.amplitude, amplitude, 0.02 * amplitude) << kind;

@@ -15,7 +15,8 @@ TEST(SceneCounts, AreThoseOfItsEventsAndItsContacts) {
     EXPECT_GT(made.counts.contacts, made.counts.withoutSource);
     EXPECT_EQ(made.counts.dropped, 0U);
     EXPECT_EQ(made.counts.muted, 0U);
-    EXPECT_GE(made.counts.thresholdMetresPerSecond, 0.15); // or 1.5 steps of the gravity that there is while the box is shaken
+    // or 1.5 steps of the gravity that there is while the box is shaken
+    EXPECT_GE(made.counts.thresholdMetresPerSecond, 0.15);
     EXPECT_LE(made.counts.thresholdMetresPerSecond, 1.5 * 0.01 * 25.0);
 }
 

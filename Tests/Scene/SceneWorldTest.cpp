@@ -438,7 +438,8 @@ TEST(SceneWorld, SeedsMoveSpawnedBodiesToo) {
 
 TEST(SceneWorld, BodiesInOnePlaceHaveNoMoreContactsThanAStepCanBear) {
     Scene scene = emptyScene();
-    for (int i = 0; i < 330; ++i) scene.bodies.push_back(body("ball " + std::to_string(i), CircleShape{0.2}, {5.0, 5.0})); // 54,285 pairs
+    // 54,285 pairs
+    for (int i = 0; i < 330; ++i) scene.bodies.push_back(body("ball " + std::to_string(i), CircleShape{0.2}, {5.0, 5.0}));
     World world(scene);
     world.run(0.01);
     EXPECT_EQ(world.inner.world().GetContactCount(), sceneLimits::maxContacts);

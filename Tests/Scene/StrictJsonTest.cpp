@@ -16,7 +16,8 @@ TEST(StrictJson, IsBoundedInValuesHoweverFewBytesTheyHave) {
 TEST(StrictJson, ALongSessionIsWithinTheBound) {
     std::string inputs = "{\"physvib_session\": 200000000, \"inputs\": [0";
     for (int i = 0; i < 400'000; ++i) inputs += ",{\"time_s\": 1234.567891, \"input\": \"tilt\", \"angle_rad\": 0.3456}";
-    const auto error = readSession(inputs + "]}", "s.json").error; // at once: no list is looked through for each of its items
+    // at once: no list is looked through for each of its items
+    const auto error = readSession(inputs + "]}", "s.json").error;
     EXPECT_NE(error.find("made for a newer PhysVib"), std::string::npos) << error;
 }
 

@@ -131,7 +131,8 @@ TEST(Messages, WhatIsCutBeginsAndEndsWithoutAStep) {
         {R"({"message": "strike", "material": "bell", "seconds": 0.011, "place": "A", "level": 1})", 220.0},
         {R"({"message": "path", "places": "ABDC", "seconds": 0.7, "frequency_hz": 207.3, "level": 1})", 207.3},
         {R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.51], "frequency_hz": 207.3, "level": 1})", 207.3},
-        {R"({"message": "path", "places": "AD", "seconds": 0.7, "strokes": 5, "frequency_hz": 61.7, "level": 0.5, "law": "alone"})", 61.7}, // two at a time
+        // two at a time
+        {R"({"message": "path", "places": "AD", "seconds": 0.7, "strokes": 5, "frequency_hz": 61.7, "level": 0.5, "law": "alone"})", 61.7},
     };
     for (const auto& [line, hz] : lines) {
         EXPECT_LT(largestStep(quietSetup(), line, hz, 1.3), 1.3) << line;

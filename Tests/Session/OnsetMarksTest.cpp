@@ -104,7 +104,8 @@ std::array<std::vector<float>, 2> playedLive(const std::vector<CollisionEvent>& 
 
 TEST(OnsetMarks, AMarkAndItsOnsetAreOnTheSameSampleWhateverTheBlockAndOffline) {
     for (const int rate : {44100, 48000}) {
-        const std::int64_t atNs[] = {100'000'000, 300'000'007, 500'010'000, 700'123'457}; // on a frame, and between two
+        // on a frame, and between two
+        const std::int64_t atNs[] = {100'000'000, 300'000'007, 500'010'000, 700'123'457};
         std::vector<CollisionEvent> strikes;
         for (const auto at : atNs) strikes.push_back(hitAt(at));
         std::vector<float> offline, offlineMarks;
@@ -122,7 +123,8 @@ TEST(OnsetMarks, AMarkAndItsOnsetAreOnTheSameSampleWhateverTheBlockAndOffline) {
         for (std::size_t k = 0; k < edges.size(); ++k) {
             const FramePosition onset = clock.at(atNs[k]);
             EXPECT_EQ(edges[k], onset.frame) << "the first frame at or after it";
-            const auto frame = static_cast<std::size_t>(onset.frame) + (onset.leadFrames > 0.0 ? 0 : 1); // a sine begins with 0
+            // a sine begins with 0
+            const auto frame = static_cast<std::size_t>(onset.frame) + (onset.leadFrames > 0.0 ? 0 : 1);
             EXPECT_GT(std::abs(offline[frame]), 1e-9f) << k;
             if (k == 0) EXPECT_LT(std::abs(offline[frame - 1]), 1e-9f);
         }

@@ -49,7 +49,8 @@ double worstLateness(double longestGapSeconds, std::size_t& onsets) {
     const auto recorded = summed(signal, session.timeline().playOutFrames());
     const auto expected = closedForm(made, hostRate, 1, static_cast<int>(recorded.size()), [&](double x, double y, double* g) {
         const auto outside = [](double v, double extent) { return std::max({0.0, -v / extent, v / extent - 1}); };
-        g[0] = (1 - outside(x, setup.scene.fieldWidthMetres)) * (1 - outside(y, setup.scene.fieldHeightMetres)); // clamped factors
+        // clamped factors
+        g[0] = (1 - outside(x, setup.scene.fieldWidthMetres)) * (1 - outside(y, setup.scene.fieldHeightMetres));
     });
     double worst = 0;
     onsets = made.size();

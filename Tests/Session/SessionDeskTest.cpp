@@ -142,7 +142,8 @@ TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
     const auto live = play(session, 1.0, {{0.3, [](Session& s) { const std::array strikes{pulse(0.0)}; s.take({Strikes{strikes}}); }}}, 480);
     const auto& c = live[2]; // (0, 0) is its corner
     const auto first = std::ranges::find_if(c, [](float x) { return std::abs(x) > 0.001f; }) - c.begin();
-    EXPECT_NEAR(static_cast<double>(first - session.timeline().playOutFrames()) / rate, 0.3, 0.011); // a block
+    // a block
+    EXPECT_NEAR(static_cast<double>(first - session.timeline().playOutFrames()) / rate, 0.3, 0.011);
     EXPECT_EQ(energyOf(live[1], 0.0, 1.0), 0.0);
     const std::array bad{pulse(0.0), CollisionEvent{}};
     EXPECT_FALSE(session.take({Strikes{bad}})) << "one that cannot be played, and none is";

@@ -173,7 +173,8 @@ TEST(Session, OfflineBlocksPlayTheSameEventsAsLiveOnes) {
 }
 
 TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
-    const auto s = shakeTheBoxSetup(0.6); // this host is a thousand times faster than time; no stall is meant here
+    // this host is a thousand times faster than time; no stall is meant here
+    const auto s = shakeTheBoxSetup(0.6);
     Session session{s};
     session.prepare(rate, 8192);
     std::atomic<bool> stop{false};
@@ -314,9 +315,11 @@ TEST(Session, AfterAStallTheWorldGoesOnWithoutASpiral) {
     Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, 480);
     Block block;
-    for (int i = 0; i < 100; ++i) session.render(block.at.data(), 480, RenderMode::realtime); // time has not begun
+    // time has not begun
+    for (int i = 0; i < 100; ++i) session.render(block.at.data(), 480, RenderMode::realtime);
     session.advance();
-    for (int i = 0; i < 500; ++i) session.render(block.at.data(), 480, RenderMode::realtime); // 5 s without a driver
+    // 5 s without a driver
+    for (int i = 0; i < 500; ++i) session.render(block.at.data(), 480, RenderMode::realtime);
     EXPECT_LE(session.advance(), 4);
     EXPECT_NEAR(static_cast<double>(session.world().slippedNs()) * 1e-9, 4.97, 0.001);
     session.render(block.at.data(), 480, RenderMode::realtime);
@@ -347,7 +350,8 @@ TEST(Session, StrikesOfTheRenderCallAreFeltLLaterAtTheirFrame) {
             append(signal, block.at.data(), 512);
         }
         const auto onset = static_cast<std::size_t>(5120 + 77 + session.timeline().playOutFrames());
-        for (std::size_t n = 0; n <= onset; ++n) ASSERT_NEAR(signal[n * channels], 0.0f, 1e-3f) << n; // sin 0 at the onset
+        // sin 0 at the onset
+        for (std::size_t n = 0; n <= onset; ++n) ASSERT_NEAR(signal[n * channels], 0.0f, 1e-3f) << n;
         EXPECT_NEAR(signal[(onset + 1) * channels], 0.5f, 1e-3f); // a quarter period later
         const auto played = drain(session);
         ASSERT_EQ(played.size(), 1u);

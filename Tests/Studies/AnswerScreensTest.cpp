@@ -34,7 +34,8 @@ TEST(AnswerScreens, PointsStandWhereTheirStimuliAreInEveryGridAndLayout) {
                 const auto stimulus = phantomStimulus(grid.grid().place(cells[i]), geometry, grid.law, grid.exponent, {});
                 const double x = stimulus.events.front().x / stimulus.panner.fieldWidthMetres(), y = 1.0 - stimulus.events.front().y / stimulus.panner.fieldHeightMetres();
                 const juce::Point<double> meant{corners.getX() + x * corners.getWidth(), corners.getY() + y * corners.getHeight()};
-                EXPECT_LE(centreOf(*points[i]).getDistanceFrom(meant), 1.5) << name << " " << grid.columns << " x " << grid.rows << ": " << points[i]->getTitle(); // pixels are whole
+                // pixels are whole
+                EXPECT_LE(centreOf(*points[i]).getDistanceFrom(meant), 1.5) << name << " " << grid.columns << " x " << grid.rows << ": " << points[i]->getTitle();
                 for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(points[i]->getBounds().intersects(points[k]->getBounds())) << name << ": one click, one point";
             }
         }

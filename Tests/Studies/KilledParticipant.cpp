@@ -28,7 +28,8 @@ int answer(const juce::File& folder, int trials) {
             std::raise(SIGKILL);
         }
         p.feel();
-        p.click("Row " + juce::String{1 + taken % 2} + ", column " + juce::String{1 + taken % 3}); // whatever was felt
+        // whatever was felt
+        p.click("Row " + juce::String{1 + taken % 2} + ", column " + juce::String{1 + taken % 3});
         p.click("Next");
         if (!test::runUntil([&] { return p.experiment().trialsTaken() > taken; })) return 1;
         p.pump();
@@ -40,7 +41,8 @@ int answer(const juce::File& folder, int trials) {
 } // namespace physvib
 
 int main(int, char** argv) {
-    juce::JUCEApplicationBase::createInstance = []() -> juce::JUCEApplicationBase* { return nullptr; }; // a program of its own: JUCE outlives errors of X
+    // a program of its own: JUCE outlives errors of X
+    juce::JUCEApplicationBase::createInstance = []() -> juce::JUCEApplicationBase* { return nullptr; };
     const juce::ScopedJuceInitialiser_GUI juce;
     return physvib::answer(juce::File{argv[1]}, std::atoi(argv[2]));
 }

@@ -102,7 +102,8 @@ TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
         }
         if (n % 2 == 0) p->click(firstOf(label));
         else p->type(label.substr(0, 1));
-        if (n == 2) p->click(titleOf(items[(5 * n) % items.size()].label)), p->click(firstOf(label)); // thought better of it
+        // thought better of it
+        if (n == 2) p->click(titleOf(items[(5 * n) % items.size()].label)), p->click(firstOf(label));
         p->click(titleOf(label));
         p->click("Next");
         answers.push_back(label);
@@ -183,7 +184,8 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
             }
             p->key(juce::KeyPress::rightKey, juce::ModifierKeys::shiftModifier);
             p->key(juce::KeyPress::downKey);
-            juce::Desktop::getInstance().getMainMouseSource().triggerFakeMove(); // as JUCE does when what lies under the mouse changes
+            // as JUCE does when what lies under the mouse changes
+            juce::Desktop::getInstance().getMainMouseSource().triggerFakeMove();
             p->pump();
             touched.push_back({0.1, 0.01});
             p->enter();
@@ -525,7 +527,8 @@ TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
     if (std::getenv("DISPLAY") == nullptr) return std::puts("skipped: a participant needs a display; run it by xvfb-run"), 77;
-    juce::JUCEApplicationBase::createInstance = []() -> juce::JUCEApplicationBase* { return nullptr; }; // a program of its own: JUCE outlives errors of X
+    // a program of its own: JUCE outlives errors of X
+    juce::JUCEApplicationBase::createInstance = []() -> juce::JUCEApplicationBase* { return nullptr; };
     const juce::ScopedJuceInitialiser_GUI juce;
     return RUN_ALL_TESTS();
 }

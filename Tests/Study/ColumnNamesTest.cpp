@@ -43,7 +43,8 @@ TEST(ColumnNames, OnlyNamedColumnsCountAndFaultsNameTheLine) {
 
 TEST(ColumnNames, TruePlacesInPixelsBecomeRowsAndColumns) {
     const std::string text = "who,true_x,true_y,touch_x,touch_y\nP,100,50,123,0\nP,500,50,615,635\nP,100,350,1230,127\n";
-    const auto columns = names({"participant=who", "target_x=true_x", "target_y=true_y", "x=touch_x:0:1230", "y=touch_y:635:0"}); // y upwards
+    // y upwards
+    const auto columns = names({"participant=who", "target_x=true_x", "target_y=true_y", "x=touch_x:0:1230", "y=touch_y:635:0"});
     const NamedText file{text, "t.csv", columns};
     const auto read = readLocations({&file, 1});
     ASSERT_TRUE(read) << read.error;

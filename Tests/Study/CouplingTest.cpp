@@ -86,7 +86,8 @@ TEST(Coupling, TheStrongestDriveIsAnyEnchanters) {
     for (const std::size_t driven : {0u, 1u, 2u}) {
         CouplingMatrix drives(3);
         drives.at(driven, (driven + 1) % 3) = {0.0, -0.75};
-        EXPECT_NEAR(strongestDrive(drives), 1.25, 1e-4) << driven; // its own and the other's, a quarter turn apart
+        // its own and the other's, a quarter turn apart
+        EXPECT_NEAR(strongestDrive(drives), 1.25, 1e-4) << driven;
     }
 }
 

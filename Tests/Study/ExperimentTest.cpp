@@ -189,7 +189,8 @@ TEST(Experiment, LevelsOfExpertsHoldForTheAlternativeThatTheyMoved) {
     EXPECT_EQ(levelsFault(p), "levels.csv: expected a level of A, a, found none");
     using Kind = LevelTrial::Kind;
     std::vector<LevelTrial> experts;
-    for (const double db : {-4.0, -8.0}) experts.push_back({Kind::adjustment, "E1", "A", "a", 0.0, db}); // E1 twice
+    // E1 twice
+    for (const double db : {-4.0, -8.0}) experts.push_back({Kind::adjustment, "E1", "A", "a", 0.0, db});
     experts.push_back({Kind::adjustment, "E2", "A", "a", 0.0, 0.0});
     experts.push_back({Kind::adjustment, "E2", "A", "b", 0.0, 3.0});
     p.levels = averageLevels(experts, "RM");

@@ -46,7 +46,8 @@ TEST(InformationTransfer, OfNothingOrOneStimulusIsZeroAndNoNumberIsMissing) {
 }
 
 TEST(InformationTransfer, FanosBoundShowsThatAPrintedValueIsImpossible) {
-    EXPECT_NEAR(fanoBits(std::log2(25.0), 0.835, 25), 3.24, 0.005); // RING 5 x 5 with tolerance: 2.62 is printed (erratum 13)
+    // RING 5 x 5 with tolerance: 2.62 is printed (erratum 13)
+    EXPECT_NEAR(fanoBits(std::log2(25.0), 0.835, 25), 3.24, 0.005);
 }
 
 /// A channel with a known transition matrix: on a line of `size` places, a normal blur of `blur` places.

@@ -68,7 +68,8 @@ TEST(Psychometric, WhatCannotBeFittedIsNamed) {
     const std::vector<LevelCount> one{{2, 3, 5}}, flat{{1, 5, 5}, {2, 7, 7}};
     EXPECT_EQ(fitPsychometric(one, {shapes[0]}).fault, "expected trials at two or more levels, found one");
     EXPECT_EQ(fitPsychometric(flat, {shapes[0]}).fault, "expected answers that change with the level, found the same share at every one");
-    for (const auto& steps : {std::vector<LevelCount>{{1, 0, 5}, {2, 5, 5}}, {{1, 5, 5}, {2, 0, 5}}}) { // no finite width is likeliest
+    // no finite width is likeliest
+    for (const auto& steps : {std::vector<LevelCount>{{1, 0, 5}, {2, 5, 5}}, {{1, 5, 5}, {2, 0, 5}}}) {
         const auto fit = fitPsychometric(steps, {shapes[2]});
         EXPECT_TRUE(std::isfinite(fit.function.threshold) && std::isfinite(fit.function.width) && std::isfinite(fit.logLikelihood));
     }

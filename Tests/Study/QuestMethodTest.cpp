@@ -73,7 +73,8 @@ TEST(QuestMethod, ErrsNoMoreThanAStaircaseWithTwoThirdsOfItsTrials) {
         const Protocol quest = questProtocol(shorter);
         const auto byQuest = recordsOf(quest, truth, number);
         stairsTrials += byStairs.size(), questTrials += byQuest.size();
-        stairsSquares += std::pow(summaryOf(stairs, byStairs).estimate - truth.levelOf(std::sqrt(0.5)), 2); // what two down, one up aims at
+        // what two down, one up aims at
+        stairsSquares += std::pow(summaryOf(stairs, byStairs).estimate - truth.levelOf(std::sqrt(0.5)), 2);
         questSquares += std::pow(summaryOf(quest, byQuest).estimate - truth.threshold, 2);
     }
     EXPECT_LE(questTrials, 2 * stairsTrials / 3);
@@ -84,7 +85,8 @@ TEST(QuestMethod, ErrsNoMoreThanAStaircaseWithTwoThirdsOfItsTrials) {
 
 /// One of those that the plan thinks possible, all alike likely.
 PsychometricFunction plannedObserver(SeededRandom& random) {
-    const double share = (7.0 * random.uniform() - 0.5) / 6.0; // seven widths, each for half a step to either side
+    // seven widths, each for half a step to either side
+    const double share = (7.0 * random.uniform() - 0.5) / 6.0;
     return {PsychometricShape::weibull, -0.5 + 31.0 * random.uniform(), method.leastWidthDb * std::pow(method.mostWidthDb / method.leastWidthDb, share), 0.5, method.lapse};
 }
 

@@ -34,8 +34,10 @@ TEST(Stimulus, EveryPulseOfEveryPatternStartsAndEndsOnItsFrame) {
                         EXPECT_EQ(first, end) << patternLabel(pattern) << " pulse " << k << " on " << j;
                         continue;
                     }
-                    EXPECT_EQ(first, k * period + 1) << patternLabel(pattern); // the sine is zero on its first frame
-                    EXPECT_NEAR(end, k * period + pulse, 1) << patternLabel(pattern); // and may be on its last
+                    // the sine is zero on its first frame
+                    EXPECT_EQ(first, k * period + 1) << patternLabel(pattern);
+                    // and may be on its last
+                    EXPECT_NEAR(end, k * period + pulse, 1) << patternLabel(pattern);
                     EXPECT_LE(end, k * period + pulse);
                 }
         }
@@ -71,7 +73,8 @@ TEST(Stimulus, PhantomsFollowTheLawAtEveryPointOfTheGrid) {
             const FieldPlace place = grid.place(cell);
             const auto stimulus = phantomStimulus(place, layout, PanningLaw::linear, 1.0, {205.0, 1.0}, 0.02);
             const auto channels = render(stimulus, 48000, 0.0);
-            const double gains[] = {(1 - place.x) * (1 - place.y), place.x * (1 - place.y), (1 - place.x) * place.y, place.x * place.y}; // Eq. 4.2, A upper left
+            // Eq. 4.2, A upper left
+            const double gains[] = {(1 - place.x) * (1 - place.y), place.x * (1 - place.y), (1 - place.x) * place.y, place.x * place.y};
             for (std::size_t j = 0; j < 4; ++j)
                 for (const std::size_t n : {59u, 300u, 959u})
                     EXPECT_NEAR(channels[j][n], gains[j] * std::sin(2.0 * std::numbers::pi * 205.0 * static_cast<double>(n) / 48000), 1e-6) << gridLabel(cell);

@@ -37,7 +37,8 @@ TEST(StudyPlan, LevelsAddUpAsAnExperimentAddsThem) {
     Protocol protocol = builtIn("model-or-sound");
     for (Alternative& alternative : protocol.sessions[1].alternatives) alternative.levelDb = 3.0;
     for (const PlannedStimulus& s : plannedStimuli(protocol)) {
-        EXPECT_EQ(s.highestDb, s.part == "SV" ? 3.0 : 1.0) << s.part; // 3 dB, and -2 dB that may have been set
+        // 3 dB, and -2 dB that may have been set
+        EXPECT_EQ(s.highestDb, s.part == "SV" ? 3.0 : 1.0) << s.part;
         EXPECT_EQ(s.session, 1u);
     }
     const StaircasePlan staircase = *builtIn("level-steps").sessions[0].staircase;

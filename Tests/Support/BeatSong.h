@@ -30,7 +30,8 @@ struct BeatSong {
         constexpr double beatSeconds = 0.5; // eighths: kick hat snare hat
         const double until = seconds - 1.0;
         for (int eighth = 0; 0.5 + 0.5 * beatSeconds * eighth < until; ++eighth) {
-            const double at = 0.5 + 0.5 * beatSeconds * eighth + 0.02 * random_.uniform(); // nobody plays on the grid
+            // nobody plays on the grid
+            const double at = 0.5 + 0.5 * beatSeconds * eighth + 0.02 * random_.uniform();
             strike(at, std::array{Drum::kick, Drum::hat, Drum::snare, Drum::hat}[static_cast<std::size_t>(eighth % 4)], 0.4 + 0.6 * random_.uniform());
         }
     }

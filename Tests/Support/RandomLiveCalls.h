@@ -118,7 +118,8 @@ private:
         physvib_live made = nullptr;
         const char* devices[] = {"None:no device", "None:no device", "nobody:nothing", nullptr};
         const physvib_live_settings* const settings = of(settings_, physvib_live_settings_init);
-        std::memset(settings_.save, isRare() ? 'x' : '\0', sizeof settings_.save); // without an end, or no file
+        // without an end, or no file
+        std::memset(settings_.save, isRare() ? 'x' : '\0', sizeof settings_.save);
         const int code = physvib_live_open(devices[byte() % 4], of(renderer_, physvib_renderer_settings_init), settings, isRare() ? nullptr : &made);
         if (made != nullptr) lives_[0] = made;
         return code;

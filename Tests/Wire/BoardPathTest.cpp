@@ -140,7 +140,8 @@ TEST(BoardPath, AClockThatIsCorrectedMakesNoStep) {
     const auto settings = deskOf();
     std::vector<BoardLeg> legs;
     for (; !path.isOver(); path.take()) {
-        const auto leg = path.next({80.0 + random.uniform(-4.0, 4.0), 8000.8}, gainsOf(settings.panner)); // half a millisecond either way
+        // half a millisecond either way
+        const auto leg = path.next({80.0 + random.uniform(-4.0, 4.0), 8000.8}, gainsOf(settings.panner));
         if (!leg) break;
         legs.push_back(*leg);
     }

@@ -45,7 +45,8 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     to.channels = from.channels;
     to.limiterEnabled = from.limiter != 0;
     to.panner = {layout, panningLaws[static_cast<std::size_t>(from.law)].law, from.exponent, width, height};
-    if (from.law == PHYSVIB_LAW_LINEAR && from.exponent == 1.0) to.panner.setGrains(grainSpread); // nothing else was asked for
+    // nothing else was asked for
+    if (from.law == PHYSVIB_LAW_LINEAR && from.exponent == 1.0) to.panner.setGrains(grainSpread);
     return {};
 }
 

@@ -131,7 +131,8 @@ int physvib_layout_save(const char* path, const char* name, const physvib_layout
         EnchanterLayout geometry;
         if (const auto fault = convert(*layout, geometry); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         const std::string text = layoutJson(describeLayout(name, geometry));
-        if (const auto again = readLayout(text, name); !again) return fail(PHYSVIB_ERROR_ARGUMENT, again.error); // nobody could load it
+        // nobody could load it
+        if (const auto again = readLayout(text, name); !again) return fail(PHYSVIB_ERROR_ARGUMENT, again.error);
         return written(writeFile(path, text));
     });
 }

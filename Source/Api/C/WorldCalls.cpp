@@ -127,7 +127,8 @@ int physvib_world_configure(physvib_world name, const physvib_world_settings* se
     return in(name, [&](World& world) {
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const std::string_view fault = faultOf(wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault); // builds without exceptions would keep the lock
+        // builds without exceptions would keep the lock
+        if (const std::string_view fault = faultOf(wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         world.feed.configure(wanted);
         return PHYSVIB_OK;
     });

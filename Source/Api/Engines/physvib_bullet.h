@@ -31,10 +31,12 @@ public:
     void end(btDynamicsWorld& world) {
         for (int i = 0; i < world.getDispatcher()->getNumManifolds(); ++i) {
             const btPersistentManifold& manifold = *world.getDispatcher()->getManifoldByIndexInternal(i);
-            if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse()) continue; // a trigger
+            // a trigger
+            if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse()) continue;
             for (int p = 0; p < manifold.getNumContacts(); ++p) {
                 const btManifoldPoint& point = manifold.getContactPoint(p);
-                if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue; // close, but not touching yet
+                // close, but not touching yet
+                if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue;
                 physvib_contact contact;
                 physvib_contact_init(&contact, sizeof contact);
                 contact.a = manifold.getBody0()->getUserIndex(), contact.b = manifold.getBody1()->getUserIndex();

@@ -52,10 +52,12 @@ std::to_chars_result __wrap__ZNSt3__216__d2s_buffered_nEPcS0_dNS_12chars_formatE
         return printed(first, last, "%.*f", number, static_cast<std::uint32_t>(std::max(0, -last10)));
     return printed(first, last, "%.*e", number, static_cast<std::uint32_t>(digits - 1));
 }
-std::to_chars_result __wrap__ZNSt3__220__d2fixed_buffered_nEPcS0_dj(char* first, char* last, double number, std::uint32_t precision) { // NOLINT(bugprone-reserved-identifier)
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+std::to_chars_result __wrap__ZNSt3__220__d2fixed_buffered_nEPcS0_dj(char* first, char* last, double number, std::uint32_t precision) {
     return printed(first, last, "%.*f", number, precision);
 }
-std::to_chars_result __wrap__ZNSt3__218__d2exp_buffered_nEPcS0_dj(char* first, char* last, double number, std::uint32_t precision) { // NOLINT(bugprone-reserved-identifier)
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+std::to_chars_result __wrap__ZNSt3__218__d2exp_buffered_nEPcS0_dj(char* first, char* last, double number, std::uint32_t precision) {
     return printed(first, last, "%.*e", number, precision);
 }
 }

@@ -19,7 +19,8 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
     errno = 0;
     const double read = strtod(text.c_str(), &end);
     if (end == text.c_str()) return {first, errc::invalid_argument};
-    if (isHex) return value = isSigned ? -0.0 : 0.0, from_chars_result{first + isSigned + 1, errc{}}; // the 0 before the x
+    // the 0 before the x
+    if (isHex) return value = isSigned ? -0.0 : 0.0, from_chars_result{first + isSigned + 1, errc{}};
     const char* const stop = first + (end - text.c_str());
     if (errno == ERANGE && !(read > -1.0 && read < 1.0)) return {stop, errc::result_out_of_range};
     value = read;

@@ -27,7 +27,8 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
     events.reserve(told.size());
     for (const physvib_event& event : told) {
         events.push_back(eventOf(event));
-        if (startNs != 0) events.back().timeNs = std::max<std::int64_t>(0, events.back().timeNs + startNs); // before all began: late, at once
+        // before all began: late, at once
+        if (startNs != 0) events.back().timeNs = std::max<std::int64_t>(0, events.back().timeNs + startNs);
     }
     if (!std::ranges::all_of(events, [](const CollisionEvent& e) { return isPlayable(e); })) return nothingThere("event: expected 0 to 20000 Hz, a decay or a duration, below 5 Hz a decay of at least 1 per second, numbers, a time from 0 on");
     return live.session().take({Strikes{events, true}, 0}) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");

@@ -85,7 +85,8 @@ int physvib_session_save(physvib_session name, const char* path) {
     return of(name, [&](const SavedSession& session) {
         if (path == nullptr) return nothingThere("session: expected a path, found NULL");
         const std::string text = sessionJson(session, std::filesystem::path{path}.parent_path());
-        if (const auto again = readSession(text, path); !again) return fail(PHYSVIB_ERROR_ARGUMENT, again.error); // nobody could load it
+        // nobody could load it
+        if (const auto again = readSession(text, path); !again) return fail(PHYSVIB_ERROR_ARGUMENT, again.error);
         return resultOf(writeFile(path, text), PHYSVIB_ERROR_FILE);
     });
 }

@@ -6,7 +6,8 @@
 namespace physvib {
 namespace {
 
-constexpr double butterworthQ[] = {0.51763809020504148, 0.70710678118654752, 1.9318516525781366}; // sixth order
+// sixth order
+constexpr double butterworthQ[] = {0.51763809020504148, 0.70710678118654752, 1.9318516525781366};
 constexpr double edgeRatio = 0.80;   // of a slope's corner to the band's edge: there it costs 0.3 dB
 constexpr double highestShare = 0.45; // of the rate: a corner above it is left to the converter's own filter
 constexpr RootPair atZero{-2.0, 1.0}; // 0 Hz twice
@@ -22,7 +23,8 @@ ActuatorEqualiser::ActuatorEqualiser(const EqualisedActuator& actuator, int samp
     const double lowHz = edgeRatio * band.lowHz, highHz = band.highHz / edgeRatio;
     const auto poles = [this](double hz, double q) { return RootPair::of(hz, q, sampleRateHz_); };
     section_[0] = {1.0, poles(resonator.resonanceHz, resonator.q), poles(lowHz, butterworthQ[0])};
-    section_[1] = {1.0, atZero, poles(lowHz, butterworthQ[1])}; // the other two zeros at 0 Hz cancel those of H
+    // the other two zeros at 0 Hz cancel those of H
+    section_[1] = {1.0, atZero, poles(lowHz, butterworthQ[1])};
     section_[2] = {1.0, atZero, poles(lowHz, butterworthQ[2])};
     sections_ = 3;
     if (highHz < highestShare * sampleRateHz_)

@@ -23,12 +23,14 @@ public:
     /// As moveTo, but there after `frames` at the latest.
     void moveTo(float gain, int frames) noexcept {
         target_ = gain;
-        pace_ = std::max(step_, 1.001f * std::abs(gain - now_) / static_cast<float>(frames)); // rounding must not cost a frame more
+        // rounding must not cost a frame more
+        pace_ = std::max(step_, 1.001f * std::abs(gain - now_) / static_cast<float>(frames));
     }
     /// At once: for what nobody hears yet.
     void jumpTo(float gain) noexcept { now_ = target_ = gain; }
     bool isResting() const noexcept { return now_ == target_; }
-    bool isOne() const noexcept { return now_ == 1.0f && target_ == 1.0f; } ///< What it is applied to stays as it is.
+    /// What it is applied to stays as it is.
+    bool isOne() const noexcept { return now_ == 1.0f && target_ == 1.0f; }
 
     float now() const noexcept { return now_; }
     /// From here on it is never less.

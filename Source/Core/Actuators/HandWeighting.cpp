@@ -50,7 +50,8 @@ double handWeighting::gain(double hz) noexcept { return highPass(hz) * lowPass(h
 HandWeighting::HandWeighting(int sampleRateHz) noexcept
     : sampleRateHz_{static_cast<double>(sampleRateHz)} {
     const RootPair low = RootPair::bilinear(lowHz, bandQ, sampleRateHz_);
-    sections_ = {Biquad{0.25 * (1.0 - low.first + low.second), {-2.0, 1.0}, low}, // 1 at half the rate; nothing bends so far down
+    // 1 at half the rate; nothing bends so far down
+    sections_ = {Biquad{0.25 * (1.0 - low.first + low.second), {-2.0, 1.0}, low},
                  matched(RootPair::of(highHz, bandQ, sampleRateHz_), sampleRateHz_, lowPass, 0.5 * highHz, highHz),
                  matched(RootPair::of(transitionHz, transitionQ, sampleRateHz_), sampleRateHz_, transition, transitionHz, highHz)};
 }

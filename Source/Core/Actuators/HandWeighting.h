@@ -18,7 +18,8 @@ constexpr double transitionHz = 15.915, transitionQ = 0.64;                   //
 double gain(double frequencyHz) noexcept;
 } // namespace handWeighting
 
-constexpr double exposureActionValue = 2.5, exposureLimitValue = 5.0;           // m/s^2, A(8) (directive 2002/44/EC)
+// m/s^2, A(8) (directive 2002/44/EC)
+constexpr double exposureActionValue = 2.5, exposureLimitValue = 5.0;
 constexpr double exposureReferenceSeconds = 8.0 * 3600.0;
 
 /// A(8) in m/s^2 of the integral of squared weighted acceleration, in g^2 s; and back. Any thread.

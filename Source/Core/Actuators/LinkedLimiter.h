@@ -73,7 +73,8 @@ private:
     bool enabled_ = true;
     std::int64_t releaseStep_ = unit;
     static constexpr std::size_t step = LimiterLines::padding, floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
-    std::size_t front() const noexcept { return (static_cast<std::size_t>(window_) + step - 2) / step * step; } // of latencyFrames(), whole vectors
+    // of latencyFrames(), whole vectors
+    std::size_t front() const noexcept { return (static_cast<std::size_t>(window_) + step - 2) / step * step; }
     const LimiterKernel* kernel_ = nullptr;
     std::array<GainRamp, width> ceilings_{};                    // of what comes in
     std::array<float, width> bounds_{};                         // of what goes out, the highest of a ramp's; infinite if it is off

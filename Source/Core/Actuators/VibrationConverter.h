@@ -22,7 +22,8 @@ public:
     static constexpr long long stepsPerSecond = 100; ///< the thesis' rendering loop
     static constexpr double thesisThreshold = 0.1; ///< of full scale
 
-    OnOffSteps(int sampleRateHz, double threshold) noexcept : rate_{sampleRateHz}, threshold_{static_cast<float>(threshold)} {} ///< Any thread.
+    /// Any thread.
+    OnOffSteps(int sampleRateHz, double threshold) noexcept : rate_{sampleRateHz}, threshold_{static_cast<float>(threshold)} {}
 
     /// One frame of one channel. `change(stepIndex, isOn)` is called where a step differs from the one before.
     template <class Change>

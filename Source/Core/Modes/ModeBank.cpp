@@ -75,7 +75,8 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
 
 bool ModeBank::strike(const Strike& strike, const double* gains) noexcept {
     const bool isGated = strike.closeFrame != Strike::never;
-    if (isGated && strike.closeFrame <= strike.onset.frame) return true; // ends between two frames: no sample of it
+    // ends between two frames: no sample of it
+    if (isGated && strike.closeFrame <= strike.onset.frame) return true;
     if (isGated && freeGateCount_ == 0) return false;
     enterTile(strike.onset.frame);
     tiles_.settle();
@@ -186,7 +187,8 @@ void ModeBank::fade(int slot, std::int64_t frame, double perSecond) noexcept {
     m.isFading = true;
     m.endFrame = std::min(m.endFrame, frame + m.lifeFrames);
     nextEnd_ = std::min(nextEnd_, m.endFrame);
-    const double backwards = decayFactor<double>((before - m.decayIncrement) * (frame - tileStart_)); // so that nothing changes at `frame`
+    // so that nothing changes at `frame`
+    const double backwards = decayFactor<double>((before - m.decayIncrement) * (frame - tileStart_));
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
         z = z * backwards;

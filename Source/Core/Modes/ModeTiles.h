@@ -111,7 +111,8 @@ private:
     bool takeMemory() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
     void strikeAll() noexcept;
-    bool isPlain() const noexcept { return !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase; } // the sum of free modes, or nothing
+    // the sum of free modes, or nothing
+    bool isPlain() const noexcept { return !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase; }
     bool isEmpty() const noexcept {
         return highest_ == 0 && !layers_[0].hasBase && !layers_[1].hasBase && !layers_[0].hasTails() && !layers_[1].hasTails();
     }

@@ -66,8 +66,10 @@ private:
     std::array<std::uint32_t, slots> keys_{};      // frequency16 and decay16: what merges
     std::array<std::uint32_t, slots> endFrames_{}; // from here on it is over
     std::array<bool, slots> gated_{};              // strikes with a duration are cut, so they do not merge
-    std::array<int, static_cast<std::size_t>(channels)> ends_{};      // modes whose loudest is channel c end before slot ends_[c]
-    std::array<float, static_cast<std::size_t>(channels)> residue_{}; // where stolen modes stood; decays without a step
+    // modes whose loudest is channel c end before slot ends_[c]
+    std::array<int, static_cast<std::size_t>(channels)> ends_{};
+    // where stolen modes stood; decays without a step
+    std::array<float, static_cast<std::size_t>(channels)> residue_{};
     std::uint32_t frame_ = 0;                                         // first of the block last rendered
     std::uint32_t nextEnd_ = 0;                                       // no mode ends before this frame
     std::uint32_t stolen_ = 0;

@@ -87,7 +87,8 @@ struct TileKernel {
     void (*advance)(const TileCarriers& carriers) = nullptr;
     void (*render)(const TileLayer& layer, float* out) = nullptr;         ///< out[channel * 64 + frame]
     void (*strike)(const TileStrikes& strikes) = nullptr;
-    void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr; ///< out = base + tails
+    /// out = base + tails
+    void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr;
     void (*clear)(float* const* out, int channels, int frames) = nullptr; ///< out[channel][frame] = 0
     LimiterKernel limiter;
 };

@@ -6,7 +6,8 @@ namespace physvib {
 namespace {
 
 double secondsOf(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
-double inHundredths(double command) noexcept { return std::clamp(std::ceil(100.0 * command - 1e-9) / 100.0, 0.0, 1.0) + 0.0; } // up: never below a threshold
+// up: never below a threshold
+double inHundredths(double command) noexcept { return std::clamp(std::ceil(100.0 * command - 1e-9) / 100.0, 0.0, 1.0) + 0.0; }
 constexpr double nearEnough = 0.03; // of full strength: nobody feels it, and it would cost a command
 
 /// 0: all of it in the left grip, 1: in the right one.

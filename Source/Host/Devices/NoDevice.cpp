@@ -68,7 +68,8 @@ private:
         for (auto& channel : out) at.push_back(channel.data());
         const auto length = std::chrono::nanoseconds{static_cast<std::int64_t>(1e9 * block_ / rate_)};
         for (auto deadline = Clock::now(); !threadShouldExit(); deadline += length) {
-            if (const auto now = Clock::now(); now > deadline + 10 * length) deadline = now; // after a stall: no burst of blocks
+            // after a stall: no burst of blocks
+            if (const auto now = Clock::now(); now > deadline + 10 * length) deadline = now;
             std::this_thread::sleep_until(deadline);
             callback_->audioDeviceIOCallbackWithContext(nullptr, 0, at.data(), static_cast<int>(at.size()), block_, {});
         }

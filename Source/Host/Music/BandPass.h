@@ -18,7 +18,8 @@ public:
     BandPass(FrequencyBand band, int sampleRateHz) noexcept {
         const double highHz = std::min(band.highHz, 0.45 * sampleRateHz), lowHz = std::min(band.lowHz, 0.5 * highHz);
         for (std::size_t i = 0; i < qs.size(); ++i) {
-            sections_[2 * i] = section(highHz, qs[i], {2.0, 1.0}, 1.0, sampleRateHz); // zeros at half the rate
+            // zeros at half the rate
+            sections_[2 * i] = section(highHz, qs[i], {2.0, 1.0}, 1.0, sampleRateHz);
             sections_[2 * i + 1] = section(lowHz, qs[i], {-2.0, 1.0}, -1.0, sampleRateHz); // at 0
         }
     }

@@ -13,7 +13,8 @@ constexpr unsigned hopsPerWindow = 8;
 constexpr int pickedHopsLater = 2;              // aubio's picker needs the hop after the peak, and smooths over one more
 constexpr double earlyHops = 0.35;              // the flux peaks so much before the onset has reached the middle of the window (measured: Docs/music.md)
 constexpr double leastSecondsBetween = 0.05;    // of one band: twenty strokes a second
-constexpr double usualSeconds = 1.0, strongestSeconds = 5.0, maskedSeconds = 0.1; // after which 37 % is still known
+// after which 37 % is still known
+constexpr double usualSeconds = 1.0, strongestSeconds = 5.0, maskedSeconds = 0.1;
 constexpr double leastRise = 3.0;               // above what is usual
 constexpr double leastFlux = 1e-3;              // a sine of -60 dB or so that begins
 constexpr double leastShareAtOne = 0.0625;      // of the strongest onset; to the power of the sensitivity
@@ -67,7 +68,8 @@ void BeatDetector::follow(Band& band) noexcept {
     const auto kept = [=](double seconds) { return std::exp(-hopSeconds / seconds); };
     band.strongest *= kept(strongestSeconds);
     band.masked *= kept(maskedSeconds);
-    band.usual += std::max(1.0 - kept(usualSeconds), 1.0 / static_cast<double>(hops_)) * (band.latest.back() - band.usual); // at first the plain mean
+    // at first the plain mean
+    band.usual += std::max(1.0 - kept(usualSeconds), 1.0 / static_cast<double>(hops_)) * (band.latest.back() - band.usual);
 }
 
 bool BeatDetector::isOnset(const Band& band, double height, std::int64_t frame) const noexcept {

@@ -18,7 +18,8 @@ struct BeatVoices {
     static constexpr double usualLevel = 0.5;
 
     std::array<EnchanterSet, beatBands.size()> enchanters; ///< of each band; none: it is not felt
-    std::array<double, beatBands.size()> frequencyHz{205.0, 205.0, 205.0}; ///< the resonance of the thesis' actuator
+    /// the resonance of the thesis' actuator
+    std::array<double, beatBands.size()> frequencyHz{205.0, 205.0, 205.0};
     std::array<double, beatBands.size()> decayPerSecond{15.0, 30.0, 60.0}; ///< long, short, a tick
     double level = usualLevel; ///< peak of the strongest at gain 1, in shares of full scale
 };

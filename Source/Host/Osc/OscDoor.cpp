@@ -79,7 +79,8 @@ std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::
     if (isForSilence(message.address)) return silence(silenceOf(message), answers);
     if (hooks_.closed)
         if (auto why = hooks_.closed(); !why.empty()) return why;
-    const bool isOurs = message.address.starts_with(oscPrefix); // no phone is called so: /physvib/gravity is an input
+    // no phone is called so: /physvib/gravity is an input
+    const bool isOurs = message.address.starts_with(oscPrefix);
     if (const auto* format = isOurs ? nullptr : sensorFormat(message.address)) return turn(*format, message);
     if (!isOurs) return inQuotes(message.address) + ": expected an address that begins with " + std::string(oscPrefix) + ", or one of a sensor program";
     const auto plain = plainOf(std::string_view{message.address}.substr(oscPrefix.size()), message.values);

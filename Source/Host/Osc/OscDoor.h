@@ -26,7 +26,8 @@ struct OscOrigin {
 
 /// What the program does itself with what comes in; called on the port's thread.
 struct OscHooks {
-    std::function<std::string(const LineInput&, const OscOrigin&)> act; ///< inputs and controls; empty, or what is wrong
+    /// inputs and controls; empty, or what is wrong
+    std::function<std::string(const LineInput&, const OscOrigin&)> act;
     std::function<std::string()> closed;              ///< why nothing but silence is taken now; empty: it is; may be left out
     ClipSource clips{};                               ///< left out: none are taken
 };

@@ -28,7 +28,8 @@ void normalise(std::vector<float>& samples) {
 std::vector<float> syntheticContact(double frequencyHz, double decayPerSecond, std::uint32_t seed, int sampleRateHz) {
     constexpr double ratios[] = {1.0, 1.41, 2.0, 2.45, 3.0, 3.61}, noiseSeconds = 0.003;
     SeededRandom random{seed, "contact"};
-    std::vector<float> samples(static_cast<std::size_t>(sampleRateHz * std::min(1.0, 7.0 / decayPerSecond))); // to -60 dB
+    // to -60 dB
+    std::vector<float> samples(static_cast<std::size_t>(sampleRateHz * std::min(1.0, 7.0 / decayPerSecond)));
     double weight = 1.0, decay = decayPerSecond;
     for (const double ratio : ratios) {
         const double f = frequencyHz * ratio * (ratio > 1.0 ? 0.96 + 0.08 * random.uniform() : 1.0), a = weight * (0.7 + 0.6 * random.uniform());

@@ -34,7 +34,8 @@ public:
         if (firstFrame_.load(std::memory_order_relaxed) < 0) firstFrame_.store(block.sessionFrame, std::memory_order_relaxed);
         tap_.take(block.channels, block.frames);
     }
-    bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); } ///< no other rate has come. Any thread
+    /// no other rate has come. Any thread
+    bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); }
 
     /// Says in the file at which session time it begins, by the session's play-out delay L; before the first frame. M.
     void tellBeginning(std::int64_t playOutFrames) noexcept { playOutFrames_ = playOutFrames; }
@@ -42,7 +43,8 @@ public:
     /// The last samples and the header; empty or one line with the reason. M, after R stopped.
     std::string finish();
 
-    std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); } ///< of the session; -1: nothing yet
+    /// of the session; -1: nothing yet
+    std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); }
     /// What happens at session time t is felt t less this behind the file's first frame; none before tellBeginning() and that frame.
     std::optional<double> beginsSeconds() const noexcept {
         if (playOutFrames_ < 0 || firstFrame() < 0) return {};

@@ -46,7 +46,8 @@ std::string oggFault(std::FILE& file) {
     std::string block(page.size(), '\0');
     int streams = 0;
     for (std::array<char, 65536> bytes; const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), &file);) {
-        block.erase(0, block.size() - page.size()).append(bytes.data(), count); // a page may begin in one block and go on in the next
+        // a page may begin in one block and go on in the next
+        block.erase(0, block.size() - page.size()).append(bytes.data(), count);
         for (std::size_t i = block.find(page); i != std::string::npos && i + page.size() < block.size(); i = block.find(page, i + 1))
             streams += (block[i + page.size()] & begins) != 0;
     }

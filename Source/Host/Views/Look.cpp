@@ -127,7 +127,8 @@ void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const j
     g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.45f));
     g.fillRoundedRectangle(area, corner);
     if (!stops) return;
-    g.setColour(shade(button, button.getToggleState() ? Shade::text : Shade::limit)); // off it is a red frame: what is filled is pressed
+    // off it is a red frame: what is filled is pressed
+    g.setColour(shade(button, button.getToggleState() ? Shade::text : Shade::limit));
     g.drawRoundedRectangle(area.reduced(1.0f), corner, 2.0f);
 }
 

@@ -23,13 +23,17 @@ const LookFacts& factsOf(MaterialLook look) { return looks[static_cast<std::size
 
 /// Lighter or darker at a pixel, -1 to 1.
 float grainOf(MaterialLook look, int x, int y, juce::Random& random) {
-    constexpr float turn = juce::MathConstants<float>::twoPi / tilePixels; // whole periods, so that tiles join
+    // whole periods, so that tiles join
+    constexpr float turn = juce::MathConstants<float>::twoPi / tilePixels;
     const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
     switch (look) {
-    case MaterialLook::rubber: return (x % 16 - 8) * (x % 16 - 8) + (y % 16 - 8) * (y % 16 - 8) < 10 ? -0.8f : 0.05f; // knobs
-    case MaterialLook::concrete: return random.nextFloat() < 0.08f ? -0.9f : 0.5f * random.nextFloat() - 0.25f; // specks
+    // knobs
+    case MaterialLook::rubber: return (x % 16 - 8) * (x % 16 - 8) + (y % 16 - 8) * (y % 16 - 8) < 10 ? -0.8f : 0.05f;
+    // specks
+    case MaterialLook::concrete: return random.nextFloat() < 0.08f ? -0.9f : 0.5f * random.nextFloat() - 0.25f;
     case MaterialLook::wood: return 0.7f * std::sin(5.0f * turn * fy + 1.5f * std::sin(turn * fx)); // rings
-    case MaterialLook::steel: return 0.6f * std::sin(turn * (fx + fy)) + ((x + y) % 4 == 0 ? 0.25f : 0.0f); // a shine, brushed
+    // a shine, brushed
+    case MaterialLook::steel: return 0.6f * std::sin(turn * (fx + fy)) + ((x + y) % 4 == 0 ? 0.25f : 0.0f);
     }
     return 0.0f;
 }

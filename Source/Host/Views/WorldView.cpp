@@ -295,7 +295,8 @@ void WorldView::take(const CollisionEvent& event, double nowMs) {
     const auto last = std::find_if(traces_.rbegin(), traces_.rend(), isSamePair);
     const Vector here{event.x, event.y};
     if (last == traces_.rend() || last->shownAtMs != nowMs) return traces_.push_back({event.source, last == traces_.rend() ? here : last->toMetres, here, event.amplitude, colourOf(event), nowMs});
-    last->toMetres = {0.5 * (last->toMetres.x + here.x), 0.5 * (last->toMetres.y + here.y)}; // between the points of what has two
+    // between the points of what has two
+    last->toMetres = {0.5 * (last->toMetres.x + here.x), 0.5 * (last->toMetres.y + here.y)};
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
 }
 
@@ -356,7 +357,8 @@ void WorldView::drawEnchanters(juce::Graphics& g, const Map& at) const {
         const auto colour = enchanterColour(*this, j);
         const auto badge = badgeOf(j, at);
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
-        if (share > 0.03f) glow(g, badge.getCentre(), 18.0f + 34.0f * share, colour.withAlpha(0.5f * share)); // over the field, too
+        // over the field, too
+        if (share > 0.03f) glow(g, badge.getCentre(), 18.0f + 34.0f * share, colour.withAlpha(0.5f * share));
         g.setColour(shade(*this, Shade::well));
         g.fillRoundedRectangle(badge, 7.0f);
         g.setColour(colour);

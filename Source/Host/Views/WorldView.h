@@ -66,18 +66,23 @@ public:
     void showSpot(std::optional<FieldShare> spot);
 
     // What a hand does; what is not set cannot be done. M.
-    std::function<void(const std::string& body, Vector screenMetres, Vector pointMetres)> onPull; ///< in the field's axes; the point on the body, in the field's metres
-    std::function<void(const std::string& body, Vector pointMetres, Vector toMetres)> onHold; ///< with Shift, while it is held: which point, as for onPull, and where in the field the hand is
+    /// in the field's axes; the point on the body, in the field's metres
+    std::function<void(const std::string& body, Vector screenMetres, Vector pointMetres)> onPull;
+    /// with Shift, while it is held: which point, as for onPull, and where in the field the hand is
+    std::function<void(const std::string& body, Vector pointMetres, Vector toMetres)> onHold;
     std::function<void(const std::string& body)> onLetGo;                                     ///< of what was held
     std::function<juce::String(double screenMetres)> pullText; ///< beside the line while it is pulled
-    std::function<void(int enchanter, FieldShare to)> onMove;                                ///< while it is moved
+    /// while it is moved
+    std::function<void(int enchanter, FieldShare to)> onMove;
     std::function<void(int enchanter)> onDetach;                                             ///< dropped outside
     std::function<void(FieldShare at)> onAttach;
     std::function<void(int enchanter)> onSelect;
     std::function<void(const std::string& body, FieldShare at)> onMenu; ///< right click; body may be empty
     std::function<void(FieldShare at)> onSpot;                          ///< a click that drags nothing
-    std::function<bool(const juce::StringArray& files)> takesFiles;     ///< whether those that are dragged here may be dropped
-    std::function<void(const juce::StringArray& files, int enchanter, FieldShare at)> onFiles; ///< dropped on that enchanter; -1: in the field
+    /// whether those that are dragged here may be dropped
+    std::function<bool(const juce::StringArray& files)> takesFiles;
+    /// dropped on that enchanter; -1: in the field
+    std::function<void(const juce::StringArray& files, int enchanter, FieldShare at)> onFiles;
 
     void paint(juce::Graphics& g) override;
     void resized() override { gains_ = {}; }

@@ -30,7 +30,8 @@ bool isWithin(const fs::path& folder, const fs::path& path) {
     const fs::path home = fs::canonical(folder.empty() ? fs::path(".") : folder, failed);
     if (failed) return false;
     fs::path at = fs::absolute(path, failed);
-    for (int links = 0; links < mostLinks && !failed && fs::is_symlink(at, failed); ++links) at = at.parent_path() / fs::read_symlink(at, failed); // also one to what is not there
+    // also one to what is not there
+    for (int links = 0; links < mostLinks && !failed && fs::is_symlink(at, failed); ++links) at = at.parent_path() / fs::read_symlink(at, failed);
     failed.clear(); // of what is not there
     const fs::path found = fs::weakly_canonical(at, failed);
     return !failed && std::ranges::mismatch(home, found).in1 == home.end();

@@ -18,9 +18,11 @@ constexpr std::size_t maxRecordingFileBytes = 256'000'000; // as many samples of
 constexpr std::int64_t maxMusicSeconds = 86'400;          // read block by block: a day
 constexpr std::size_t maxMusicFileBytes = 64'000'000'000; // a day of two channels of 32 bits at 92 kHz
 constexpr int maxRecordingChannels = 64;                  // as many as there are outputs
-constexpr int minRecordingRateHz = 100, maxRecordingRateHz = 768'000; // slow accelerometers; the fastest converters
+// slow accelerometers; the fastest converters
+constexpr int minRecordingRateHz = 100, maxRecordingRateHz = 768'000;
 constexpr std::size_t maxNameBytes = 200;                 // names and labels: one line on a screen
 constexpr std::size_t maxJsonDepth = 16;                  // our formats need fourteen levels
-constexpr std::size_t maxJsonMarks = 1'000'000, jsonBytesPerMark = 8; // , : [ { of a text, and more by its length: an input has one in 12 bytes
+// , : [ { of a text, and more by its length: an input has one in 12 bytes
+constexpr std::size_t maxJsonMarks = 1'000'000, jsonBytesPerMark = 8;
 
 } // namespace physvib::limits

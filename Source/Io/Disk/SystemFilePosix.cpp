@@ -57,7 +57,8 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
     return error_ == 0;
 }
 
-bool SystemFile::sync() noexcept { return error_ == 0 && note(fsync(descriptorOf(handle_)) == 0 || errno == EINVAL); } // EINVAL: of a file system that has nothing to sync
+// EINVAL: of a file system that has nothing to sync
+bool SystemFile::sync() noexcept { return error_ == 0 && note(fsync(descriptorOf(handle_)) == 0 || errno == EINVAL); }
 
 void SystemFile::syncFolder(const std::filesystem::path& folder) noexcept {
     const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -52,7 +52,8 @@ inline std::string fixedNumber(double number, int decimals) {
     char digits[400];
     const auto end = std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed, decimals).ptr;
     std::string text(digits, end);
-    return text.find_first_of("123456789") == std::string::npos && text.starts_with('-') ? text.substr(1) : text; // no -0.00
+    // no -0.00
+    return text.find_first_of("123456789") == std::string::npos && text.starts_with('-') ? text.substr(1) : text;
 }
 
 /// At most 40 characters of `text`, whatever a terminal might misread as \xNN. Any thread.

@@ -74,7 +74,8 @@ private:
         rateHz_ = static_cast<std::int64_t>(number(4));
         number(6); // bytes per second and per frame: both follow
         bits_ = number(2);
-        if (format == extensible && bytes >= 40) format = (number(8), number(2)); // the rest of its GUID is always the same
+        // the rest of its GUID is always the same
+        if (format == extensible && bytes >= 40) format = (number(8), number(2));
         isFloat_ = format == ieeeFloat;
         const bool isKnown = isFloat_ ? bits_ == 32 : format == pcm && (bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32);
         return (isKnown && channels_ > 0) || fail("expected PCM of 8, 16, 24 or 32 bits, or float of 32");

@@ -42,7 +42,8 @@ struct AnalysisReport {
     bool isSimulated = false;             ///< a simulated observer answered, not a person
     std::vector<std::string> warnings{};  ///< a line each
     std::string words{};                  ///< its figures, in lines
-    std::function<std::string()> picture{}; ///< PNG bytes, watermarked if simulated; M, while JUCE is initialised
+    /// PNG bytes, watermarked if simulated; M, while JUCE is initialised
+    std::function<std::string()> picture{};
     std::string table{}, counts{}, participants{}; ///< CSV
     std::vector<TestLine> lines{};                 ///< of a test
 };

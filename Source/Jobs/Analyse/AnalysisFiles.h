@@ -31,7 +31,8 @@ inline std::string wholeLabel(std::string_view label) {
 struct StudySources {
     std::vector<std::string> files;
     std::vector<ColumnName> columns{};                          ///< of another program's tables
-    const std::map<std::string, std::string>* made = nullptr;   ///< tables by their names that are not on the disk (yet); they have our columns
+    /// tables by their names that are not on the disk (yet); they have our columns
+    const std::map<std::string, std::string>* made = nullptr;
     bool operator==(const StudySources&) const = default;
 };
 

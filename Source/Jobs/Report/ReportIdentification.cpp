@@ -99,7 +99,8 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
     for (int c = 1; c <= columns; ++c) chart.columns.push_back(std::to_string(c));
     chart.values.resize(static_cast<std::size_t>(rows * columns));
     chart.halfIntervals.resize(chart.values.size());
-    std::map<std::string, std::map<std::string, std::pair<double, double>>> counts; // stimulus, participant: hits, trials
+    // stimulus, participant: hits, trials
+    std::map<std::string, std::map<std::string, std::pair<double, double>>> counts;
     for (const auto& trial : trials) {
         auto& [hits, all] = counts[trial.stimulus][trial.participant];
         hits += trial.stimulus == trial.response;

@@ -16,7 +16,8 @@ public:
     void subheading(std::string_view words);
     void paragraph(std::string_view words);
     void notes(const std::vector<std::string>& lines); ///< one box
-    void note(std::string_view words) { notes({std::string(words)}); } ///< a warning, or what is not there and why
+    /// a warning, or what is not there and why
+    void note(std::string_view words) { notes({std::string(words)}); }
     void lines(std::string_view words); ///< as `analyse` prints them
     void call(std::string_view words);  ///< of the program
     void list(const std::vector<std::string>& items);

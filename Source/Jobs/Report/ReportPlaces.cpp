@@ -66,7 +66,8 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
             std::vector<double> means;
             for (const auto& [who, values] : people) means.push_back(Moments(values).mean);
             const Moments moments{means};
-            const double offset = 0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1)); // so that intervals do not hide each other
+            // so that intervals do not hide each other
+            const double offset = 0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1));
             series.points.push_back({line + offset, {moments.mean, moments.mean - moments.halfInterval(), moments.mean + moments.halfInterval()}});
         }
         chart.series.push_back(std::move(series));

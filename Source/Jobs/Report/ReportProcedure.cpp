@@ -103,7 +103,8 @@ void tellCalls(ReportBuilder& report) {
     const CsvTable& all = report.trials.all;
     const Cells cell{all};
     if (!cell.has("render")) return;
-    std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> calls; // condition, session, stimulus, call: trials
+    // condition, session, stimulus, call: trials
+    std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> calls;
     std::map<std::pair<std::string, std::string>, std::string> examples;
     for (const CsvRow& row : all.rows) {
         if (answerOf(cell(row, trialColumns::task)) == AnswerKind::wish) continue;
@@ -170,7 +171,8 @@ void tellDoses(ReportBuilder& report) {
             double sum = 0.0;
             for (const double value : own) sum += value;
             table.cell(key.first).cell(key.second).cell(column).cell(own.size());
-            const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG; // levels follow answers, exposure adds up
+            // levels follow answers, exposure adds up
+            const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
             table.cell(*std::ranges::min_element(own));
             if (hasMean) table.cell(sum / static_cast<double>(own.size()));
             else table.cell("");

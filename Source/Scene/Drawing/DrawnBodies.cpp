@@ -139,7 +139,8 @@ Result<BodyDescription> drawnLine(const std::vector<Vector>& way, double toleran
     }
     const Vector at = corners[0];
     corners = from(corners, at);
-    for (std::size_t i = corners.size() - 1; i-- > 0;) corners.push_back(corners[i]); // and back: a chain is hit from one side only
+    // and back: a chain is hit from one side only
+    for (std::size_t i = corners.size() - 1; i-- > 0;) corners.push_back(corners[i]);
     return bodyOf(ChainShape{corners, false}, at, BodyType::staticBody);
 }
 

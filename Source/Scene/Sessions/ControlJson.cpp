@@ -36,7 +36,8 @@ PhantomPanner readPanner(const JsonField& json, int channels) {
     if (field.arraySize() != 2) field.fail("expected [width, height]");
     PhantomPanner panner{layout, panningLaws[json["law"].oneOf(panningLawNames)].law, json["exponent"].numberWithin(leastExponent, mostExponent),
                          field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres), field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
-    if (json.has("grain_law")) panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law)); // missing: as all else
+    // missing: as all else
+    if (json.has("grain_law")) panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
     return panner;
 }
 
@@ -70,7 +71,8 @@ OrderedJson pannerJson(const PhantomPanner& panner) {
 
 OrderedJson controlJson(const RenderControl& control) {
     using Holds = ControlDescription::Holds;
-    const auto one = std::ranges::find(controlTable, control.kind, &ControlDescription::kind); // no other is asked for
+    // no other is asked for
+    const auto one = std::ranges::find(controlTable, control.kind, &ControlDescription::kind);
     OrderedJson json{{"control", one->name}};
     if (one->holds == Holds::panner) json[one->field] = pannerJson(control.panner);
     if (one->holds == Holds::number || one->holds == Holds::truth) json["channel"] = control.channel + 1;

@@ -66,7 +66,8 @@ inline bool isSilent(std::span<const Strip> strips, std::size_t strip) noexcept 
     return strips[strip].isMuted || (!strips[strip].isSolo && std::ranges::any_of(strips, &Strip::isSolo));
 }
 
-constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0; // N s per metre of the screen (thesis 5.3.1)
+// N s per metre of the screen (thesis 5.3.1)
+constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0;
 
 struct Mix {
     std::shared_ptr<const Scene> scene; ///< never null
@@ -82,7 +83,8 @@ struct Mix {
     int count() const noexcept { return layout.geometry.count; }
     PhantomPanner panner() const noexcept {
         PhantomPanner made{layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres};
-        if (law == PanningLaw::linear && exponent == 1.0) made.setGrains(grainSpread); // nothing else was asked for
+        // nothing else was asked for
+        if (law == PanningLaw::linear && exponent == 1.0) made.setGrains(grainSpread);
         return made;
     }
 

@@ -60,7 +60,8 @@ enum class NotePlaces {
     actuators, ///< at one actuator after the other
     middle     ///< in the middle of the field
 };
-inline constexpr std::array<std::string_view, 3> notePlaceNames{"octave", "actuators", "middle"}; // as NotePlaces
+// as NotePlaces
+inline constexpr std::array<std::string_view, 3> notePlaceNames{"octave", "actuators", "middle"};
 
 /// How notes sound: those without a rule in all of it, struck materials in level and velocity.
 struct NoteVoice {

@@ -23,7 +23,8 @@ struct SavedSession {
     PhantomPanner panner;   ///< at the start
     int channels = 0;       ///< outputs, at least as many as any layout of the session has enchanters
     bool limiterEnabled = true;
-    std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel
+    /// drive ceiling per channel
+    std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale();
     std::int64_t lengthNs = 0;
     SessionLog log; ///< at least one take
     std::optional<Mix> mix{}; ///< the desk as it was left, if the session was played on one

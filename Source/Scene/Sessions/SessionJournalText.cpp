@@ -13,7 +13,8 @@ namespace physvib {
 namespace {
 
 constexpr const char* journalField = "journal";
-constexpr std::size_t mostBytes = limits::maxSessionFileBytes / 4 * 3; // a scene takes more in lines for people
+// a scene takes more in lines for people
+constexpr std::size_t mostBytes = limits::maxSessionFileBytes / 4 * 3;
 
 std::string lineOf(const char* name, OrderedJson item) {
     OrderedJson json;

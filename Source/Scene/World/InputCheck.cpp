@@ -71,7 +71,8 @@ bool InputCheck::fold(const Action& action) {
     }
     const auto isSpawned = [&](const LiveInput& input) { return isSpawn(input.action) && bodyOf(input.action) == change->body.name; };
     if (!isRemoval(last->action) || std::ranges::none_of(inputs, isSpawned)) return false;
-    inputs.push_back({inputs.back().timeSeconds, SpawnAction{change->body, {}}}); // what was before may be forgotten
+    // what was before may be forgotten
+    inputs.push_back({inputs.back().timeSeconds, SpawnAction{change->body, {}}});
     return true;
 }
 
@@ -88,7 +89,8 @@ void InputCheck::forgetOldest() {
         const std::string body = bodyOf(oldest->action);
         const auto isOf = [&](const LiveInput& input) { return bodyOf(input.action) == body; };
         const auto next = std::find_if(oldest, inputs.end(), [&](const LiveInput& input) { return isSpawn(input.action) && isOf(input); });
-        inputs.erase(std::remove_if(inputs.begin(), next, isOf), next); // what comes then is said of another body of that name
+        // what comes then is said of another body of that name
+        inputs.erase(std::remove_if(inputs.begin(), next, isOf), next);
         if (std::ranges::none_of(scriptedCast(scene_), [&](const BodyDescription& known) { return known.name == body; }))
             std::erase_if(inputs, [&](const LiveInput& input) {
                 const auto* join = std::get_if<JoinAction>(&input.action);

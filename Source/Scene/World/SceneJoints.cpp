@@ -56,7 +56,8 @@ public:
         b2DistanceJointDef def;
         def.Initialize(&a_, &b_, box2dVector(joint.anchorAMetres), box2dVector(joint.anchorBMetres));
         if (!joint.isSlack) spring(def.stiffness, def.damping, joint.springHz, joint.dampingRatio);
-        if (joint.isSlack || joint.springHz > 0.0) def.minLength = 0.0F; // else a rod: Box2D keeps the length between these two
+        // else a rod: Box2D keeps the length between these two
+        if (joint.isSlack || joint.springHz > 0.0) def.minLength = 0.0F;
         if (!joint.isSlack && joint.springHz > 0.0) def.maxLength = b2_maxFloat;
         return create(world_, def, joint_);
     }

@@ -52,7 +52,8 @@ std::vector<Action> ScenePlayer::steer(int way) {
     if (!drives()) return {};
     step_ = way == 0 || way * step_ < 0 ? 0 : std::clamp(step_ + way, -mostSteps, mostSteps);
     std::vector<Action> all;
-    for (const std::string& wheel : wheels_) all.push_back(MotorAction{wheel, -step_ * stepRadiansPerSecond, {}}); // clockwise is to the right
+    // clockwise is to the right
+    for (const std::string& wheel : wheels_) all.push_back(MotorAction{wheel, -step_ * stepRadiansPerSecond, {}});
     return all;
 }
 

@@ -220,7 +220,8 @@ bool SceneWorld::act(const VelocityAction& action) {
 bool SceneWorld::act(const SpawnAction& action, int repetition) {
     const std::size_t number = spawned_.at(&action) + static_cast<std::size_t>(repetition);
     Body& body = bodies_.at(number);
-    if (std::size_t& named = bodyNames_.find(body.described.name)->second; named != number) { // it was changed since
+    // it was changed since
+    if (std::size_t& named = bodyNames_.find(body.described.name)->second; named != number) {
         moveJoints(*bodies_.at(named).body, *body.body);
         retire(std::exchange(named, number));
     }
@@ -241,7 +242,8 @@ bool SceneWorld::act(const RemoveAction& action) {
     b2Body& body = *bodies_.at(number).body;
     if (number >= scripted_) {
         bodyNames_.erase(place);
-        const auto scripted = scriptedNames_.find(action.body); // the one that was changed: the script may want it
+        // the one that was changed: the script may want it
+        const auto scripted = scriptedNames_.find(action.body);
         if (scripted == scriptedNames_.end()) dropJoints(body);
         else {
             moveJoints(body, *bodies_.at(scripted->second).body);

@@ -145,7 +145,8 @@ private:
     SceneGrips grips_{world_, clock_};
     std::vector<Material> materials_; // with the sounds and textures of now
     std::map<std::size_t, Body> bodies_; // by number
-    std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0; // numbers; below scripted_ stands scriptedCast()
+    // numbers; below scripted_ stands scriptedCast()
+    std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0;
     std::map<std::string, std::size_t, std::less<>> bodyNames_;
     std::deque<Leaving> leaving_; // in the order of their steps
     std::map<std::string, std::size_t, std::less<>> scriptedNames_; // of scriptedCast()

@@ -14,7 +14,8 @@ namespace physvib {
 
 namespace {
 
-constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz; // of any rate: what is that much later has a later frame
+// of any rate: what is that much later has a later frame
+constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz;
 
 /// Of a path whose law the felt place does not follow; else empty.
 std::string lagNote(Spread spread, const PhantomPanner& panner) {
@@ -128,7 +129,8 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
     const double sceneGain = session_.shaping().gain;
     for (CollisionEvent& strike : strikes) {
         strike.timeNs += start;
-        if (sceneGain > 0.0 && !isClip(strike.frequencyHz)) strike.amplitude /= sceneGain; // a level is of full scale, in every scene
+        // a level is of full scale, in every scene
+        if (sceneGain > 0.0 && !isClip(strike.frequencyHz)) strike.amplitude /= sceneGain;
     }
     if (auto taken = session_.take({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
 }

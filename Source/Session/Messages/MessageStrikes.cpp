@@ -202,7 +202,8 @@ std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const Loade
         strike.amplitude = values.number("level");
         strike.x = at.xMetres;
         strike.y = at.yMetres;
-        strike.durationNs = nanoseconds(static_cast<double>(channel.samples.size()) / channel.sampleRateHz) + 1; // its last sample, too
+        // its last sample, too
+        strike.durationNs = nanoseconds(static_cast<double>(channel.samples.size()) / channel.sampleRateHz) + 1;
         strike.course.spread = values.spread();
     }
     return strikes;

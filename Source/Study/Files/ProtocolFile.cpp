@@ -22,7 +22,8 @@
 
 namespace physvib {
 
-const std::vector<EmbeddedFile>& embeddedProtocols(); // Source/Study/Protocols/*.json, in the order of their listing
+// Source/Study/Protocols/*.json, in the order of their listing
+const std::vector<EmbeddedFile>& embeddedProtocols();
 
 namespace {
 

@@ -232,7 +232,8 @@ const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
 /// A row of one of the kinds, or none.
 std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     const auto tasks = rows.optional(trialColumns::task);
-    const std::optional<AnswerKind> answer = tasks ? answerOf(row.cells[*tasks]) : rows.optional("value") ? AnswerKind::number : AnswerKind::choice; // other programs' tables have one kind
+    // other programs' tables have one kind
+    const std::optional<AnswerKind> answer = tasks ? answerOf(row.cells[*tasks]) : rows.optional("value") ? AnswerKind::number : AnswerKind::choice;
     LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")), StudyRows::textIf(row, rows.optional("condition")),
                      rows.text(row, rows.required("stimulus"))};
     if (answer == AnswerKind::level) trial.kind = LevelTrial::Kind::adjustment;

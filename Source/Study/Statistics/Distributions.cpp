@@ -16,7 +16,8 @@ namespace {
 /// Twice the smaller tail of whole-numbered probabilities, `at` included.
 double twiceTheTail(const std::vector<double>& probabilities, double at) {
     const auto middle = 0.5 * static_cast<double>(probabilities.size() - 1);
-    const auto fromEnd = static_cast<std::size_t>(std::lround(at > middle ? 2.0 * middle - at : at)); // they are symmetric
+    // they are symmetric
+    const auto fromEnd = static_cast<std::size_t>(std::lround(at > middle ? 2.0 * middle - at : at));
     double tail = 0.0;
     for (std::size_t i = 0; i <= fromEnd; ++i) tail += probabilities[i];
     return std::min(1.0, 2.0 * tail);

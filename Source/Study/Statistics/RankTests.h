@@ -13,7 +13,8 @@ namespace physvib {
 TestReport friedman(const Design& design);      ///< two or more levels [Kendall's W]
 TestReport wilcoxon(const Design& design);      ///< signed ranks of two levels, first minus second [matched-pairs rank-biserial r]
 TestReport mannWhitney(const Design& design);   ///< two groups, one value per participant [rank-biserial r]
-TestReport kruskalWallis(const Design& design); ///< two or more groups [eta squared of H, which may be below 0]
+/// two or more groups [eta squared of H, which may be below 0]
+TestReport kruskalWallis(const Design& design);
 
 /// Signed ranks of `differences`: exact below 50 without ties and zeros, else normal with continuity correction; zeros are left out. Its
 /// statistic is none if all are zero.

@@ -106,7 +106,8 @@ void addSphericity(const Matrix& error, double df, double cells, TestLine& line)
     const double epsilon = p / shape.squaredNorm();
     Sphericity sphericity;
     sphericity.epsilonHuynhFeldt = ((df + 1.0) * p * epsilon - 2.0) / (p * (df - p * epsilon));
-    if (df - p * epsilon <= 1e-9 * df) sphericity.epsilonHuynhFeldt = 1.0; // two participants: the formula divides by 0
+    // two participants: the formula divides by 0
+    if (df - p * epsilon <= 1e-9 * df) sphericity.epsilonHuynhFeldt = 1.0;
     const double used = std::min(1.0, sphericity.epsilonHuynhFeldt);
     sphericity.pHuynhFeldt = fUpper(*line.statistic, used * *line.df1, used * *line.df2);
     line.epsilon = epsilon;

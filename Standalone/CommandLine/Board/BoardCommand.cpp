@@ -168,7 +168,8 @@ int runSceneOnBoard(const std::string& port, const LoadedRender& job, double lev
     if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
     setLevel(link, levelDb);
     const auto before = link.status().telemetry;
-    const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms; // a contact is known two steps later
+    // a contact is known two steps later
+    const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms;
     const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + spare;
     const std::int64_t slipped = followClock(world, job.endNs(), delay, job.panner(), link);
     if (interrupted) link.stopAll();

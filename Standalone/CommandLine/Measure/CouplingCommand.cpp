@@ -86,7 +86,8 @@ int runCoupling(const CouplingOptions& o) {
     const auto coupling = couplingIn(o.folder, layout.value);
     if (!coupling) return leave(exitFailed, coupling.error);
     const std::string text = couplingJson(coupling.value, layout.value.name, "measured: recordings of one driven actuator at a time");
-    if (const auto read = readCoupling(text, o.outPath); !read) return leave(exitFailed, read.error); // e.g. a neighbour that moves five times as much
+    // e.g. a neighbour that moves five times as much
+    if (const auto read = readCoupling(text, o.outPath); !read) return leave(exitFailed, read.error);
     AtomicFile file{o.outPath};
     if (const auto& error = file.write(text); !error.empty()) return leave(exitFailed, error);
     if (const auto& error = file.commit(); !error.empty()) return leave(exitFailed, error);

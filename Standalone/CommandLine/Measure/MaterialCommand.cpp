@@ -64,7 +64,8 @@ void declareMaterial(OptionTable& command, MaterialOptions& o) {
 int runMaterial(const MaterialOptions& o) {
     if ((o.lists ? 1 : 0) + (o.path.empty() ? 0 : 1) + (o.texturePath.empty() ? 0 : 1) != 1) return leave(exitUsage, "material: give either FILE.wav or --list or --texture FILE");
     if (o.texturePath.empty() == o.speedMetresPerSecond.has_value()) return leave(exitUsage, "material: --texture and --speed go together");
-    if (std::isnan(o.speedMetresPerSecond.value_or(0.0) + o.loadNewtons + o.massKg)) return leave(exitUsage, "--speed, --load, --mass: expected numbers"); // nan is in every range
+    // nan is in every range
+    if (std::isnan(o.speedMetresPerSecond.value_or(0.0) + o.loadNewtons + o.massKg)) return leave(exitUsage, "--speed, --load, --mass: expected numbers");
     if (o.lists) return listMaterials();
     if (!o.texturePath.empty()) return tellTexture(o.texturePath, {*o.speedMetresPerSecond, o.loadNewtons, o.massKg});
     const auto band = parseBand(o.band);

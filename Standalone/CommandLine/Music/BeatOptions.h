@@ -13,7 +13,8 @@ namespace physvib {
 class OptionTable;
 
 struct BeatOptions {
-    std::array<std::optional<std::string>, beatBands.size()> enchanters; ///< letters; not given: the usual ones
+    /// letters; not given: the usual ones
+    std::array<std::optional<std::string>, beatBands.size()> enchanters;
     double sensitivity = BeatDetector::usualSensitivity;
     double level = BeatVoices::usualLevel;
     std::string frequencies = "205"; ///< Hz: one for all bands, or one each

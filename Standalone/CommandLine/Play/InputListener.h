@@ -39,7 +39,8 @@ private:
     void run();
     void take(const Line& line);
     void end();
-    Result<PlainMessage> act(LineInput& input, const Line& line); // the answer of a query; without a name: it is done
+    // the answer of a query; without a name: it is done
+    Result<PlainMessage> act(LineInput& input, const Line& line);
     void complain(const std::string& reason);
     void tellLeftOut();
 

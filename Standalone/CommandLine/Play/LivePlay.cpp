@@ -236,7 +236,8 @@ std::string playLive(LivePlay wanted) {
             output.stop();
             played = watch.drain();
         }
-        if (journal) journal->end(session.status().sessionNs); // rows that wait, then what may take long or hang
+        // rows that wait, then what may take long or hang
+        if (journal) journal->end(session.status().sessionNs);
         if (recording) recorded = recording->finish();
         listener.reset();
         if (osc) told = osc->status();

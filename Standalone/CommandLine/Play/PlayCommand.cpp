@@ -142,7 +142,8 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     o.device = outputs.device;
     if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
     for (const std::string& pad : o.pads) outputs.sinks.push_back({"PAD", pad});
-    if (o.device.empty() && !o.pads.empty()) o.device = OutputNames{"PAD:"}.device; // controllers follow a clock then
+    // controllers follow a clock then
+    if (o.device.empty() && !o.pads.empty()) o.device = OutputNames{"PAD:"}.device;
     if (o.device.empty() && o.board.empty()) return leaveWithoutDevice(o.scene.scene);
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
     if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);

@@ -35,7 +35,8 @@ public:
     MadeFolders& operator=(const MadeFolders&) = delete;
     ~MadeFolders() {
         std::error_code ignored;
-        for (auto at = made_.rbegin(); at != made_.rend(); ++at) std::filesystem::remove(*at, ignored); // only if nothing is in it
+        // only if nothing is in it
+        for (auto at = made_.rbegin(); at != made_.rend(); ++at) std::filesystem::remove(*at, ignored);
     }
 
 private:

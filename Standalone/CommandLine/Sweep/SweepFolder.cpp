@@ -46,7 +46,8 @@ std::string SweepFolder::makeFolderOf(const fs::path& file) const {
 
 std::optional<CsvTable> SweepFolder::table(const PlannedTask& task) const {
     const auto text = readFile(result(task.hash), limits::maxSweepFileBytes);
-    if (!text || !text.value.starts_with(headOf(task)) || std::ranges::count(text.value, '\n') != 3 || !text.value.ends_with('\n')) return std::nullopt; // a disk that was full
+    // a disk that was full
+    if (!text || !text.value.starts_with(headOf(task)) || std::ranges::count(text.value, '\n') != 3 || !text.value.ends_with('\n')) return std::nullopt;
     auto table = readCsvTable(text.value, result(task.hash).string());
     if (!table || table.value.rows.size() != 1 || !table.value.column("warnings")) return std::nullopt;
     if (!isWavWhole(wav(task.hash)) || !isEventListWhole(task, table.value)) return std::nullopt;

@@ -46,7 +46,8 @@ private:
 
     SweepDesign design_;
     int channels_ = 0;
-    std::map<std::string, std::map<std::string, std::string>> files_; // by the word that names them: their hashes
+    // by the word that names them: their hashes
+    std::map<std::string, std::map<std::string, std::string>> files_;
 };
 
 } // namespace physvib

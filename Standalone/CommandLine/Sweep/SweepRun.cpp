@@ -26,7 +26,8 @@ class WorkerLog {
 public:
     explicit WorkerLog(const SweepFolder& folder) {
         const auto path = folder.log(juce::SystemStats::getComputerName().toStdString() + '-' + std::to_string(processNumber()));
-        if (folder.makeFolderOf(path).empty()) file_.open(path); // without one, the sweep is done all the same
+        // without one, the sweep is done all the same
+        if (folder.makeFolderOf(path).empty()) file_.open(path);
     }
     void add(const std::string& line) { file_.append(line + '\n'); }
 

@@ -15,7 +15,8 @@ std::string inShellQuotes(const fs::path& path) { return '"' + path.string() + '
 } // namespace
 
 std::uint64_t slurmJobs(std::uint64_t tasks) noexcept {
-    constexpr std::uint64_t tasksPerJob = 100, mostAtOnce = 1000; // starting a job takes as long as some renders; MaxArraySize is 1001 by default
+    // starting a job takes as long as some renders; MaxArraySize is 1001 by default
+    constexpr std::uint64_t tasksPerJob = 100, mostAtOnce = 1000;
     return std::clamp<std::uint64_t>((tasks + tasksPerJob - 1) / tasksPerJob, 1, mostAtOnce);
 }
 

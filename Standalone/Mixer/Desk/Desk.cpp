@@ -95,7 +95,8 @@ Desk::~Desk() {
 
 void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
     if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
-    if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene) mix_.scene = std::make_shared<const Scene>(drawn); // undone, it is as it was drawn
+    // undone, it is as it was drawn
+    if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene) mix_.scene = std::make_shared<const Scene>(drawn);
     undo_.perform(new MixEdit{*this, mix_, next});
 }
 

@@ -45,7 +45,8 @@ public:
     juce::UndoManager& undoManager() noexcept { return undo_; }
     bool attach(double shareX, double shareY); ///< at shares of the field, quietly; false: no room
     void detach(int enchanter); ///< one always stays
-    std::uint64_t edits() const noexcept { return edits_; } ///< grows with every edit and every input: what a document has to be saved for
+    /// grows with every edit and every input: what a document has to be saved for
+    std::uint64_t edits() const noexcept { return edits_; }
     const SavedSession& saved(); ///< the session until now: rendered again it is what was played
     void restart(std::uint32_t seed);
     void setSlowness(int slowness); ///< see WorldRunner

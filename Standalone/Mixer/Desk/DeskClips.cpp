@@ -37,7 +37,8 @@ Result<std::string> DeskClips::strike(const juce::File& file, const EnchanterPla
     };
     const auto result = messages_.take(clip, nullptr, unlessLent);
     if (!result) return Failure{result.error};
-    return result.value.values.empty() ? std::string{} : std::get<std::string>(result.value.values.front().value); // a note
+    // a note
+    return result.value.values.empty() ? std::string{} : std::get<std::string>(result.value.values.front().value);
 }
 
 void DeskClips::handleAsyncUpdate() {

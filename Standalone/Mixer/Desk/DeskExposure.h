@@ -23,7 +23,8 @@ public:
         squareGSeconds_ += squareGSeconds;
     }                                                                  ///< hands had taken that before
     double squareGSeconds() const noexcept { return squareGSeconds_; } ///< weighted, of today
-    double daily() const noexcept { return dailyExposure(squareGSeconds_); } ///< A(8), if nothing else was felt that day
+    /// A(8), if nothing else was felt that day
+    double daily() const noexcept { return dailyExposure(squareGSeconds_); }
 
     /// felt() begins anew.
     void restartLevels() { mark_ = output_.restartLevels(); }

@@ -56,7 +56,8 @@ std::string DeskStrikes::audition(int material, double shareX, double shareY) {
 void DeskStrikes::testPulse(int enchanter) {
     CollisionEvent pulse;
     const auto profile = findActuator(mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].actuator);
-    pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0; // where the thesis' actuators are strongest
+    // where the thesis' actuators are strongest
+    pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0;
     pulse.decayPerSecond = 30.0;
     pulse.amplitude = strikeAmplitude;
     strike({pulse}, placeOf(enchanter));
@@ -68,7 +69,8 @@ void DeskStrikes::testSweep(int enchanter) {
     for (int k = 0; k < count; ++k) {
         CollisionEvent tone;
         tone.timeNs = k * std::int64_t{60'000'000};
-        tone.frequencyHz = 40.0 * std::pow(10.0, static_cast<double>(k) / (count - 1)); // 40 to 400 Hz: what is felt
+        // 40 to 400 Hz: what is felt
+        tone.frequencyHz = 40.0 * std::pow(10.0, static_cast<double>(k) / (count - 1));
         tone.durationNs = softEndNs(tone.frequencyHz, 60'000'000);
         tone.amplitude = 0.3;
         tones.push_back(tone);

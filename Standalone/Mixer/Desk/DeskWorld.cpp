@@ -19,7 +19,8 @@ public:
     bool perform() override { return run(true); }
     bool undo() override { return run(false); }
     int getSizeInUnits() override { return 1; }
-    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override { // a sound or a texture that is turned
+    // a sound or a texture that is turned
+    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
         const auto* other = dynamic_cast<Edit*>(next);
         if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other))) return nullptr;
         return new Edit{world_, edit_.followedBy(other->edit_)};
@@ -63,7 +64,8 @@ std::optional<BodyPose> DeskWorld::poseNow(const std::string& body) const {
     session_.world().readPoses(poses);
     std::size_t last = cast.size(); // of that name
     while (last-- > 0 && cast[last].name != body) {}
-    if (last >= poses.size() || !poses[last].isPresent) return std::nullopt; // none; or it waits for a step, and starts as drawn
+    // none; or it waits for a step, and starts as drawn
+    if (last >= poses.size() || !poses[last].isPresent) return std::nullopt;
     return poses[last];
 }
 

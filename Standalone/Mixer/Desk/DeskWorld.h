@@ -19,7 +19,8 @@ public:
     /// All outlive it. `onInput` is called when something was done to the world, and told whether it shows.
     DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo, std::function<void(bool isShown)> onInput);
 
-    const Scene& scene() const noexcept { return drawing_.cast(); } ///< with what was spawned since it began, under the numbers of events
+    /// with what was spawned since it began, under the numbers of events
+    const Scene& scene() const noexcept { return drawing_.cast(); }
     const SceneDrawing& drawing() const noexcept { return drawing_; } ///< what stands there, at its start
     std::uint64_t edits() const noexcept { return edits_; } ///< grows when scene() changes
     std::string act(const Action& action); ///< empty, or what is wrong with it

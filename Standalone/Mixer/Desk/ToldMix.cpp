@@ -20,7 +20,8 @@ void ToldMix::tell(Session& session, const Mix& mix) {
     using Kind = RenderControl::Kind;
     const auto post = [&session](Kind kind, const PhantomPanner& panner) { return session.take({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty(); };
     if (const auto panner = mix.panner(); !isSame(panner_, panner)) {
-        if (panner.channels() < panner_.channels() && !post(Kind::stopAll, {})) return; // a channel may be another enchanter's now
+        // a channel may be another enchanter's now
+        if (panner.channels() < panner_.channels() && !post(Kind::stopAll, {})) return;
         if (!post(Kind::panner, panner)) return;
         panner_ = panner;
     }

@@ -61,7 +61,8 @@ void SpectrumPlot::paint(juce::Graphics& g) {
     area = drawFrequencyAxis(g, *this, area);
     const auto colour = legible(*this, hit_.colour);
     auto heights = levels_;
-    for (float& level : heights) level = juce::Decibels::decibelsToGain(level, FrequencyAxis::floorDb); // a peak is seen better without logarithm
+    // a peak is seen better without logarithm
+    for (float& level : heights) level = juce::Decibels::decibelsToGain(level, FrequencyAxis::floorDb);
     drawSpectrum(g, heights, area.toFloat(), colour);
     const auto x = static_cast<float>(area.getX()) + static_cast<float>(juce::jlimit(0.0, 1.0, FrequencyAxis::shareOf(hit_.frequencyHz))) * static_cast<float>(area.getWidth());
     g.setColour(shade(*this, Shade::accent));

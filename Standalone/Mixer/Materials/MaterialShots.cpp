@@ -11,7 +11,8 @@ namespace physvib {
 
 bool writeKnock(const juce::File& file) {
     constexpr int rate = 48000, frames = rate / 2, onset = rate / 20;
-    constexpr std::array<std::array<double, 3>, 3> partials{{{352.0, 98.0, 0.5}, {612.0, 210.0, 0.2}, {840.0, 260.0, 0.12}}}; // Hz, 1/s, amplitude
+    // Hz, 1/s, amplitude
+    constexpr std::array<std::array<double, 3>, 3> partials{{{352.0, 98.0, 0.5}, {612.0, 210.0, 0.2}, {840.0, 260.0, 0.12}}};
     SeededRandom random{1};
     std::vector<float> samples(frames);
     for (int i = 0; i < frames; ++i) {

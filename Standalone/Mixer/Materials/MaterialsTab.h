@@ -26,7 +26,8 @@ public:
     /// What was measured of a material; null: nothing.
     const RecordedHit* recordingOf(int material) const;
 
-    bool isInterestedInFileDrag(const juce::StringArray& files) override { return !files[0].endsWithIgnoreCase(".json"); } // sessions are the window's
+    // sessions are the window's
+    bool isInterestedInFileDrag(const juce::StringArray& files) override { return !files[0].endsWithIgnoreCase(".json"); }
     void fileDragEnter(const juce::StringArray&, int, int) override { setDropping(true); }
     void fileDragMove(const juce::StringArray&, int x, int y) override;
     void fileDragExit(const juce::StringArray&) override { setDropping(false); }

@@ -8,7 +8,8 @@
 namespace physvib {
 namespace {
 
-constexpr double lowGrainMetres = 0.0005, highGrainMetres = 0.2; // what fingers tell apart at the speeds of hands and balls
+// what fingers tell apart at the speeds of hands and balls
+constexpr double lowGrainMetres = 0.0005, highGrainMetres = 0.2;
 constexpr double leastRoughness = 0.001, lowRoughness = 0.05, highRoughness = 20.0;
 
 juce::String grainText(double metres) {

@@ -90,7 +90,8 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     for (int id = 1; const auto name : panningLawNames) law_.addItem(juce::String{name.data()}, id++);
     law_.onChange = [this] { desk_.change("Panning law", [this](Mix& mix) { mix.law = panningLaws[static_cast<std::size_t>(law_.getSelectedItemIndex())].law; }); };
     exponent_.setTitle("Exponent");
-    exponent_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack); // asked for when the box is made
+    // asked for when the box is made
+    exponent_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
     exponent_.setSliderStyle(juce::Slider::LinearHorizontal);
     exponent_.setTextBoxStyle(juce::Slider::TextBoxRight, false, 46, 24);
     exponent_.setRange(0.25, 4.0, 0.05);

@@ -6,12 +6,14 @@
 namespace physvib {
 namespace {
 
-constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer", "from any computer, and phones"}; // as OscUse
+// as OscUse
+constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer", "from any computer, and phones"};
 struct PhoneHold {
     const char* words;
     double turnDegrees;
 };
-constexpr std::array<PhoneHold, 4> phoneHolds{{{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}}; // where its top points
+// where its top points
+constexpr std::array<PhoneHold, 4> phoneHolds{{{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
 constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // of the list of who hears of hits
 
 } // namespace

@@ -52,7 +52,8 @@ SpectrumLevels SpectrumTrace::levels(int channel) const {
     std::vector<double> x(window);
     for (int i = 0; i < window; ++i) x[static_cast<std::size_t>(i)] = hann()[static_cast<std::size_t>(i)] * static_cast<double>(kept[static_cast<std::size_t>((newest_ + i) % window)]);
     const auto heights = magnitudes(x);
-    return spectrumLevels(heights, 0.5 * keptRateHz_ / static_cast<double>(heights.size() - 1), 0.25 * window); // half of the weights' sum
+    // half of the weights' sum
+    return spectrumLevels(heights, 0.5 * keptRateHz_ / static_cast<double>(heights.size() - 1), 0.25 * window);
 }
 
 } // namespace physvib

@@ -44,7 +44,8 @@ AnalysisScreen::AnalysisScreen(Desk& desk, const std::vector<juce::File>& files)
     choose_->onClick = [this] { browse(); };
     close_ = quietButton("Close", "Close the analysis");
     close_->onClick = [this] {
-        if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); }); // it ends with this component
+        // it ends with this component
+        if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); });
     };
     silence_.setTitle("Silence");
     silence_.getProperties().set(stopProperty, true);

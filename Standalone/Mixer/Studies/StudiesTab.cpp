@@ -14,7 +14,8 @@
 namespace physvib {
 namespace {
 
-constexpr int fileId = 1000, noNoiseId = 1, protocolWordsId = 1, englishId = 2, firstWordsId = 3; // of the lists
+// of the lists
+constexpr int fileId = 1000, noNoiseId = 1, protocolWordsId = 1, englishId = 2, firstWordsId = 3;
 constexpr int answersHereId = 1, answersElsewhereId = 2;
 constexpr std::array<int, 8> noiseLevels{-70, -60, -50, -45, -40, -35, -30, -25};
 

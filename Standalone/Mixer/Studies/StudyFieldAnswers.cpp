@@ -97,7 +97,8 @@ public:
         if (key.isKeyCode(juce::KeyPress::rightKey)) return moveMark({mark_.x + step, mark_.y}), true;
         if (key.isKeyCode(juce::KeyPress::upKey)) return moveMark({mark_.x, mark_.y - step}), true;
         if (key.isKeyCode(juce::KeyPress::downKey)) return moveMark({mark_.x, mark_.y + step}), true;
-        if (key.isKeyCode(juce::KeyPress::returnKey) && marked_ != mark_) return take(), true; // where it is already, Enter goes on
+        // where it is already, Enter goes on
+        if (key.isKeyCode(juce::KeyPress::returnKey) && marked_ != mark_) return take(), true;
         return false;
     }
     bool keyPressed(const juce::KeyPress& key) override { return takeKey(key); }

@@ -246,7 +246,8 @@ public:
     }
     bool isComplete() const override { return answer().value > 0.0; }
     std::string keys() const override { return "Type a number, then Enter."; }
-    bool takeKey(const juce::KeyPress& key) override { return isEnabled() && number_.keyPressed(key); } // typed while the focus was elsewhere
+    // typed while the focus was elsewhere
+    bool takeKey(const juce::KeyPress& key) override { return isEnabled() && number_.keyPressed(key); }
     void beginAnew() override { number_.grabKeyboardFocus(); }
     void resized() override { number_.setBounds(column(getLocalBounds(), 260, 64)); }
     void enablementChanged() override {
@@ -256,7 +257,8 @@ public:
 
 private:
     struct Editor final : juce::TextEditor {
-        bool keyPressed(const juce::KeyPress& key) override { return !key.isKeyCode(juce::KeyPress::spaceKey) && juce::TextEditor::keyPressed(key); } // it feels again
+        // it feels again
+        bool keyPressed(const juce::KeyPress& key) override { return !key.isKeyCode(juce::KeyPress::spaceKey) && juce::TextEditor::keyPressed(key); }
     } number_;
 };
 

@@ -179,7 +179,8 @@ void StudyScreen::fail(const std::string& reason) {
 
 void StudyScreen::leave() {
     if (isFeeling() && !hasHands()) return;
-    if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); }); // it ends with this component
+    // it ends with this component
+    if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); });
 }
 
 void StudyScreen::goOn() {

@@ -19,7 +19,8 @@ public:
                 bool answersElsewhere = false, std::vector<MaterialPicture> pictures = {});
     ~StudyScreen() override;
 
-    std::function<void()> onClose; ///< the participant has finished, or leaves: everything answered is in the file
+    /// the participant has finished, or leaves: everything answered is in the file
+    std::function<void()> onClose;
 
     const StudyInProgress& study() const noexcept { return *study_; }
     const StudyWords& words() const noexcept { return say_; }
@@ -65,7 +66,8 @@ private:
     const WorldSet* worldSet() const { return page_ == Page::trial ? std::get_if<WorldSet>(&experiment().condition().stimuli) : nullptr; }
     bool hasHands() const { return worldSet() != nullptr && worldSet()->hasHands; }
     bool isAnswerSeen() const;
-    double feltSeconds() const { return worldSet() != nullptr ? pane_.world().feltSeconds() : sound_.feltSeconds(); } ///< of the part at hand, or the last
+    /// of the part at hand, or the last
+    double feltSeconds() const { return worldSet() != nullptr ? pane_.world().feltSeconds() : sound_.feltSeconds(); }
     double restLeft() const;
     std::size_t nextPart() const;
     void updateTrial();
@@ -73,7 +75,8 @@ private:
     void updatePause();
     void placeTrial(juce::Rectangle<int> area);
     void drawMaterials(juce::Graphics& g) const;
-    std::vector<MaterialLegend> materialsSeen() const; ///< of the session's worlds, by the names of stimuli and objects
+    /// of the session's worlds, by the names of stimuli and objects
+    std::vector<MaterialLegend> materialsSeen() const;
     juce::String headline() const, body() const, progressWords() const;
     const Experiment& experiment() const noexcept { return study_->experiment(); }
 

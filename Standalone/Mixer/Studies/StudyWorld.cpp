@@ -60,7 +60,8 @@ void StudyWorld::end() {
     RenderControl stop;
     stop.kind = RenderControl::Kind::stopAll;
     session_->world().setSlowness(0);
-    if (const auto stopped = session_->take({stop})) stoppedNs_ = stopped.value; // no room for it: the world goes on with the next look, to be ended later
+    // no room for it: the world goes on with the next look, to be ended later
+    if (const auto stopped = session_->take({stop})) stoppedNs_ = stopped.value;
 }
 
 std::string StudyWorld::act(const Action& action) { return isMoving() ? session_->take({action}).error : std::string{}; }

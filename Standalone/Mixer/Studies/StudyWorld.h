@@ -32,7 +32,8 @@ public:
 
     bool isPlaying() const noexcept { return session_ != nullptr; } ///< it moves, or fades out
     bool isMoving() const noexcept { return isPlaying() && stoppedNs_ < 0; }
-    double feltSeconds() const noexcept { return 1e-9 * static_cast<double>(feltNs_); } ///< of this one, or the last, while it was not silent
+    /// of this one, or the last, while it was not silent
+    double feltSeconds() const noexcept { return 1e-9 * static_cast<double>(feltNs_); }
 
     /// It stands still, and what rings fades out.
     void end();

@@ -48,7 +48,8 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
         many.insert(many.begin(), std::move(choice)); // whoever plugs one in means it
     }
     for (const std::string& pad : pads) {
-        FeltChoice choice{"Game controller: " + utf8(pad), {std::string{noDeviceType} + ":" + noDeviceName}, 2, true}; // nothing but the controller plays
+        // nothing but the controller plays
+        FeltChoice choice{"Game controller: " + utf8(pad), {std::string{noDeviceType} + ":" + noDeviceName}, 2, true};
         choice.device.pad = pad;
         many.push_back(std::move(choice));
     }
@@ -85,7 +86,8 @@ FirstStart::FirstStart(Desk& desk, std::vector<FeltChoice> choices)
     notFelt_.onClick = [this] { notFelt(); };
     done_.onClick = [this] { end(true); };
     for (auto* button : {&play_, &without_, &felt_, &louder_, &notFelt_, &done_}) button->setTitle(button->getButtonText()), addChildComponent(button);
-    for (auto* button : {&play_, &felt_}) button->setToggleState(true, juce::dontSendNotification); // what Return does
+    // what Return does
+    for (auto* button : {&play_, &felt_}) button->setToggleState(true, juce::dontSendNotification);
     for (auto* label : {&title_, &words_}) addAndMakeVisible(label);
     prepareControls(*this);
     setSize(wide, high);

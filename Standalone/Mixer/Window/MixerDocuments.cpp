@@ -170,7 +170,8 @@ void MixerWindow::record() {
 void MixerWindow::renderOffline() {
     const double played = 1e-9 * static_cast<double>(desk_->saved().lengthNs);
     auto* window = new juce::AlertWindow{"Render the session", "It was played for " + number(played, 1) + " s. Beyond that its last scene goes on by itself.", juce::MessageBoxIconType::NoIcon, view_.get()};
-    window->addTextEditor("seconds", juce::String{std::ceil(10.0 * played) / 10.0, 1}, "Seconds"); // without what parts thousands
+    // without what parts thousands
+    window->addTextEditor("seconds", juce::String{std::ceil(10.0 * played) / 10.0, 1}, "Seconds");
     window->getTextEditor("seconds")->setInputRestrictions(8, "0123456789.");
     window->addButton("Choose a file" + dots(), 1, juce::KeyPress{juce::KeyPress::returnKey});
     window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});

@@ -30,7 +30,8 @@ public:
     double exposureToday() const;
     void setExposureToday(double squareGSeconds, bool isLast = false); ///< written now and then, and at last
 
-    juce::File scenesFolder() const { return folder_.getChildFile("scenes"); } ///< where scenes of one's own are looked for
+    /// where scenes of one's own are looked for
+    juce::File scenesFolder() const { return folder_.getChildFile("scenes"); }
     juce::Array<juce::File> ownScenes() const;
 
     RecoveryCopies& copies() noexcept { return copies_; }

@@ -146,7 +146,8 @@ FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
     auto card = std::make_unique<FirstStart>(*desk_, std::move(choices));
     card->onEnd = [this](bool hasChosen) {
         if (hasChosen) files_.settings().setValue(chosenSetting, true);
-        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] { // its button is still being clicked
+        // its button is still being clicked
+        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
             if (safe != nullptr) safe->view_->setFirstStart(nullptr);
         });
     };

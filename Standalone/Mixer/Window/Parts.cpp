@@ -118,7 +118,8 @@ void onSlide(juce::Slider& slider, std::function<void(bool)> use) {
 void prepareControls(juce::Component& root) {
     auto* slider = dynamic_cast<juce::Slider*>(&root);
     if (slider != nullptr) slider->setWantsKeyboardFocus(true);
-    const bool isBox = dynamic_cast<juce::ComboBox*>(&root) != nullptr; // also one that is disabled now, and wants no focus
+    // also one that is disabled now, and wants no focus
+    const bool isBox = dynamic_cast<juce::ComboBox*>(&root) != nullptr;
     const bool isControl = slider != nullptr || isBox || root.getWantsKeyboardFocus() || dynamic_cast<juce::Button*>(&root) != nullptr;
     if (isControl && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
     if (slider == nullptr && !isBox) // their parts are theirs

@@ -99,7 +99,8 @@ void MaterialPalette::show() {
         for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
             auto& swatch = *swatches_.emplace_back(std::make_unique<Swatch>(utf8(materials[static_cast<std::size_t>(i)].name), palette::material(i)));
             swatch.onClick = [this, i] { pane_.setMaterial(i); };
-            swatch.onEnter = [this, i] { desk_.strikes().audition(i, 0.5, 0.5); }; // one that is silent says so elsewhere
+            // one that is silent says so elsewhere
+            swatch.onEnter = [this, i] { desk_.strikes().audition(i, 0.5, 0.5); };
             addAndMakeVisible(swatch);
             prepareControls(swatch); // it comes after the others
         }

@@ -29,7 +29,8 @@ public:
         while (degrees < -180.0) degrees += 360.0;
         setValue(degrees);
     }
-    bool keyPressed(const juce::KeyPress& key) override { return takeKey(key) || juce::Slider::keyPressed(key); } // the same law with the focus on it
+    // the same law with the focus on it
+    bool keyPressed(const juce::KeyPress& key) override { return takeKey(key) || juce::Slider::keyPressed(key); }
 
     /// Left and right turn, down and up stand for themselves; false: another key.
     bool takeKey(const juce::KeyPress& key) {

@@ -156,7 +156,8 @@ std::optional<double> WorldPanel::playersPlace() {
 
 void WorldPanel::lookAfterPlayer() {
     if (!player_) return;
-    if (!first_.empty() && desk_.saved().log.takes.size() > takesBefore_) play(std::exchange(first_, {})); // the world has begun anew
+    // the world has begun anew
+    if (!first_.empty() && desk_.saved().log.takes.size() > takesBefore_) play(std::exchange(first_, {}));
     if (!player_->moves()) return;
     const auto place = playersPlace();
     if (!place) return;

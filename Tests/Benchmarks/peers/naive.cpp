@@ -26,7 +26,8 @@ int main(int, char** arguments) {
     return play(arguments, [&](float* const* out, long first) {
         for (int j = 0; j < channels; ++j)
             for (int k = 0; k < block; ++k) out[j][k] = 0.0f;
-        const int since = int(first % (2 * rate)); // struck anew every 2 s: the vector library is slow for large angles
+        // struck anew every 2 s: the vector library is slow for large angles
+        const int since = int(first % (2 * rate));
         for (const Voice& v : voices) add(v, since, out[0], out[1], out[2], out[3]);
     });
 }

@@ -65,8 +65,10 @@ public:
 
 private:
     void send(juce::Point<float> at, int buttons) {
-        juce::ModifierKeys::currentModifiers = juce::ModifierKeys{buttons}.withoutMouseButtons(); // keys are told apart from the mouse
-        timeMs_ = std::max(timeMs_ + 20, juce::Time::currentTimeMillis()); // not behind what JUCE itself tells of the mouse
+        // keys are told apart from the mouse
+        juce::ModifierKeys::currentModifiers = juce::ModifierKeys{buttons}.withoutMouseButtons();
+        // not behind what JUCE itself tells of the mouse
+        timeMs_ = std::max(timeMs_ + 20, juce::Time::currentTimeMillis());
         window_.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at, juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
         runFor(0.03);
     }
@@ -237,7 +239,8 @@ TEST(Window, APersonsWayThroughTheMixer) {
     ASSERT_TRUE(events) << events.error;
     EXPECT_FALSE(events.value.events.empty());
 
-    const std::int64_t frames = from - playOut + recorded.getNumSamples(); // what was recorded is what the saved session renders, to the bit
+    // what was recorded is what the saved session renders, to the bit
+    const std::int64_t frames = from - playOut + recorded.getNumSamples();
     int wrong = 0;
     std::int64_t done = 0;
     renderOffline(sessionEvents(saved.value, frames * 1'000'000'000 / 48000).events,
@@ -690,7 +693,8 @@ TEST(Window, OfVeryManyCopiesTheNewestAreOfferedAndTheOthersStay) {
 } // namespace physvib
 
 int main(int argc, char** argv) {
-    juce::JUCEApplicationBase::createInstance = [] { return static_cast<juce::JUCEApplicationBase*>(nullptr); }; // as in a program of its own, JUCE bears errors of X
+    // as in a program of its own, JUCE bears errors of X
+    juce::JUCEApplicationBase::createInstance = [] { return static_cast<juce::JUCEApplicationBase*>(nullptr); };
     testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();
 }

@@ -59,7 +59,8 @@ TEST(HostedFormats, ParametersHaveTheirNamesAndDefaults) {
         for (const auto& row : allParameters()) {
             const auto* parameter = named(*plugin, row.name);
             ASSERT_NE(parameter, nullptr) << row.name;
-            const bool isBent = !isVst3 && row.scale == ParameterScale::log; // LV2 tells the range, hosts make the scale
+            // LV2 tells the range, hosts make the scale
+            const bool isBent = !isVst3 && row.scale == ParameterScale::log;
             if (!isBent) EXPECT_NEAR(parameter->getDefaultValue(), normalised(row, row.initial), 1e-6) << row.name;
         }
     }

@@ -94,7 +94,8 @@ TEST(ModulesTogether, SeeNothingOfEachOther) {
     EXPECT_TRUE(dlsym(vst3, "GetPluginFactory") && dlsym(lv2, "lv2_descriptor"));
     EXPECT_FALSE(dlsym(vst3, "lv2_descriptor") || dlsym(lv2, "GetPluginFactory"));
     for (const char* const name : {"GetPluginFactory", "ModuleEntry", "lv2_descriptor", "lv2ui_descriptor"}) EXPECT_FALSE(dlsym(RTLD_DEFAULT, name)) << name;
-    const char* const shared = "_ZN4juce14MessageManager11getInstanceEv"; // each has one of its own, and so its statics
+    // each has one of its own, and so its statics
+    const char* const shared = "_ZN4juce14MessageManager11getInstanceEv";
     EXPECT_FALSE(dlsym(vst3, shared) || dlsym(lv2, shared));
     dlclose(vst3);
     dlclose(lv2);

@@ -45,7 +45,8 @@ public:
             plugin().processBlock(buffer_, midi);
             if (playHead.isPlaying) playHead.frame += block;
             if (from < block) peak = std::max(peak, buffer_.getMagnitude(from, block - from));
-            if (!plugin().isNonRealtime()) std::this_thread::sleep_for(std::chrono::microseconds{block * 1'000'000 / 48'000}); // the pace of a device
+            // the pace of a device
+            if (!plugin().isNonRealtime()) std::this_thread::sleep_for(std::chrono::microseconds{block * 1'000'000 / 48'000});
         }
         return peak;
     }
@@ -75,7 +76,8 @@ public:
             hosted_->getStateInformation(turtle);
             const auto text = turtle.toString();
             const auto head = text.upToFirstOccurrenceOf("StateString", true, false).length();
-            const auto from = text.indexOfChar(head, '"'), to = text.indexOfChar(from + 1, '"'); // base64 has no quotes
+            // base64 has no quotes
+            const auto from = text.indexOfChar(head, '"'), to = text.indexOfChar(from + 1, '"');
             const auto changed = text.substring(0, from + 1) + chunk.toBase64Encoding() + text.substring(to);
             chunk.replaceAll(changed.toRawUTF8(), changed.getNumBytesAsUTF8());
         }

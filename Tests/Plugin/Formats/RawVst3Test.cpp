@@ -12,7 +12,8 @@ namespace {
 using namespace test;
 namespace arr = Steinberg::Vst::SpeakerArr;
 
-const std::string folder = std::getenv("PHYSVIB_PLUGINS_FOLDER") ? std::getenv("PHYSVIB_PLUGINS_FOLDER") : PHYSVIB_PLUGINS; // another build of them
+// another build of them
+const std::string folder = std::getenv("PHYSVIB_PLUGINS_FOLDER") ? std::getenv("PHYSVIB_PLUGINS_FOLDER") : PHYSVIB_PLUGINS;
 const std::string oneBus = folder + "/PhysVib.vst3", pairs = folder + "/PhysVib-Pairs.vst3";
 
 /// The channel, counted over all buses, that carries a strike at enchanter j of n; -1: none.

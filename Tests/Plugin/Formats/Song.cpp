@@ -238,7 +238,8 @@ int main(int argc, char** argv) {
     if (!plugin.apply(songState())) return 1;
     juce::MemoryBlock chunk;
     plugin.getStateInformation(chunk);
-    plugin.setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize())); // values as texts have them
+    // values as texts have them
+    plugin.setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
     if (!test::writeLv2Preset(chunk, "urn:physvib:plugin:music", folder.getChildFile("state.lv2"))) return 1;
     if (!test::writeVst3Preset(chunk, "Phys", folder.getChildFile("state.vstpreset"))) return 1;
     plugin.setNonRealtime(true);
