@@ -15,7 +15,8 @@ using Set = juce::AudioChannelSet;
 constexpr auto lastInSpeakerOrder = Set::rightSurroundSide;
 
 bool keepsItsOrder(const Set& set) {
-    return set == channelsInOrder(set.size(), Processor::wrapperType_VST3) || set == Set::mono() || set.getChannelTypes().getLast() <= lastInSpeakerOrder;
+    return set == channelsInOrder(set.size(), Processor::wrapperType_VST3) || set == Set::mono() ||
+           set.getChannelTypes().getLast() <= lastInSpeakerOrder;
 }
 
 bool isAcceptedAsOne(Processor::WrapperType format, const Set& set) {
@@ -23,11 +24,18 @@ bool isAcceptedAsOne(Processor::WrapperType format, const Set& set) {
     return format != Processor::wrapperType_VST3 || keepsItsOrder(set);
 }
 
-juce::String labelOf(int enchanter) { return juce::String{describeLayout({}, {1.0, 1.0, enchanter + 1, {}}).enchanters.back().label}; }
+juce::String labelOf(int enchanter) {
+    return juce::String{describeLayout({}, {1.0, 1.0, enchanter + 1, {}}).enchanters.back().label};
+}
 
-bool isSideChain(const juce::Array<Set>& inputs) { return inputs.isEmpty() || (inputs.size() == 1 && (inputs[0].isDisabled() || inputs[0] == Set::mono() || inputs[0] == Set::stereo())); }
+bool isSideChain(const juce::Array<Set>& inputs) {
+    return inputs.isEmpty() || (inputs.size() == 1 && (inputs[0].isDisabled() || inputs[0] == Set::mono() ||
+                                                       inputs[0] == Set::stereo()));
+}
 
-bool isAcceptedAsOneOfMany(const Set& set) { return set.isDisabled() || set == Set::mono() || set == Set::stereo(); }
+bool isAcceptedAsOneOfMany(const Set& set) {
+    return set.isDisabled() || set == Set::mono() || set == Set::stereo();
+}
 
 } // namespace
 
@@ -41,15 +49,19 @@ juce::AudioChannelSet channelsInOrder(int channels, Processor::WrapperType forma
 }
 
 std::vector<OutputBus> busesOf(const BusPlan& plan, Processor::WrapperType format) {
-    if (plan.kind == BusPlan::Kind::oneBus) return {{"Actuators", channelsInOrder(plan.channels, format), true}};
+    if (plan.kind == BusPlan::Kind::oneBus)
+        return {{"Actuators", channelsInOrder(plan.channels, format), true}};
     std::vector<OutputBus> buses;
     for (int b = 0; b < BusPlan::busCount; ++b) {
-        buses.push_back({labelOf(2 * b) + ", " + labelOf(2 * b + 1), Set::stereo(), b < BusPlan::busesOfANewInstance});
+        buses.push_back(
+            {labelOf(2 * b) + ", " + labelOf(2 * b + 1), Set::stereo(), b < BusPlan::busesOfANewInstance});
     }
     return buses;
 }
 
-bool hasSideChain(const BusPlan& plan, Processor::WrapperType format) noexcept { return plan.hasMusicPorts || format != Processor::wrapperType_LV2; }
+bool hasSideChain(const BusPlan& plan, Processor::WrapperType format) noexcept {
+    return plan.hasMusicPorts || format != Processor::wrapperType_LV2;
+}
 
 bool isAccepted(const BusPlan& plan, Processor::WrapperType format, const Processor::BusesLayout& layout) {
     if (!isSideChain(layout.inputBuses)) return false;
@@ -65,12 +77,14 @@ BusMap::BusMap(const Processor& processor)
         const auto& bus = *processor.getBus(false, b);
         const int places = bus.getLastEnabledLayout().size();
         for (int c = 0; c < places && enchanter < channelOf.size(); ++c, ++enchanter)
-            channelOf[enchanter] = bus.isEnabled() ? processor.getChannelIndexInProcessBlockBuffer(false, b, c) : -1;
+            channelOf[enchanter] =
+                bus.isEnabled() ? processor.getChannelIndexInProcessBlockBuffer(false, b, c) : -1;
     }
 }
 
 int BusMap::connected(int enchanters) const noexcept {
-    return static_cast<int>(std::count_if(channelOf.begin(), channelOf.begin() + enchanters, [](int c) { return c >= 0; }));
+    return static_cast<int>(
+        std::count_if(channelOf.begin(), channelOf.begin() + enchanters, [](int c) { return c >= 0; }));
 }
 
 } // namespace physvib

@@ -12,16 +12,19 @@ namespace physvib {
 struct BusPlan {
     enum class Kind { oneBus, manyBuses };
     Kind kind = Kind::oneBus;
-    int channels = 4; ///< of the one bus until the host asks for another width; LV2 cannot ask
-    bool hasMusicPorts = false; ///< of LV2, whose ports cannot be off: music comes in by two that are always on
+    int channels = 4;           ///< of the one bus until the host asks for another width; LV2 cannot ask
+    bool hasMusicPorts = false; ///< of LV2, whose ports cannot be off: music comes in by two that are always
+                                ///< on
 
-    static constexpr int widestBus = 16;              // VST3 gives up to 19 speakers names; LV2 and hosts stop at 16
-    static constexpr int busCount = 15;               // stereo: from 32 channels on JUCE takes memory in every block (decision 35)
-    static constexpr int busesOfANewInstance = 2;     // the thesis' four enchanters; the host enables the others
+    static constexpr int widestBus = 16; // VST3 gives up to 19 speakers names; LV2 and hosts stop at 16
+    static constexpr int busCount = 15;  // stereo: from 32 channels on JUCE takes memory in every block
+                                         // (decision 35)
+    static constexpr int busesOfANewInstance = 2; // the thesis' four enchanters; the host enables the others
 };
 
-/// `channels` channels as a set that `format` carries in this order. VST3: the first N speaker types, since a set of
-/// discrete channels arrives permuted or crashes hosts that set no arrangement (decision 12). Any thread.
+/// `channels` channels as a set that `format` carries in this order. VST3: the first N speaker types, since a
+/// set of discrete channels arrives permuted or crashes hosts that set no arrangement (decision 12). Any
+/// thread.
 juce::AudioChannelSet channelsInOrder(int channels, juce::AudioProcessor::WrapperType format);
 
 struct OutputBus {
@@ -33,14 +36,16 @@ struct OutputBus {
 /// The buses of a new instance. Any thread.
 std::vector<OutputBus> busesOf(const BusPlan& plan, juce::AudioProcessor::WrapperType format);
 
-/// Whether music can come in: by a side chain, which is off until a host turns it on; in LV2, which has no ports that are off, by a build with ports for it. Any thread.
+/// Whether music can come in: by a side chain, which is off until a host turns it on; in LV2, which has no
+/// ports that are off, by a build with ports for it. Any thread.
 bool hasSideChain(const BusPlan& plan, juce::AudioProcessor::WrapperType format) noexcept;
 
 /// Whether every channel of `layout` would arrive where it should. Any thread.
-bool isAccepted(const BusPlan& plan, juce::AudioProcessor::WrapperType format, const juce::AudioProcessor::BusesLayout& layout);
+bool isAccepted(const BusPlan& plan, juce::AudioProcessor::WrapperType format,
+                const juce::AudioProcessor::BusesLayout& layout);
 
-/// For each enchanter the channel of the process block that it leaves by; -1: not connected. A bus that is off keeps
-/// its places, so that enchanters behind it stay where they are.
+/// For each enchanter the channel of the process block that it leaves by; -1: not connected. A bus that is
+/// off keeps its places, so that enchanters behind it stay where they are.
 struct BusMap {
     std::array<int, limits::maxEnchanters> channelOf{};
 

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How often one kind of control goes to the session, so that automation never fills the room of those that must not wait.
+// How often one kind of control goes to the session, so that automation never fills the room of those that
+// must not wait.
 #pragma once
 #include <algorithm>
 #include <cstdint>
 
 namespace physvib {
 
-/// At most one control of a kind in so many frames of session time; of what comes faster the value then present goes. The same whatever the block
-/// and L are, so that a bounce in blocks of another size is the same samples. In frames of the session; R only.
+/// At most one control of a kind in so many frames of session time; of what comes faster the value then
+/// present goes. The same whatever the block and L are, so that a bounce in blocks of another size is the
+/// same samples. In frames of the session; R only.
 class ControlPace {
 public:
-    static constexpr int perSecond = 1500; // every 32 frames at 48 kHz: gains move in ramps of 10 ms, worlds in steps of 1 ms at least
+    static constexpr int perSecond = 1500; // every 32 frames at 48 kHz: gains move in ramps of 10 ms, worlds
+                                           // in steps of 1 ms at least
 
     /// The frames between two. Any thread.
     static constexpr int framesAt(int sampleRateHz) noexcept { return std::max(1, sampleRateHz / perSecond); }

@@ -10,7 +10,9 @@ namespace physvib {
 constexpr int panelInset = 12, panelGap = 8;
 constexpr auto number = readable::words;
 
-inline juce::String words(std::string_view utf8) { return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size())); }
+inline juce::String words(std::string_view utf8) {
+    return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size()));
+}
 
 /// A rounded ground. M.
 inline void fillPanel(juce::Graphics& g, const juce::Component& component, juce::Rectangle<int> area) {

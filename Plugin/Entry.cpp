@@ -16,7 +16,8 @@ juce::AudioProcessor* JUCE_CALLTYPE createPluginFilter();
 juce::AudioProcessor* JUCE_CALLTYPE createPluginFilter() {
     using namespace physvib;
     auto& now = making();
-    now.instance = new PluginProcessor{JucePlugin_Name, {BusPlan::Kind::PHYSVIB_BUSES, PHYSVIB_CHANNELS, PHYSVIB_MUSIC_PORTS > 0}};
+    now.instance = new PluginProcessor{
+        JucePlugin_Name, {BusPlan::Kind::PHYSVIB_BUSES, PHYSVIB_CHANNELS, PHYSVIB_MUSIC_PORTS > 0}};
     now.instance->expectBlocksOf(now.usualBlockFrames);
     return now.instance;
 }

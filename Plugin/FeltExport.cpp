@@ -16,7 +16,8 @@ namespace physvib {
 namespace {
 
 constexpr double shareOfSilence = 1e-3; // a vibration is over 60 dB below its beginning
-constexpr int ticksPerSecond = 24000;   // a quarter note of MIDI lasts a second: its ticks are numbers of 15 bits
+constexpr int ticksPerSecond = 24000;   // a quarter note of MIDI lasts a second: its ticks are numbers of 15
+                                        // bits
 
 struct WrittenNote {
     int number = 0, channel = 1;
@@ -24,7 +25,9 @@ struct WrittenNote {
     double amplitude = 0.0;
 };
 
-int numberOf(double frequencyHz) { return std::clamp(static_cast<int>(std::lround(69.0 + 12.0 * std::log2(frequencyHz / 440.0))), 0, 127); }
+int numberOf(double frequencyHz) {
+    return std::clamp(static_cast<int>(std::lround(69.0 + 12.0 * std::log2(frequencyHz / 440.0))), 0, 127);
+}
 
 std::int64_t endOf(const CollisionEvent& e) {
     if (e.durationNs > 0) return e.timeNs + e.durationNs;
@@ -34,7 +37,8 @@ std::int64_t endOf(const CollisionEvent& e) {
 int channelOf(const FeltExport& felt, const CollisionEvent& e) {
     PhantomPanner::Gains gains{};
     felt.panner.gainsAt(e.x, e.y, e.course.spread, gains);
-    const auto loudest = std::max_element(gains.begin(), gains.begin() + felt.panner.channels()) - gains.begin();
+    const auto loudest =
+        std::max_element(gains.begin(), gains.begin() + felt.panner.channels()) - gains.begin();
     return 1 + static_cast<int>(std::min<std::ptrdiff_t>(loudest, 15));
 }
 
@@ -44,7 +48,8 @@ std::vector<WrittenNote> notesOf(const FeltExport& felt) {
     std::vector<WrittenNote> notes;
     std::array<std::size_t, 128> last{}; // of each number, counted from 1; 0: none
     for (const CollisionEvent& e : felt.events) {
-        const WrittenNote note{numberOf(e.frequencyHz), channelOf(felt, e), e.timeNs, endOf(e), std::abs(e.amplitude)};
+        const WrittenNote note{numberOf(e.frequencyHz), channelOf(felt, e), e.timeNs, endOf(e),
+                               std::abs(e.amplitude)};
         auto& place = last[static_cast<std::size_t>(note.number)];
         if (place > 0 && std::abs(notes[place - 1].endNs - note.onsetNs) <= roundingNs) {
             WrittenNote& before = notes[place - 1];
@@ -61,7 +66,8 @@ std::vector<WrittenNote> notesOf(const FeltExport& felt) {
 std::string nameOf(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
 
 Result<std::string> asClip(const FeltExport& felt, const std::string& path, ClipFormat format) {
-    const HitExport hits{"what was felt", nameOf(path), felt.events, felt.state.layout, felt.state.layout.name};
+    const HitExport hits{"what was felt", nameOf(path), felt.events, felt.state.layout,
+                         felt.state.layout.name};
     const auto gains = [&felt](const CollisionEvent& e, PhantomPanner::Gains& to) {
         to = {};
         felt.panner.gainsAt(e.x, e.y, e.course.spread, to);
@@ -81,12 +87,14 @@ void FeltEvents::add(std::uint64_t prepares, std::span<const TakeEvent> events) 
         run_ = run;
         events_.push_back(played.event);
     }
-    if (events_.size() > mostKept) events_.erase(events_.begin(), events_.end() - static_cast<std::ptrdiff_t>(mostKept));
+    if (events_.size() > mostKept)
+        events_.erase(events_.begin(), events_.end() - static_cast<std::ptrdiff_t>(mostKept));
 }
 
 std::vector<CollisionEvent> FeltEvents::events(bool fromFirst) const {
     std::vector<CollisionEvent> all;
-    std::ranges::copy_if(events_, std::back_inserter(all), [](const CollisionEvent& e) { return isPlayable(e) && e.course.travelNs == 0; });
+    std::ranges::copy_if(events_, std::back_inserter(all),
+                         [](const CollisionEvent& e) { return isPlayable(e) && e.course.travelNs == 0; });
     std::ranges::stable_sort(all, {}, &CollisionEvent::timeNs);
     const std::int64_t first = fromFirst && !all.empty() ? all.front().timeNs : 0;
     for (CollisionEvent& e : all) e.timeNs -= first;
@@ -99,9 +107,12 @@ std::string midiOf(const FeltExport& felt) {
     for (const auto& note : notes) most = std::max(most, note.amplitude);
     juce::MidiMessageSequence track;
     track.addEvent(juce::MidiMessage::tempoMetaEvent(1'000'000));
-    const auto ticks = [](std::int64_t ns) { return std::round(1e-9 * static_cast<double>(ns) * ticksPerSecond); };
+    const auto ticks = [](std::int64_t ns) {
+        return std::round(1e-9 * static_cast<double>(ns) * ticksPerSecond);
+    };
     for (const auto& note : notes) {
-        const auto velocity = static_cast<juce::uint8>(std::clamp(std::lround(127.0 * note.amplitude / most), 1l, 127l));
+        const auto velocity =
+            static_cast<juce::uint8>(std::clamp(std::lround(127.0 * note.amplitude / most), 1l, 127l));
         track.addEvent(juce::MidiMessage::noteOn(note.channel, note.number, velocity), ticks(note.onsetNs));
         track.addEvent(juce::MidiMessage::noteOff(note.channel, note.number), ticks(note.endNs));
     }
@@ -114,11 +125,15 @@ std::string midiOf(const FeltExport& felt) {
 }
 
 Result<std::string> exportFelt(const FeltExport& felt, const std::string& path) {
-    if (felt.events.empty()) return Failure{"nothing was felt yet that could be exported: music is not in it, only notes, beats and contacts"};
+    if (felt.events.empty())
+        return Failure{"nothing was felt yet that could be exported: music is not in it, only notes, beats "
+                       "and contacts"};
     if (const auto format = clipFormatOf(path)) return asClip(felt, path, *format);
     std::string ending = std::filesystem::path{path}.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    if (ending != ".mid" && ending != ".midi" && ending != ".csv") return Failure{path + ": expected a name that ends in .mid, .csv, .hjif, .hmpg, .haptic or .ahap"};
+    std::ranges::transform(ending, ending.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    if (ending != ".mid" && ending != ".midi" && ending != ".csv")
+        return Failure{path + ": expected a name that ends in .mid, .csv, .hjif, .hmpg, .haptic or .ahap"};
     const std::string bytes = ending == ".csv"
                                   ? eventsCsv(felt.events, fieldOf(felt.panner),
                                               {PHYSVIB_VERSION, {{"scene", felt.state.scene.name}}})

@@ -13,9 +13,11 @@ struct PluginState;
 /// The events of the newest run, as many as are worth a file. M only.
 class FeltEvents {
 public:
-    static constexpr std::size_t mostKept = 65536; ///< beyond it the oldest are left out: of a world that never stops
+    static constexpr std::size_t mostKept = 65536; ///< beyond it the oldest are left out: of a world that
+                                                   ///< never stops
 
-    /// What takeLog() gave, in its order; `prepares` counts how often the host has prepared us, as runs are numbered from 1 each time.
+    /// What takeLog() gave, in its order; `prepares` counts how often the host has prepared us, as runs are
+    /// numbered from 1 each time.
     void add(std::uint64_t prepares, std::span<const TakeEvent> events);
 
     /// Playable, in time order, the first at 0 if `fromFirst`, else from the run's beginning.
@@ -38,12 +40,13 @@ struct FeltExport {
 /// What files they become, by their endings.
 inline constexpr const char* feltEndings = "*.mid;*.csv;*.hjif;*.hmpg;*.haptic;*.ahap";
 
-/// The file, or files (a format of one channel has one for each actuator), by the ending of `path`. A line for people on what was written, or one line with the
-/// reason, and nothing is written. Levels are as struck: strips and level are not in them. M only.
+/// The file, or files (a format of one channel has one for each actuator), by the ending of `path`. A line
+/// for people on what was written, or one line with the reason, and nothing is written. Levels are as struck:
+/// strips and level are not in them. M only.
 Result<std::string> exportFelt(const FeltExport& felt, const std::string& path);
 
-/// The same as a MIDI file: the nearest note, the actuator that feels it most as the channel (from 1), amplitudes as velocities of the largest. Of a held
-/// note's row of strikes one note is made. M only.
+/// The same as a MIDI file: the nearest note, the actuator that feels it most as the channel (from 1),
+/// amplitudes as velocities of the largest. Of a held note's row of strikes one note is made. M only.
 std::string midiOf(const FeltExport& felt);
 
 } // namespace physvib

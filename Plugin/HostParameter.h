@@ -10,7 +10,8 @@ namespace physvib {
 class HostParameter final : public juce::RangedAudioParameter { // LV2 tells real ranges of this kind only
 public:
     explicit HostParameter(const ParameterRow& row)
-        : RangedAudioParameter{juce::ParameterID{text(row.id), row.version}, text(row.name), juce::AudioProcessorParameterWithIDAttributes{}.withLabel(text(row.unit))}
+        : RangedAudioParameter{juce::ParameterID{text(row.id), row.version}, text(row.name),
+                               juce::AudioProcessorParameterWithIDAttributes{}.withLabel(text(row.unit))}
         , row_{row}
         , range_{rangeOf(row)}
         , normal_{static_cast<float>(normalised(row, row.initial))} {}
@@ -36,27 +37,41 @@ public:
         return text(fits).substring(0, longest);
     }
     float getValue() const override { return normal_; }
-    void setValue(float normal) override { normal_ = std::isfinite(normal) ? juce::jlimit(0.0f, 1.0f, normal) : getDefaultValue(); }
+    void setValue(float normal) override {
+        normal_ = std::isfinite(normal) ? juce::jlimit(0.0f, 1.0f, normal) : getDefaultValue();
+    }
     float getDefaultValue() const override { return static_cast<float>(normalised(row_, row_.initial)); }
     bool isDiscrete() const override { return !row_.choices.empty(); }
     bool isBoolean() const override { return row_.scale == ParameterScale::toggle; }
-    int getNumSteps() const override { return isDiscrete() ? static_cast<int>(row_.choices.size()) : AudioProcessorParameter::getNumSteps(); }
+    int getNumSteps() const override {
+        return isDiscrete() ? static_cast<int>(row_.choices.size()) : AudioProcessorParameter::getNumSteps();
+    }
     const juce::NormalisableRange<float>& getNormalisableRange() const override { return range_; }
     juce::String getText(float normal, int longest) const override {
         const auto words = text(valueText(row_, denormalised(row_, normal)));
         return longest > 0 ? words.substring(0, longest) : words;
     }
-    float getValueForText(const juce::String& words) const override { return static_cast<float>(normalised(row_, valueOf(row_, words.toStdString()))); }
+    float getValueForText(const juce::String& words) const override {
+        return static_cast<float>(normalised(row_, valueOf(row_, words.toStdString())));
+    }
 
 private:
     static juce::NormalisableRange<float> rangeOf(const ParameterRow& row) {
         if (!row.choices.empty()) return {0.0f, 1.0f}; // the LV2 wrapper numbers choices from 0 to 1
-        const auto from = [&row](float, float, float normal) { return static_cast<float>(denormalised(row, normal)); };
-        const auto to = [&row](float, float, float value) { return static_cast<float>(normalised(row, value)); };
-        const auto snap = [from, to](float least, float most, float value) { return from(least, most, to(least, most, value)); };
+        const auto from = [&row](float, float, float normal) {
+            return static_cast<float>(denormalised(row, normal));
+        };
+        const auto to = [&row](float, float, float value) {
+            return static_cast<float>(normalised(row, value));
+        };
+        const auto snap = [from, to](float least, float most, float value) {
+            return from(least, most, to(least, most, value));
+        };
         return {static_cast<float>(row.least), static_cast<float>(row.most), from, to, snap};
     }
-    static juce::String text(std::string_view words) { return juce::String::fromUTF8(words.data(), static_cast<int>(words.size())); }
+    static juce::String text(std::string_view words) {
+        return juce::String::fromUTF8(words.data(), static_cast<int>(words.size()));
+    }
     const ParameterRow& row_;
     const juce::NormalisableRange<float> range_;
     std::atomic<float> normal_;

@@ -25,7 +25,9 @@ const NoteRule* ruleOf(int note, const PluginState& state) {
     return found == state.notes.end() ? nullptr : &*found;
 }
 
-bool doesNothing(int note, const MidiTable& table) { return table.groupOf(note) < 0 && table.strikeOf(note).frequencyHz <= 0.0; }
+bool doesNothing(int note, const MidiTable& table) {
+    return table.groupOf(note) < 0 && table.strikeOf(note).frequencyHz <= 0.0;
+}
 
 } // namespace
 
@@ -36,8 +38,13 @@ juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& sta
     if (doesNothing(note, table)) return name + "silent, as the scene has no material that vibrates";
     const CollisionEvent& sound = table.strikeOf(note);
     const auto percent = [](double part, double whole) { return number(100.0 * part / whole, 0) + " %"; };
-    juce::String text = name + (rule ? words(state.scene.materials[static_cast<std::size_t>(rule->material)].name) + ", " : juce::String{}) + number(sound.frequencyHz, 0) + " Hz, ";
-    text << percent(sound.x, table.fieldWidthMetres()) << " from the left, " << percent(sound.y, table.fieldHeightMetres()) << " from below";
+    juce::String text =
+        name +
+        (rule ? words(state.scene.materials[static_cast<std::size_t>(rule->material)].name) + ", "
+              : juce::String{}) +
+        number(sound.frequencyHz, 0) + " Hz, ";
+    text << percent(sound.x, table.fieldWidthMetres()) << " from the left, "
+         << percent(sound.y, table.fieldHeightMetres()) << " from below";
     return table.isHeld(note) ? text + ", as long as it is held" : text;
 }
 
@@ -54,7 +61,8 @@ void KeyboardPanel::take(const PluginState& state) {
 
 juce::Rectangle<float> KeyboardPanel::boundsOf(int note) const {
     const auto keys = getLocalBounds().reduced(panelInset, 6).withTrimmedTop(captionPixels).toFloat();
-    const float width = keys.getWidth() / static_cast<float>(whiteKeysBelow(highest + 1)), left = keys.getX() + width * static_cast<float>(whiteKeysBelow(note));
+    const float width = keys.getWidth() / static_cast<float>(whiteKeysBelow(highest + 1)),
+                left = keys.getX() + width * static_cast<float>(whiteKeysBelow(note));
     if (isBlackKey(note)) return {left - 0.3f * width, keys.getY(), 0.6f * width, 0.6f * keys.getHeight()};
     return {left, keys.getY(), width - 1.0f, keys.getHeight()};
 }
@@ -62,7 +70,8 @@ juce::Rectangle<float> KeyboardPanel::boundsOf(int note) const {
 int KeyboardPanel::noteAt(juce::Point<int> place) const {
     int found = -1;
     for (int note = lowest; note <= highest; ++note)
-        if ((found < 0 || isBlackKey(note) || !isBlackKey(found)) && boundsOf(note).contains(place.toFloat())) found = note;
+        if ((found < 0 || isBlackKey(note) || !isBlackKey(found)) && boundsOf(note).contains(place.toFloat()))
+            found = note;
     return found;
 }
 
@@ -70,7 +79,9 @@ int KeyboardPanel::velocityAt(juce::Point<int> place) const {
     const int note = noteAt(place);
     if (note < 0) return 0;
     const auto key = boundsOf(note);
-    return juce::jlimit(1, 127, juce::roundToInt(30.0f + 97.0f * (static_cast<float>(place.y) - key.getY()) / key.getHeight()));
+    return juce::jlimit(
+        1, 127,
+        juce::roundToInt(30.0f + 97.0f * (static_cast<float>(place.y) - key.getY()) / key.getHeight()));
 }
 
 void KeyboardPanel::press(juce::Point<int> place) {
@@ -113,15 +124,20 @@ void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
     if (note % 12 != 0) return;
     g.setColour(juce::Colour{0xff5a5d66});
     g.setFont(juce::Font{10.0f});
-    g.drawText(juce::MidiMessage::getMidiNoteName(note, true, true, 4), key.withTrimmedBottom(6.0f).removeFromBottom(12.0f).expanded(4.0f, 0.0f), juce::Justification::centred, false);
+    g.drawText(juce::MidiMessage::getMidiNoteName(note, true, true, 4),
+               key.withTrimmedBottom(6.0f).removeFromBottom(12.0f).expanded(4.0f, 0.0f),
+               juce::Justification::centred, false);
 }
 
 void KeyboardPanel::paint(juce::Graphics& g) {
     fillPanel(g, *this, getLocalBounds());
-    const juce::String usual = "Keyboard: click a key to feel it, lower on the key is harder. Marked keys have a rule of their own (MIDI).";
+    const juce::String usual = "Keyboard: click a key to feel it, lower on the key is harder. Marked keys "
+                               "have a rule of their own (MIDI).";
     g.setColour(shade(*this, shown_ < 0 ? Shade::muted : Shade::text));
     g.setFont(juce::Font{text::small});
-    g.drawText(shown_ < 0 ? usual : wordsOfKey(shown_, table_, state_), getLocalBounds().reduced(panelInset, 3).removeFromTop(captionPixels), juce::Justification::centredLeft, true);
+    g.drawText(shown_ < 0 ? usual : wordsOfKey(shown_, table_, state_),
+               getLocalBounds().reduced(panelInset, 3).removeFromTop(captionPixels),
+               juce::Justification::centredLeft, true);
     for (const bool isBlack : {false, true})
         for (int note = lowest; note <= highest; ++note)
             if (isBlackKey(note) == isBlack) paintKey(g, note);

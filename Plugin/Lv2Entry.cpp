@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LV2's entry: JUCE's (which CMake compiles as juceLv2Descriptor; the Projucer cannot, and does without this file), and the
-// four things that it leaves out. It prepares for the largest block a host can ever send, not for the usual one, takes
-// no notice of deactivate and activate, of what sets a parameter within a block it knows no frame, and has no
-// control ports.
+// LV2's entry: JUCE's (which CMake compiles as juceLv2Descriptor; the Projucer cannot, and does without this
+// file), and the four things that it leaves out. It prepares for the largest block a host can ever send, not
+// for the usual one, takes no notice of deactivate and activate, of what sets a parameter within a block it
+// knows no frame, and has no control ports.
 #ifdef PHYSVIB_LV2_ENTRY
 #include "Entry.h"
 #include "Lv2Controls.h"
@@ -39,10 +39,19 @@ struct Names {
 
 Names namesOf(const LV2_URID_Map& map) {
     const auto idOf = [&map](const std::string& uri) { return map.map(map.handle, uri.c_str()); };
-    Names names{idOf(LV2_ATOM__Object), idOf(LV2_PATCH__Set), idOf(LV2_PATCH__subject),
-                idOf(LV2_PATCH__property), idOf(LV2_PATCH__value), idOf(LV2_ATOM__URID),
-                idOf(LV2_ATOM__Float), idOf(JucePlugin_LV2URI), idOf(LV2_ATOM__String), idOf(JucePlugin_LV2URI ":Ports"), {}};
-    for (std::size_t p = 0; p < parameterCount; ++p) names.parameters[p] = idOf(JucePlugin_LV2URI ":" + std::string{allParameters()[p].id});
+    Names names{idOf(LV2_ATOM__Object),
+                idOf(LV2_PATCH__Set),
+                idOf(LV2_PATCH__subject),
+                idOf(LV2_PATCH__property),
+                idOf(LV2_PATCH__value),
+                idOf(LV2_ATOM__URID),
+                idOf(LV2_ATOM__Float),
+                idOf(JucePlugin_LV2URI),
+                idOf(LV2_ATOM__String),
+                idOf(JucePlugin_LV2URI ":Ports"),
+                {}};
+    for (std::size_t p = 0; p < parameterCount; ++p)
+        names.parameters[p] = idOf(JucePlugin_LV2URI ":" + std::string{allParameters()[p].id});
     return names;
 }
 
@@ -69,13 +78,20 @@ private:
         const auto& object = reinterpret_cast<const LV2_Atom_Object&>(event.body);
         if (event.body.type != names_.object || object.body.otype != names_.set) return false;
         const LV2_Atom *subject = nullptr, *property = nullptr, *value = nullptr;
-        LV2_Atom_Object_Query query[]{{names_.subject, &subject}, {names_.property, &property}, {names_.value, &value}, LV2_ATOM_OBJECT_QUERY_END};
+        LV2_Atom_Object_Query query[]{{names_.subject, &subject},
+                                      {names_.property, &property},
+                                      {names_.value, &value},
+                                      LV2_ATOM_OBJECT_QUERY_END};
         lv2_atom_object_query(&object, query);
-        const auto idOf = [this](const LV2_Atom* atom) { return atom && atom->type == names_.urid ? reinterpret_cast<const LV2_Atom_URID*>(atom)->body : 0; };
+        const auto idOf = [this](const LV2_Atom* atom) {
+            return atom && atom->type == names_.urid ? reinterpret_cast<const LV2_Atom_URID*>(atom)->body : 0;
+        };
         if (subject && idOf(subject) != names_.plugin) return false;
-        if (idOf(property) != names_.parameters[parameter] || !value || value->type != names_.number) return false;
+        if (idOf(property) != names_.parameters[parameter] || !value || value->type != names_.number)
+            return false;
         point.frame = static_cast<int>(event.time.frames);
-        point.normal = processor_.parameter(static_cast<Parameter>(parameter)).convertTo0to1(reinterpret_cast<const LV2_Atom_Float*>(value)->body);
+        point.normal = processor_.parameter(static_cast<Parameter>(parameter))
+                           .convertTo0to1(reinterpret_cast<const LV2_Atom_Float*>(value)->body);
         return true;
     }
     const LV2_Atom_Sequence& events_;
@@ -88,7 +104,8 @@ private:
 // enabled; then one for each parameter (Lv2Ports.cpp).
 constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS, firstControl = eventPort + 5;
 
-/// JUCE tells hosts of parameters as properties, which are not described: hosts would warn of each. R, wait-free.
+/// JUCE tells hosts of parameters as properties, which are not described: hosts would warn of each. R,
+/// wait-free.
 void dropProperties(LV2_Atom_Sequence& told, const Names& names) noexcept {
     auto* to = lv2_atom_sequence_begin(&told.body);
     for (auto* at = to; !lv2_atom_sequence_is_end(&told.body, told.atom.size, at);) {
@@ -107,12 +124,14 @@ struct Instance {
     PluginProcessor* processor = nullptr;
     bool wasDeactivated = false;
     Names names{};
-    const LV2_Atom_Sequence* events = nullptr; // of the port, which the host may connect anew before each block
+    const LV2_Atom_Sequence* events = nullptr; // of the port, which the host may connect anew before each
+                                               // block
     std::shared_ptr<Lv2Controls> controls{};
     LV2_Atom_Sequence* told = nullptr; // as events
 };
 
-/// All that live, by JUCE's handles; a host may make and end them on several threads, and runs them on others. A place is used again, and never freed.
+/// All that live, by JUCE's handles; a host may make and end them on several threads, and runs them on
+/// others. A place is used again, and never freed.
 class Instances {
 public:
     void add(LV2_Handle handle, const Instance& instance) {
@@ -128,7 +147,8 @@ public:
         place->handle = handle;
         if (isNew) first_ = place; // from here on it is found
     }
-    /// Of one that lives; it stays where it is, and is its caller's: LV2 has one thread at a time for each. Wait-free.
+    /// Of one that lives; it stays where it is, and is its caller's: LV2 has one thread at a time for each.
+    /// Wait-free.
     Instance& operator[](LV2_Handle handle) noexcept {
         Place* place = first_;
         while (place->handle != handle) place = place->next;
@@ -164,20 +184,24 @@ int usualBlockOf(const LV2_Feature* const* features) {
     const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
     const auto* option = static_cast<const LV2_Options_Option*>(feature(features, LV2_OPTIONS__options));
     if (!map || !option) return 0;
-    const auto wanted = map->map(map->handle, LV2_BUF_SIZE__nominalBlockLength), whole = map->map(map->handle, LV2_ATOM__Int);
+    const auto wanted = map->map(map->handle, LV2_BUF_SIZE__nominalBlockLength),
+               whole = map->map(map->handle, LV2_ATOM__Int);
     for (; option->key != 0 || option->value != nullptr; ++option)
-        if (option->key == wanted && option->type == whole && option->size == sizeof(std::int32_t)) return *static_cast<const std::int32_t*>(option->value);
+        if (option->key == wanted && option->type == whole && option->size == sizeof(std::int32_t))
+            return *static_cast<const std::int32_t*>(option->value);
     return 0;
 }
 
-LV2_Handle instantiate(const LV2_Descriptor*, double rate, const char* bundle, const LV2_Feature* const* features) {
+LV2_Handle instantiate(const LV2_Descriptor*, double rate, const char* bundle,
+                       const LV2_Feature* const* features) {
     making() = {usualBlockOf(features), nullptr};
     const auto* const juces = juceLv2Descriptor(0);
     const LV2_Handle handle = juces->instantiate(juces, rate, bundle, features);
     const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
     const auto names = map ? namesOf(*map) : Names{};
     auto controls = std::make_shared<Lv2Controls>();
-    if (handle) instances().add(handle, {making().instance, false, names, nullptr, std::move(controls), nullptr});
+    if (handle)
+        instances().add(handle, {making().instance, false, names, nullptr, std::move(controls), nullptr});
     return handle;
 }
 
@@ -203,11 +227,13 @@ void run(LV2_Handle handle, std::uint32_t frames) {
     if (instance.told) dropProperties(*instance.told, instance.names);
 }
 
-// What is active is prepared: the scene starts at its seed, as in the other formats. The first time JUCE has done so.
+// What is active is prepared: the scene starts at its seed, as in the other formats. The first time JUCE has
+// done so.
 void activate(LV2_Handle handle) {
     auto& instance = instances()[handle];
     auto* const processor = instance.processor;
-    if (std::exchange(instance.wasDeactivated, false)) processor->prepareToPlay(processor->getSampleRate(), processor->getBlockSize());
+    if (std::exchange(instance.wasDeactivated, false))
+        processor->prepareToPlay(processor->getSampleRate(), processor->getBlockSize());
 }
 
 void deactivate(LV2_Handle handle) {

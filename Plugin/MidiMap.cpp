@@ -33,7 +33,8 @@ Vector placeOf(int note, const PluginState& state) {
     const auto& place = layout.places[static_cast<std::size_t>(note % std::max(1, layout.count))];
     switch (state.voice.places) {
     case NotePlaces::octave: return {(note % notesPerOctave) / (notesPerOctave - 1.0), 0.5};
-    case NotePlaces::actuators: return {place.xMetres / layout.extentWidthMetres, place.yMetres / layout.extentHeightMetres};
+    case NotePlaces::actuators:
+        return {place.xMetres / layout.extentWidthMetres, place.yMetres / layout.extentHeightMetres};
     case NotePlaces::middle: break;
     }
     return {0.5, 0.5};
@@ -57,7 +58,9 @@ CollisionEvent strikeBy(int note, const PluginState& state, const std::vector<in
     const Vector place = placeOf(note, state);
     rule.x = place.x;
     rule.y = place.y;
-    rule.material = materials.empty() ? -1 : materials[static_cast<std::size_t>(note / notesPerOctave) % materials.size()];
+    rule.material = materials.empty()
+                        ? -1
+                        : materials[static_cast<std::size_t>(note / notesPerOctave) % materials.size()];
     CollisionEvent strike = strikeBy(rule, state.scene);
     if (state.voice.pitch == NotePitch::material) return strike;
     strike.frequencyHz = pitchHz(note);
@@ -75,7 +78,10 @@ std::vector<Action> materialActions(const Scene& scene, int material) {
     std::vector<Action> actions;
     for (const auto& body : scene.bodies)
         for (std::size_t f = 0; f < body.fixtures.size(); ++f)
-            if (body.fixtures[f].isCamera) actions.push_back(MaterialAction{body.name, static_cast<int>(f), material == asTheScene ? body.fixtures[f].material : material});
+            if (body.fixtures[f].isCamera)
+                actions.push_back(
+                    MaterialAction{body.name, static_cast<int>(f),
+                                   material == asTheScene ? body.fixtures[f].material : material});
     return actions;
 }
 
@@ -98,7 +104,8 @@ std::vector<Action> noteActions(const NoteRule& rule, const Scene& scene) {
 std::vector<std::vector<Action>> actionGroups(const PluginState& state) {
     std::vector<std::vector<Action>> groups;
     for (int m = asTheScene; m < static_cast<int>(state.scene.materials.size()); ++m) {
-        const bool isFelt = m == asTheScene || state.scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
+        const bool isFelt =
+            m == asTheScene || state.scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
         // a camera needs a sound
         groups.push_back(isFelt ? materialActions(state.scene, m) : std::vector<Action>{});
     }
@@ -111,7 +118,8 @@ MidiTable::MidiTable(const PluginState& state)
     , width_{state.scene.fieldWidthMetres}
     , height_{state.scene.fieldHeightMetres} {
     const auto materials = vibratingMaterials(state.scene);
-    for (int note = 0; note < 128; ++note) strikes_[static_cast<std::size_t>(note)] = strikeBy(note, state, materials);
+    for (int note = 0; note < 128; ++note)
+        strikes_[static_cast<std::size_t>(note)] = strikeBy(note, state, materials);
     held_.fill(voice_.isHeld && voice_.pitch == NotePitch::note);
     groups_.fill(-1);
     materials_ = static_cast<int>(state.scene.materials.size());
@@ -123,7 +131,8 @@ MidiTable::MidiTable(const PluginState& state)
         ++group;
     }
     parameters_.fill(-1);
-    for (const auto& rule : state.controllers) parameters_[static_cast<std::size_t>(rule.controller & 127)] = parameterOfId(rule.parameter);
+    for (const auto& rule : state.controllers)
+        parameters_[static_cast<std::size_t>(rule.controller & 127)] = parameterOfId(rule.parameter);
 }
 
 } // namespace physvib

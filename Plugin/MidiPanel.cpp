@@ -19,12 +19,15 @@ juce::StringArray namesOf(const List& list, Name name) {
     return names;
 }
 
-void addChoice(juce::AlertWindow& form, const juce::String& id, const juce::StringArray& choices, int chosen, const juce::String& title) {
+void addChoice(juce::AlertWindow& form, const juce::String& id, const juce::StringArray& choices, int chosen,
+               const juce::String& title) {
     form.addComboBox(id, choices, title);
     form.getComboBoxComponent(id)->setSelectedItemIndex(std::max(0, chosen), juce::dontSendNotification);
 }
 
-double numberIn(juce::AlertWindow& form, const juce::String& id) { return form.getTextEditorContents(id).getDoubleValue(); }
+double numberIn(juce::AlertWindow& form, const juce::String& id) {
+    return form.getTextEditorContents(id).getDoubleValue();
+}
 
 } // namespace
 
@@ -34,12 +37,14 @@ juce::String wordsOf(const NoteRule& rule, const Scene& scene) {
     if (rule.kind == NoteKind::push) return "pushes " + words(rule.object) + " by " + vector + " N s";
     const auto& material = words(scene.materials[static_cast<std::size_t>(rule.material)].name);
     if (rule.kind == NoteKind::strike) return "strikes " + material + at;
-    return "spawns a disc of " + material + at + ", radius " + number(rule.radiusMetres, 2) + " m, " + vector + " m/s";
+    return "spawns a disc of " + material + at + ", radius " + number(rule.radiusMetres, 2) + " m, " +
+           vector + " m/s";
 }
 
 juce::String wordsOf(const ControllerRule& rule) {
     const int which = parameterOfId(rule.parameter);
-    return "moves " + (which < 0 ? words(rule.parameter) : words(rowOf(static_cast<Parameter>(which)).name)) + " over its whole range";
+    return "moves " + (which < 0 ? words(rule.parameter) : words(rowOf(static_cast<Parameter>(which)).name)) +
+           " over its whole range";
 }
 
 MidiPanel::MidiPanel(MixHands hands)
@@ -57,14 +62,21 @@ MidiPanel::MidiPanel(MixHands hands)
     addController_.onClick = [this] { askController(-1, {1, std::string{rowOf(Parameter::level).id}}); };
     change_.onClick = [this] { change(list_.getSelectedRow()); };
     remove_.onClick = [this] { remove(list_.getSelectedRow()); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &hint_, &list_, &addNote_, &addController_, &change_, &remove_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &hint_, &list_, &addNote_,
+                                                                      &addController_, &change_, &remove_})
+        addAndMakeVisible(c);
     showChoice();
 }
 
 void MidiPanel::take(const PluginState& state) {
     state_ = state;
-    const juce::String sound = state.voice.pitch == NotePitch::material ? "every octave is a material" : state.voice.isHeld ? "each its own pitch, as long as its key is held" : "each its own pitch";
-    const juce::String place = state.voice.places == NotePlaces::octave ? "from left (C) to right (B)" : state.voice.places == NotePlaces::actuators ? "at one actuator after the other" : "in the middle";
+    const juce::String sound = state.voice.pitch == NotePitch::material ? "every octave is a material"
+                               : state.voice.isHeld ? "each its own pitch, as long as its key is held"
+                                                    : "each its own pitch";
+    const juce::String place = state.voice.places == NotePlaces::octave ? "from left (C) to right (B)"
+                               : state.voice.places == NotePlaces::actuators
+                                   ? "at one actuator after the other"
+                                   : "in the middle";
     hint_.setText("Other notes strike: " + sound + ", " + place + ".", juce::dontSendNotification);
     hint_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     list_.updateContent();
@@ -80,7 +92,9 @@ void MidiPanel::showChoice() {
 
 juce::String MidiPanel::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
-    if (isNote(row)) return noteName(state_.notes[static_cast<std::size_t>(row)].note) + " " + wordsOf(state_.notes[static_cast<std::size_t>(row)], state_.scene);
+    if (isNote(row))
+        return noteName(state_.notes[static_cast<std::size_t>(row)].note) + " " +
+               wordsOf(state_.notes[static_cast<std::size_t>(row)], state_.scene);
     const auto& rule = state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()];
     return "CC " + juce::String{rule.controller} + " " + wordsOf(rule);
 }
@@ -95,31 +109,40 @@ void MidiPanel::paintListBoxItem(int row, juce::Graphics& g, int width, int heig
     const auto i = static_cast<std::size_t>(row);
     g.setFont(juce::Font{text::medium, juce::Font::bold});
     g.setColour(shade(*this, Shade::accent));
-    const auto key = isNote(row) ? noteName(state_.notes[i].note) : "CC " + juce::String{state_.controllers[i - state_.notes.size()].controller};
+    const auto key = isNote(row)
+                         ? noteName(state_.notes[i].note)
+                         : "CC " + juce::String{state_.controllers[i - state_.notes.size()].controller};
     g.drawText(key, area.removeFromLeft(64), juce::Justification::centredLeft, false);
     g.setFont(juce::Font{text::medium});
     g.setColour(shade(*this, Shade::text));
-    g.drawText(isNote(row) ? wordsOf(state_.notes[i], state_.scene) : wordsOf(state_.controllers[i - state_.notes.size()]), area, juce::Justification::centredLeft, true);
+    g.drawText(isNote(row) ? wordsOf(state_.notes[i], state_.scene)
+                           : wordsOf(state_.controllers[i - state_.notes.size()]),
+               area, juce::Justification::centredLeft, true);
 }
 
 void MidiPanel::change(int row) {
     if (row < 0 || row >= getNumRows()) return;
-    if (isNote(row)) askNote(row, state_.notes[static_cast<std::size_t>(row)]);
-    else askController(row, state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()]);
+    if (isNote(row))
+        askNote(row, state_.notes[static_cast<std::size_t>(row)]);
+    else
+        askController(row, state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()]);
 }
 
 void MidiPanel::remove(int row) {
     if (row < 0 || row >= getNumRows()) return;
     hands_.edit([row](PluginState& state) {
         const auto notes = static_cast<std::ptrdiff_t>(state.notes.size());
-        if (row < notes) state.notes.erase(state.notes.begin() + row);
-        else state.controllers.erase(state.controllers.begin() + (row - notes));
+        if (row < notes)
+            state.notes.erase(state.notes.begin() + row);
+        else
+            state.controllers.erase(state.controllers.begin() + (row - notes));
     });
 }
 
 // The form is ours: a host may close the window before it is answered.
 juce::AlertWindow& MidiPanel::newForm(const juce::String& title) {
-    form_ = std::make_unique<juce::AlertWindow>(title, juce::String{}, juce::MessageBoxIconType::NoIcon, this);
+    form_ =
+        std::make_unique<juce::AlertWindow>(title, juce::String{}, juce::MessageBoxIconType::NoIcon, this);
     form_->setLookAndFeel(&getLookAndFeel());
     return *form_;
 }
@@ -127,30 +150,36 @@ juce::AlertWindow& MidiPanel::newForm(const juce::String& title) {
 void MidiPanel::ask(std::function<void(juce::AlertWindow&)> use) {
     form_->addButton("OK", 1, juce::KeyPress{juce::KeyPress::returnKey});
     form_->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    form_->enterModalState(true, juce::ModalCallbackFunction::create([panel = juce::Component::SafePointer<MidiPanel>{this}, use = std::move(use)](int answer) {
-        if (panel == nullptr || panel->form_ == nullptr) return;
-        if (answer == 1) use(*panel->form_);
-        panel->form_->setVisible(false);
-    }));
+    form_->enterModalState(
+        true, juce::ModalCallbackFunction::create(
+                  [panel = juce::Component::SafePointer<MidiPanel>{this}, use = std::move(use)](int answer) {
+                      if (panel == nullptr || panel->form_ == nullptr) return;
+                      if (answer == 1) use(*panel->form_);
+                      panel->form_->setVisible(false);
+                  }));
 }
 
 void MidiPanel::askNote(int row, NoteRule rule) {
     const auto bodies = namesOf(state_.scene.bodies, &BodyDescription::name);
     auto& form = newForm("A note");
     form.addTextEditor("note", juce::String{rule.note}, "Note, 0 to 127 (60 is C4)");
-    addChoice(form, "do", {"strikes a material at a place", "pushes a body", "spawns a disc at a place"}, static_cast<int>(rule.kind), "What it does");
-    addChoice(form, "material", namesOf(state_.scene.materials, &Material::name), rule.material, "Material (strikes, spawns)");
+    addChoice(form, "do", {"strikes a material at a place", "pushes a body", "spawns a disc at a place"},
+              static_cast<int>(rule.kind), "What it does");
+    addChoice(form, "material", namesOf(state_.scene.materials, &Material::name), rule.material,
+              "Material (strikes, spawns)");
     addChoice(form, "object", bodies, bodies.indexOf(words(rule.object)), "Body (pushes)");
     form.addTextEditor("x", juce::String{100.0 * rule.x}, "Place from the left, % (strikes, spawns)");
     form.addTextEditor("y", juce::String{100.0 * rule.y}, "Place from below, %");
-    form.addTextEditor("vx", juce::String{rule.atFullVelocity.x}, "At full velocity to the right: N s (pushes), m/s (spawns)");
+    form.addTextEditor("vx", juce::String{rule.atFullVelocity.x},
+                       "At full velocity to the right: N s (pushes), m/s (spawns)");
     form.addTextEditor("vy", juce::String{rule.atFullVelocity.y}, "At full velocity upwards");
     form.addTextEditor("radius", juce::String{rule.radiusMetres}, "Radius in m (spawns)");
     ask([this, row, rule](juce::AlertWindow& filled) mutable {
         rule.note = filled.getTextEditorContents("note").getIntValue();
         rule.kind = static_cast<NoteKind>(filled.getComboBoxComponent("do")->getSelectedItemIndex());
         rule.material = std::max(0, filled.getComboBoxComponent("material")->getSelectedItemIndex());
-        if (rule.kind != NoteKind::push && state_.scene.materials.empty()) return hands_.report("The scene has no material to strike");
+        if (rule.kind != NoteKind::push && state_.scene.materials.empty())
+            return hands_.report("The scene has no material to strike");
         rule.object = filled.getComboBoxComponent("object")->getText().toStdString();
         rule.x = 0.01 * numberIn(filled, "x");
         rule.y = 0.01 * numberIn(filled, "y");
@@ -168,7 +197,10 @@ void MidiPanel::askController(int row, ControllerRule rule) {
     addChoice(form, "parameter", names, parameterOfId(rule.parameter), "Parameter that it moves");
     ask([this, row, rule](juce::AlertWindow& filled) mutable {
         rule.controller = filled.getTextEditorContents("controller").getIntValue();
-        rule.parameter = allParameters()[static_cast<std::size_t>(filled.getComboBoxComponent("parameter")->getSelectedItemIndex())].id;
+        rule.parameter =
+            allParameters()[static_cast<std::size_t>(
+                                filled.getComboBoxComponent("parameter")->getSelectedItemIndex())]
+                .id;
         keep(row, rule);
     });
 }
@@ -176,9 +208,11 @@ void MidiPanel::askController(int row, ControllerRule rule) {
 // In the place of the one that is changed, and of any other for the same note.
 void MidiPanel::keep(int row, const NoteRule& rule) {
     hands_.edit([row, &rule](PluginState& state) {
-        if (row >= 0 && row < static_cast<int>(state.notes.size())) state.notes.erase(state.notes.begin() + row);
+        if (row >= 0 && row < static_cast<int>(state.notes.size()))
+            state.notes.erase(state.notes.begin() + row);
         std::erase_if(state.notes, [&rule](const NoteRule& other) { return other.note == rule.note; });
-        const auto place = std::ranges::find_if(state.notes, [&rule](const NoteRule& other) { return other.note > rule.note; });
+        const auto place = std::ranges::find_if(
+            state.notes, [&rule](const NoteRule& other) { return other.note > rule.note; });
         state.notes.insert(place, rule);
     });
 }
@@ -186,21 +220,22 @@ void MidiPanel::keep(int row, const NoteRule& rule) {
 void MidiPanel::keep(int row, const ControllerRule& rule) {
     hands_.edit([row, &rule](PluginState& state) {
         const int index = row - static_cast<int>(state.notes.size());
-        if (row >= 0 && index >= 0 && index < static_cast<int>(state.controllers.size())) state.controllers.erase(state.controllers.begin() + index);
-        std::erase_if(state.controllers, [&rule](const ControllerRule& other) { return other.controller == rule.controller; });
+        if (row >= 0 && index >= 0 && index < static_cast<int>(state.controllers.size()))
+            state.controllers.erase(state.controllers.begin() + index);
+        std::erase_if(state.controllers,
+                      [&rule](const ControllerRule& other) { return other.controller == rule.controller; });
         state.controllers.push_back(rule);
     });
 }
 
-void MidiPanel::paint(juce::Graphics& g) {
-    fillPanel(g, *this, getLocalBounds());
-}
+void MidiPanel::paint(juce::Graphics& g) { fillPanel(g, *this, getLocalBounds()); }
 
 void MidiPanel::resized() {
     auto area = getLocalBounds().reduced(panelInset);
     title_.setBounds(area.removeFromTop(24));
     auto row = area.removeFromBottom(28);
-    for (auto* button : {&addNote_, &addController_, &change_, &remove_}) button->setBounds(row.removeFromLeft(120).reduced(0, 1)), row.removeFromLeft(8);
+    for (auto* button : {&addNote_, &addController_, &change_, &remove_})
+        button->setBounds(row.removeFromLeft(120).reduced(0, 1)), row.removeFromLeft(8);
     hint_.setBounds(area.removeFromBottom(30));
     list_.setBounds(area.withTrimmedTop(6));
 }

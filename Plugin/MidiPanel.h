@@ -40,7 +40,8 @@ private:
     PluginState state_;
     juce::Label title_, hint_;
     juce::ListBox list_{"What notes and controllers do", this};
-    juce::TextButton addNote_{"Add a note"}, addController_{"Add a controller"}, change_{"Change"}, remove_{"Remove"};
+    juce::TextButton addNote_{"Add a note"}, addController_{"Add a controller"}, change_{"Change"},
+        remove_{"Remove"};
     std::unique_ptr<juce::AlertWindow> form_; // the last: it is drawn by our look
 };
 

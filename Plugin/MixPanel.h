@@ -44,7 +44,8 @@ private:
     PeakMeter meter_;
     juce::Slider fader_;
     CeilingHandle ceiling_;
-    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"}, actuator_;
+    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"},
+        actuator_;
     juce::Label level_, most_;
     std::unique_ptr<juce::FileChooser> chooser_;
 };

@@ -6,7 +6,8 @@
 
 namespace physvib {
 
-MusicDelay::MusicDelay(const EnchanterLayout& layout, int channels, int sampleRateHz, std::int64_t longestFrames)
+MusicDelay::MusicDelay(const EnchanterLayout& layout, int channels, int sampleRateHz,
+                       std::int64_t longestFrames)
     : sampleRateHz_{sampleRateHz}
     , ring_(static_cast<std::size_t>(longestFrames))
     , rightShare_(static_cast<std::size_t>(channels), 0.5f)
@@ -14,7 +15,8 @@ MusicDelay::MusicDelay(const EnchanterLayout& layout, int channels, int sampleRa
     for (std::size_t j = 0; j < rightShare_.size(); ++j) {
         channels_.push_back(samples_.data() + j * static_cast<std::size_t>(limits::tileFrames));
         if (j < static_cast<std::size_t>(layout.count) && layout.count > 1 && layout.extentWidthMetres > 0.0)
-            rightShare_[j] = static_cast<float>(std::clamp(layout.places[j].xMetres / layout.extentWidthMetres, 0.0, 1.0));
+            rightShare_[j] =
+                static_cast<float>(std::clamp(layout.places[j].xMetres / layout.extentWidthMetres, 0.0, 1.0));
     }
     reset();
 }
@@ -26,7 +28,8 @@ void MusicDelay::reset() noexcept {
 }
 
 void MusicDelay::write(std::int64_t at, const float* left, const float* right, int frames) noexcept {
-    for (std::int64_t gap = std::max(end_, at - static_cast<std::int64_t>(ring_.size())); gap < at; ++gap) of(gap) = {};
+    for (std::int64_t gap = std::max(end_, at - static_cast<std::int64_t>(ring_.size())); gap < at; ++gap)
+        of(gap) = {};
     for (int i = 0; i < frames; ++i) of(at + i) = {left[i], right[i]};
     end_ = at + frames;
 }
@@ -57,7 +60,8 @@ const float* const* MusicDelay::at(std::int64_t frame, int frames) noexcept {
     for (std::size_t j = 0; j < rightShare_.size(); ++j) {
         float* const out = samples_.data() + j * static_cast<std::size_t>(limits::tileFrames);
         const float right = rightShare_[j], left = 1.0f - right;
-        std::transform(tile_.begin(), tile_.begin() + frames, out, [=](const Pair& pair) { return left * pair.left + right * pair.right; });
+        std::transform(tile_.begin(), tile_.begin() + frames, out,
+                       [=](const Pair& pair) { return left * pair.left + right * pair.right; });
     }
     return channels_.data();
 }

@@ -10,17 +10,19 @@
 
 namespace physvib {
 
-/// Of one take: left and right by the renderer's frames, and what each actuator gets of them by its place: all of the left at the layout's left edge, all of the
-/// right at its right edge, a line between.
+/// Of one take: left and right by the renderer's frames, and what each actuator gets of them by its place:
+/// all of the left at the layout's left edge, all of the right at its right edge, a line between.
 class MusicDelay final : public AddedSamples {
 public:
-    /// `channels` at least as many as the layout has; nothing older than `longestFrames` is asked for. Any thread but R.
+    /// `channels` at least as many as the layout has; nothing older than `longestFrames` is asked for. Any
+    /// thread but R.
     MusicDelay(const EnchanterLayout& layout, int channels, int sampleRateHz, std::int64_t longestFrames);
 
     /// As at first. Any thread but R, while nobody renders.
     void reset() noexcept;
 
-    /// What is heard from the renderer's frame `at` on; what lies between that and the last is silence. R, wait-free.
+    /// What is heard from the renderer's frame `at` on; what lies between that and the last is silence. R,
+    /// wait-free.
     void write(std::int64_t at, const float* left, const float* right, int frames) noexcept;
 
     /// Frames from `from` to `until`, and for at least `shortestPauseSeconds`, are not played, with ramps of
@@ -35,7 +37,9 @@ private:
     struct Pair {
         float left = 0.0f, right = 0.0f;
     };
-    Pair& of(std::int64_t frame) noexcept { return ring_[static_cast<std::size_t>(frame % static_cast<std::int64_t>(ring_.size()))]; }
+    Pair& of(std::int64_t frame) noexcept {
+        return ring_[static_cast<std::size_t>(frame % static_cast<std::int64_t>(ring_.size()))];
+    }
     bool read(std::int64_t frame, int frames) noexcept;
 
     const int sampleRateHz_;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // By what the file says it is.
 #include "OpenedFile.h"
-#include "Scene/Sessions/DeskLimits.h"
-#include "Scene/FileKind.h"
-#include "Scene/SceneFileLimits.h"
 #include "Io/Disk/ReadFile.h"
-#include "Scene/SceneFile.h"
-#include "Scene/Sessions/SessionFile.h"
 #include "Parameters.h"
 #include "PluginSettings.h"
+#include "Scene/FileKind.h"
+#include "Scene/SceneFile.h"
+#include "Scene/SceneFileLimits.h"
+#include "Scene/Sessions/DeskLimits.h"
+#include "Scene/Sessions/SessionFile.h"
 #include <algorithm>
 #include <utility>
 
@@ -18,14 +18,17 @@ namespace {
 
 void setParameter(PluginState& state, Parameter which, double value) {
     const auto& row = rowOf(which);
-    const auto found = std::ranges::find_if(state.parameters, [&row](const auto& p) { return p.first == row.id; });
-    auto& kept = found == state.parameters.end() ? state.parameters.emplace_back(std::string{row.id}, 0.0) : *found;
+    const auto found =
+        std::ranges::find_if(state.parameters, [&row](const auto& p) { return p.first == row.id; });
+    auto& kept =
+        found == state.parameters.end() ? state.parameters.emplace_back(std::string{row.id}, 0.0) : *found;
     kept.second = std::clamp(value, row.least, row.most);
 }
 
 /// As the person at this instance has left it; enchanter j leaves by channel j.
 DeskLimits limitsOf(const PluginState& state) {
-    const auto level = std::ranges::find(state.parameters, rowOf(Parameter::level).id, &std::pair<std::string, ParameterValue>::first);
+    const auto level = std::ranges::find(state.parameters, rowOf(Parameter::level).id,
+                                         &std::pair<std::string, ParameterValue>::first);
     const auto* const set = level == state.parameters.end() ? nullptr : std::get_if<double>(&level->second);
     DeskLimits limits{set ? *set : rowOf(Parameter::level).initial, state.strips};
     resizeStrips(limits.strips, state.layout.geometry.count);
@@ -42,7 +45,9 @@ std::string lowerByChannel(const DeskLimits& limits, Mix& mix) {
     return lowered;
 }
 
-std::string noteOf(const std::filesystem::path& path, const std::string& lowered) { return lowered.empty() ? lowered : path.filename().string() + ": lowered to this instance: " + lowered; }
+std::string noteOf(const std::filesystem::path& path, const std::string& lowered) {
+    return lowered.empty() ? lowered : path.filename().string() + ": lowered to this instance: " + lowered;
+}
 
 PluginState leftBy(const SavedSession& session, Mix mix, PluginState state) {
     takeScene(state, *mix.scene);
@@ -59,32 +64,42 @@ PluginState leftBy(const SavedSession& session, Mix mix, PluginState state) {
 }
 
 bool isPlayedOtherwise(const SavedSession& session) {
-    return session.shaping != EventShaping{} || !session.log.recordings.empty() || !session.log.clips.empty() || session.run.timing != ImpactTiming::onset || session.run.location != ImpactLocation::contact;
+    return session.shaping != EventShaping{} || !session.log.recordings.empty() ||
+           !session.log.clips.empty() || session.run.timing != ImpactTiming::onset ||
+           session.run.location != ImpactLocation::contact;
 }
 
 /// In the unit of that parameter, as a state has it or as it comes.
 double valueIn(const PluginState& state, Parameter which) {
     const auto& row = rowOf(which);
-    const auto found = std::ranges::find(state.parameters, row.id, &std::pair<std::string, ParameterValue>::first);
-    return found == state.parameters.end() ? row.initial : valueOfState(row, found->second).value_or(row.initial);
+    const auto found =
+        std::ranges::find(state.parameters, row.id, &std::pair<std::string, ParameterValue>::first);
+    return found == state.parameters.end() ? row.initial
+                                           : valueOfState(row, found->second).value_or(row.initial);
 }
 
-/// A preset sounds as it is meant, up to the level, the strips and the limiter of this instance; strikes and music up to what they are here or what is usual.
+/// A preset sounds as it is meant, up to the level, the strips and the limiter of this instance; strikes and
+/// music up to what they are here or what is usual.
 Result<OpenedFile> openPreset(const std::filesystem::path& path, const PluginState& now) {
     const auto read = loadText(path, limits::maxSceneFileBytes, readPluginState);
     if (!read) return Failure{read.error};
     PluginState state = read.value;
-    if (const auto fault = faultOfParameters(state); !fault.empty()) return Failure{path.string() + ": " + fault};
+    if (const auto fault = faultOfParameters(state); !fault.empty())
+        return Failure{path.string() + ": " + fault};
     fitToLayout(state);
     Mix mix;
     mix.layout = state.layout;
     mix.strips = state.strips;
     mix.levelDb = valueIn(state, Parameter::level);
     std::string lowered = lowerByChannel(limitsOf(now), mix);
-    const auto also = [&lowered](const char* what) { lowered += (lowered.empty() ? "" : "; ") + std::string{what}; };
+    const auto also = [&lowered](const char* what) {
+        lowered += (lowered.empty() ? "" : "; ") + std::string{what};
+    };
     state.strips = std::move(mix.strips);
     setParameter(state, Parameter::level, mix.levelDb);
-    for (const auto& [which, usual] : {std::pair{Parameter::strikeLevel, rowOf(Parameter::strikeLevel).initial}, {Parameter::music, 0.0}}) {
+    for (const auto& [which, usual] :
+         {std::pair{Parameter::strikeLevel, rowOf(Parameter::strikeLevel).initial},
+          {Parameter::music, 0.0}}) {
         const double most = std::max(valueIn(now, which), usual);
         if (valueIn(state, which) <= most) continue;
         setParameter(state, which, most);
@@ -128,8 +143,12 @@ Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state
         if (!session) return Failure{session.error};
         Mix mix = mixOf(session.value);
         std::string lowered = lowerByChannel(limitsOf(state), mix);
-        if (state.limiterEnabled && !session.value.limiterEnabled) lowered += lowered.empty() ? "the limiter stays on" : "; the limiter stays on";
-        std::string note = isPlayedOtherwise(session.value) ? path.filename().string() + ": its method, timing and recordings are not played here" : std::string{};
+        if (state.limiterEnabled && !session.value.limiterEnabled)
+            lowered += lowered.empty() ? "the limiter stays on" : "; the limiter stays on";
+        std::string note =
+            isPlayedOtherwise(session.value)
+                ? path.filename().string() + ": its method, timing and recordings are not played here"
+                : std::string{};
         if (!note.empty() && !lowered.empty()) note += "; ";
         note += noteOf(path, lowered);
         return OpenedFile{leftBy(session.value, std::move(mix), std::move(state)), note};
@@ -137,7 +156,8 @@ Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state
     case FileKind::pluginState: return openPreset(path, state);
     case FileKind::unknown: break;
     }
-    return Failure{path.string() + ": expected a preset of the plug-in, a scene, a layout or a saved session"};
+    return Failure{path.string() +
+                   ": expected a preset of the plug-in, a scene, a layout or a saved session"};
 }
 
 } // namespace physvib

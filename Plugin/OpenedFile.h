@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A file of one's own into what an instance plays: a scene, a layout, or a session with its desk.
 #pragma once
-#include "Scene/Sessions/PluginState.h"
 #include "Io/Result.h"
+#include "Scene/Sessions/PluginState.h"
 #include <filesystem>
 #include <string>
 
@@ -10,11 +10,12 @@ namespace physvib {
 
 struct OpenedFile {
     PluginState state;
-    std::string note; ///< a line for people on what of the file is not played here, or lowered; empty: nothing
+    std::string note; ///< a line for people on what of the file is not played here, or lowered; empty:
+                      ///< nothing
 };
 
-/// `state` with the scene or the layout of that file, or as a saved session left its desk, no louder than `state` was (see lowerTo); one line
-/// if it is none of them or wrong. M only.
+/// `state` with the scene or the layout of that file, or as a saved session left its desk, no louder than
+/// `state` was (see lowerTo); one line if it is none of them or wrong. M only.
 Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state);
 
 } // namespace physvib

@@ -13,7 +13,8 @@ void ParameterPoints::begin(PointSource* source, int frames) noexcept {
         Line& line = lines_[p];
         line.corner = read(p);
         const bool isEndTold = source->lastOfLine(p) >= frames - 1;
-        line.isDrawn = isEndTold && allParameters()[p].choices.empty() && (line.wasEndTold || line.corner.frame == 0);
+        line.isDrawn =
+            isEndTold && allParameters()[p].choices.empty() && (line.wasEndTold || line.corner.frame == 0);
         if (line.wasEndTold) {
             line.from.frame -= before;
             draw(line, -1);
@@ -33,7 +34,8 @@ double ParameterPoints::take(std::size_t parameter) noexcept {
     if (line.step < line.corner.frame) {
         const int at = line.step;
         draw(line, at);
-        return line.from.normal + (line.corner.normal - line.from.normal) * (at - line.from.frame) / (line.corner.frame - line.from.frame);
+        return line.from.normal + (line.corner.normal - line.from.normal) * (at - line.from.frame) /
+                                      (line.corner.frame - line.from.frame);
     }
     line.from = line.corner;
     line.corner = read(parameter);
@@ -50,7 +52,8 @@ ParameterPoint ParameterPoints::read(std::size_t parameter) noexcept {
 // The next multiple of the longest step behind `after`, if the line needs it.
 void ParameterPoints::draw(Line& line, int after) const noexcept {
     line.step = none;
-    if (!line.isDrawn || line.corner.frame == none || line.corner.frame - line.from.frame <= longestStep) return;
+    if (!line.isDrawn || line.corner.frame == none || line.corner.frame - line.from.frame <= longestStep)
+        return;
     const int step = (phase_ + after + longestStep) / longestStep * longestStep - phase_;
     if (step < line.corner.frame) line.step = step;
 }

@@ -40,7 +40,8 @@ public:
 
     void reset() noexcept { *this = {}; }
 
-    /// A block of so many frames; without a source, or where it says nothing of a parameter, there are no points.
+    /// A block of so many frames; without a source, or where it says nothing of a parameter, there are no
+    /// points.
     void begin(PointSource* source, int frames) noexcept;
 
     /// The frame of the next point, of one parameter or of any; none: there are no more. A point behind the
@@ -65,8 +66,8 @@ public:
 private:
     struct Line {
         ParameterPoint from{none, 0.0}, corner{none, 0.0}; // the host's last point, and its next
-        int step = none;                                   // a frame between them at which the line's value is told
-        bool isDrawn = false, wasEndTold = false;          // the latter: of the block before
+        int step = none;                          // a frame between them at which the line's value is told
+        bool isDrawn = false, wasEndTold = false; // the latter: of the block before
         int next() const noexcept { return std::min(step, corner.frame); }
     };
     double take(std::size_t parameter) noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every parameter once: id, name, unit, range, default, mapping, words. The plug-in, its editor, its saved state and
-// the table in Docs/plugin.md read this table.
+// Every parameter once: id, name, unit, range, default, mapping, words. The plug-in, its editor, its saved
+// state and the table in Docs/plugin.md read this table.
 #pragma once
 #include "Core/PanningLaws.h"
 #include <array>
@@ -12,14 +12,30 @@
 namespace physvib {
 
 /// In the order in which hosts list them. New ones go to the end, before `count`: hosts may number them.
-enum class Parameter { level, law, exponent, gravity, tilt, material, strikeLevel, strikeX, strikeY, bypass, beats, music, musicSides, count };
+enum class Parameter {
+    level,
+    law,
+    exponent,
+    gravity,
+    tilt,
+    material,
+    strikeLevel,
+    strikeX,
+    strikeY,
+    bypass,
+    beats,
+    music,
+    musicSides,
+    count
+};
 constexpr auto parameterCount = static_cast<std::size_t>(Parameter::count);
 
 /// How a host's 0 to 1 runs over the range.
 enum class ParameterScale {
     linear,
     log,    ///< equal steps are equal ratios; the range is above 0
-    choice, ///< one of `choices`, in equal steps over the range; each keeps its place from 0 to 1 (decision 34)
+    choice, ///< one of `choices`, in equal steps over the range; each keeps its place from 0 to 1 (decision
+            ///< 34)
     toggle  ///< 0 or 1
 };
 
@@ -27,7 +43,8 @@ struct ParameterRow {
     Parameter parameter; ///< its number, which is its place in the table
     std::string_view id; ///< never changes: sessions of hosts hold on to it
     std::string_view name;
-    std::string_view shortName; ///< 8 letters at most, for small displays; its first four tell it from the others
+    std::string_view shortName; ///< 8 letters at most, for small displays; its first four tell it from the
+                                ///< others
     std::string_view unit;
     double least = 0.0;
     double most = 1.0;
@@ -42,8 +59,8 @@ struct ParameterRow {
 const ParameterRow& rowOf(Parameter parameter) noexcept;
 const std::array<ParameterRow, parameterCount>& allParameters() noexcept;
 
-/// Parameters that belong together, each in one group, in the order of the table; `level` and `bypass` stand by themselves, the latter
-/// before the groups that came after it.
+/// Parameters that belong together, each in one group, in the order of the table; `level` and `bypass` stand
+/// by themselves, the latter before the groups that came after it.
 struct ParameterGroup {
     std::string_view id; ///< never changes
     std::string_view name;
@@ -58,7 +75,8 @@ int parameterOfId(std::string_view id) noexcept;
 double normalised(const ParameterRow& row, double value) noexcept;
 double denormalised(const ParameterRow& row, double normal) noexcept;
 
-/// "-12.0 dB", "energy", "on"; and back, with or without the unit. What cannot be read is the default. Any thread.
+/// "-12.0 dB", "energy", "on"; and back, with or without the unit. What cannot be read is the default. Any
+/// thread.
 std::string valueText(const ParameterRow& row, double value);
 double valueOf(const ParameterRow& row, std::string_view text);
 

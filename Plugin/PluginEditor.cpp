@@ -26,7 +26,8 @@ void caption(juce::Label& label, const juce::String& shown) {
 
 ParameterControl::ParameterControl(HostParameter& parameter)
     : parameter_{parameter} {
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&knob_, &list_, &name_}) c->addMouseListener(this, true);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&knob_, &list_, &name_})
+        c->addMouseListener(this, true);
     const auto& row = parameter.row();
     caption(name_, words(row.name));
     name_.setJustificationType(juce::Justification::centred);
@@ -96,7 +97,9 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     firstSteps_.setJustificationType(juce::Justification::centred);
     firstSteps_.setInterceptsMouseClicks(false, false);
     files_.setButtonText("Files");
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &files_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_, &silence_, &direct_, &shorten_, &world_, &firstSteps_, &midiPanel_, &mix_, &keys_, &status_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{
+             &title_, &scene_, &layout_, &files_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_,
+             &silence_, &direct_, &shorten_, &world_, &firstSteps_, &midiPanel_, &mix_, &keys_, &status_})
         addAndMakeVisible(c);
     fillGroups();
     fillChoices();
@@ -106,8 +109,10 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     setResizable(true, true);
     setResizeLimits(leastWidth, leastHeight, 2400, 1600);
     const bool isKept = state_.editorWidth >= leastWidth && state_.editorHeight >= leastHeight;
-    if (isKept) setSize(state_.editorWidth, state_.editorHeight);
-    else setSize(firstWidth, firstHeight);
+    if (isKept)
+        setSize(state_.editorWidth, state_.editorHeight);
+    else
+        setSize(firstWidth, firstHeight);
     startTimerHz(framesPerSecond);
 }
 
@@ -146,12 +151,16 @@ void PluginEditor::fillChoices() {
     seed_.setIndents(8, 7);
     seed_.setInputRestrictions(10, "0123456789");
     restart_.setClickingTogglesState(true);
-    restart_.setTooltip("The scene starts at its seed whenever the transport starts or jumps, and is silent while it stands");
+    restart_.setTooltip(
+        "The scene starts at its seed whenever the transport starts or jumps, and is silent while it stands");
     direct_.setClickingTogglesState(true);
-    direct_.setTooltip("Low-latency mode for notes: the host is told the limiter's latency only. Collisions keep the output latency L, so they are felt later than the track beside them");
-    shorten_.setTooltip("The output latency L is longer than necessary, because the host has asked ahead of time or stuttered: shorten it now, in a moment of silence");
+    direct_.setTooltip("Low-latency mode for notes: the host is told the limiter's latency only. Collisions "
+                       "keep the output latency L, so they are felt later than the track beside them");
+    shorten_.setTooltip("The output latency L is longer than necessary, because the host has asked ahead of "
+                        "time or stuttered: shorten it now, in a moment of silence");
     shorten_.onClick = [this] { plugin_.takes().giveBack(); };
-    files_.setTooltip("Open a preset, a scene, a layout or a saved session of your own (or drop it here); save a preset; export what was felt");
+    files_.setTooltip("Open a preset, a scene, a layout or a saved session of your own (or drop it here); "
+                      "save a preset; export what was felt");
     midi_.setTooltip("What notes and controllers do");
     silence_.setClickingTogglesState(true);
     silence_.setTooltip(words(rowOf(Parameter::bypass).help));
@@ -166,14 +175,25 @@ void PluginEditor::fillChoices() {
         plugin_.open(std::move(state));
     };
     layout_.onChange = [this] {
-        if (const int i = layout_.getSelectedItemIndex(); i >= 0) edit([i](PluginState& s) { takePreset(s, layoutPresetNames[static_cast<std::size_t>(i)]); });
+        if (const int i = layout_.getSelectedItemIndex(); i >= 0)
+            edit([i](PluginState& s) { takePreset(s, layoutPresetNames[static_cast<std::size_t>(i)]); });
     };
     steps_.onChange = [this] {
-        const int wanted = juce::jlimit(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, steps_.getText().getIntValue());
+        const int wanted = juce::jlimit(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond,
+                                        steps_.getText().getIntValue());
         edit([wanted](PluginState& s) { s.stepsPerSecond = wanted; });
     };
-    seed_.onReturnKey = [this] { edit([this](PluginState& s) { s.seed = static_cast<std::uint32_t>(std::min<juce::int64>(seed_.getText().getLargeIntValue(), 0xffffffff)); }); };
-    restart_.onClick = [this] { edit([this](PluginState& s) { s.transport = restart_.getToggleState() ? TransportMode::restartOnPlay : TransportMode::free; }); };
+    seed_.onReturnKey = [this] {
+        edit([this](PluginState& s) {
+            s.seed = static_cast<std::uint32_t>(
+                std::min<juce::int64>(seed_.getText().getLargeIntValue(), 0xffffffff));
+        });
+    };
+    restart_.onClick = [this] {
+        edit([this](PluginState& s) {
+            s.transport = restart_.getToggleState() ? TransportMode::restartOnPlay : TransportMode::free;
+        });
+    };
     direct_.onClick = [this] { edit([this](PluginState& s) { s.isDirect = direct_.getToggleState(); }); };
     files_.onClick = [this] { showFiles(); };
     midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
@@ -192,7 +212,10 @@ MixHands PluginEditor::hands(bool areChecked) {
     return {[this, areChecked](const std::function<void(PluginState&)>& change) {
                 PluginState wanted = plugin_.state();
                 change(wanted);
-                if (const auto read = areChecked ? readPluginState(pluginStateJson(wanted), "MIDI") : Result<PluginState>{PluginState{}}; !read) return report(words(read.error));
+                if (const auto read = areChecked ? readPluginState(pluginStateJson(wanted), "MIDI")
+                                                 : Result<PluginState>{PluginState{}};
+                    !read)
+                    return report(words(read.error));
                 edit(change);
             },
             [this](const juce::String& news) { report(news); }};
@@ -225,7 +248,9 @@ void PluginEditor::nameMaterials() {
     const auto& row = rowOf(Parameter::material);
     for (std::size_t m = 1; m < row.choices.size(); ++m) {
         const auto& materials = state_.scene.materials;
-        material_->rename(static_cast<int>(m), words(row.choices[m]) + (m <= materials.size() ? "  " + words(materials[m - 1].name) : juce::String{}));
+        material_->rename(static_cast<int>(m),
+                          words(row.choices[m]) +
+                              (m <= materials.size() ? "  " + words(materials[m - 1].name) : juce::String{}));
     }
 }
 
@@ -245,7 +270,9 @@ void PluginEditor::takeState() {
     direct_.setToggleState(state_.isDirect, juce::dontSendNotification);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
-    world_.show(state_.layout, {state_.layout.geometry, lawOf(value(Parameter::law)), value(Parameter::exponent), state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
+    world_.show(state_.layout,
+                {state_.layout.geometry, lawOf(value(Parameter::law)), value(Parameter::exponent),
+                 state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
     midiPanel_.take(state_);
     keys_.take(state_);
     mix_.take(state_);
@@ -264,14 +291,17 @@ void PluginEditor::refresh() {
     const auto at = plugin_.takes().poses(poses);
     std::vector<CollisionEvent> felt;
     for (const auto& hit : hits) felt.push_back(hit.played.event);
-    world_.update({std::move(poses), at, plugin_.takes().playOutFrames() * 1'000'000'000 / rate, felt, meters.peaks});
+    world_.update(
+        {std::move(poses), at, plugin_.takes().playOutFrames() * 1'000'000'000 / rate, felt, meters.peaks});
     mix_.update(meters);
     shorten_.setVisible(status.burstFrames > 0);
-    firstSteps_.setVisible(state_.scene.bodies.empty() && status.session.render.played == 0 && world_.isVisible());
+    firstSteps_.setVisible(state_.scene.bodies.empty() && status.session.render.played == 0 &&
+                           world_.isVisible());
     auto trouble = plugin_.trouble();
     if (plugin_.keepsRefused()) trouble << " - the host's session keeps it until something is edited here";
     if (trouble.isEmpty()) trouble = news_;
-    status_.setColour(juce::Label::textColourId, trouble.isEmpty() ? shade(*this, Shade::muted) : shade(*this, Shade::limit));
+    status_.setColour(juce::Label::textColourId,
+                      trouble.isEmpty() ? shade(*this, Shade::muted) : shade(*this, Shade::limit));
     status_.setText(trouble.isEmpty() ? statusLine(status, meters) : trouble, juce::dontSendNotification);
 }
 
@@ -279,19 +309,37 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
     const int rate = plugin_.preparedRateHz(), actuators = enchantersOf(state_);
     if (rate == 0 || plugin_.takes().playOutFrames() == 0) return "The host has not started the plug-in yet.";
     const auto& r = status.session.render;
-    const auto ms = [rate](std::int64_t frames) { return juce::String{1e3 * static_cast<double>(frames) / rate, 1} + " ms"; };
+    const auto ms = [rate](std::int64_t frames) {
+        return juce::String{1e3 * static_cast<double>(frames) / rate, 1} + " ms";
+    };
     juce::String line = "felt " + ms(plugin_.takes().playOutFrames()) + " after the contact";
-    if (plugin_.takes().isDirect()) line << ", strikes " << ms(plugin_.takes().latencyFrames()) << " after the note (reported to the host)";
-    else line << " (reported to the host)";
-    if (status.burstFrames > 0) line << ", " << ms(status.burstFrames) << " of it because the host asks ahead of time or stutters (given back when its transport stops, or by Shorten L)";
+    if (plugin_.takes().isDirect())
+        line << ", strikes " << ms(plugin_.takes().latencyFrames())
+             << " after the note (reported to the host)";
+    else
+        line << " (reported to the host)";
+    if (status.burstFrames > 0)
+        line << ", " << ms(status.burstFrames)
+             << " of it because the host asks ahead of time or stutters (given back when its transport "
+                "stops, or by Shorten L)";
     if (status.waitedFrames > 0) line << ": it came during this run, which is not the bounce before that";
-    if (meters.connected < actuators) line << "   |   " << meters.connected << " of " << actuators << " actuators connected";
-    if (const auto* music = plugin_.getBus(true, 0); music && !music->isEnabled() && (plugin_.parameter(Parameter::beats).value() > 0.0 || gainOfLevel(plugin_.parameter(Parameter::music).value()) > 0.0)) line << "   |   no beats and no music: the side chain is off";
-    line << "   |   run " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)} << " played, "
-         << juce::String{static_cast<juce::int64>(status.late)} << " late, " << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";
-    if (const auto displaced = plugin_.displacedMessages(); displaced > 0) line << ", " << juce::String{static_cast<juce::int64>(displaced)} << " behind their block";
-    if (status.slippedNs > 0) line << ", " << juce::String{static_cast<double>(status.slippedNs) * 1e-6, 1} << " ms of stalls";
-    if (status.delayedBlocks > 0) line << ", " << juce::String{static_cast<juce::int64>(status.delayedBlocks)} << " blocks of delayed starts";
+    if (meters.connected < actuators)
+        line << "   |   " << meters.connected << " of " << actuators << " actuators connected";
+    if (const auto* music = plugin_.getBus(true, 0);
+        music && !music->isEnabled() &&
+        (plugin_.parameter(Parameter::beats).value() > 0.0 ||
+         gainOfLevel(plugin_.parameter(Parameter::music).value()) > 0.0))
+        line << "   |   no beats and no music: the side chain is off";
+    line << "   |   run " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)}
+         << " played, " << juce::String{static_cast<juce::int64>(status.late)} << " late, "
+         << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";
+    if (const auto displaced = plugin_.displacedMessages(); displaced > 0)
+        line << ", " << juce::String{static_cast<juce::int64>(displaced)} << " behind their block";
+    if (status.slippedNs > 0)
+        line << ", " << juce::String{static_cast<double>(status.slippedNs) * 1e-6, 1} << " ms of stalls";
+    if (status.delayedBlocks > 0)
+        line << ", " << juce::String{static_cast<juce::int64>(status.delayedBlocks)}
+             << " blocks of delayed starts";
     return line;
 }
 
@@ -301,7 +349,8 @@ void PluginEditor::paint(juce::Graphics& g) {
         fillPanel(g, *this, group.place);
         g.setColour(shade(*this, Shade::text));
         g.setFont(juce::Font{text::small, juce::Font::bold});
-        g.drawText(words(group.name), group.place.reduced(14, 8).removeFromTop(16), juce::Justification::centredLeft, false);
+        g.drawText(words(group.name), group.place.reduced(14, 8).removeFromTop(16),
+                   juce::Justification::centredLeft, false);
     }
 }
 
@@ -313,7 +362,9 @@ void PluginEditor::resized() {
     foot.removeFromRight(margin); // where the window is resized
     shorten_.setBounds(foot.removeFromRight(92).reduced(4, 2));
     status_.setBounds(foot);
-    const auto left = [&bar](juce::Component& c, int width, int space = panelGap) { c.setBounds(bar.removeFromLeft(width)), bar.removeFromLeft(space); };
+    const auto left = [&bar](juce::Component& c, int width, int space = panelGap) {
+        c.setBounds(bar.removeFromLeft(width)), bar.removeFromLeft(space);
+    };
     silence_.setBounds(bar.removeFromRight(92));
     bar.removeFromRight(panelGap);
     left(title_, 78);

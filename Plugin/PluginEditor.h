@@ -17,7 +17,7 @@ class ParameterControl final : public juce::Component {
 public:
     explicit ParameterControl(HostParameter& parameter);
     void rename(int choice, const juce::String& words); ///< of a list, from 0
-    std::function<void(HostParameter&)> onMenu;            ///< a right click, anywhere on it
+    std::function<void(HostParameter&)> onMenu;         ///< a right click, anywhere on it
     void mouseDown(const juce::MouseEvent& e) override;
     void resized() override;
     void lookAndFeelChanged() override;
@@ -32,7 +32,9 @@ private:
     std::unique_ptr<juce::ComboBoxParameterAttachment> listAttachment_;
 };
 
-class PluginEditor final : public juce::AudioProcessorEditor, public juce::FileDragAndDropTarget, private juce::Timer {
+class PluginEditor final : public juce::AudioProcessorEditor,
+                           public juce::FileDragAndDropTarget,
+                           private juce::Timer {
 public:
     explicit PluginEditor(PluginProcessor& plugin);
     ~PluginEditor() override;
@@ -50,7 +52,9 @@ public:
 
     void paint(juce::Graphics& g) override;
     void resized() override;
-    bool isInterestedInFileDrag(const juce::StringArray& files) override { return files.size() == 1 && files[0].endsWithIgnoreCase(".json"); }
+    bool isInterestedInFileDrag(const juce::StringArray& files) override {
+        return files.size() == 1 && files[0].endsWithIgnoreCase(".json");
+    }
     void filesDropped(const juce::StringArray& files, int, int) override { open(juce::File{files[0]}); }
 
     /// One picture of what is going on; the timer calls it, at most 25 times a second.
@@ -59,7 +63,7 @@ public:
 
 private:
     static constexpr int firstOwnPreset = 10'000; // ids of the list
-    struct Group { // of parameters, side by side on a ground of their own
+    struct Group {                                // of parameters, side by side on a ground of their own
         std::string_view name;
         std::vector<std::unique_ptr<ParameterControl>> controls;
         juce::Rectangle<int> place{};
@@ -71,7 +75,8 @@ private:
     void fillChoices();
     void nameMaterials();
     void askFile();
-    void askSave(const juce::String& title, const juce::File& initial, const juce::String& endings, void (PluginEditor::*save)(const juce::File&));
+    void askSave(const juce::String& title, const juce::File& initial, const juce::String& endings,
+                 void (PluginEditor::*save)(const juce::File&));
     void showFiles();
     void showMenu(HostParameter& parameter);
     void forgetController(const std::string& parameter);
@@ -89,7 +94,8 @@ private:
     juce::Label title_, status_, seedName_, stepsName_, firstSteps_;
     juce::ComboBox scene_, layout_, steps_;
     juce::TextEditor seed_;
-    juce::TextButton restart_{"Restart on play"}, files_, midi_{"MIDI"}, silence_{"SILENCE"}, direct_{"Direct"}, shorten_{"Shorten L"};
+    juce::TextButton restart_{"Restart on play"}, files_, midi_{"MIDI"}, silence_{"SILENCE"},
+        direct_{"Direct"}, shorten_{"Shorten L"};
     juce::ButtonParameterAttachment silenceAttachment_;
     WorldView world_;
     MidiPanel midiPanel_;
@@ -99,10 +105,10 @@ private:
     ParameterControl* material_ = nullptr;
     std::unique_ptr<juce::FileChooser> chooser_;
     std::vector<juce::File> presets_; // one's own, as they are listed
-    int learning_ = -1;              // a parameter; -1: none
-    std::uint32_t learnsAfter_ = 0;  // what the processor's lastController() was
-    juce::String news_; // of what was opened or asked for; until the next edit
-    std::uint64_t shown_ = 0; // the processor's count of states
+    int learning_ = -1;               // a parameter; -1: none
+    std::uint32_t learnsAfter_ = 0;   // what the processor's lastController() was
+    juce::String news_;               // of what was opened or asked for; until the next edit
+    std::uint64_t shown_ = 0;         // the processor's count of states
     PluginState state_;
     EmergencyStop stop_{*this, [this] { silence(); }};
 };

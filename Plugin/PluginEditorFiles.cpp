@@ -16,22 +16,30 @@ void PluginEditor::fillPresets() {
     scene_.addSectionHeading("Instruments");
     const auto& presets = presetNames();
     const auto worlds = static_cast<int>(builtInScenes().size());
-    for (int i = worlds; i < static_cast<int>(presets.size()); ++i) scene_.addItem(words(presets[static_cast<std::size_t>(i)]), i + 1);
+    for (int i = worlds; i < static_cast<int>(presets.size()); ++i)
+        scene_.addItem(words(presets[static_cast<std::size_t>(i)]), i + 1);
     scene_.addSectionHeading("Worlds");
     for (int i = 0; i < worlds; ++i) scene_.addItem(words(presets[static_cast<std::size_t>(i)]), i + 1);
     presets_ = presetFiles(presetFolder());
     if (!presets_.empty()) scene_.addSectionHeading("Your presets");
-    for (int id = firstOwnPreset; const auto& file : presets_) scene_.addItem(file.getFileNameWithoutExtension(), id++);
+    for (int id = firstOwnPreset; const auto& file : presets_)
+        scene_.addItem(file.getFileNameWithoutExtension(), id++);
     scene_.setText(shown, juce::dontSendNotification);
 }
 
 void PluginEditor::showFiles() {
     juce::PopupMenu menu;
     menu.addItem(juce::String::fromUTF8("Open\xe2\x80\xa6"), [this] { askFile(); });
-    menu.addItem(juce::String::fromUTF8("Save as a preset\xe2\x80\xa6"), [this] { askSave("A preset", presetFolder().getChildFile(words(state_.scene.name) + ".json"), "*.json", &PluginEditor::savePresetAs); });
-    menu.addItem(juce::String::fromUTF8("Export what was felt\xe2\x80\xa6"), plugin_.felt().areThere(), false, [this] {
-        askSave("MIDI (.mid), a list of events (.csv) or a haptic file (.hjif, .hmpg, .haptic, .ahap)", juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile("felt.mid"), feltEndings, &PluginEditor::exportFeltAs);
+    menu.addItem(juce::String::fromUTF8("Save as a preset\xe2\x80\xa6"), [this] {
+        askSave("A preset", presetFolder().getChildFile(words(state_.scene.name) + ".json"), "*.json",
+                &PluginEditor::savePresetAs);
     });
+    menu.addItem(
+        juce::String::fromUTF8("Export what was felt\xe2\x80\xa6"), plugin_.felt().areThere(), false, [this] {
+            askSave("MIDI (.mid), a list of events (.csv) or a haptic file (.hjif, .hmpg, .haptic, .ahap)",
+                    juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile("felt.mid"),
+                    feltEndings, &PluginEditor::exportFeltAs);
+        });
     menu.addSeparator();
     const bool isLight = look_.ground() == Ground::light;
     menu.addItem("Light window", true, isLight, [this, isLight] {
@@ -42,14 +50,17 @@ void PluginEditor::showFiles() {
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(files_).withDeletionCheck(*this));
 }
 
-void PluginEditor::askSave(const juce::String& title, const juce::File& initial, const juce::String& endings, void (PluginEditor::*save)(const juce::File&)) {
+void PluginEditor::askSave(const juce::String& title, const juce::File& initial, const juce::String& endings,
+                           void (PluginEditor::*save)(const juce::File&)) {
     // or the chooser begins elsewhere
     if (endings == "*.json") (void)initial.getParentDirectory().createDirectory();
     chooser_ = std::make_unique<juce::FileChooser>(title, initial, endings, false);
     using Browser = juce::FileBrowserComponent;
-    chooser_->launchAsync(Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting, [this, save](const juce::FileChooser& chooser) {
-        if (const auto file = chooser.getResult(); file != juce::File{}) (this->*save)(file);
-    });
+    chooser_->launchAsync(Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting,
+                          [this, save](const juce::FileChooser& chooser) {
+                              if (const auto file = chooser.getResult(); file != juce::File{})
+                                  (this->*save)(file);
+                          });
 }
 
 void PluginEditor::savePresetAs(const juce::File& file) {
@@ -64,7 +75,9 @@ void PluginEditor::exportFeltAs(const juce::File& file) {
     const auto state = plugin_.state();
     const auto events = plugin_.felt().events(state.transport == TransportMode::free);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
-    const auto written = exportFelt({events, state, pannerOf(state, lawOf(value(Parameter::law)), value(Parameter::exponent))}, file.getFullPathName().toStdString());
+    const auto written =
+        exportFelt({events, state, pannerOf(state, lawOf(value(Parameter::law)), value(Parameter::exponent))},
+                   file.getFullPathName().toStdString());
     report(written ? words(written.value).trim() : words(written.error));
 }
 
@@ -76,12 +89,16 @@ void PluginEditor::showMenu(HostParameter& parameter) {
     if (hosts) menu = hosts->getEquivalentPopupMenu();
     if (menu.getNumItems() > 0) menu.addSeparator();
     const Parameter which = parameter.row().parameter;
-    menu.addItem("Learn a controller: move it now", true, learning_ == static_cast<int>(which), [this, which] { learn(which); });
+    menu.addItem("Learn a controller: move it now", true, learning_ == static_cast<int>(which),
+                 [this, which] { learn(which); });
     const std::string id{parameter.row().id};
     for (const auto& rule : state_.controllers)
-        if (rule.parameter == id) menu.addItem("Forget controller " + juce::String{rule.controller}, [this, id] { forgetController(id); });
+        if (rule.parameter == id)
+            menu.addItem("Forget controller " + juce::String{rule.controller},
+                         [this, id] { forgetController(id); });
     menu.setLookAndFeel(&look_);
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(this).withMousePosition().withDeletionCheck(*this));
+    menu.showMenuAsync(
+        juce::PopupMenu::Options{}.withTargetComponent(this).withMousePosition().withDeletionCheck(*this));
 }
 
 void PluginEditor::learn(Parameter which) {
@@ -91,7 +108,10 @@ void PluginEditor::learn(Parameter which) {
 }
 
 void PluginEditor::forgetController(const std::string& parameter) {
-    edit([&parameter](PluginState& s) { std::erase_if(s.controllers, [&parameter](const ControllerRule& rule) { return rule.parameter == parameter; }); });
+    edit([&parameter](PluginState& s) {
+        std::erase_if(s.controllers,
+                      [&parameter](const ControllerRule& rule) { return rule.parameter == parameter; });
+    });
 }
 
 // A controller moves one parameter, and a parameter learned anew has one controller.
@@ -101,18 +121,21 @@ void PluginEditor::followLearning() {
     const auto& row = rowOf(static_cast<Parameter>(std::exchange(learning_, -1)));
     const int controller = PluginProcessor::controllerOf(last);
     edit([&row, controller](PluginState& s) {
-        std::erase_if(s.controllers, [&row, controller](const ControllerRule& rule) { return rule.parameter == row.id || rule.controller == controller; });
+        std::erase_if(s.controllers, [&row, controller](const ControllerRule& rule) {
+            return rule.parameter == row.id || rule.controller == controller;
+        });
         s.controllers.push_back({controller, std::string{row.id}});
     });
     report("Controller " + juce::String{controller} + " moves " + words(row.name) + " over its whole range");
 }
 
 void PluginEditor::askFile() {
-    chooser_ = std::make_unique<juce::FileChooser>("A preset, a scene, a layout or a session", juce::File{}, "*.json",
-                                                   false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
-        if (const auto file = chooser.getResult(); file != juce::File{}) open(file);
-    });
+    chooser_ = std::make_unique<juce::FileChooser>("A preset, a scene, a layout or a session", juce::File{},
+                                                   "*.json", false);
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+                          [this](const juce::FileChooser& chooser) {
+                              if (const auto file = chooser.getResult(); file != juce::File{}) open(file);
+                          });
 }
 
 void PluginEditor::open(const juce::File& file) {

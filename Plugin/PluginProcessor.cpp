@@ -35,7 +35,8 @@ juce::AudioProcessor::BusesProperties PluginProcessor::propertiesOf(const BusPla
     const auto format = juce::PluginHostType::getPluginLoadedAs();
     BusesProperties properties;
     for (const auto& bus : busesOf(plan, format)) properties.addBus(false, bus.name, bus.channels, bus.isOn);
-    if (hasSideChain(plan, format)) properties.addBus(true, "Music", juce::AudioChannelSet::stereo(), plan.hasMusicPorts);
+    if (hasSideChain(plan, format))
+        properties.addBus(true, "Music", juce::AudioChannelSet::stereo(), plan.hasMusicPorts);
     return properties;
 }
 
@@ -45,7 +46,9 @@ void PluginProcessor::addParameters() {
         parameters_[i] = new HostParameter{allParameters()[i]};
         parameters_[i]->addListener(this);
     }
-    const auto isAfterBypass = [](const ParameterGroup& group) { return group.parameters.front() > Parameter::bypass; };
+    const auto isAfterBypass = [](const ParameterGroup& group) {
+        return group.parameters.front() > Parameter::bypass;
+    };
     addParameter(&parameter(Parameter::level));
     for (const auto& group : parameterGroups())
         if (!isAfterBypass(group)) addGroup(group);
@@ -55,8 +58,10 @@ void PluginProcessor::addParameters() {
 }
 
 void PluginProcessor::addGroup(const ParameterGroup& group) {
-    auto shown = std::make_unique<juce::AudioProcessorParameterGroup>(juce::String{group.id.data()}, juce::String{group.name.data()}, "/");
-    for (const auto which : group.parameters) shown->addChild(std::unique_ptr<HostParameter>{&parameter(which)});
+    auto shown = std::make_unique<juce::AudioProcessorParameterGroup>(juce::String{group.id.data()},
+                                                                      juce::String{group.name.data()}, "/");
+    for (const auto which : group.parameters)
+        shown->addChild(std::unique_ptr<HostParameter>{&parameter(which)});
     addParameterGroup(std::move(shown));
 }
 
@@ -68,7 +73,8 @@ PluginProcessor::~PluginProcessor() {
 bool PluginProcessor::apply(PluginState state) {
     fitToLayout(state);
     try {
-        takes_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}}, state.strips);
+        takes_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}},
+                   state.strips);
     } catch (const std::invalid_argument& error) {
         return refuse(asString(error.what()));
     }
@@ -98,7 +104,8 @@ bool PluginProcessor::edit(PluginState state) {
     } else if (!apply(std::move(state))) {
         return false;
     }
-    updateHostDisplay(ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(program_ != before));
+    updateHostDisplay(
+        ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(program_ != before));
     return true;
 }
 
@@ -122,14 +129,17 @@ PluginState PluginProcessor::state() const {
     const std::lock_guard lock{mutex_};
     PluginState now = state_;
     now.parameters.clear();
-    for (const auto* p : parameters_) now.parameters.emplace_back(p->row().id, stateValue(p->row(), p->value()));
+    for (const auto* p : parameters_)
+        now.parameters.emplace_back(p->row().id, stateValue(p->row(), p->value()));
     return now;
 }
 
 juce::String PluginProcessor::trouble() const {
     const auto fault = takes_.fault();
     if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
-        return "the host runs at " + juce::String{rate} + " Hz; expected " + juce::String{limits::minSampleRateHz} + " to " + juce::String{limits::maxSampleRateHz} + ": silent";
+        return "the host runs at " + juce::String{rate} + " Hz; expected " +
+               juce::String{limits::minSampleRateHz} + " to " + juce::String{limits::maxSampleRateHz} +
+               ": silent";
     const std::lock_guard lock{mutex_};
     return trouble_.isNotEmpty() ? trouble_ : asString(fault);
 }
@@ -139,7 +149,8 @@ bool PluginProcessor::keepsRefused() const {
     return !refused_.isEmpty();
 }
 
-// Only a hand on our editor begins a gesture, automation does not. Who silences what they did not expect edits nothing.
+// Only a hand on our editor begins a gesture, automation does not. Who silences what they did not expect
+// edits nothing.
 void PluginProcessor::parameterGestureChanged(int which, bool begins) {
     if (!begins || which == static_cast<int>(Parameter::bypass)) return;
     const std::lock_guard lock{mutex_};
@@ -151,8 +162,10 @@ void PluginProcessor::parameterGestureChanged(int which, bool begins) {
 // Tells the host what it may have to know anew.
 void PluginProcessor::publish() {
     // nothing is played
-    if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate)) setLatencySamples(0);
-    else if (const auto frames = static_cast<int>(takes_.latencyFrames()); frames > 0) setLatencySamples(frames);
+    if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
+        setLatencySamples(0);
+    else if (const auto frames = static_cast<int>(takes_.latencyFrames()); frames > 0)
+        setLatencySamples(frames);
 }
 
 void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
@@ -166,7 +179,8 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, usual);
     outputs_ = BusMap{*this};
     open_.prepare(rate, limits::channelRampSeconds, parameter(Parameter::bypass).value() > 0.5 ? 0.0f : 1.0f);
-    guard_.prepare(static_cast<int>(rate), std::min(getTotalNumOutputChannels(), limits::maxEnchanters), GuardPlace::last);
+    guard_.prepare(static_cast<int>(rate), std::min(getTotalNumOutputChannels(), limits::maxEnchanters),
+                   GuardPlace::last);
     transport_.reset();
     points_.reset();
     measured_ = {};
@@ -176,7 +190,8 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     held_.forget();
     ++prepares_;
     const auto* sideChain = getBus(true, 0);
-    const int musicChannels = sideChain != nullptr && sideChain->isEnabled() ? sideChain->getNumberOfChannels() : 0;
+    const int musicChannels =
+        sideChain != nullptr && sideChain->isEnabled() ? sideChain->getNumberOfChannels() : 0;
     beats_.prepare(rate, blockFrames_, musicChannels);
     music_.prepare(rate, blockFrames_, musicChannels);
     takes_.prepare(rate, blockFrames_, beats_.delaySeconds(), musicChannels > 0);
@@ -215,7 +230,9 @@ void PluginProcessor::setCurrentProgram(int index) {
 
 const juce::String PluginProcessor::getProgramName(int index) {
     const auto& names = presetNames();
-    return index >= 0 && index < static_cast<int>(names.size()) ? juce::String{names[static_cast<std::size_t>(index)]} : juce::String{};
+    return index >= 0 && index < static_cast<int>(names.size())
+               ? juce::String{names[static_cast<std::size_t>(index)]}
+               : juce::String{};
 }
 
 void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
@@ -228,8 +245,8 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
     chunk.replaceAll(text.data(), text.size());
 }
 
-// A chunk that cannot be read leaves everything as it was, and is what the next save gives back: a host's session that was
-// opened with an older PhysVib loses nothing.
+// A chunk that cannot be read leaves everything as it was, and is what the next save gives back: a host's
+// session that was opened with an older PhysVib loses nothing.
 void PluginProcessor::setStateInformation(const void* data, int size) {
     const std::string_view text{static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))};
     if (takeChunk(text)) return;
@@ -240,20 +257,22 @@ void PluginProcessor::setStateInformation(const void* data, int size) {
 bool PluginProcessor::takeChunk(std::string_view text) {
     const auto read = readPluginState(text, "state");
     if (!read) return refuse(asString(read.error));
-    if (const auto fault = faultOfParameters(read.value); !fault.empty()) return refuse(asString("state: " + fault));
+    if (const auto fault = faultOfParameters(read.value); !fault.empty())
+        return refuse(asString("state: " + fault));
     if (!apply(read.value)) return false;
     takeParameters(read.value);
     return true;
 }
 
-// Those that the state does not name get their defaults. The host is told of what it does not know: each telling may mark
-// its session as changed.
+// Those that the state does not name get their defaults. The host is told of what it does not know: each
+// telling may mark its session as changed.
 void PluginProcessor::takeParameters(const PluginState& state) {
     std::array<float, parameterCount> normals;
     for (std::size_t i = 0; i < parameterCount; ++i) normals[i] = parameters_[i]->getDefaultValue();
     for (const auto& [id, value] : state.parameters) {
         const auto which = static_cast<std::size_t>(parameterOfId(id));
-        normals[which] = static_cast<float>(normalised(parameters_[which]->row(), *valueOfState(parameters_[which]->row(), value)));
+        normals[which] = static_cast<float>(
+            normalised(parameters_[which]->row(), *valueOfState(parameters_[which]->row(), value)));
     }
     for (std::size_t i = 0; i < parameterCount; ++i)
         if (parameters_[i]->getValue() != normals[i]) parameters_[i]->setValueNotifyingHost(normals[i]);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // PhysVib as an instrument of a host: takes of a session, parameters, MIDI strikes, the host's transport.
 //
-// The threading model is that of Docs/threads.md: processBlock is R, everything else is M or any thread but R. What the
-// host calls non-realtime is rendered with RenderMode::offline, so that a bounce is the live take at any speed.
+// The threading model is that of Docs/threads.md: processBlock is R, everything else is M or any thread but
+// R. What the host calls non-realtime is rendered with RenderMode::offline, so that a bounce is the live take
+// at any speed.
 #pragma once
 #include "BeatInput.h"
 #include "BusPlan.h"
 #include "ControlPace.h"
 #include "Core/Actuators/OutputGuard.h"
 #include "FeltExport.h"
-#include "Host/Devices/ChannelMeters.h"
 #include "HeldNotes.h"
+#include "Host/Devices/ChannelMeters.h"
 #include "HostParameter.h"
 #include "MidiMap.h"
 #include "MusicInput.h"
@@ -21,20 +22,25 @@
 
 namespace physvib {
 
-class PluginProcessor final : public juce::AudioProcessor, public juce::VST3ClientExtensions, private juce::Timer, private juce::AudioProcessorParameter::Listener {
+class PluginProcessor final : public juce::AudioProcessor,
+                              public juce::VST3ClientExtensions,
+                              private juce::Timer,
+                              private juce::AudioProcessorParameter::Listener {
 public:
     PluginProcessor(juce::String name, const BusPlan& plan);
     ~PluginProcessor() override;
 
-    /// What plays from now on. False and untouched, with a line in `trouble()`, if it cannot be played. Any thread but R.
+    /// What plays from now on. False and untouched, with a line in `trouble()`, if it cannot be played. Any
+    /// thread but R.
     bool apply(PluginState state);
-    /// The same for an edit by a person: the host marks its session as changed, and what plays goes on if it can (isSameTake). M.
+    /// The same for an edit by a person: the host marks its session as changed, and what plays goes on if it
+    /// can (isSameTake). M.
     bool edit(PluginState state);
     /// An edit that sets the parameters as well. M.
     void open(PluginState state);
     /// Saved with the state, though no edit. M.
     void keepEditorSize(int width, int height);
-    PluginState state() const; ///< with the parameters as they are
+    PluginState state() const;    ///< with the parameters as they are
     juce::String trouble() const; ///< empty while all is well
     /// the next save gives back the chunk that was refused, since nothing has been edited
     bool keepsRefused() const;
@@ -42,16 +48,19 @@ public:
     std::uint64_t stateCount() const noexcept { return stateCount_; }
     int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
-    /// How many frames a block usually has where a host announces far more (LV2); 0: as announced. M, before prepareToPlay.
+    /// How many frames a block usually has where a host announces far more (LV2); 0: as announced. M, before
+    /// prepareToPlay.
     void expectBlocksOf(int frames) noexcept { usualBlockFrames_ = frames; }
 
-    /// What the host says of parameters within the coming block; it outlives that. Parameters without points have their value all block long. R.
+    /// What the host says of parameters within the coming block; it outlives that. Parameters without points
+    /// have their value all block long. R.
     void expectPoints(PointSource& source) noexcept { source_ = &source; }
 
     /// A key of the window: with a velocity it is struck in the next block, 0 lets it go. M, one writer.
     void play(int note, int velocity) noexcept { keys_.push({note, velocity}); }
 
-    /// The last controller that came in, with a count in the higher bits that grows with each, so that a person can show which one is meant; 0: none yet. Any thread.
+    /// The last controller that came in, with a count in the higher bits that grows with each, so that a
+    /// person can show which one is meant; 0: none yet. Any thread.
     std::uint32_t lastController() const noexcept { return lastController_; }
     static int controllerOf(std::uint32_t last) noexcept { return static_cast<int>(last & 0xff); }
 
@@ -59,23 +68,30 @@ public:
     std::vector<TakeEvent> takeNewEvents();
     const FeltEvents& felt() const noexcept { return felt_; } ///< M, as far as takeNewEvents() was called
 
-    HostParameter& parameter(Parameter which) noexcept { return *parameters_[static_cast<std::size_t>(which)]; }
+    HostParameter& parameter(Parameter which) noexcept {
+        return *parameters_[static_cast<std::size_t>(which)];
+    }
     Takes& takes() noexcept { return takes_; }
     ChannelMeters meters() noexcept { return meters_.read(); } ///< one reader
-    /// Messages that a host sent for frames behind their block, which were played at its last one. Any thread.
+    /// Messages that a host sent for frames behind their block, which were played at its last one. Any
+    /// thread.
     std::uint64_t displacedMessages() const noexcept { return displaced_; }
 
     const juce::String getName() const override { return name_; }
-    bool isBusesLayoutSupported(const BusesLayout& layout) const override { return isAccepted(plan_, wrapperType, layout); }
+    bool isBusesLayoutSupported(const BusesLayout& layout) const override {
+        return isAccepted(plan_, wrapperType, layout);
+    }
     void prepareToPlay(double sampleRateHz, int blockFrames) override;
     void releaseResources() override;
     void processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
     void processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
     using juce::AudioProcessor::processBlock;
     using juce::AudioProcessor::processBlockBypassed;
-    /// None for LV2: its wrapper writes `lv2:enabled` over it in every block, and tells the host so from the render call.
+    /// None for LV2: its wrapper writes `lv2:enabled` over it in every block, and tells the host so from the
+    /// render call.
     juce::AudioProcessorParameter* getBypassParameter() const override {
-        return wrapperType == wrapperType_LV2 ? nullptr : parameters_[static_cast<std::size_t>(Parameter::bypass)];
+        return wrapperType == wrapperType_LV2 ? nullptr
+                                              : parameters_[static_cast<std::size_t>(Parameter::bypass)];
     }
     double getTailLengthSeconds() const override { return tailSeconds_; }
     bool acceptsMidi() const override { return true; }
@@ -108,11 +124,14 @@ private:
     void takeParameters(const PluginState& state);
 
     // R
-    double value(Parameter which) const noexcept { return denormalised(rowOf(which), normals_[static_cast<std::size_t>(which)]); }
+    double value(Parameter which) const noexcept {
+        return denormalised(rowOf(which), normals_[static_cast<std::size_t>(which)]);
+    }
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
     void readParameters() noexcept;
     void takePoints(int until) noexcept;
-    int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message, const juce::MidiBuffer& midi, int first) noexcept;
+    int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
+                   const juce::MidiBuffer& midi, int first) noexcept;
     void followTransport(int frames) noexcept;
     void forgetControls() noexcept;
     bool hasNews(Parameter which) const noexcept;
@@ -141,7 +160,8 @@ private:
     const BusPlan plan_;
     std::array<HostParameter*, parameterCount> parameters_{}; // owned by AudioProcessor
 
-    mutable std::mutex mutex_; // guards what follows, up to the atomics; nobody holds it while calling the host
+    mutable std::mutex mutex_; // guards what follows, up to the atomics; nobody holds it while calling the
+                               // host
     PluginState state_;
     juce::String trouble_;
     juce::MemoryBlock refused_; // a chunk that is not ours to lose
@@ -167,7 +187,7 @@ private:
     MusicInput music_;
     Transport transport_;
     int blockFrames_ = 0;
-    GainRamp open_; // shut by bypass
+    GainRamp open_;     // shut by bypass
     OutputGuard guard_; // of what takes add up to while one follows another
     bool isShut_ = false;
     ChannelMeters measured_;
@@ -179,7 +199,8 @@ private:
     std::atomic<std::uint64_t> displaced_{0};
     bool owesStop_ = false, owesSilence_ = false;
     HeldNotes held_;
-    std::array<float, 17> bend_{}, slide_{}, pressure_{}; // per MIDI channel, from 1: shifts of the strikes, in parts of the field; 0 to 1
+    std::array<float, 17> bend_{}, slide_{}, pressure_{}; // per MIDI channel, from 1: shifts of the strikes,
+                                                          // in parts of the field; 0 to 1
 };
 
 } // namespace physvib

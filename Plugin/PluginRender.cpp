@@ -13,7 +13,8 @@ namespace {
 constexpr int slideController = 74; // MPE's third dimension
 constexpr int sustainPedal = 64;
 constexpr int allSoundOff = 120;
-constexpr int allNotesOff = 123; // lets held ones go; what other notes strike rings out by itself, and the world is no note
+constexpr int allNotesOff = 123; // lets held ones go; what other notes strike rings out by itself, and the
+                                 // world is no note
 constexpr float peakFallDbPerSecond = 20.0f;
 
 RenderControl controlOf(RenderControl::Kind kind, float value = 0.0f) {
@@ -36,7 +37,8 @@ void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juc
 }
 
 // In parts: some hosts exceed what they announced, and SILENCE closes at its frame.
-void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept {
+void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi,
+                             bool bypassed) noexcept {
     const int frames = buffer.getNumSamples();
     if (blockFrames_ == 0 || frames == 0) {
         source_ = nullptr;
@@ -50,7 +52,8 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
         const int end = renderPart(buffer, message, midi, first);
         std::array<float*, limits::maxEnchanters> out{};
         const int channels = std::min(buffer.getNumChannels(), limits::maxEnchanters);
-        for (int c = 0; c < channels; ++c) out[static_cast<std::size_t>(c)] = buffer.getWritePointer(c) + first;
+        for (int c = 0; c < channels; ++c)
+            out[static_cast<std::size_t>(c)] = buffer.getWritePointer(c) + first;
         open_.moveTo(bypassed || isShut_ ? 0.0f : 1.0f);
         open_.apply(out.data(), channels, end - first);
         guard_.process(out.data(), end - first);
@@ -64,7 +67,8 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
 // What has no points in this block has its value from the beginning on.
 void PluginProcessor::readParameters() noexcept {
     for (std::size_t p = 0; p < parameterCount; ++p)
-        if (points_.nextOf(static_cast<Parameter>(p)) == ParameterPoints::none) normals_[p] = parameters_[p]->getValue();
+        if (points_.nextOf(static_cast<Parameter>(p)) == ParameterPoints::none)
+            normals_[p] = parameters_[p]->getValue();
 }
 
 void PluginProcessor::takePoints(int until) noexcept {
@@ -75,10 +79,13 @@ void PluginProcessor::takePoints(int until) noexcept {
 }
 
 // From `first` on; where it ends. At each frame at which something comes: values first, then notes.
-int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message, const juce::MidiBuffer& midi, int first) noexcept {
+int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
+                                const juce::MidiBuffer& midi, int first) noexcept {
     const int frames = buffer.getNumSamples();
     const auto mode = isNonRealtime() ? RenderMode::offline : RenderMode::realtime;
-    const auto frameOf = [&](const juce::MidiMessageMetadata& m) { return std::clamp(m.samplePosition, first, frames - 1); };
+    const auto frameOf = [&](const juce::MidiMessageMetadata& m) {
+        return std::clamp(m.samplePosition, first, frames - 1);
+    };
     int end = std::min(frames, first + blockFrames_);
     if (takes_.begin(mode)) forgetControls();
     for (int at = first; at < end;) {
@@ -94,12 +101,13 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
         if (message != midi.end()) next = std::min(next, frameOf(*message));
         sustain(at - first, next - first);
         hear(buffer, first, at - first, next - first); // what comes in goes by its frame
-        sendPaced(at - first, next - first);            // what was said faster than it may go
+        sendPaced(at - first, next - first);           // what was said faster than it may go
         at = next;
     }
     buffer.clear(first, end - first);
     // Tiles on the grid of the take that plays, so that neither blocks nor L change a sample.
-    if (const Session* const session = takes_.session()) guard_.moveTo(session->timeline().nextRenderedFrame(0));
+    if (const Session* const session = takes_.session())
+        guard_.moveTo(session->timeline().nextRenderedFrame(0));
     takes_.render(end - first, mode);
     mix(buffer, first, end - first);
     return end;
@@ -116,10 +124,14 @@ void PluginProcessor::followTransport(int frames) noexcept {
     const auto change = transport_.follow(plays, at, frames);
     takes_.transportStands(transport_.stands());
     const bool restarts = takes_.lookForNew() == TransportMode::restartOnPlay;
-    if (restarts && change == Transport::Change::started) takes_.start();
-    else if (restarts && !transport_.isPlaying()) takes_.stop();
-    else if (!takes_.isPlaying()) takes_.start();
-    else if (change == Transport::Change::stopped) stopAll(0);
+    if (restarts && change == Transport::Change::started)
+        takes_.start();
+    else if (restarts && !transport_.isPlaying())
+        takes_.stop();
+    else if (!takes_.isPlaying())
+        takes_.start();
+    else if (change == Transport::Change::stopped)
+        stopAll(0);
 }
 
 // A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
@@ -127,16 +139,20 @@ void PluginProcessor::forgetControls() noexcept {
     beats_.forget();
     music_.forget();
     held_.forget();
-    for (auto* const pace : {&levelPace_, &pannerPace_, &holdPace_, &materialPace_}) pace->reset(static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)));
+    for (auto* const pace : {&levelPace_, &pannerPace_, &holdPace_, &materialPace_})
+        pace->reset(static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)));
     owesStop_ = false;
     sent_.fill(std::numeric_limits<double>::quiet_NaN());
     for (const auto which : {Parameter::gravity, Parameter::tilt, Parameter::material}) {
         const auto& row = rowOf(which);
-        sent_[static_cast<std::size_t>(which)] = denormalised(row, static_cast<float>(normalised(row, row.initial)));
+        sent_[static_cast<std::size_t>(which)] =
+            denormalised(row, static_cast<float>(normalised(row, row.initial)));
     }
 }
 
-bool PluginProcessor::hasNews(Parameter which) const noexcept { return sent_[static_cast<std::size_t>(which)] != value(which); }
+bool PluginProcessor::hasNews(Parameter which) const noexcept {
+    return sent_[static_cast<std::size_t>(which)] != value(which);
+}
 
 // A value is told again until it is taken, so the newest is never lost.
 template <class Send>
@@ -162,17 +178,25 @@ void PluginProcessor::sendPaced(int first, int end) noexcept {
     Take* const take = takes_.take();
     if (!take) return;
     send({Parameter::level}, [&] {
-        return sendAt(levelPace_, first, end, [&](int frame) { return take->holdLevel(gainOfLevel(value(Parameter::level)), frame); });
+        return sendAt(levelPace_, first, end, [&](int frame) {
+            return take->holdLevel(gainOfLevel(value(Parameter::level)), frame);
+        });
     });
     send({Parameter::law, Parameter::exponent}, [&] {
-        return sendAt(pannerPace_, first, end, [&](int frame) { return take->holdLaw(lawOf(value(Parameter::law)), value(Parameter::exponent), frame); });
+        return sendAt(pannerPace_, first, end, [&](int frame) {
+            return take->holdLaw(lawOf(value(Parameter::law)), value(Parameter::exponent), frame);
+        });
     });
     send({Parameter::gravity, Parameter::tilt}, [&] {
         RenderInput input;
         input.hold = {value(Parameter::gravity), juce::degreesToRadians(value(Parameter::tilt))};
-        return sendAt(holdPace_, first, end, [&](int frame) { return take->session.callback().perform(input, frame); });
+        return sendAt(holdPace_, first, end,
+                      [&](int frame) { return take->session.callback().perform(input, frame); });
     });
-    send({Parameter::material}, [&] { return sendAt(materialPace_, first, end, [&](int frame) { return sendMaterial(take->session, frame); }); });
+    send({Parameter::material}, [&] {
+        return sendAt(materialPace_, first, end,
+                      [&](int frame) { return sendMaterial(take->session, frame); });
+    });
 }
 
 void PluginProcessor::sendControls(int frame) noexcept {
@@ -201,7 +225,9 @@ void PluginProcessor::silence(int frame) noexcept {
 // Of the window's keyboard: at the beginning of the next part.
 void PluginProcessor::playKeys(int frame) noexcept {
     for (Key key; keys_.pop(key);) {
-        const std::array bytes{static_cast<juce::uint8>(key.velocity > 0 ? 0x90 : 0x80), static_cast<juce::uint8>(key.note & 127), static_cast<juce::uint8>(key.velocity & 127)};
+        const std::array bytes{static_cast<juce::uint8>(key.velocity > 0 ? 0x90 : 0x80),
+                               static_cast<juce::uint8>(key.note & 127),
+                               static_cast<juce::uint8>(key.velocity & 127)};
         receive({bytes.data(), static_cast<int>(bytes.size()), 0}, frame);
     }
 }
@@ -215,7 +241,8 @@ void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int fram
     const bool isOn = kind == 0x90 && message.data[2] > 0;
     if (isOn) strike(channel, message.data[1], message.data[2], frame);
     if (!isOn && (kind == 0x80 || kind == 0x90)) held_.stop(channel, message.data[1]);
-    if (kind == 0xe0) bend_[one] = static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f;
+    if (kind == 0xe0)
+        bend_[one] = static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f;
     if (kind == 0xb0) control(channel, message.data[1], message.data[2], frame);
 }
 
@@ -245,13 +272,21 @@ CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const
     const auto& settings = takes_.settings();
     const auto& midi = settings.midi;
     const double bend = bend_[static_cast<std::size_t>(channel)], semitones = midi.voice().bendSemitones;
-    const auto shifted = [](double at, double by, double size) { return std::clamp(at + by * size, 0.0, size); };
-    if (semitones > 0.0) strike.frequencyHz = std::clamp(strike.frequencyHz * std::exp2(2.0 * bend * semitones / 12.0), limits::slowestToneHz, limits::maxFrequencyHz);
-    strike.x = shifted(strike.x, value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend), midi.fieldWidthMetres());
-    strike.y = shifted(strike.y, value(Parameter::strikeY) * 0.01 + slide_[static_cast<std::size_t>(channel)], midi.fieldHeightMetres());
+    const auto shifted = [](double at, double by, double size) {
+        return std::clamp(at + by * size, 0.0, size);
+    };
+    if (semitones > 0.0)
+        strike.frequencyHz = std::clamp(strike.frequencyHz * std::exp2(2.0 * bend * semitones / 12.0),
+                                        limits::slowestToneHz, limits::maxFrequencyHz);
+    strike.x = shifted(strike.x, value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend),
+                       midi.fieldWidthMetres());
+    strike.y = shifted(strike.y, value(Parameter::strikeY) * 0.01 + slide_[static_cast<std::size_t>(channel)],
+                       midi.fieldHeightMetres());
     if (!midi.voice().isLoudest) return strike;
     PhantomPanner::Gains gains{};
-    PhantomPanner{settings.layout, lawOf(value(Parameter::law)), value(Parameter::exponent), midi.fieldWidthMetres(), midi.fieldHeightMetres()}.gainsAt(strike.x, strike.y, gains);
+    PhantomPanner{settings.layout, lawOf(value(Parameter::law)), value(Parameter::exponent),
+                  midi.fieldWidthMetres(), midi.fieldHeightMetres()}
+        .gainsAt(strike.x, strike.y, gains);
     const double most = *std::max_element(gains.begin(), gains.begin() + settings.layout.count);
     if (most > 0.0) strike.amplitude /= most;
     return strike;
@@ -260,7 +295,9 @@ CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const
 // A finger that presses is louder than the key was struck.
 NoteSound PluginProcessor::soundOf(const HeldNotes::Note& note) const noexcept {
     CollisionEvent event = takes_.settings().midi.strikeOf(note.number);
-    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * std::max(note.velocity, static_cast<double>(pressure_[static_cast<std::size_t>(note.channel)]));
+    event.amplitude =
+        gainOfLevel(value(Parameter::strikeLevel)) *
+        std::max(note.velocity, static_cast<double>(pressure_[static_cast<std::size_t>(note.channel)]));
     event = placed(event, note.channel);
     return {event.frequencyHz, event.amplitude, event.x, event.y};
 }
@@ -271,21 +308,24 @@ void PluginProcessor::sustain(int first, int end) noexcept {
     if (!session || first >= end) return;
     const std::int64_t now = session->timeline().framesRendered();
     const double release = std::log(1000.0) / takes_.settings().midi.voice().releaseSeconds;
-    held_.advance(now + end, static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)), [this](const HeldNotes::Note& note) { return soundOf(note); },
-                  [&](const HeldNotes::Note& note, const NoteSound& sound, std::int64_t afterNs, std::int64_t durationNs) {
-                      CollisionEvent event;
-                      event.frequencyHz = sound.frequencyHz;
-                      event.amplitude = sound.amplitude;
-                      event.x = sound.x;
-                      event.y = sound.y;
-                      event.durationNs = durationNs;
-                      event.decayPerSecond = durationNs > 0 ? 0.0 : release;
-                      session->callback().strike(event, static_cast<int>(note.onsetFrame - now), afterNs);
-                  });
+    held_.advance(
+        now + end, static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)),
+        [this](const HeldNotes::Note& note) { return soundOf(note); },
+        [&](const HeldNotes::Note& note, const NoteSound& sound, std::int64_t afterNs,
+            std::int64_t durationNs) {
+            CollisionEvent event;
+            event.frequencyHz = sound.frequencyHz;
+            event.amplitude = sound.amplitude;
+            event.x = sound.x;
+            event.y = sound.y;
+            event.durationNs = durationNs;
+            event.decayPerSecond = durationNs > 0 ? 0.0 : release;
+            session->callback().strike(event, static_cast<int>(note.onsetFrame - now), afterNs);
+        });
 }
 
-// Frames `from` to `to` of the part of the block that begins at `first`. The side chain's channels are the buffer's first ones, until what is
-// played is written over them.
+// Frames `from` to `to` of the part of the block that begins at `first`. The side chain's channels are the
+// buffer's first ones, until what is played is written over them.
 void PluginProcessor::hear(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept {
     const double readiness = value(Parameter::beats);
     Session* const session = takes_.session();
@@ -294,26 +334,33 @@ void PluginProcessor::hear(const juce::AudioBuffer<float>& buffer, int first, in
         if (readiness > 0.0) strikeBeat(*session, onset, frame - first);
     });
     if (auto* const delay = takes_.take()->music())
-        music_.hear(buffer, first + from, to - from, gainOfLevel(value(Parameter::music)), value(Parameter::musicSides) > 0.5, *delay, session->timeline().nextBornFrame(from));
+        music_.hear(buffer, first + from, to - from, gainOfLevel(value(Parameter::music)),
+                    value(Parameter::musicSides) > 0.5, *delay, session->timeline().nextBornFrame(from));
 }
 
-// At the onset's own time, which is past: L is longer than the beat took to be known. Where strikes are direct, as soon as it is sure to be known.
+// At the onset's own time, which is past: L is longer than the beat took to be known. Where strikes are
+// direct, as soon as it is sure to be known.
 void PluginProcessor::strikeBeat(Session& session, const BandOnset& onset, int frame) noexcept {
     const auto& settings = takes_.settings();
     const int felt = session.timeline().isBornDirect() ? frame + beats_.delayFrames() : frame;
     BeatVoices voices;
     voices.enchanters = usualBeatEnchanters(settings.layout.count);
     voices.level = gainOfLevel(value(Parameter::strikeLevel));
-    physvib::strikeBeat(onset, 0, voices, settings.layout, settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres(),
+    physvib::strikeBeat(onset, 0, voices, settings.layout, settings.midi.fieldWidthMetres(),
+                        settings.midi.fieldHeightMetres(),
                         [&](const CollisionEvent& event) { session.callback().strike(event, felt); });
 }
 
 void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {
-    if (controller == slideController) slide_[static_cast<std::size_t>(channel)] = static_cast<float>(value - 64) / 128.0f;
+    if (controller == slideController)
+        slide_[static_cast<std::size_t>(channel)] = static_cast<float>(value - 64) / 128.0f;
     if (controller == allSoundOff) return silence(frame);
     if (controller == sustainPedal) held_.pedal(channel, value >= 64);
     if (controller == allNotesOff) held_.stopAll();
-    if (controller < allSoundOff) lastController_.store(((lastController_.load(std::memory_order_relaxed) >> 8) + 1) << 8 | static_cast<std::uint32_t>(controller), std::memory_order_relaxed);
+    if (controller < allSoundOff)
+        lastController_.store(((lastController_.load(std::memory_order_relaxed) >> 8) + 1) << 8 |
+                                  static_cast<std::uint32_t>(controller),
+                              std::memory_order_relaxed);
     const int which = takes_.settings().midi.parameterOf(controller);
     if (which < 0) return;
     normals_[static_cast<std::size_t>(which)] = static_cast<float>(value) / 127.0f;
@@ -323,13 +370,15 @@ void PluginProcessor::control(int channel, int controller, int value, int frame)
 
 void PluginProcessor::mix(juce::AudioBuffer<float>& buffer, int first, int frames) noexcept {
     for (int j = 0; j < takes_.channels(); ++j)
-        if (const int channel = outputs_.channelOf[static_cast<std::size_t>(j)]; channel >= 0 && channel < buffer.getNumChannels())
+        if (const int channel = outputs_.channelOf[static_cast<std::size_t>(j)];
+            channel >= 0 && channel < buffer.getNumChannels())
             takes_.addTo(buffer.getWritePointer(channel) + first, j, frames);
 }
 
 void PluginProcessor::measure(const juce::AudioBuffer<float>& buffer) noexcept {
     const int frames = buffer.getNumSamples();
-    const float fall = juce::Decibels::decibelsToGain(-peakFallDbPerSecond * static_cast<float>(frames / sampleRateHz_.load(std::memory_order_relaxed)));
+    const float fall = juce::Decibels::decibelsToGain(
+        -peakFallDbPerSecond * static_cast<float>(frames / sampleRateHz_.load(std::memory_order_relaxed)));
     measured_.enchanters = takes_.channels();
     measured_.connected = outputs_.connected(measured_.enchanters);
     if (auto* session = takes_.session()) {
@@ -341,7 +390,9 @@ void PluginProcessor::measure(const juce::AudioBuffer<float>& buffer) noexcept {
     for (std::size_t j = 0; j < measured_.peaks.size(); ++j) {
         const int channel = outputs_.channelOf[j];
         measured_.isConnected[j] = channel >= 0;
-        const float peak = channel >= 0 && channel < buffer.getNumChannels() ? buffer.getMagnitude(channel, 0, frames) : 0.0f;
+        const float peak = channel >= 0 && channel < buffer.getNumChannels()
+                               ? buffer.getMagnitude(channel, 0, frames)
+                               : 0.0f;
         measured_.peaks[j] = std::max(peak, measured_.peaks[j] * fall);
     }
     meters_.write(measured_);

@@ -25,10 +25,13 @@ void takeScene(PluginState& state, Scene scene) {
     for (const NoteRule& rule : std::exchange(state.notes, {})) {
         NoteRule kept = rule;
         if (rule.kind == NoteKind::push) {
-            if (std::ranges::find(state.scene.bodies, rule.object, &BodyDescription::name) == state.scene.bodies.end()) continue;
+            if (std::ranges::find(state.scene.bodies, rule.object, &BodyDescription::name) ==
+                state.scene.bodies.end())
+                continue;
         } else {
             const auto& materials = state.scene.materials;
-            const auto found = std::ranges::find(materials, before.materials[static_cast<std::size_t>(rule.material)].name, &Material::name);
+            const auto found = std::ranges::find(
+                materials, before.materials[static_cast<std::size_t>(rule.material)].name, &Material::name);
             if (found == materials.end()) continue;
             kept.material = static_cast<int>(found - materials.begin());
         }
@@ -37,12 +40,15 @@ void takeScene(PluginState& state, Scene scene) {
 }
 
 bool isSameTake(const PluginState& a, const PluginState& b) {
-    return a.seed == b.seed && a.stepsPerSecond == b.stepsPerSecond && a.limiterEnabled == b.limiterEnabled && a.transport == b.transport && a.isDirect == b.isDirect &&
-           isSame(a.layout.geometry, b.layout.geometry) && a.equalised == b.equalised && a.voice == b.voice && a.notes == b.notes && a.controllers == b.controllers && a.scene == b.scene;
+    return a.seed == b.seed && a.stepsPerSecond == b.stepsPerSecond && a.limiterEnabled == b.limiterEnabled &&
+           a.transport == b.transport && a.isDirect == b.isDirect &&
+           isSame(a.layout.geometry, b.layout.geometry) && a.equalised == b.equalised && a.voice == b.voice &&
+           a.notes == b.notes && a.controllers == b.controllers && a.scene == b.scene;
 }
 
 PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept {
-    return {state.layout.geometry, law, exponent, state.scene.fieldWidthMetres, state.scene.fieldHeightMetres};
+    return {state.layout.geometry, law, exponent, state.scene.fieldWidthMetres,
+            state.scene.fieldHeightMetres};
 }
 
 SessionSetup sessionSetupOf(const PluginState& state) {
@@ -62,10 +68,14 @@ SessionSetup sessionSetupOf(const PluginState& state) {
 }
 
 double tailSeconds(const PluginState& state) noexcept {
-    const bool spawns = std::ranges::any_of(state.notes, [](const NoteRule& rule) { return rule.kind == NoteKind::spawn; });
-    if (!state.scene.bodies.empty() || !state.scene.script.empty() || spawns) return std::numeric_limits<double>::infinity();
+    const bool spawns =
+        std::ranges::any_of(state.notes, [](const NoteRule& rule) { return rule.kind == NoteKind::spawn; });
+    if (!state.scene.bodies.empty() || !state.scene.script.empty() || spawns)
+        return std::numeric_limits<double>::infinity();
     double least = limits::maxDecayPerSecond;
-    if (state.voice.pitch == NotePitch::note) least = state.voice.isHeld ? std::log(1000.0) / state.voice.releaseSeconds : state.voice.decayPerSecond;
+    if (state.voice.pitch == NotePitch::note)
+        least =
+            state.voice.isHeld ? std::log(1000.0) / state.voice.releaseSeconds : state.voice.decayPerSecond;
     for (const auto& m : state.scene.materials)
         if (m.frequencyHz > 0.0 && m.decayPerSecond > 0.0) least = std::min(least, m.decayPerSecond);
     return limits::retireDecibels / 20.0 * std::log(10.0) / least;
@@ -89,7 +99,9 @@ std::string faultOfParameters(const PluginState& state) {
         const int which = parameterOfId(id);
         if (which < 0) return noSuch(id);
         if (const auto& row = rowOf(static_cast<Parameter>(which)); !valueOfState(row, value))
-            return "parameters." + id + ": expected " + (row.choices.empty() ? "a number" : "one of " + listed(row.choices)) + ", found \"" + std::get<std::string>(value) + "\"";
+            return "parameters." + id + ": expected " +
+                   (row.choices.empty() ? "a number" : "one of " + listed(row.choices)) + ", found \"" +
+                   std::get<std::string>(value) + "\"";
     }
     for (const auto& rule : state.controllers)
         if (parameterOfId(rule.parameter) < 0) return noSuch(rule.parameter);

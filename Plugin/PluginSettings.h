@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the state of an instance to what renders it.
 #pragma once
-#include "Scene/Sessions/PluginState.h"
 #include "Parameters.h"
+#include "Scene/Sessions/PluginState.h"
 #include "Session/Session.h"
 #include <optional>
 #include <string>
@@ -17,7 +17,8 @@ void fitToLayout(PluginState& state);
 /// A preset's places for the enchanters that are there, which keep what drives them and their strips. M only.
 void takePreset(PluginState& state, std::string_view name);
 
-/// Another scene. Note rules hold on to materials and bodies by their names: those that it has not are left out. Any thread.
+/// Another scene. Note rules hold on to materials and bodies by their names: those that it has not are left
+/// out. Any thread.
 void takeScene(PluginState& state, Scene scene);
 
 /// True if what plays by `a` can go on by `b`, another mix at most. Any thread.
@@ -27,16 +28,18 @@ bool isSameTake(const PluginState& a, const PluginState& b);
 PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept;
 SessionSetup sessionSetupOf(const PluginState& state);
 
-/// Infinite: a world goes on by itself. Without one, from a strike at full scale until it has fallen out of hearing, at the
-/// smallest decay of the scene. Any thread.
+/// Infinite: a world goes on by itself. Without one, from a strike at full scale until it has fallen out of
+/// hearing, at the smallest decay of the scene. Any thread.
 double tailSeconds(const PluginState& state) noexcept;
 
-/// A parameter's value as a state keeps it: a choice by its word, so that others may join it (decision 34). Any thread.
+/// A parameter's value as a state keeps it: a choice by its word, so that others may join it (decision 34).
+/// Any thread.
 ParameterValue stateValue(const ParameterRow& row, double value);
 /// The value in the parameter's unit; none if the row has no such word. Any thread.
 std::optional<double> valueOfState(const ParameterRow& row, const ParameterValue& value);
 
-/// What a state says of parameters that are not there, or by words that they do not know; empty if nothing. Any thread.
+/// What a state says of parameters that are not there, or by words that they do not know; empty if nothing.
+/// Any thread.
 std::string faultOfParameters(const PluginState& state);
 
 } // namespace physvib

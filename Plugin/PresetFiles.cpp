@@ -16,7 +16,9 @@ std::vector<juce::File> presetFiles(const juce::File& folder) {
 
 std::string savePreset(PluginState state, const juce::File& file) {
     state.editorWidth = state.editorHeight = 0;
-    if (const auto made = file.getParentDirectory().createDirectory(); made.failed()) return file.getParentDirectory().getFullPathName().toStdString() + ": " + made.getErrorMessage().toStdString();
+    if (const auto made = file.getParentDirectory().createDirectory(); made.failed())
+        return file.getParentDirectory().getFullPathName().toStdString() + ": " +
+               made.getErrorMessage().toStdString();
     return writeFile(file.getFullPathName().toStdString(), pluginStateJson(state));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Presets of one's own: a file each, which is what a host keeps of an instance, in a folder that every instance lists.
-// Beside it, how windows look.
+// Presets of one's own: a file each, which is what a host keeps of an instance, in a folder that every
+// instance lists. Beside it, how windows look.
 #pragma once
 #include "Host/Views/Look.h"
 #include "Scene/Sessions/PluginState.h"
@@ -11,12 +11,16 @@
 namespace physvib {
 
 /// `PhysVib/Presets` where programs of this system keep their data. It need not be there. M only.
-inline juce::File presetFolder() { return juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory).getChildFile("PhysVib/Presets"); }
+inline juce::File presetFolder() {
+    return juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory)
+        .getChildFile("PhysVib/Presets");
+}
 
 /// Its presets by their names. M only.
 std::vector<juce::File> presetFiles(const juce::File& folder);
 
-/// Writes `state` without the window's size, and makes the folder if it is missing; empty, or one line with the reason. M only.
+/// Writes `state` without the window's size, and makes the folder if it is missing; empty, or one line with
+/// the reason. M only.
 std::string savePreset(PluginState state, const juce::File& file);
 
 /// What a person chose for the windows of all instances, in `PhysVib/look`; dark at first. M only.

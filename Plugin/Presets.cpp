@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A row per instrument: layout, voice, strike level, and the notes that it gives a sound and a place of their own.
+// A row per instrument: layout, voice, strike level, and the notes that it gives a sound and a place of their
+// own.
 #include "Presets.h"
 #include "Parameters.h"
 #include "PluginSettings.h"
@@ -23,11 +24,16 @@ struct KitNote {
 };
 
 // Where General MIDI has them; low ones below, short ones above.
-constexpr std::array drumKit{KitNote{36, "kick", 48, 14, 0.5, 0.0},   KitNote{38, "snare", 170, 34, 0.0, 0.5},     KitNote{42, "closed hat", 320, 110, 1.0, 1.0},
-                             KitNote{46, "open hat", 300, 16, 1.0, 0.8}, KitNote{41, "low tom", 70, 12, 0.0, 0.0},  KitNote{45, "middle tom", 95, 14, 0.35, 0.6},
-                             KitNote{48, "high tom", 125, 16, 0.65, 0.6}, KitNote{49, "crash", 260, 6, 0.0, 1.0},   KitNote{51, "ride", 280, 9, 1.0, 0.4}};
-constexpr std::array clicks{KitNote{60, "click", 250, 120, 0.5, 0.5}, KitNote{61, "low click", 120, 80, 0.5, 0.5}};
-constexpr std::array heart{KitNote{60, "first beat", 42, 16, 0.4, 0.4}, KitNote{61, "second beat", 55, 20, 0.6, 0.6}};
+constexpr std::array drumKit{
+    KitNote{36, "kick", 48, 14, 0.5, 0.0},         KitNote{38, "snare", 170, 34, 0.0, 0.5},
+    KitNote{42, "closed hat", 320, 110, 1.0, 1.0}, KitNote{46, "open hat", 300, 16, 1.0, 0.8},
+    KitNote{41, "low tom", 70, 12, 0.0, 0.0},      KitNote{45, "middle tom", 95, 14, 0.35, 0.6},
+    KitNote{48, "high tom", 125, 16, 0.65, 0.6},   KitNote{49, "crash", 260, 6, 0.0, 1.0},
+    KitNote{51, "ride", 280, 9, 1.0, 0.4}};
+constexpr std::array clicks{KitNote{60, "click", 250, 120, 0.5, 0.5},
+                            KitNote{61, "low click", 120, 80, 0.5, 0.5}};
+constexpr std::array heart{KitNote{60, "first beat", 42, 16, 0.4, 0.4},
+                           KitNote{61, "second beat", 55, 20, 0.6, 0.6}};
 
 struct Instrument {
     std::string_view name;
@@ -96,8 +102,8 @@ Scene emptyField(const Instrument& instrument) {
 
 LayoutDescription layoutOf(const Instrument& instrument, const LayoutDescription& before) {
     if (instrument.layout != belt) return presetLayout(instrument.layout, before.enchanters);
-    // From above, A in front, then clockwise: on a circle the last and the first are neighbours, too, and a note on one
-    // actuator is not shared among all, as it is in a row.
+    // From above, A in front, then clockwise: on a circle the last and the first are neighbours, too, and a
+    // note on one actuator is not shared among all, as it is in a row.
     EnchanterLayout circle{2.0, 2.0, 8, {}};
     for (int j = 0; j < circle.count; ++j) {
         const double angle = 2.0 * std::numbers::pi * j / circle.count;

@@ -13,7 +13,8 @@ const std::vector<std::string>& presetNames();
 /// The place of the preset that a state plays; its own are shown as the first. Any thread.
 int presetOf(const PluginState& state);
 
-/// `state` as that preset has it: a scene keeps layout, notes' voice and parameters, an instrument has its own. M only.
+/// `state` as that preset has it: a scene keeps layout, notes' voice and parameters, an instrument has its
+/// own. M only.
 void takePlugInPreset(PluginState& state, int index);
 
 /// What a new instance plays: notes and beats on four enchanters, nothing by itself. M only.

@@ -35,7 +35,8 @@ void Stepper::remove(Stepped& one) {
     std::erase_if(members_, [&](const Member& member) { return member.one == &one; });
 }
 
-// At multiples of its period, so that those of equal ones come in one waking, and none comes in a burst after a stall.
+// At multiples of its period, so that those of equal ones come in one waking, and none comes in a burst after
+// a stall.
 void Stepper::tick(Member& member, Clock::time_point now) {
     if (now < member.next) return;
     member.one->tick();
@@ -43,7 +44,8 @@ void Stepper::tick(Member& member, Clock::time_point now) {
         member.blocks = blocks;
         member.lastBlock = now;
     }
-    const double seconds = now - member.lastBlock > restsAfter ? member.one->idleSeconds() : 1.0 / member.one->ticksPerSecond();
+    const double seconds =
+        now - member.lastBlock > restsAfter ? member.one->idleSeconds() : 1.0 / member.one->ticksPerSecond();
     const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{seconds});
     member.next = Clock::time_point{(now.time_since_epoch() / period + 1) * period};
 }
@@ -57,8 +59,10 @@ void Stepper::run() {
             tick(member, now);
             next = std::min(next, member.next);
         }
-        if (members_.empty()) changed_.wait(lock);
-        else changed_.wait_until(lock, next);
+        if (members_.empty())
+            changed_.wait(lock);
+        else
+            changed_.wait_until(lock, next);
         wakeUps_.fetch_add(1, std::memory_order_relaxed);
     }
 }

@@ -14,16 +14,18 @@ namespace physvib {
 /// Who wants to be stepped.
 class Stepped {
 public:
-    virtual void tick() = 0;                            ///< on the stepping thread
-    virtual int ticksPerSecond() const noexcept = 0;    ///< while blocks are rendered. Any thread
-    virtual double idleSeconds() const noexcept = 0;    ///< between two ticks while none is: the first block may have to wait so long. Any thread
-    virtual std::uint64_t blocks() const noexcept = 0;  ///< rendered so far. Any thread
+    virtual void tick() = 0;                         ///< on the stepping thread
+    virtual int ticksPerSecond() const noexcept = 0; ///< while blocks are rendered. Any thread
+    virtual double idleSeconds() const noexcept = 0; ///< between two ticks while none is: the first block may
+                                                     ///< have to wait so long. Any thread
+    virtual std::uint64_t blocks() const noexcept = 0; ///< rendered so far. Any thread
 
 protected:
     ~Stepped() = default;
 };
 
-/// Runs while there is anybody to step, and comes seldom to who renders nothing. A juce::SharedResourcePointer holds it: the last one ends the thread.
+/// Runs while there is anybody to step, and comes seldom to who renders nothing. A
+/// juce::SharedResourcePointer holds it: the last one ends the thread.
 class Stepper final : private juce::Thread {
 public:
     Stepper();

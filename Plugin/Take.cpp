@@ -5,12 +5,14 @@
 
 namespace physvib {
 
-Take::Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames, std::int64_t longestLeadFrames)
+Take::Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames,
+           std::int64_t longestLeadFrames)
     : session{order->setup}
     , order_{std::move(order)}
     , sampleRateHz_{sampleRateHz}
     , sliceFrames_{std::max(1, sampleRateHz / slicesPerSecond)} {
-    out.assign(static_cast<std::size_t>(session.channels()), std::vector<float>(static_cast<std::size_t>(blockFrames)));
+    out.assign(static_cast<std::size_t>(session.channels()),
+               std::vector<float>(static_cast<std::size_t>(blockFrames)));
     rewind(leadFrames);
     if (longestLeadFrames == 0) return;
     // L, and the block before it is rendered
@@ -37,11 +39,14 @@ void Take::rewind(std::int64_t leadFrames) {
 }
 
 void Take::Held::forget() noexcept {
-    for (HeldControl unplayed; queue.pop(unplayed);) {}
+    for (HeldControl unplayed; queue.pop(unplayed);) {
+    }
     hasFirst = false;
 }
 
-bool Take::holdLevel(double gain, int frame) noexcept { return levels_.queue.push({session.timeline().framesRendered() + frame, gain, {}}); }
+bool Take::holdLevel(double gain, int frame) noexcept {
+    return levels_.queue.push({session.timeline().framesRendered() + frame, gain, {}});
+}
 
 bool Take::holdLaw(PanningLaw law, double exponent, int frame) noexcept {
     return panners_.queue.push({session.timeline().framesRendered() + frame, exponent, law});
@@ -52,15 +57,19 @@ template <class Make>
 void Take::release(Held& held, std::int64_t until, Make make) noexcept {
     const std::int64_t now = session.timeline().framesRendered();
     while (held.hasFirst || (held.hasFirst = held.queue.pop(held.first))) {
-        if (held.first.frame >= until || !session.callback().control(make(held.first), static_cast<int>(held.first.frame - now))) return;
+        if (held.first.frame >= until ||
+            !session.callback().control(make(held.first), static_cast<int>(held.first.frame - now)))
+            return;
         held.hasFirst = false;
     }
 }
 
-// What the renderer comes to within the next frames: it is as far behind them as what is born there is felt late, but for its own latency.
+// What the renderer comes to within the next frames: it is as far behind them as what is born there is felt
+// late, but for its own latency.
 void Take::releaseUntil(int frames) noexcept {
     const auto& time = session.timeline();
-    const std::int64_t until = time.framesRendered() + frames - time.bornLatencyFrames() + HapticRenderer::latencyFramesAt(sampleRateHz_);
+    const std::int64_t until = time.framesRendered() + frames - time.bornLatencyFrames() +
+                               HapticRenderer::latencyFramesAt(sampleRateHz_);
     RenderControl control;
     release(levels_, until, [&](const HeldControl& held) {
         control.kind = RenderControl::Kind::level;
@@ -70,13 +79,15 @@ void Take::releaseUntil(int frames) noexcept {
     release(panners_, until, [&](const HeldControl& held) {
         const auto& settings = order_->settings;
         control.kind = RenderControl::Kind::panner;
-        control.panner = {settings.layout, held.law, held.value, settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres()};
+        control.panner = {settings.layout, held.law, held.value, settings.midi.fieldWidthMetres(),
+                          settings.midi.fieldHeightMetres()};
         return control;
     });
 }
 
 bool Take::tell(std::span<const Strip> strips) {
-    return tellStrips(told_, strips, [this](const RenderControl& control) { return session.take({control}).error.empty(); });
+    return tellStrips(told_, strips,
+                      [this](const RenderControl& control) { return session.take({control}).error.empty(); });
 }
 
 bool Take::silence(int frame) noexcept {

@@ -25,14 +25,16 @@ struct TakeOrder {
 
 class Take {
 public:
-    /// `leadFrames`: as many as L covers at once, a block at least; `longestLeadFrames`: as many as it may come to cover where there is music, 0: there is none. Any
-    /// thread but R.
-    Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames, std::int64_t longestLeadFrames = 0);
+    /// `leadFrames`: as many as L covers at once, a block at least; `longestLeadFrames`: as many as it may
+    /// come to cover where there is music, 0: there is none. Any thread but R.
+    Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames,
+         std::int64_t longestLeadFrames = 0);
 
     /// From its seed again. Any thread but R, while nobody renders or steps it.
     void rewind(std::int64_t leadFrames);
 
-    /// It is to play by these strips from session time on. False: not all of it found room, to be told again. Any thread but R.
+    /// It is to play by these strips from session time on. False: not all of it found room, to be told again.
+    /// Any thread but R.
     bool tell(std::span<const Strip> strips);
 
     const TakeSettings& settings() const noexcept { return order_->settings; }
@@ -41,20 +43,23 @@ public:
     /// Frames that L covers at once. R.
     std::int64_t leadFrames() const noexcept { return leadFrames_ + session.timeline().framesGrown(); }
 
-    /// The next frames of every channel of the session, at most a block. While L covers less than `leadFrames`, it grows: the
-    /// session goes on and nothing of it is played; what was to be felt comes so much later. While it covers more, it shrinks: in silence as well, and
-    /// what was to be felt meanwhile is not. R.
+    /// The next frames of every channel of the session, at most a block. While L covers less than
+    /// `leadFrames`, it grows: the session goes on and nothing of it is played; what was to be felt comes so
+    /// much later. While it covers more, it shrinks: in silence as well, and what was to be felt meanwhile is
+    /// not. R.
     void render(int frames, std::int64_t leadFrames, RenderMode mode) noexcept;
 
-    /// Level, law and exponent at a frame of the coming block, in the order of their frames and at ControlPace's pace. Kept here until the renderer
-    /// comes to them, L later, since its own room is small. False: there is no room. R, wait-free.
+    /// Level, law and exponent at a frame of the coming block, in the order of their frames and at
+    /// ControlPace's pace. Kept here until the renderer comes to them, L later, since its own room is small.
+    /// False: there is no room. R, wait-free.
     bool holdLevel(double gain, int frame) noexcept;
     bool holdLaw(PanningLaw law, double exponent, int frame) noexcept;
 
     /// Where music goes that comes in; null: there is none. R.
     MusicDelay* music() noexcept { return music_.get(); }
 
-    /// What happened before that frame of the coming block is not felt any more. False: there is no room, to be told again. R, wait-free.
+    /// What happened before that frame of the coming block is not felt any more. False: there is no room, to
+    /// be told again. R, wait-free.
     bool silence(int frame) noexcept;
 
     /// Plays what is owed and fades then. R.
@@ -77,7 +82,8 @@ private:
     };
     // The longest L is a second and a block.
     using HeldControls = EventQueue<HeldControl, 2048>;
-    static constexpr int slicesPerSecond = 48; // their frames hold 32 of each kind, beside whatever else comes
+    static constexpr int slicesPerSecond = 48; // their frames hold 32 of each kind, beside whatever else
+                                               // comes
     struct Held {
         HeldControls queue;
         HeldControl first;

@@ -2,8 +2,8 @@
 // Making, stepping and freeing takes: all but the render role's part.
 #include "Takes.h"
 #include "Scene/SceneLimits.h"
-#include "Scene/World/InputCheck.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/World/InputCheck.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -28,8 +28,8 @@ void checkGroup(const Scene& scene, const std::vector<Action>& group) {
         if (std::string fault = check.take(action); !fault.empty()) throw std::invalid_argument(fault);
 }
 
-// As many groups as a scene may have inputs at one look, since each look goes through all bodies: there may be a hundred. Those that are wrong, or too much together,
-// are looked at one by one.
+// As many groups as a scene may have inputs at one look, since each look goes through all bodies: there may
+// be a hundred. Those that are wrong, or too much together, are looked at one by one.
 void checkGroups(const SessionSetup& setup) {
     if (std::string fault = validate(setup.scene); !fault.empty()) throw std::invalid_argument(fault);
     std::vector<Action> together;
@@ -48,7 +48,9 @@ void checkGroups(const SessionSetup& setup) {
     check(setup.groups.size());
 }
 
-bool startsQuickly(const TakeOrder& order) noexcept { return order.settings.transport == TransportMode::restartOnPlay; }
+bool startsQuickly(const TakeOrder& order) noexcept {
+    return order.settings.transport == TransportMode::restartOnPlay;
+}
 
 } // namespace
 
@@ -62,10 +64,15 @@ void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<St
         const double known = knownAfterSeconds_;
         setup.longestGapSeconds = gapSeconds(setup);
         lock.unlock();
-        const auto wanted = std::make_shared<const TakeOrder>(TakeOrder{setup, settings, before ? before->generation + 1 : 1});
+        const auto wanted = std::make_shared<const TakeOrder>(
+            TakeOrder{setup, settings, before ? before->generation + 1 : 1});
         std::unique_ptr<Take> take;
-        if (block > 0) take = newTake(wanted, rate, block);
-        else Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond}; // throws if it cannot be simulated
+        if (block > 0)
+            take = newTake(wanted, rate, block);
+        else
+            Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond}; // throws if it
+                                                                                               // cannot be
+                                                                                               // simulated
         lock.lock();
         // the host has prepared us meanwhile
         if (rate != sampleRateHz_ || block != blockFrames_ || known != knownAfterSeconds_) continue;
@@ -83,7 +90,8 @@ void Takes::mix(std::vector<Strip> strips) {
 // The mutex is held. What found no room is told again by the next tick.
 void Takes::tellAll() {
     for (auto& take : takes_)
-        if (take->generation() == order_->generation && !take->isEnded.load(std::memory_order_acquire)) take->tell(strips_);
+        if (take->generation() == order_->generation && !take->isEnded.load(std::memory_order_acquire))
+            take->tell(strips_);
 }
 
 std::shared_ptr<const TakeOrder> Takes::order() const {
@@ -114,8 +122,11 @@ double Takes::gapSeconds(const SessionSetup& setup) const noexcept {
     return std::max(TakePace::longestGapSeconds(setup.stepsPerSecond), known);
 }
 
-std::unique_ptr<Take> Takes::newTake(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames) const {
-    const std::int64_t lead = leadFrames_, longest = std::max(lead, static_cast<std::int64_t>(TakePace::mostLeadSeconds * sampleRateHz));
+std::unique_ptr<Take> Takes::newTake(std::shared_ptr<const TakeOrder> order, int sampleRateHz,
+                                     int blockFrames) const {
+    const std::int64_t lead = leadFrames_,
+                       longest = std::max(
+                           lead, static_cast<std::int64_t>(TakePace::mostLeadSeconds * sampleRateHz));
     return std::make_unique<Take>(std::move(order), sampleRateHz, blockFrames, lead, hasMusic_ ? longest : 0);
 }
 
@@ -134,7 +145,8 @@ void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds,
     blockFrames_ = blockFrames;
     // that run did without
     if (!isAheadNeeded_ && runFrames_ > HostPace::calmNs * sampleRateHz / 1'000'000'000) leadSeconds_ = 0.0;
-    leadFrames_ = aheadFrames_ = std::max<std::int64_t>(blockFrames, std::llround(leadSeconds_ * sampleRateHz));
+    leadFrames_ = aheadFrames_ =
+        std::max<std::int64_t>(blockFrames, std::llround(leadSeconds_ * sampleRateHz));
     isAheadNeeded_ = false;
     runFrames_ = neededNs_ = 0;
     hostPace_.reset();
@@ -174,7 +186,8 @@ void Takes::release() {
 
 std::int64_t Takes::nowNs() const noexcept {
     using namespace std::chrono;
-    return handNs_ ? handNs_->load() : duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
+    return handNs_ ? handNs_->load()
+                   : duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
 }
 
 void Takes::tick() {
@@ -237,11 +250,15 @@ void Takes::makeReady(std::unique_lock<std::mutex>& lock) {
     takes_.push_back(std::move(ready));
     Take* const made = takes_.back().get();
     Take* none = nullptr;
-    if (made->generation() != order_->generation || !spare_.compare_exchange_strong(none, made, std::memory_order_acq_rel)) made->isEnded = true;
+    if (made->generation() != order_->generation ||
+        !spare_.compare_exchange_strong(none, made, std::memory_order_acq_rel))
+        made->isEnded = true;
 }
 
-std::unique_ptr<Take> Takes::makeOf(std::vector<std::unique_ptr<Take>>& ended, std::shared_ptr<const TakeOrder> order) {
-    const auto found = std::ranges::find_if(ended, [&](const auto& take) { return take->generation() == order->generation && !take->isStill; });
+std::unique_ptr<Take> Takes::makeOf(std::vector<std::unique_ptr<Take>>& ended,
+                                    std::shared_ptr<const TakeOrder> order) {
+    const auto found = std::ranges::find_if(
+        ended, [&](const auto& take) { return take->generation() == order->generation && !take->isStill; });
     if (found == ended.end()) {
         ++made_;
         return newTake(std::move(order), sampleRateHz_, blockFrames_);
@@ -251,18 +268,21 @@ std::unique_ptr<Take> Takes::makeOf(std::vector<std::unique_ptr<Take>>& ended, s
 }
 
 bool Takes::isLeftOver(const Take& take) const {
-    return take.isEnded.load(std::memory_order_acquire) && (take.generation() != order_->generation || !startsQuickly(*order_) || takes_.size() > kept);
+    return take.isEnded.load(std::memory_order_acquire) &&
+           (take.generation() != order_->generation || !startsQuickly(*order_) || takes_.size() > kept);
 }
 
 // One more is worth its memory if none is ready; else what is ending will do.
 bool Takes::isTakeNeeded() const {
     if (!startsQuickly(*order_) || spare_.load() != nullptr || !canMake_) return false;
-    const bool hasEnded = std::ranges::any_of(takes_, [](const auto& take) { return take->isEnded.load(std::memory_order_acquire); });
+    const bool hasEnded = std::ranges::any_of(
+        takes_, [](const auto& take) { return take->isEnded.load(std::memory_order_acquire); });
     return hasEnded || !hasNext_ || takes_.size() < kept;
 }
 
 bool Takes::isWorkToDo() const {
-    return isTakeNeeded() || std::ranges::any_of(takes_, [this](const auto& take) { return isLeftOver(*take); });
+    return isTakeNeeded() ||
+           std::ranges::any_of(takes_, [this](const auto& take) { return isLeftOver(*take); });
 }
 
 // Those left over, and if one is needed, one that has ended. The mutex is held.
@@ -282,8 +302,10 @@ std::vector<std::unique_ptr<Take>> Takes::takeOut() {
 
 void Takes::drain(Take& take) {
     for (PlayedEvent played; take.session.played().pop(played);) {
-        if (log_.size() < logSize) log_.push_back({take.number, played});
-        else ++lost_;
+        if (log_.size() < logSize)
+            log_.push_back({take.number, played});
+        else
+            ++lost_;
     }
 }
 
@@ -302,7 +324,8 @@ std::int64_t Takes::poses(std::vector<BodyPose>& now) {
     const std::lock_guard lock{mutex_};
     const Take* newest = nullptr;
     for (const auto& take : takes_)
-        if (!take->isEnded && take->number > 0 && (!newest || take->number > newest->number)) newest = take.get();
+        if (!take->isEnded && take->number > 0 && (!newest || take->number > newest->number))
+            newest = take.get();
     now.clear();
     return newest ? newest->session.world().readPoses(now) : 0;
 }

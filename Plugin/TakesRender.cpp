@@ -13,7 +13,8 @@ void Takes::forEachSounding(Do what) const noexcept {
 }
 
 TransportMode Takes::lookForNew() noexcept {
-    if (next_ && next_->generation() == newest_.load(std::memory_order_acquire)) return newSettings_.transport;
+    if (next_ && next_->generation() == newest_.load(std::memory_order_acquire))
+        return newSettings_.transport;
     Take* const fresh = spare_.exchange(nullptr, std::memory_order_acq_rel);
     if (!fresh) return newSettings_.transport;
     letGo(next_);
@@ -44,7 +45,8 @@ bool Takes::begin(RenderMode mode) noexcept {
     playing_->session.startLater(leadFrames_ - playing_->leadFrames()); // what the host asked for meanwhile
     playing_->number = ++started_;
     // it may have been made for more
-    playOutFrames_ = playing_->session.timeline().playOutFrames() - std::max<std::int64_t>(0, playing_->leadFrames() - leadFrames_);
+    playOutFrames_ = playing_->session.timeline().playOutFrames() -
+                     std::max<std::int64_t>(0, playing_->leadFrames() - leadFrames_);
     return true;
 }
 
@@ -75,7 +77,9 @@ void Takes::letGoOfThoseOver() noexcept {
             continue;
         }
         letGo(ending_[i]);
-        std::copy(ending_.begin() + static_cast<std::ptrdiff_t>(i) + 1, ending_.begin() + static_cast<std::ptrdiff_t>(endingCount_), ending_.begin() + static_cast<std::ptrdiff_t>(i));
+        std::copy(ending_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                  ending_.begin() + static_cast<std::ptrdiff_t>(endingCount_),
+                  ending_.begin() + static_cast<std::ptrdiff_t>(i));
         --endingCount_;
     }
 }
@@ -88,8 +92,9 @@ void Takes::render(int frames, RenderMode mode) noexcept {
     if (playing_) tell();
 }
 
-// L grows if the world is not where the next frames need it though it has been stepped in time. If the thread itself was late,
-// more delay would not mend that: the world stands still for as long, as always. So it does for a host that was late for once.
+// L grows if the world is not where the next frames need it though it has been stepped in time. If the thread
+// itself was late, more delay would not mend that: the world stands still for as long, as always. So it does
+// for a host that was late for once.
 void Takes::coverBurst(int frames) noexcept {
     const std::int64_t now = nowNs(), lead = leadFrames_;
     hostPace_.ask(frames, now, sampleRateHz_);
@@ -105,7 +110,8 @@ void Takes::coverBurst(int frames) noexcept {
         isAheadNeeded_ = isAheadNeeded_ || aheadFrames_ > blockFrames_;
     }
     if (needed <= lead && !isGrowing) return heal(now);
-    const double spareSeconds = 1.0 / ticksPerSecond_ + TakePace::headroomSeconds - 1e-9 * static_cast<double>(now - tickedNs_.load(std::memory_order_acquire));
+    const double spareSeconds = 1.0 / ticksPerSecond_ + TakePace::headroomSeconds -
+                                1e-9 * static_cast<double>(now - tickedNs_.load(std::memory_order_acquire));
     if (!isGrowing && spareSeconds < 0.0) return;
     const bool goesAhead = hostPace_.goesAhead();
     if (needed > lead && !goesAhead && !hostPace_.stuttersAgain(now) && !isGrowing) return;
@@ -121,7 +127,8 @@ void Takes::coverBurst(int frames) noexcept {
     leadSeconds_ = static_cast<double>(aheadFrames_) / sampleRateHz_;
 }
 
-// What nobody has needed for a while: what stutters had made it, as soon as they are over; the rest, where the transport stands.
+// What nobody has needed for a while: what stutters had made it, as soon as they are over; the rest, where
+// the transport stands.
 void Takes::heal(std::int64_t nowNs) noexcept {
     const bool isCalm = nowNs - neededNs_ > HostPace::calmNs;
     const bool all = giveBack_.exchange(false) || (isCalm && stands_);
@@ -142,7 +149,8 @@ void Takes::lead(std::int64_t frames) noexcept {
 
 void Takes::tell() noexcept {
     const auto& now = playing_->session.status();
-    status_.write({now, playing_->number, lateBefore_ + now.render.late, slippedBefore_ + playing_->session.world().slippedNs(), delayedBlocks_,
+    status_.write({now, playing_->number, lateBefore_ + now.render.late,
+                   slippedBefore_ + playing_->session.world().slippedNs(), delayedBlocks_,
                    leadFrames_ - blockFrames_, waitedFrames_});
 }
 

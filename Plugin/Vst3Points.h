@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every point that a VST3 host sends of a parameter: JUCE's wrapper reads the last of a block alone. Included by the header of that wrapper
-// which vst3-header.cmake writes, where the host's block is made into ours; VST3's own headers come before it.
+// Every point that a VST3 host sends of a parameter: JUCE's wrapper reads the last of a block alone. Included
+// by the header of that wrapper which vst3-header.cmake writes, where the host's block is made into ours;
+// VST3's own headers come before it.
 #pragma once
 #include "PluginProcessor.h"
 #include <array>
@@ -13,7 +14,9 @@ inline const std::array<Steinberg::Vst::ParamID, parameterCount> vst3ParameterId
     std::array<Steinberg::Vst::ParamID, parameterCount> ids{};
     for (std::size_t p = 0; p < parameterCount; ++p) {
         const auto& id = allParameters()[p].id;
-        ids[p] = static_cast<Steinberg::Vst::ParamID>(juce::String::fromUTF8(id.data(), static_cast<int>(id.size())).hashCode()) & 0x7fffffffu;
+        ids[p] = static_cast<Steinberg::Vst::ParamID>(
+                     juce::String::fromUTF8(id.data(), static_cast<int>(id.size())).hashCode()) &
+                 0x7fffffffu;
     }
     return ids;
 }();
@@ -41,7 +44,9 @@ public:
     int lastOfLine(std::size_t parameter) noexcept override {
         ParameterPoint last;
         auto* const queue = told_[parameter].queue;
-        return queue && queue->getPointCount() > 0 && read(*queue, queue->getPointCount() - 1, last) ? last.frame : -1;
+        return queue && queue->getPointCount() > 0 && read(*queue, queue->getPointCount() - 1, last)
+                   ? last.frame
+                   : -1;
     }
 
 private:
@@ -54,7 +59,8 @@ private:
         for (std::size_t p = 0; p < parameterCount; ++p)
             if (vst3ParameterIds[p] == id) told_[p].queue = &queue;
     }
-    static bool read(Steinberg::Vst::IParamValueQueue& queue, Steinberg::int32 index, ParameterPoint& point) noexcept {
+    static bool read(Steinberg::Vst::IParamValueQueue& queue, Steinberg::int32 index,
+                     ParameterPoint& point) noexcept {
         Steinberg::int32 frame = 0;
         if (queue.getPoint(index, frame, point.normal) != Steinberg::kResultTrue) return false;
         point.frame = frame;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// 72 MHz from the ST-Link's 8 MHz, or 64 MHz from the internal oscillator if that does not come; the sample timer.
+// 72 MHz from the ST-Link's 8 MHz, or 64 MHz from the internal oscillator if that does not come; the sample
+// timer.
 #pragma once
 #include "Core/Limits.h"
 #include "Registers.h"
@@ -16,7 +17,8 @@ struct Clock {
 
 /// RM0364 8.2. The peripherals' slow bus runs at half of it, the timer at all of it.
 inline Clock startClock() noexcept {
-    constexpr std::uint32_t hseOn = 1u << 16, hseReady = 1u << 17, hseBypass = 1u << 18, pllOn = 1u << 24, pllReady = 1u << 25;
+    constexpr std::uint32_t hseOn = 1u << 16, hseReady = 1u << 17, hseBypass = 1u << 18, pllOn = 1u << 24,
+                            pllReady = 1u << 25;
     constexpr std::uint32_t halfForApb1 = 4u << 8, fromHse = 1u << 16, times9 = 7u << 18, times16 = 14u << 18;
     constexpr std::uint32_t toPll = 2, onPll = 2u << 2;
     constexpr int patience = 20000; // 10 ms at 8 MHz; the ST-Link answers within 2
@@ -26,9 +28,11 @@ inline Clock startClock() noexcept {
     for (int i = 0; i < patience && !hasCrystal; ++i) hasCrystal = (reg(rcc::cr) & hseReady) != 0;
     reg(rcc::cfgr) = halfForApb1 | (hasCrystal ? fromHse | times9 : times16); // 8 MHz x 9, or 8 MHz / 2 x 16
     reg(rcc::cr) |= pllOn;
-    while ((reg(rcc::cr) & pllReady) == 0) {}
+    while ((reg(rcc::cr) & pllReady) == 0) {
+    }
     reg(rcc::cfgr) |= toPll;
-    while ((reg(rcc::cfgr) & (3u << 2)) != onPll) {}
+    while ((reg(rcc::cfgr) & (3u << 2)) != onPll) {
+    }
     return {hasCrystal ? 72'000'000u : 64'000'000u, hasCrystal};
 }
 

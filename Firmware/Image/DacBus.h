@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The two TLC7528 dual converters on port C: eight data lines, one latch select, one write line, two chip selects.
+// The two TLC7528 dual converters on port C: eight data lines, one latch select, one write line, two chip
+// selects.
 //
-// Times assumed of the TLC7528 at 5 V (unverified: Docs/board.md): chip and latch select 50 ns before the write, data
-// 25 ns before its end, write pulse 50 ns, data and select held 10 ns after it. One cycle at 72 MHz is 13.9 ns. The latches
-// are transparent while the write line is low: a select that still moves would put the code into the other channel.
+// Times assumed of the TLC7528 at 5 V (unverified: Docs/board.md): chip and latch select 50 ns before the
+// write, data 25 ns before its end, write pulse 50 ns, data and select held 10 ns after it. One cycle at 72
+// MHz is 13.9 ns. The latches are transparent while the write line is low: a select that still moves would
+// put the code into the other channel.
 #pragma once
 #include "Registers.h"
 #include <array>
@@ -11,7 +13,8 @@
 
 namespace physvib::board {
 
-/// Wiring, port C: PC0-PC7 data, PC8 latch (0: A, 1: B), PC9 /WR, PC10 /CS of converter 1, PC11 /CS of converter 2.
+/// Wiring, port C: PC0-PC7 data, PC8 latch (0: A, 1: B), PC9 /WR, PC10 /CS of converter 1, PC11 /CS of
+/// converter 2.
 class DacBus {
 public:
     using Frame = std::array<std::uint8_t, 4>; ///< channels 1 A, 1 B, 2 A, 2 B
@@ -40,8 +43,8 @@ public:
 private:
     static constexpr std::uint32_t latch = 1u << 8, write = 1u << 9, chip1 = 1u << 10, chip2 = 1u << 11;
 
-    // Reads of the port wait for the writes before them and take two cycles, or one when they follow each other: at
-    // least 69 ns at 72 MHz.
+    // Reads of the port wait for the writes before them and take two cycles, or one when they follow each
+    // other: at least 69 ns at 72 MHz.
     static void settle() noexcept {
         for (int i = 0; i < 4; ++i) [[maybe_unused]] const std::uint32_t state = reg(gpio::c + gpio::odr);
     }

@@ -7,12 +7,16 @@ namespace physvib::board {
 namespace {
 
 constexpr std::uint32_t framesPerMs = limits::board::sampleRateHz / 1000;
-constexpr std::uint32_t fadeFrames = 3 * framesPerMs; // render-ahead and fade, so that silence is there in time
-constexpr std::uint32_t watchdogFrames(int ms) noexcept { return static_cast<std::uint32_t>(std::clamp(ms, 20, wire::defaultWatchdogMs)) * framesPerMs - fadeFrames; }
+constexpr std::uint32_t fadeFrames = 3 * framesPerMs; // render-ahead and fade, so that silence is there in
+                                                      // time
+constexpr std::uint32_t watchdogFrames(int ms) noexcept {
+    return static_cast<std::uint32_t>(std::clamp(ms, 20, wire::defaultWatchdogMs)) * framesPerMs - fadeFrames;
+}
 
 } // namespace
 
-void Link::start(const Machine& machine, BoardRenderer& renderer, Outputs& outputs, SerialPort& serial) noexcept {
+void Link::start(const Machine& machine, BoardRenderer& renderer, Outputs& outputs,
+                 SerialPort& serial) noexcept {
     machine_ = machine;
     renderer_ = &renderer;
     outputs_ = &outputs;
@@ -45,7 +49,8 @@ void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept 
         if (wire::Strike m; wire::decode(payload, m)) play(m.sequence, m.event);
         break;
     case wire::Type::compactStrike:
-        if (wire::CompactStrike m; wire::decode(payload, m)) play(m.sequence, wire::expand(m, renderer_->frame()).event);
+        if (wire::CompactStrike m; wire::decode(payload, m))
+            play(m.sequence, wire::expand(m, renderer_->frame()).event);
         break;
     case wire::Type::leg:
         if (wire::Leg m; wire::decode(payload, m)) play(m.sequence, m.leg);
@@ -53,7 +58,8 @@ void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept 
     case wire::Type::gains:
         if (wire::Gains m; wire::decode(payload, m)) {
             BoardRenderer::Gains gains;
-            for (std::size_t j = 0; j < gains.size(); ++j) gains[j] = static_cast<float>(m.gains[j]) / static_cast<float>(limits::board::amplitudeUnit);
+            for (std::size_t j = 0; j < gains.size(); ++j)
+                gains[j] = static_cast<float>(m.gains[j]) / static_cast<float>(limits::board::amplitudeUnit);
             renderer_->setGains(gains);
         }
         break;

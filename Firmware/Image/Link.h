@@ -22,7 +22,8 @@ struct Machine {
 /// Main loop only.
 class Link {
 public:
-    void start(const Machine& machine, BoardRenderer& renderer, Outputs& outputs, SerialPort& serial) noexcept;
+    void start(const Machine& machine, BoardRenderer& renderer, Outputs& outputs,
+               SerialPort& serial) noexcept;
 
     /// Takes what has come in; falls silent when nothing has come for too long.
     void poll() noexcept;

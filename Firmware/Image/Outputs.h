@@ -30,7 +30,9 @@ public:
         int shift = 1;
         for (std::uint32_t n = played_ + 1; static_cast<std::int32_t>(rendered_ - n) > 0; ++n, ++shift) {
             DacBus::Frame frame = frames_[n % size];
-            for (auto& code : frame) code = static_cast<std::uint8_t>(DacBus::midScale + (code - DacBus::midScale) / (1 << std::min(shift, 8)));
+            for (auto& code : frame)
+                code = static_cast<std::uint8_t>(DacBus::midScale +
+                                                 (code - DacBus::midScale) / (1 << std::min(shift, 8)));
             frames_[n % size] = frame;
         }
     }

@@ -6,11 +6,13 @@
 namespace physvib::board {
 
 /// One 32-bit register.
-inline volatile std::uint32_t& reg(std::uint32_t address) noexcept { return *reinterpret_cast<volatile std::uint32_t*>(address); }
+inline volatile std::uint32_t& reg(std::uint32_t address) noexcept {
+    return *reinterpret_cast<volatile std::uint32_t*>(address);
+}
 
 namespace rcc { // RM0364 chapter 8
-constexpr std::uint32_t cr = 0x40021000, cfgr = 0x40021004, ahbenr = 0x40021014, apb2enr = 0x40021018, apb1enr = 0x4002101C,
-                        csr = 0x40021024, cfgr3 = 0x40021030;
+constexpr std::uint32_t cr = 0x40021000, cfgr = 0x40021004, ahbenr = 0x40021014, apb2enr = 0x40021018,
+                        apb1enr = 0x4002101C, csr = 0x40021024, cfgr3 = 0x40021030;
 }
 namespace flash { // chapter 3
 constexpr std::uint32_t acr = 0x40022000;
@@ -23,7 +25,8 @@ namespace exti { // chapter 12
 constexpr std::uint32_t imr1 = 0x40010400, rtsr1 = 0x40010408, pr1 = 0x40010414;
 }
 namespace tim6 { // chapter 20
-constexpr std::uint32_t cr1 = 0x40001000, dier = 0x4000100C, sr = 0x40001010, cnt = 0x40001024, psc = 0x40001028, arr = 0x4000102C;
+constexpr std::uint32_t cr1 = 0x40001000, dier = 0x4000100C, sr = 0x40001010, cnt = 0x40001024,
+                        psc = 0x40001028, arr = 0x4000102C;
 }
 namespace iwdg { // chapter 24
 constexpr std::uint32_t kr = 0x40003000, pr = 0x40003004, rlr = 0x40003008;
@@ -36,8 +39,8 @@ constexpr std::uint32_t usart1 = 0x40013800, usart2 = 0x40004400;
 constexpr std::uint32_t cr1 = 0x00, brr = 0x0C, isr = 0x1C, icr = 0x20, rdr = 0x24, tdr = 0x28;
 } // namespace usart
 namespace core { // ARMv7-M manual, B3 and C1
-constexpr std::uint32_t nvicEnable = 0xE000E100, nvicPriority = 0xE000E400, cpacr = 0xE000ED88, demcr = 0xE000EDFC, dwtControl = 0xE0001000,
-                        dwtCycles = 0xE0001004;
+constexpr std::uint32_t nvicEnable = 0xE000E100, nvicPriority = 0xE000E400, cpacr = 0xE000ED88,
+                        demcr = 0xE000EDFC, dwtControl = 0xE0001000, dwtCycles = 0xE0001004;
 }
 namespace irq { // RM0364 table 30
 constexpr int pvd = 1, usart1 = 37, usart2 = 38, tim6 = 54;
@@ -45,7 +48,8 @@ constexpr int pvd = 1, usart1 = 37, usart2 = 38, tim6 = 54;
 
 /// Priority 0 interrupts all others.
 inline void enableInterrupt(int number, std::uint8_t priority) noexcept {
-    *reinterpret_cast<volatile std::uint8_t*>(core::nvicPriority + static_cast<std::uint32_t>(number)) = static_cast<std::uint8_t>(priority << 4);
+    *reinterpret_cast<volatile std::uint8_t*>(core::nvicPriority + static_cast<std::uint32_t>(number)) =
+        static_cast<std::uint8_t>(priority << 4);
     reg(core::nvicEnable + 4u * static_cast<std::uint32_t>(number / 32)) = 1u << (number % 32);
 }
 

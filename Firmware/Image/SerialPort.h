@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The serial line: bytes in and out by interrupt. Built for the ST-Link's port (USART2) or a Bluetooth module (USART1).
+// The serial line: bytes in and out by interrupt. Built for the ST-Link's port (USART2) or a Bluetooth module
+// (USART1).
 #pragma once
 #include "Clock.h"
 #include "Outputs.h"
@@ -121,7 +122,8 @@ private:
     std::uint32_t cyclesPerFrame_ = 1;
     std::array<volatile std::uint8_t, 256> received_{}; // 22 ms of the line; indices wrap by themselves
     std::array<std::uint8_t, 128> toSend_{};
-    std::array<Moment, 16> zeros_{}; // of a flood of empty frames some get too late a moment, which a clock does not mind
+    std::array<Moment, 16> zeros_{}; // of a flood of empty frames some get too late a moment, which a clock
+                                     // does not mind
     volatile std::uint8_t receivedAt_ = 0, readAt_ = 0, putAt_ = 0, sentAt_ = 0;
     std::uint8_t zerosSeen_ = 0, zerosTaken_ = 0;
     volatile std::uint32_t overruns_ = 0;

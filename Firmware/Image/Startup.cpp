@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From reset to main: memory, floating-point unit, stack paint; and the vectors. Every fault ends in silence and, by
-// the hardware watchdog, in a restart.
+// From reset to main: memory, floating-point unit, stack paint; and the vectors. Every fault ends in silence
+// and, by the hardware watchdog, in a restart.
 #include "Startup.h"
 #include "DacBus.h"
 #include "Registers.h"
@@ -65,7 +65,8 @@ void startUp() {
 void fault() {
     asm volatile("cpsid i");
     physvib::board::DacBus::silence();
-    for (;;) {} // until the hardware watchdog restarts us
+    for (;;) {
+    } // until the hardware watchdog restarts us
 }
 
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The four-channel board: serial messages in, codes for four converters out.
 //
-// Three levels: the sample timer's interrupt (writes one frame to the converters), the serial interrupt (moves bytes),
-// and this loop (messages and rendering, a few frames ahead). Whatever hangs, the hardware watchdog notices: it is fed
-// once per rendered block, so timer, interrupts and loop must all be alive.
+// Three levels: the sample timer's interrupt (writes one frame to the converters), the serial interrupt
+// (moves bytes), and this loop (messages and rendering, a few frames ahead). Whatever hangs, the hardware
+// watchdog notices: it is fed once per rendered block, so timer, interrupts and loop must all be alive.
 #include "Clock.h"
 #include "DacBus.h"
 #include "Link.h"
@@ -22,7 +22,9 @@ SerialPort serial;
 Link link;
 
 // PA5
-void startLed() noexcept { reg(gpio::a + gpio::moder) = (reg(gpio::a + gpio::moder) & ~(3u << 10)) | 1u << 10; }
+void startLed() noexcept {
+    reg(gpio::a + gpio::moder) = (reg(gpio::a + gpio::moder) & ~(3u << 10)) | 1u << 10;
+}
 
 // Steady: somebody talks to us. Blinking twice a second: silent.
 void showLed() noexcept {
@@ -30,7 +32,8 @@ void showLed() noexcept {
     reg(gpio::a + gpio::bsrr) = isOn ? 1u << 5 : 1u << 21;
 }
 
-// The supply falls below 2.9 V (RM0364 6.2.2): an interrupt, before the processor's own reset at 2.0 V or less.
+// The supply falls below 2.9 V (RM0364 6.2.2): an interrupt, before the processor's own reset at 2.0 V or
+// less.
 void startBrownOutDetector() noexcept {
     reg(rcc::apb1enr) |= 1u << 28;
     reg(pwr::cr) |= 7u << 5 | 1u << 4;

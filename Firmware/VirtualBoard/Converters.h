@@ -8,14 +8,16 @@
 
 namespace physvib::virtualboard {
 
-/// Times in nanoseconds, assumed for a supply of 5 V: what of TI SLAS062B could be verified stands in Docs/board.md.
+/// Times in nanoseconds, assumed for a supply of 5 V: what of TI SLAS062B could be verified stands in
+/// Docs/board.md.
 struct ConverterTimes {
     double selectSetUp = 50, dataSetUp = 25, writePulse = 50, hold = 10;
 };
 
 /// The shortest times seen.
 struct ConverterTimings {
-    double selectSetUp = std::numeric_limits<double>::infinity(), dataSetUp = selectSetUp, writePulse = selectSetUp, hold = selectSetUp;
+    double selectSetUp = std::numeric_limits<double>::infinity(), dataSetUp = selectSetUp,
+           writePulse = selectSetUp, hold = selectSetUp;
     long writes = 0, violations = 0;
 };
 
@@ -49,7 +51,8 @@ public:
     const ConverterTimings& timings() const { return timings_; }
 
 private:
-    static constexpr std::uint32_t data = 0xFF, latch = 1u << 8, write = 1u << 9, chip1 = 1u << 10, chip2 = 1u << 11, chips = chip1 | chip2;
+    static constexpr std::uint32_t data = 0xFF, latch = 1u << 8, write = 1u << 9, chip1 = 1u << 10,
+                                   chip2 = 1u << 11, chips = chip1 | chip2;
 
     void follow(std::uint32_t pins) {
         const auto code = static_cast<std::uint8_t>(pins & data);

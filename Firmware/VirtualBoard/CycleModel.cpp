@@ -13,7 +13,8 @@ struct Instruction {
     std::span<const cs_arm_op> operands;
 
     bool is(std::initializer_list<std::string_view> beginnings) const {
-        return std::any_of(beginnings.begin(), beginnings.end(), [this](auto b) { return name.starts_with(b); });
+        return std::any_of(beginnings.begin(), beginnings.end(),
+                           [this](auto b) { return name.starts_with(b); });
     }
     bool isRegister(std::size_t i) const { return i < operands.size() && operands[i].type == ARM_OP_REG; }
     int reg(std::size_t i) const { return isRegister(i) ? operands[i].reg : ARM_REG_INVALID; }
@@ -27,7 +28,10 @@ struct Instruction {
         return n - (hasBase ? 1 : 0);
     }
     bool movesMany() const { return is({"ldm", "stm", "push", "pop", "vldm", "vstm", "vpush", "vpop"}); }
-    bool isArithmetic() const { return is({"vadd", "vsub", "vmul", "vnmul", "vcvt", "vdiv", "vsqrt", "vmla", "vmls", "vfma", "vfms", "vfnm"}); }
+    bool isArithmetic() const {
+        return is({"vadd", "vsub", "vmul", "vnmul", "vcvt", "vdiv", "vsqrt", "vmla", "vmls", "vfma", "vfms",
+                   "vfnm"});
+    }
     bool isLoad() const { return is({"ldr", "vldr"}); }
     bool isStore() const { return is({"str", "vstr"}); }
     std::uint32_t wordsStored() const {
@@ -36,7 +40,9 @@ struct Instruction {
         return is({"push", "stm", "vpush", "vstm"}) ? words() : 0;
     }
     bool loadsConstant() const {
-        return isLoad() && std::any_of(operands.begin(), operands.end(), [](auto& o) { return o.type == ARM_OP_MEM && o.mem.base == ARM_REG_PC; });
+        return isLoad() && std::any_of(operands.begin(), operands.end(), [](auto& o) {
+                   return o.type == ARM_OP_MEM && o.mem.base == ARM_REG_PC;
+               });
     }
     bool uses(int wanted) const {
         for (std::size_t i = isStore() || is({"vcmp"}) ? 0 : 1; i < operands.size(); ++i)
@@ -48,7 +54,9 @@ struct Instruction {
 // Cycles without stalls; `follows`: right after another load or store.
 std::uint32_t plainCycles(const Instruction& i, bool follows, CostModel model) {
     const bool slow = model == CostModel::pessimistic;
-    if (i.movesMany()) return 1 + i.words() + (i.is({"pop", "ldm"}) && i.reg(i.operands.size() - 1) == ARM_REG_PC ? (slow ? 3 : 2) : 0);
+    if (i.movesMany())
+        return 1 + i.words() +
+               (i.is({"pop", "ldm"}) && i.reg(i.operands.size() - 1) == ARM_REG_PC ? (slow ? 3 : 2) : 0);
     if (i.is({"ldrd", "strd"})) return 3;
     if (i.is({"vdiv", "vsqrt"})) return 14;
     if (i.is({"vmla", "vmls", "vfma", "vfms", "vfnm"})) return 3;
@@ -61,8 +69,11 @@ std::uint32_t plainCycles(const Instruction& i, bool follows, CostModel model) {
 
 } // namespace
 
-CycleModel::CycleModel(CostModel model) : model_{model} {
-    if (cs_open(CS_ARCH_ARM, static_cast<cs_mode>(CS_MODE_THUMB | CS_MODE_MCLASS), &disassembler_) != CS_ERR_OK) throw std::runtime_error("Capstone does not start");
+CycleModel::CycleModel(CostModel model)
+    : model_{model} {
+    if (cs_open(CS_ARCH_ARM, static_cast<cs_mode>(CS_MODE_THUMB | CS_MODE_MCLASS), &disassembler_) !=
+        CS_ERR_OK)
+        throw std::runtime_error("Capstone does not start");
     cs_option(disassembler_, CS_OPT_DETAIL, CS_OPT_ON);
 }
 
@@ -83,7 +94,8 @@ BlockCost CycleModel::cost(std::span<const std::uint8_t> code, std::uint32_t add
         stored = i.wordsStored();
         for (std::uint32_t w = 0; w < stored; ++w) b.storeCycles.push_back(shortest + w);
         const std::uint32_t stall = lastResult != ARM_REG_INVALID && i.uses(lastResult) ? 1 : 0;
-        b.cycles += plainCycles(i, wasAccess, model_) + stall + (slow && isFlash && i.loadsConstant() ? waitStates : 0);
+        b.cycles += plainCycles(i, wasAccess, model_) + stall +
+                    (slow && isFlash && i.loadsConstant() ? waitStates : 0);
         shortest += plainCycles(i, wasAccess, CostModel::optimistic) + stall;
         lastResult = i.isArithmetic() ? i.reg(0) : ARM_REG_INVALID;
         wasAccess = i.isLoad() || i.isStore();

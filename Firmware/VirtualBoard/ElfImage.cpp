@@ -22,7 +22,8 @@ void readSegments(const std::vector<std::uint8_t>& file, const Elf32_Ehdr& head,
     for (unsigned i = 0; i < head.e_phnum; ++i) {
         const auto part = at<Elf32_Phdr>(file, head.e_phoff + i * sizeof(Elf32_Phdr));
         if (part.p_type != PT_LOAD || part.p_filesz == 0) continue;
-        if (part.p_offset + static_cast<std::size_t>(part.p_filesz) > file.size()) throw std::runtime_error("ends too early");
+        if (part.p_offset + static_cast<std::size_t>(part.p_filesz) > file.size())
+            throw std::runtime_error("ends too early");
         const auto begin = file.begin() + static_cast<std::ptrdiff_t>(part.p_offset);
         image.segments.push_back({part.p_paddr, {begin, begin + static_cast<std::ptrdiff_t>(part.p_filesz)}});
     }
@@ -36,7 +37,8 @@ void readSymbols(const std::vector<std::uint8_t>& file, const Elf32_Ehdr& head, 
         for (std::size_t k = 0; k < section.sh_size / sizeof(Elf32_Sym); ++k) {
             const auto symbol = at<Elf32_Sym>(file, section.sh_offset + k * sizeof(Elf32_Sym));
             std::string name;
-            for (std::size_t c = names.sh_offset + symbol.st_name; c < file.size() && file[c] != 0; ++c) name += static_cast<char>(file[c]);
+            for (std::size_t c = names.sh_offset + symbol.st_name; c < file.size() && file[c] != 0; ++c)
+                name += static_cast<char>(file[c]);
             image.symbols[name] = {symbol.st_value, symbol.st_size};
         }
     }
@@ -51,7 +53,8 @@ ElfImage readElf(const std::string& path) {
     ElfImage image;
     try {
         const auto head = at<Elf32_Ehdr>(file, 0);
-        if (std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 || head.e_machine != EM_ARM) throw std::runtime_error("expected an Arm ELF file");
+        if (std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 || head.e_machine != EM_ARM)
+            throw std::runtime_error("expected an Arm ELF file");
         readSegments(file, head, image);
         readSymbols(file, head, image);
     } catch (const std::runtime_error& e) {

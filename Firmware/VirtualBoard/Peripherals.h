@@ -44,11 +44,11 @@ public:
     bool watchdogExpired(std::uint64_t cycle) const { return cycle >= watchdogEnd_; }
     void brownOut() { brownOut_ = true; }
 
-    std::deque<LineByte> lineOut;            ///< taken by whoever listens
-    std::vector<Converters::Frame> frames;   ///< one per sample
+    std::deque<LineByte> lineOut;          ///< taken by whoever listens
+    std::vector<Converters::Frame> frames; ///< one per sample
     std::vector<std::uint64_t> frameCycles;
     Converters converters;
-    std::uint64_t timerOverruns = 0;         ///< a sample's interrupt was not served before the next
+    std::uint64_t timerOverruns = 0; ///< a sample's interrupt was not served before the next
     std::uint64_t lineOverruns = 0;
     bool ledIsOn = false;
 
@@ -59,7 +59,8 @@ private:
     void transmit(std::uint32_t byte, std::uint64_t cycle);
 
     std::unordered_map<std::uint32_t, std::uint32_t> plain_; // registers that only remember
-    std::uint32_t serialControl_ = 0, timerControl_ = 0;     // these are looked at for every block of instructions
+    std::uint32_t serialControl_ = 0, timerControl_ = 0;     // these are looked at for every block of
+                                                             // instructions
     std::uint64_t enabled_ = 0;
     std::array<std::uint8_t, 82> priorities_{};
     std::uint32_t portOutput_ = 0, portMode_ = 0;

@@ -11,15 +11,22 @@ class Plug {
 public:
     /// In. `link`: a name that stays the same from plug to plug (a symbolic link), or empty. Throws what
     /// PseudoTerminal and std::filesystem throw.
-    explicit Plug(std::string link) : link_{std::move(link)} { move(); }
-    ~Plug() { if (line_) pull(); }
+    explicit Plug(std::string link)
+        : link_{std::move(link)} {
+        move();
+    }
+    ~Plug() {
+        if (line_) pull();
+    }
     Plug(const Plug&) = delete;
     Plug& operator=(const Plug&) = delete;
 
     /// Out if it was in, in if it was out; true if it is in now.
     bool move() {
-        if (line_) pull();
-        else putIn();
+        if (line_)
+            pull();
+        else
+            putIn();
         return line_.has_value();
     }
 
@@ -27,7 +34,9 @@ public:
     const std::string& path() const { return link_.empty() ? line_->path() : link_; }
 
     std::vector<std::uint8_t> read() { return line_ ? line_->read() : std::vector<std::uint8_t>{}; }
-    void write(std::span<const std::uint8_t> bytes) { if (line_) line_->write(bytes); }
+    void write(std::span<const std::uint8_t> bytes) {
+        if (line_) line_->write(bytes);
+    }
 
 private:
     void putIn() {

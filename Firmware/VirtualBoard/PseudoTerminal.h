@@ -16,8 +16,10 @@ namespace physvib::virtualboard {
 class PseudoTerminal {
 public:
     /// Throws std::runtime_error if the system gives none.
-    PseudoTerminal() : master_{posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)} {
-        if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0) throw std::runtime_error("no pseudo-terminal");
+    PseudoTerminal()
+        : master_{posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)} {
+        if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0)
+            throw std::runtime_error("no pseudo-terminal");
         path_ = ptsname(master_);
         slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY); // held open, so that a caller may come and go
         termios raw{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When the converters leave silence and come back to it, in time of the steady clock, which all programs of a machine
-// share: what plays beside the board can be compared with it.
+// When the converters leave silence and come back to it, in time of the steady clock, which all programs of a
+// machine share: what plays beside the board can be compared with it.
 #pragma once
 #include "Peripherals.h"
 #include <algorithm>
@@ -28,13 +28,16 @@ public:
 
     void note(const char* what, double seconds) {
         const auto at = began_.time_since_epoch() + std::chrono::nanoseconds(std::llround(seconds * 1e9));
-        if (file_.is_open()) file_ << std::chrono::duration_cast<std::chrono::nanoseconds>(at).count() << ',' << what << std::endl;
+        if (file_.is_open())
+            file_ << std::chrono::duration_cast<std::chrono::nanoseconds>(at).count() << ',' << what
+                  << std::endl;
     }
 
     /// Looks at the frames since the last call.
     void follow(const Peripherals& io) {
         for (; seen_ < io.frames.size(); ++seen_) {
-            const bool isSilent = std::ranges::all_of(io.frames[seen_], [](int code) { return code == midScale; });
+            const bool isSilent =
+                std::ranges::all_of(io.frames[seen_], [](int code) { return code == midScale; });
             if (!isSilent && silent_ >= pause) note("sound", secondsOf(io, seen_));
             silent_ = isSilent ? silent_ + 1 : 0;
             if (silent_ == pause) note("silence", secondsOf(io, seen_ + 1 - pause));
@@ -44,7 +47,9 @@ public:
 private:
     static constexpr std::size_t pause = 160; // frames
     static constexpr int midScale = 128;
-    static double secondsOf(const Peripherals& io, std::size_t frame) { return static_cast<double>(io.frameCycles[frame]) / io.hz(); }
+    static double secondsOf(const Peripherals& io, std::size_t frame) {
+        return static_cast<double>(io.frameCycles[frame]) / io.hz();
+    }
 
     std::ofstream file_;
     std::chrono::steady_clock::time_point began_;

@@ -9,38 +9,52 @@
 namespace physvib::virtualboard {
 namespace {
 
-constexpr std::uint32_t flashBase = 0x08000000, flashSize = 0x10000, sramBase = 0x20000000, sramSize = 0x3000, fastBase = 0x10000000, fastSize = 0x1000;
+constexpr std::uint32_t flashBase = 0x08000000, flashSize = 0x10000, sramBase = 0x20000000, sramSize = 0x3000,
+                        fastBase = 0x10000000, fastSize = 0x1000;
 constexpr int hardFault = 3, firstExternal = 16, faultPriority = -1;
 constexpr std::uint32_t frameBytes = 104, returnToThread = 0xFFFFFFE9, exceptionReturns = 0xFFFFFF00;
 constexpr int unicornExceptionReturn = 8; // EXCP_EXCEPTION_EXIT
-constexpr std::array<int, 8> stackedCore{UC_ARM_REG_R0, UC_ARM_REG_R1, UC_ARM_REG_R2, UC_ARM_REG_R3, UC_ARM_REG_R12, UC_ARM_REG_LR, UC_ARM_REG_PC, UC_ARM_REG_XPSR};
-constexpr std::array<int, 16> stackedFloat{UC_ARM_REG_S0, UC_ARM_REG_S1, UC_ARM_REG_S2, UC_ARM_REG_S3, UC_ARM_REG_S4, UC_ARM_REG_S5, UC_ARM_REG_S6, UC_ARM_REG_S7,
-                                           UC_ARM_REG_S8, UC_ARM_REG_S9, UC_ARM_REG_S10, UC_ARM_REG_S11, UC_ARM_REG_S12, UC_ARM_REG_S13, UC_ARM_REG_S14, UC_ARM_REG_S15};
+constexpr std::array<int, 8> stackedCore{UC_ARM_REG_R0,  UC_ARM_REG_R1, UC_ARM_REG_R2, UC_ARM_REG_R3,
+                                         UC_ARM_REG_R12, UC_ARM_REG_LR, UC_ARM_REG_PC, UC_ARM_REG_XPSR};
+constexpr std::array<int, 16> stackedFloat{UC_ARM_REG_S0,  UC_ARM_REG_S1,  UC_ARM_REG_S2,  UC_ARM_REG_S3,
+                                           UC_ARM_REG_S4,  UC_ARM_REG_S5,  UC_ARM_REG_S6,  UC_ARM_REG_S7,
+                                           UC_ARM_REG_S8,  UC_ARM_REG_S9,  UC_ARM_REG_S10, UC_ARM_REG_S11,
+                                           UC_ARM_REG_S12, UC_ARM_REG_S13, UC_ARM_REG_S14, UC_ARM_REG_S15};
 constexpr std::uint32_t ifThenBits = 0x0600FC00; // of XPSR
 constexpr int entryCycles = 12, exitCycles = 12; // Arm 100166, 3.9.1
 
 void demand(uc_err error, const char* what) {
-    if (error != UC_ERR_OK) throw std::runtime_error(std::string("virtual board: ") + what + ": " + uc_strerror(error));
+    if (error != UC_ERR_OK)
+        throw std::runtime_error(std::string("virtual board: ") + what + ": " + uc_strerror(error));
 }
 
 } // namespace
 
-VirtualBoard::VirtualBoard(const ElfImage& image, CostModel model, bool hasCrystal) : image_{image}, model_{model} {
+VirtualBoard::VirtualBoard(const ElfImage& image, CostModel model, bool hasCrystal)
+    : image_{image}
+    , model_{model} {
     io_.hasCrystal = hasCrystal;
     demand(uc_open(UC_ARCH_ARM, static_cast<uc_mode>(UC_MODE_THUMB | UC_MODE_MCLASS), &engine_), "open");
     demand(uc_ctl_set_cpu_model(engine_, UC_CPU_ARM_CORTEX_M4), "processor");
     demand(uc_mem_map(engine_, flashBase, flashSize, UC_PROT_READ | UC_PROT_EXEC), "flash");
     demand(uc_mem_map(engine_, sramBase, sramSize, UC_PROT_ALL), "memory");
     demand(uc_mem_map(engine_, fastBase, fastSize, UC_PROT_ALL), "memory beside the core");
-    for (const auto& segment : image.segments) demand(uc_mem_write(engine_, segment.address, segment.bytes.data(), segment.bytes.size()), "image");
-    for (const std::uint32_t base : {0x40001000u, 0x40003000u, 0x40004000u, 0x40007000u, 0x40010000u, 0x40013000u, 0x40021000u, 0x40022000u, 0x48000000u, 0xE0001000u, 0xE000E000u}) {
+    for (const auto& segment : image.segments)
+        demand(uc_mem_write(engine_, segment.address, segment.bytes.data(), segment.bytes.size()), "image");
+    for (const std::uint32_t base :
+         {0x40001000u, 0x40003000u, 0x40004000u, 0x40007000u, 0x40010000u, 0x40013000u, 0x40021000u,
+          0x40022000u, 0x48000000u, 0xE0001000u, 0xE000E000u}) {
         regions_.push_back(std::make_unique<Region>(Region{this, base}));
-        demand(uc_mmio_map(engine_, base, 0x1000, onRead, regions_.back().get(), onWrite, regions_.back().get()), "registers");
+        demand(
+            uc_mmio_map(engine_, base, 0x1000, onRead, regions_.back().get(), onWrite, regions_.back().get()),
+            "registers");
     }
     uc_hook hook;
     demand(uc_hook_add(engine_, &hook, UC_HOOK_BLOCK, reinterpret_cast<void*>(onBlock), this, 1, 0), "hook");
-    demand(uc_hook_add(engine_, &hook, UC_HOOK_INTR, reinterpret_cast<void*>(onException), this, 1, 0), "hook");
-    demand(uc_hook_add(engine_, &hook, UC_HOOK_MEM_WRITE, reinterpret_cast<void*>(onStore), this, 1, 0), "hook");
+    demand(uc_hook_add(engine_, &hook, UC_HOOK_INTR, reinterpret_cast<void*>(onException), this, 1, 0),
+           "hook");
+    demand(uc_hook_add(engine_, &hook, UC_HOOK_MEM_WRITE, reinterpret_cast<void*>(onStore), this, 1, 0),
+           "hook");
     for (const auto& [name, symbol] : image.symbols)
         if (symbol.size > 0) functions_.push_back({symbol.address & ~1u, name});
     std::sort(functions_.begin(), functions_.end());
@@ -86,10 +100,12 @@ std::vector<std::uint8_t> VirtualBoard::memory(std::uint32_t address, std::size_
 
 void VirtualBoard::poke(std::uint32_t address, std::span<const std::uint8_t> bytes) {
     demand(uc_mem_write(engine_, address, bytes.data(), bytes.size()), "write");
-    uc_ctl_remove_cache(engine_, static_cast<std::uint64_t>(address), static_cast<std::uint64_t>(address + bytes.size()));
+    uc_ctl_remove_cache(engine_, static_cast<std::uint64_t>(address),
+                        static_cast<std::uint64_t>(address + bytes.size()));
 }
 
-// --- time -----------------------------------------------------------------------------------------------------
+// --- time
+// -----------------------------------------------------------------------------------------------------
 
 void VirtualBoard::commit() {
     cycle_ += pendingCycles_;
@@ -102,7 +118,8 @@ const VirtualBoard::Block& VirtualBoard::blockAt(std::uint32_t address, std::uin
     if (found != blocks_.end()) return found->second;
     std::vector<std::uint8_t> code(size);
     uc_mem_read(engine_, address, code.data(), size);
-    const auto after = std::upper_bound(functions_.begin(), functions_.end(), std::pair{address, std::string("\x7f")});
+    const auto after =
+        std::upper_bound(functions_.begin(), functions_.end(), std::pair{address, std::string("\x7f")});
     const std::string name = after == functions_.begin() ? "?" : std::prev(after)->second;
     return blocks_.emplace(key, Block{model_.cost(code, address), &spent_[name]}).first->second;
 }
@@ -115,7 +132,8 @@ void VirtualBoard::enterBlock(std::uint32_t address, std::uint32_t size) {
         return;
     }
     current_ = &blockAt(address, size);
-    const std::uint64_t cost = current_->cost.cycles + (address != expectedAddress_ ? current_->cost.takenCycles : 0);
+    const std::uint64_t cost =
+        current_->cost.cycles + (address != expectedAddress_ ? current_->cost.takenCycles : 0);
     expectedAddress_ = address + size;
     storesInBlock_ = 0;
     instructions_ += current_->cost.instructions;
@@ -133,7 +151,9 @@ void VirtualBoard::onBlock(uc_engine*, std::uint64_t address, std::uint32_t size
     static_cast<VirtualBoard*>(self)->enterBlock(static_cast<std::uint32_t>(address), size);
 }
 
-void VirtualBoard::onStore(uc_engine*, int, std::uint64_t, int, std::int64_t, void* self) { ++static_cast<VirtualBoard*>(self)->storesInBlock_; }
+void VirtualBoard::onStore(uc_engine*, int, std::uint64_t, int, std::int64_t, void* self) {
+    ++static_cast<VirtualBoard*>(self)->storesInBlock_;
+}
 
 void VirtualBoard::onException(uc_engine* engine, std::uint32_t number, void* self) {
     auto& board = *static_cast<VirtualBoard*>(self);
@@ -147,14 +167,17 @@ std::uint64_t VirtualBoard::onRead(uc_engine*, std::uint64_t offset, unsigned, v
     return r.board->io_.read(r.base + static_cast<std::uint32_t>(offset), r.board->cycle_);
 }
 
-void VirtualBoard::onWrite(uc_engine*, std::uint64_t offset, unsigned size, std::uint64_t value, void* region) {
+void VirtualBoard::onWrite(uc_engine*, std::uint64_t offset, unsigned size, std::uint64_t value,
+                           void* region) {
     const auto& r = *static_cast<Region*>(region);
-    r.board->io_.write(r.base + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(value), size, r.board->storeTime());
+    r.board->io_.write(r.base + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(value), size,
+                       r.board->storeTime());
     const std::uint64_t next = r.board->io_.nextEvent(); // what was written may let something happen sooner
     r.board->deadline_ = std::min(r.board->deadline_, next);
 }
 
-// --- exceptions (ARMv7-M manual, B1.5) -----------------------------------------------------------------------
+// --- exceptions (ARMv7-M manual, B1.5)
+// -----------------------------------------------------------------------
 
 void VirtualBoard::enterException(int vector, int number, int priority) {
     std::array<std::uint32_t, frameBytes / 4> frame{};
@@ -200,7 +223,8 @@ void VirtualBoard::fault() {
     enterException(hardFault, -hardFault, faultPriority);
 }
 
-// --- running -------------------------------------------------------------------------------------------------
+// --- running
+// -------------------------------------------------------------------------------------------------
 
 void VirtualBoard::runSlice(std::uint64_t end) {
     io_.advance(cycle_);
@@ -212,7 +236,8 @@ void VirtualBoard::runSlice(std::uint64_t end) {
     const uc_err error = uc_emu_start(engine_, reg(UC_ARM_REG_PC) | 1, 0xFFFFFFF0, 0, 0);
     commit();
     current_ = nullptr;
-    const bool returns = exception_ == unicornExceptionReturn || (reg(UC_ARM_REG_PC) & exceptionReturns) == exceptionReturns;
+    const bool returns =
+        exception_ == unicornExceptionReturn || (reg(UC_ARM_REG_PC) & exceptionReturns) == exceptionReturns;
     if (returns && !active_.empty()) return leaveException();
     if (error != UC_ERR_OK || exception_ >= 0) return fault();
     if (stopped_ || io_.pendingInterrupt(currentPriority()) >= 0 || deadline_ <= cycle_) return;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The board without the board: the unmodified firmware image, instruction by instruction in Unicorn, with a model of
-// what is around the processor. Time is counted in the processor's cycles by CycleModel.
+// The board without the board: the unmodified firmware image, instruction by instruction in Unicorn, with a
+// model of what is around the processor. Time is counted in the processor's cycles by CycleModel.
 //
-// Known limits: interrupts are taken between blocks of instructions (up to about a hundred cycles late); the clock
-// counts as at full speed from reset on; analogue behaviour is outside.
+// Known limits: interrupts are taken between blocks of instructions (up to about a hundred cycles late); the
+// clock counts as at full speed from reset on; analogue behaviour is outside.
 #pragma once
 #include "CycleModel.h"
 #include "ElfImage.h"
@@ -21,7 +21,8 @@ namespace physvib::virtualboard {
 
 class VirtualBoard {
 public:
-    explicit VirtualBoard(const ElfImage& image, CostModel model = CostModel::optimistic, bool hasCrystal = true);
+    explicit VirtualBoard(const ElfImage& image, CostModel model = CostModel::optimistic,
+                          bool hasCrystal = true);
     ~VirtualBoard();
     VirtualBoard(const VirtualBoard&) = delete;
     VirtualBoard& operator=(const VirtualBoard&) = delete;

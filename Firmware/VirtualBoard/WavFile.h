@@ -10,7 +10,8 @@
 namespace physvib::virtualboard {
 
 /// False if the file cannot be written. `rate`: samples per second.
-inline bool writeWav(const std::string& path, const std::vector<Converters::Frame>& frames, std::uint32_t rate) {
+inline bool writeWav(const std::string& path, const std::vector<Converters::Frame>& frames,
+                     std::uint32_t rate) {
     std::ofstream out(path, std::ios::binary);
     const auto number = [&out](std::uint32_t value, int bytes) {
         for (int i = 0; i < bytes; ++i) out.put(static_cast<char>(value >> (8 * i)));
@@ -19,7 +20,8 @@ inline bool writeWav(const std::string& path, const std::vector<Converters::Fram
     out << "RIFF";
     number(36 + size, 4);
     out << "WAVEfmt ";
-    number(16, 4), number(1, 2), number(4, 2), number(rate, 4), number(rate * 4, 4), number(4, 2), number(8, 2);
+    number(16, 4), number(1, 2), number(4, 2), number(rate, 4), number(rate * 4, 4), number(4, 2),
+        number(8, 2);
     out << "data";
     number(size, 4);
     for (const auto& frame : frames)

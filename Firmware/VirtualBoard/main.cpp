@@ -29,14 +29,22 @@ Options parse(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
         const bool hasValue = i + 1 < argc;
-        if (word == "--wav" && hasValue) o.wav = argv[++i];
-        else if (word == "--link" && hasValue) o.link = argv[++i];
-        else if (word == "--log" && hasValue) o.log = argv[++i];
-        else if (word == "--seconds" && hasValue) o.seconds = std::strtod(argv[++i], nullptr);
-        else if (word == "--pessimistic") o.model = CostModel::pessimistic;
-        else if (word == "--no-crystal") o.hasCrystal = false;
-        else if (!word.starts_with("--") && o.image.empty()) o.image = word;
-        else o.isValid = false;
+        if (word == "--wav" && hasValue)
+            o.wav = argv[++i];
+        else if (word == "--link" && hasValue)
+            o.link = argv[++i];
+        else if (word == "--log" && hasValue)
+            o.log = argv[++i];
+        else if (word == "--seconds" && hasValue)
+            o.seconds = std::strtod(argv[++i], nullptr);
+        else if (word == "--pessimistic")
+            o.model = CostModel::pessimistic;
+        else if (word == "--no-crystal")
+            o.hasCrystal = false;
+        else if (!word.starts_with("--") && o.image.empty())
+            o.image = word;
+        else
+            o.isValid = false;
     }
     o.isValid = o.isValid && !o.image.empty();
     return o;
@@ -46,7 +54,8 @@ void runLive(VirtualBoard& board, Plug& plug, SoundLog& log, double seconds) {
     const auto began = std::chrono::steady_clock::now();
     log.begin(began);
     while (!interrupted && (seconds <= 0 || board.seconds() < seconds)) {
-        // Bytes come when they are read, not when the board stood still for want of a processor: its clock stays steady.
+        // Bytes come when they are read, not when the board stood still for want of a processor: its clock
+        // stays steady.
         const auto bytes = plug.read();
         const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
         if (plugMoved.exchange(false)) log.note(plug.move() ? "plugged" : "unplugged", now);
@@ -62,10 +71,13 @@ void runLive(VirtualBoard& board, Plug& plug, SoundLog& log, double seconds) {
 
 void report(VirtualBoard& board) {
     const auto& t = board.io().converters.timings();
-    const double load = 100.0 - 100.0 * static_cast<double>(board.idleCycles()) / static_cast<double>(board.cycle());
-    std::cerr << board.seconds() << " s, " << board.io().frames.size() << " frames, load " << load << " %, " << t.writes << " writes to the converters (shortest pulse "
-              << t.writePulse << " ns, set-up " << t.selectSetUp << " ns), " << t.violations << " against their times, " << board.io().timerOverruns << " samples missed, "
-              << board.resets() << " restarts, " << board.faults() << " faults\n";
+    const double load =
+        100.0 - 100.0 * static_cast<double>(board.idleCycles()) / static_cast<double>(board.cycle());
+    std::cerr << board.seconds() << " s, " << board.io().frames.size() << " frames, load " << load << " %, "
+              << t.writes << " writes to the converters (shortest pulse " << t.writePulse << " ns, set-up "
+              << t.selectSetUp << " ns), " << t.violations << " against their times, "
+              << board.io().timerOverruns << " samples missed, " << board.resets() << " restarts, "
+              << board.faults() << " faults\n";
 }
 
 } // namespace
@@ -73,7 +85,8 @@ void report(VirtualBoard& board) {
 int main(int argc, char** argv) {
     const Options o = parse(argc, argv);
     if (!o.isValid) {
-        std::cerr << "usage: physvib-virtual-board IMAGE.elf [--seconds S] [--wav CONVERTERS.wav] [--link PORT] [--log SOUND.csv] [--pessimistic] [--no-crystal]\n"
+        std::cerr << "usage: physvib-virtual-board IMAGE.elf [--seconds S] [--wav CONVERTERS.wav] [--link "
+                     "PORT] [--log SOUND.csv] [--pessimistic] [--no-crystal]\n"
                      "SIGUSR1 pulls the plug of its serial line, and puts it back\n";
         return 2;
     }
@@ -87,7 +100,8 @@ int main(int argc, char** argv) {
         std::cout << plug.path() << std::endl; // the port to connect to; scripts wait for this line
         runLive(board, plug, log, o.seconds);
         report(board);
-        if (!o.wav.empty() && !writeWav(o.wav, board.io().frames, 8000)) throw std::runtime_error(o.wav + ": cannot be written");
+        if (!o.wav.empty() && !writeWav(o.wav, board.io().frames, 8000))
+            throw std::runtime_error(o.wav + ": cannot be written");
     } catch (const std::exception& e) {
         std::cerr << "physvib-virtual-board: " << e.what() << '\n';
         return 1;

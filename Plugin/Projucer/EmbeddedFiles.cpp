@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The built-in scenes, materials, actuators, protocols and words where the Projucer embeds them (CMake does by Source/Io/embed.cmake).
+// The built-in scenes, materials, actuators, protocols and words where the Projucer embeds them (CMake does
+// by Source/Io/embed.cmake).
 #include "BinaryData.h"
 #include "Io/Disk/Embedded.h"
 
@@ -14,7 +15,8 @@ std::vector<EmbeddedFile> embedded(std::string_view versionField) {
         int size = 0;
         const char* const text = BinaryData::getNamedResource(BinaryData::namedResourceList[i], size);
         const std::string_view content{text, static_cast<std::size_t>(size)};
-        if (content.find(versionField) != content.npos) files.push_back({BinaryData::originalFilenames[i], content});
+        if (content.find(versionField) != content.npos)
+            files.push_back({BinaryData::originalFilenames[i], content});
     }
     return files;
 }

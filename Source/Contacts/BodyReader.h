@@ -6,8 +6,8 @@
 
 namespace physvib {
 
-/// What the engine says of a body. Fixtures and bodies are named by numbers of the engine's choice (addresses, ids): not
-/// 0, and different for those that are in the world at the same time.
+/// What the engine says of a body. Fixtures and bodies are named by numbers of the engine's choice
+/// (addresses, ids): not 0, and different for those that are in the world at the same time.
 struct BodyFacts {
     std::uint64_t body = 0;
     double massKg = 0.0;       ///< of a dynamic body
@@ -22,8 +22,8 @@ struct BodyMotion {
     float radiansPerSecond = 0.0F; ///< counter-clockwise
 };
 
-/// Asked for few bodies, and only when something has happened to them, so nothing is copied for those at rest. Each
-/// method: M, within a step or right after it, for a body that is in the world.
+/// Asked for few bodies, and only when something has happened to them, so nothing is copied for those at
+/// rest. Each method: M, within a step or right after it, for a body that is in the world.
 class BodyReader {
 public:
     virtual ~BodyReader() = default;

@@ -20,7 +20,9 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
 void ChainLoads::settle() {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const Contact& contact = contacts_[i];
-        if (!contact.isSolved || contact.isUnknown || contact.now.lengthSquared() <= contact.load.lengthSquared()) continue;
+        if (!contact.isSolved || contact.isUnknown ||
+            contact.now.lengthSquared() <= contact.load.lengthSquared())
+            continue;
         const TouchingPairs::Name& of = pasts_[i].of;
         const Vector2 beyond = contact.now - contact.load;
         const float size = beyond.length();
@@ -29,7 +31,8 @@ void ChainLoads::settle() {
     }
 }
 
-void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size, Vector2 point) {
+void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size,
+                      Vector2 point) {
     if (!table_.isCamera(slot)) return;
     const auto index = static_cast<std::size_t>(slot);
     if (passed_.size() <= index) passed_.resize(index + 1);

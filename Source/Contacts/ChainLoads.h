@@ -60,7 +60,7 @@ public:
 
 private:
     struct alignas(32) Contact { // what a push asks for: half a cache line
-        Vector2 now, point; // now: on b
+        Vector2 now, point;      // now: on b
         Vector2 load;
         std::int32_t b;
         bool isSolved;
@@ -82,7 +82,7 @@ private:
     const FixtureTable& table_;
     TouchingPairs& pairs_; // say where the loads of each are
     std::vector<Contact> contacts_;
-    std::vector<Past> pasts_; // of the same contacts
+    std::vector<Past> pasts_;    // of the same contacts
     std::vector<Passed> passed_; // by slot
     std::vector<std::int32_t> receivers_;
 };

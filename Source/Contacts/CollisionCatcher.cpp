@@ -80,7 +80,9 @@ ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
 
 double CollisionCatcher::aftermath(std::int32_t pair) const noexcept {
     const std::int32_t last = pairs_[pair].last;
-    return last == TouchingPairs::none ? 0.0 : static_cast<double>(last_[static_cast<std::size_t>(last)].newtonSeconds.length());
+    return last == TouchingPairs::none
+               ? 0.0
+               : static_cast<double>(last_[static_cast<std::size_t>(last)].newtonSeconds.length());
 }
 
 Blow* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachMetresPerSecond) {
@@ -117,7 +119,9 @@ Blow* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachM
 Blow* CollisionCatcher::weakest(bool isDirect) noexcept {
     Blow* found = nullptr;
     for (Blow& blow : blows_)
-        if (isFelt(blow.a, blow.b) == isDirect && (found == nullptr || blow.expectedNewtonSeconds < found->expectedNewtonSeconds)) found = &blow;
+        if (isFelt(blow.a, blow.b) == isDirect &&
+            (found == nullptr || blow.expectedNewtonSeconds < found->expectedNewtonSeconds))
+            found = &blow;
     return found;
 }
 

@@ -18,7 +18,8 @@ constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectBlows;
 constexpr double restingSteps = 1.5; // see ImpactSettings::thresholdMetresPerSecond
 
 const ImpactSettings& checked(const ImpactSettings& settings) {
-    if (const std::string_view fault = faultOf(settings); !fault.empty()) throw std::invalid_argument(std::string(fault));
+    if (const std::string_view fault = faultOf(settings); !fault.empty())
+        throw std::invalid_argument(std::string(fault));
     return settings;
 }
 
@@ -67,8 +68,8 @@ std::int32_t ContactEvents::know(std::int32_t slot, const BodyFacts& body) {
     return slot;
 }
 
-SetResult ContactEvents::set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values,
-                             std::int32_t id) {
+SetResult ContactEvents::set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre,
+                             const HapticFixture& values, std::int32_t id) {
     if (const std::string_view fault = faultOf(values); !fault.empty()) return {-1, fault};
     if (id < FixtureTable::none) return {-1, "id: expected a number from 0 on"};
     const std::int32_t given = table_.set(know(fixture, body), values, centre, id);
@@ -81,7 +82,8 @@ void ContactEvents::remove(std::int32_t slot) {
     table_.unset(slot);
 }
 
-void ContactEvents::cut(std::int32_t a, std::int32_t b, const BodyMotion& motionA, const BodyMotion& motionB) {
+void ContactEvents::cut(std::int32_t a, std::int32_t b, const BodyMotion& motionA,
+                        const BodyMotion& motionB) {
     conclude();
     graph_.erase(a, b);
     impacts_.clear();
@@ -122,7 +124,8 @@ void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double larges
     span_.leastMetresPerSecond = settings_.thresholdMetresPerSecond;
     span_.gravityMetresPerSecond2 = gravity;
     model_ = {settings_.normalisation.value_or(defaultNormalisation(settings_.fieldWidthMetres)),
-              settings_.handMassKg.value_or(std::max(largestMassKg, table_.largestStaticMassKg(bodies_))), settings_.driveGain};
+              settings_.handMassKg.value_or(std::max(largestMassKg, table_.largestStaticMassKg(bodies_))),
+              settings_.driveGain};
     catcher_.beginStep(span_);
     isConcluded_ = false;
     counts_.hasStepped = true;
@@ -142,7 +145,8 @@ void ContactEvents::finish() {
     if (std::exchange(isConcluded_, true)) return;
     catcher_.settle();
     for (const Blow& blow : catcher_.blows())
-        if (!span_.isStrike(blow.impulse(), blow.lighterMassKg, blow.gravityScale)) catcher_.passOver(blow.a, blow.b);
+        if (!span_.isStrike(blow.impulse(), blow.lighterMassKg, blow.gravityScale))
+            catcher_.passOver(blow.a, blow.b);
     impacts_.clear();
     if (settings_.timing == ImpactTiming::onset)
         onset_.collect(span_, impacts_);
@@ -158,7 +162,8 @@ void ContactEvents::keepStrongest(std::size_t count) {
     const auto isStronger = [this](const Impact& a, const Impact& b) {
         return amplitudeOf(a, table_, bodies_, model_) > amplitudeOf(b, table_, bodies_, model_);
     };
-    std::nth_element(impacts_.begin(), impacts_.begin() + static_cast<std::ptrdiff_t>(count), impacts_.end(), isStronger);
+    std::nth_element(impacts_.begin(), impacts_.begin() + static_cast<std::ptrdiff_t>(count), impacts_.end(),
+                     isStronger);
     overBudget_ += impacts_.size() - count;
     impacts_.erase(impacts_.begin() + static_cast<std::ptrdiff_t>(count), impacts_.end());
 }
@@ -194,7 +199,8 @@ void ContactEvents::flush(std::vector<CollisionEvent>& events) {
 
 // Fixtures without values are nobody.
 void ContactEvents::name(std::vector<CollisionEvent>& events, std::size_t first) {
-    for (std::size_t i = first; i < events.size(); ++i) events[i].source.other = std::max(events[i].source.other, -1);
+    for (std::size_t i = first; i < events.size(); ++i)
+        events[i].source.other = std::max(events[i].source.other, -1);
 }
 
 void ContactEvents::shift(Vector2 by) noexcept {

@@ -20,11 +20,12 @@
 
 namespace physvib {
 
-/// An engine's attachment feeds one of these: `know` a fixture when it gets values or touches another; each step
-/// `beginStep`, what the engine tells of its contacts to `catcher()`, `endStep`; then the events are taken.
+/// An engine's attachment feeds one of these: `know` a fixture when it gets values or touches another; each
+/// step `beginStep`, what the engine tells of its contacts to `catcher()`, `endStep`; then the events are
+/// taken.
 ///
-/// All methods: the world's thread (M). None allocates once it has seen as much as it will, but where the caller's vector
-/// grows.
+/// All methods: the world's thread (M). None allocates once it has seen as much as it will, but where the
+/// caller's vector grows.
 class ContactEvents {
 public:
     /// `bodies` must outlive it. Throws std::invalid_argument if a setting is out of range.
@@ -37,12 +38,17 @@ public:
     void configure(const ImpactSettings& settings);
     const ImpactSettings& settings() const noexcept { return settings_; }
 
-    /// Gives values to a fixture, now with this body and with its centre of mass there in the body's frame; see
-    /// FixtureTable::set. Values that faultOf() finds fault with, and an id that another has, are refused.
-    SetResult set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values, std::int32_t id);
+    /// Gives values to a fixture, now with this body and with its centre of mass there in the body's frame;
+    /// see FixtureTable::set. Values that faultOf() finds fault with, and an id that another has, are
+    /// refused.
+    SetResult set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values,
+                  std::int32_t id);
 
-    /// How two kinds of surfaces sound together (HapticFixture::surface); what is wrong with it, empty: it is set.
-    std::string_view setPair(int surface, int other, const PairSound& sound) { return pairs_.set(surface, other, sound); }
+    /// How two kinds of surfaces sound together (HapticFixture::surface); what is wrong with it, empty: it is
+    /// set.
+    std::string_view setPair(int surface, int other, const PairSound& sound) {
+        return pairs_.set(surface, other, sound);
+    }
 
     const FixtureTable& fixtures() const noexcept { return table_; }
     CollisionCatcher& catcher() noexcept { return catcher_; }
@@ -54,8 +60,8 @@ public:
     /// A contact of two slots is cut while the engine does not step: one of them is about to go.
     void cut(std::int32_t a, std::int32_t b, const BodyMotion& motionA, const BodyMotion& motionB);
 
-    /// A fixture that is about to go, while it is still there: what it felt and gave so far stays, or not (see
-    /// ImpactSettings::keepsHitsOfDestroyed). Not while the engine steps.
+    /// A fixture that is about to go, while it is still there: what it felt and gave so far stays, or not
+    /// (see ImpactSettings::keepsHitsOfDestroyed). Not while the engine steps.
     void vanish(std::int32_t slot);
 
     /// A fixture that has gone: its slot is free.
@@ -65,12 +71,13 @@ public:
     std::int32_t know(std::uint64_t fixture, const BodyFacts& body);
     std::int32_t know(std::int32_t slot, const BodyFacts& body); ///< of one that is known
 
-    /// The step ends at `endNs` (not before timeNs()); gravity in m/s^2; the largest mass of a dynamic body, kg (Eq. 5.7).
+    /// The step ends at `endNs` (not before timeNs()); gravity in m/s^2; the largest mass of a dynamic body,
+    /// kg (Eq. 5.7).
     void beginStep(std::int64_t endNs, Vector2 gravity, double largestMassKg);
 
-    /// The engine's step is over: what it told becomes events. An attachment that learns of a destruction after the
-    /// engine's step, and before endStep, calls it while everything is still there. Does nothing if nothing was told,
-    /// or a second time.
+    /// The engine's step is over: what it told becomes events. An attachment that learns of a destruction
+    /// after the engine's step, and before endStep, calls it while everything is still there. Does nothing if
+    /// nothing was told, or a second time.
     void conclude();
     void endStep();
 
@@ -83,12 +90,12 @@ public:
     /// Appends the events that are final now, in the order of their times.
     void take(std::vector<CollisionEvent>& events);
 
-    /// Appends all events, final or not, for those who need them at once rather than in order: what comes later may
-    /// lie up to a step before them.
+    /// Appends all events, final or not, for those who need them at once rather than in order: what comes
+    /// later may lie up to a step before them.
     void flush(std::vector<CollisionEvent>& events);
 
-    /// The engine has moved all places by this much (its origin is another): what is under way moves along, and the
-    /// field, so that events stay where they are in it.
+    /// The engine has moved all places by this much (its origin is another): what is under way moves along,
+    /// and the field, so that events stay where they are in it.
     void shift(Vector2 by) noexcept;
 
     /// Contacts and events lost so far because more came in one step than there is room for.

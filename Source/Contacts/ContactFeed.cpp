@@ -21,7 +21,8 @@ bool isWithin(double value, double least, double most) noexcept { return value >
 bool isUnit(Vector2 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; } // not NaN; engines round
 
 const ImpactSettings& onsetAlone(const ImpactSettings& settings) {
-    if (settings.timing != ImpactTiming::onset) throw std::invalid_argument("timing: expected onset: others' contacts are not told to their end");
+    if (settings.timing != ImpactTiming::onset)
+        throw std::invalid_argument("timing: expected onset: others' contacts are not told to their end");
     return settings;
 }
 
@@ -43,7 +44,8 @@ std::string_view ContactFeed::set(std::int32_t id, const FedBody& body, const Ha
 std::string_view ContactFeed::move(std::int32_t id, Vector2 centre, const BodyMotion& motion) {
     if (!bodies_.has(id)) return unknownBody;
     if (!isFinite(centre)) return "place: expected numbers";
-    if (!isFinite(motion.metresPerSecond) || !std::isfinite(motion.radiansPerSecond)) return "velocity: expected numbers";
+    if (!isFinite(motion.metresPerSecond) || !std::isfinite(motion.radiansPerSecond))
+        return "velocity: expected numbers";
     bodies_.move(id, centre, motion);
     return {};
 }
@@ -51,7 +53,8 @@ std::string_view ContactFeed::move(std::int32_t id, Vector2 centre, const BodyMo
 std::string_view ContactFeed::moved(std::int32_t id, const BodyMotion& motion) {
     if (!bodies_.has(id)) return unknownBody;
     if (!events_.catcher().isStepping()) return outsideStep;
-    if (!isFinite(motion.metresPerSecond) || !std::isfinite(motion.radiansPerSecond)) return "velocity: expected numbers";
+    if (!isFinite(motion.metresPerSecond) || !std::isfinite(motion.radiansPerSecond))
+        return "velocity: expected numbers";
     bodies_.moveAfter(id, motion);
     return {};
 }
@@ -68,7 +71,8 @@ std::string_view ContactFeed::remove(std::int32_t id) {
 
 std::string_view ContactFeed::beginStep(std::int64_t endNs, double gravityMetresPerSecond2) {
     if (events_.catcher().isStepping()) return withinStep;
-    if (endNs < timeNs() || endNs > limits::maxTimeNs) return "time: expected not to go back, and less than 10^17 ns";
+    if (endNs < timeNs() || endNs > limits::maxTimeNs)
+        return "time: expected not to go back, and less than 10^17 ns";
     if (!isWithin(gravityMetresPerSecond2, 0.0, 1.0e6)) return "gravity: expected 0 to 10^6 m/s^2";
     lastStepSeconds_ = events_.stepSeconds();
     gravity_ = gravityMetresPerSecond2;
@@ -83,18 +87,24 @@ std::string_view ContactFeed::faultOf(const FedContact& contact) {
     if (contact.a == contact.b) return "bodies: expected two";
     if (!isFinite(contact.point)) return "point: expected numbers";
     if (!isUnit(contact.normal)) return "normal: expected a length of 1";
-    if (!isWithin(contact.impulseNewtonSeconds.value_or(0.0), -most, most) || !isWithin(contact.tangentialNewtonSeconds, -most, most))
+    if (!isWithin(contact.impulseNewtonSeconds.value_or(0.0), -most, most) ||
+        !isWithin(contact.tangentialNewtonSeconds, -most, most))
         return "impulse: expected a number of N s";
-    if (!isWithin(contact.approachMetresPerSecond.value_or(0.0), -most, most)) return "approach: expected a number of m/s";
+    if (!isWithin(contact.approachMetresPerSecond.value_or(0.0), -most, most))
+        return "approach: expected a number of m/s";
     if (!isWithin(contact.restitution, 0.0, 1.0)) return "restitution: expected 0 to 1";
-    if (!isWithin(contact.effectiveMassKg.value_or(0.0), 0.0, most)) return "effective mass: expected 0 to 10^12 kg";
+    if (!isWithin(contact.effectiveMassKg.value_or(0.0), 0.0, most))
+        return "effective mass: expected 0 to 10^12 kg";
     if (!isWithin(contact.fraction.value_or(0.0), -1.0, 1.0)) return "fraction: expected -1 to 1";
     if (!std::isfinite(contact.gapMetres)) return "gap: expected a number of metres";
     if (!isWithin(contact.gapFraction, 0.0, 1.0)) return "fraction of the gap: expected 0 to 1";
     for (const auto& along : {contact.alongAMetresPerSecond, contact.alongBMetresPerSecond})
-        if (!isWithin(along.value_or(0.0), -most, most)) return "speed along a surface: expected a number of m/s";
-    if (contact.pointId < FedPoints::byPlace) return "point: expected a number from 0 on, -1 (none) or -2 (by place)";
-    if (contact.isImpulseOfPair && !contact.impulseNewtonSeconds) return "impulse: expected one, as it is said to be the pair's";
+        if (!isWithin(along.value_or(0.0), -most, most))
+            return "speed along a surface: expected a number of m/s";
+    if (contact.pointId < FedPoints::byPlace)
+        return "point: expected a number from 0 on, -1 (none) or -2 (by place)";
+    if (contact.isImpulseOfPair && !contact.impulseNewtonSeconds)
+        return "impulse: expected one, as it is said to be the pair's";
     return {};
 }
 
@@ -165,7 +175,8 @@ TouchingPairs::Name ContactFeed::nameOf(const FedContact& contact) {
 
 ContactFeed::Pair& ContactFeed::know(const FedContact& contact, bool isAsked) {
     const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
-    if (const std::int32_t known = pairOf_.find(pairKey(a, b)); known != IntegerMap::none) return pairs_[static_cast<std::size_t>(known)];
+    if (const std::int32_t known = pairOf_.find(pairKey(a, b)); known != IntegerMap::none)
+        return pairs_[static_cast<std::size_t>(known)];
     pairOf_.set(pairKey(a, b), static_cast<std::int32_t>(pairs_.size()));
     pairs_.push_back({std::min(a, b), std::max(a, b), isAsked, true, false});
     events_.catcher().begin(a, b);
@@ -194,8 +205,10 @@ void ContactFeed::dropAllOf(std::int32_t slot) {
 bool ContactFeed::isNewPoint(Pair& pair, const FedContact& contact) {
     if (contact.pointId == FedPoints::none) return false;
     constexpr double trembleMetres = 0.002;
-    const double slide = bodies_.slide(contact.a, contact.b, contact.point, contact.normal) * events_.stepSeconds();
-    return points_.isNew(pair.points, contact.pointId, contact.point, contact.normal, trembleMetres + 1.5 * slide) &&
+    const double slide =
+        bodies_.slide(contact.a, contact.b, contact.point, contact.normal) * events_.stepSeconds();
+    return points_.isNew(pair.points, contact.pointId, contact.point, contact.normal,
+                         trembleMetres + 1.5 * slide) &&
            // by an impulse alone nobody can tell a blow from a load that shifts
            (pair.isNew || speedOf(contact) > 0.0);
 }
@@ -204,7 +217,10 @@ void ContactFeed::tell(Pair& pair, const FedContact& contact, bool isNew) {
     if (!events_.catcher().isHearing()) return;
     if (waits(contact)) {
         const bool isByMomentum = this->isByMomentum(contact);
-        const auto momentum = isByMomentum ? static_cast<std::int32_t>(momentum_.add(bodies_, contact.a, contact.b, contact.point, contact.normal)) : FedPoints::none;
+        const auto momentum = isByMomentum
+                                  ? static_cast<std::int32_t>(momentum_.add(bodies_, contact.a, contact.b,
+                                                                            contact.point, contact.normal))
+                                  : FedPoints::none;
         waiting_.push_back({contact, isNew, pair.waiting, momentum});
         pair.waiting = static_cast<std::int32_t>(waiting_.size()) - 1;
         if (isNew || contact.isImpulseOfPair || isByMomentum) return;
@@ -235,12 +251,15 @@ double ContactFeed::pushed(const Waiting& each) const {
     const FedContact& contact = each.contact;
     if (!contact.isSoft) return 0.0;
     const double told = contact.isPushWhole ? contact.impulseNewtonSeconds.value_or(0.0) : 0.0;
-    return each.momentum == FedPoints::none ? told : std::max(told, momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum)));
+    return each.momentum == FedPoints::none
+               ? told
+               : std::max(told, momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum)));
 }
 
-// What is struck may stand on something, hang in joints or carry others: then the engine pushes more in one step than the speed and the mass of the
-// two bodies say. What gravity adds after they met is a load.
-double ContactFeed::supported(double bySpeed, double pushed, double gainedMetresPerSecond, double fraction) const {
+// What is struck may stand on something, hang in joints or carry others: then the engine pushes more in one
+// step than the speed and the mass of the two bodies say. What gravity adds after they met is a load.
+double ContactFeed::supported(double bySpeed, double pushed, double gainedMetresPerSecond,
+                              double fraction) const {
     constexpr double clearly = 1.2; // pushes of one step also move overlaps apart
     const double falls = gravity_ * events_.stepSeconds() * (1.0 - std::clamp(fraction, 0.0, 1.0));
     const double ofBlow = pushed * gainedMetresPerSecond / (gainedMetresPerSecond + falls);
@@ -251,23 +270,28 @@ double ContactFeed::supported(double bySpeed, double pushed, double gainedMetres
 void ContactFeed::strikeByMomentum() {
     meeting_.clear();
     for (const Waiting* each : together_) {
-        const double newtonSeconds = each->isNew ? momentum_.newtonSeconds(static_cast<std::size_t>(each->momentum)) : 0.0;
-        meeting_.push_back({each->contact.point, each->contact.normal, speedOf(each->contact), 0.0, each->isNew, newtonSeconds});
+        const double newtonSeconds =
+            each->isNew ? momentum_.newtonSeconds(static_cast<std::size_t>(each->momentum)) : 0.0;
+        meeting_.push_back({each->contact.point, each->contact.normal, speedOf(each->contact), 0.0,
+                            each->isNew, newtonSeconds});
     }
     strikeTogether();
 }
 
 void ContactFeed::settle(const Pair& pair) {
     together_.clear();
-    for (std::int32_t at = pair.waiting; at != FedPoints::none; at = waiting_[static_cast<std::size_t>(at)].next)
+    for (std::int32_t at = pair.waiting; at != FedPoints::none;
+         at = waiting_[static_cast<std::size_t>(at)].next)
         // who tells may tell of one point twice
-        if (const Waiting& each = waiting_[static_cast<std::size_t>(at)]; each.isNew || pair.isAsked) together_.push_back(&each);
+        if (const Waiting& each = waiting_[static_cast<std::size_t>(at)]; each.isNew || pair.isAsked)
+            together_.push_back(&each);
     if (together_.empty()) return;
     std::reverse(together_.begin(), together_.end());
     const FedContact& first = together_.front()->contact;
     const auto hasMass = [](const Waiting* each) { return each->contact.effectiveMassKg.has_value(); };
     const auto isNew = [](const Waiting* each) { return each->isNew; };
-    const bool isByMomentum = std::ranges::all_of(together_, [](const Waiting* each) { return each->momentum != FedPoints::none; });
+    const bool isByMomentum =
+        std::ranges::all_of(together_, [](const Waiting* each) { return each->momentum != FedPoints::none; });
     for (const Waiting* each : together_)
         if (isByMomentum && !each->isNew) load(withMomentum(*each));
     if (isByMomentum && !first.isSoft && std::ranges::any_of(together_, isNew)) return strikeByMomentum();
@@ -284,13 +308,15 @@ void ContactFeed::settle(const Pair& pair) {
     for (const Waiting* each : together_) {
         const FedContact& contact = each->contact;
         const bool isTurned = contact.a != first.a;
-        meeting_.push_back({contact.point, isTurned ? -contact.normal : contact.normal, speedOf(contact), contact.restitution, each->isNew});
+        meeting_.push_back({contact.point, isTurned ? -contact.normal : contact.normal, speedOf(contact),
+                            contact.restitution, each->isNew});
     }
     solve(bodies_, first.a, first.b, meeting_);
     strikeTogether();
 }
 
-// A blow at several points: where and how hard is what they do together, when is when the first of them meets.
+// A blow at several points: where and how hard is what they do together, when is when the first of them
+// meets.
 void ContactFeed::strikeTogether() {
     CollisionCatcher& catcher = events_.catcher();
     const FedContact& first = together_.front()->contact;
@@ -307,16 +333,19 @@ void ContactFeed::strikeTogether() {
         fastest = std::max(fastest, each.approach);
         fraction = std::min(fraction, fractionOf(together_[i]->contact, each.approach));
     }
-    const float gravityScale = std::max(events_.fixtures()[pair.a].gravityScale(), events_.fixtures()[pair.b].gravityScale());
+    const float gravityScale =
+        std::max(events_.fixtures()[pair.a].gravityScale(), events_.fixtures()[pair.b].gravityScale());
     const double share = all > 0.0 ? ofNew / all : 0.0;
-    if (ofPush > 0.0 && fastest > 0.0) ofNew = supported(ofNew, ofPush, (1.0 + first.restitution) * fastest, fraction);
+    if (ofPush > 0.0 && fastest > 0.0)
+        ofNew = supported(ofNew, ofPush, (1.0 + first.restitution) * fastest, fraction);
     const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : ofNew;
     const bool isBlow = impulse > 0.0 && std::isfinite(impulse) && catcher.isBlow(gravityScale, fastest);
     if (!isBlow) catcher.passOver(pair.a, pair.b);
     if (!isBlow && first.isImpulseOfPair) return load(first);
     if (!isBlow) {
         for (const Waiting* each : together_)
-            if (each->isNew && (each->contact.isSoft || speedOf(each->contact) > 0.0)) load(withMomentum(*each));
+            if (each->isNew && (each->contact.isSoft || speedOf(each->contact) > 0.0))
+                load(withMomentum(*each));
         return;
     }
     Blow* blow = catcher.blow(pair);
@@ -335,7 +364,8 @@ void ContactFeed::strikeTogether() {
 }
 
 double ContactFeed::speedOf(const FedContact& contact) const {
-    return contact.approachMetresPerSecond.value_or(bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
+    return contact.approachMetresPerSecond.value_or(
+        bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
 }
 
 void ContactFeed::strike(const FedContact& contact, double pushed) {
@@ -343,15 +373,19 @@ void ContactFeed::strike(const FedContact& contact, double pushed) {
     const TouchingPairs::Name pair = nameOf(contact);
     const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
     const double told = speedOf(contact);
-    const double mass = contact.effectiveMassKg.value_or(bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
+    const double mass = contact.effectiveMassKg.value_or(
+        bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
     const bool isImpulseTold = contact.impulseNewtonSeconds && !contact.isSoft;
-    double impulse = isImpulseTold ? *contact.impulseNewtonSeconds : mass * std::max(0.0, told) * (1.0 + contact.restitution);
-    if (pushed > 0.0 && told > 0.0) impulse = supported(impulse, pushed, told * (1.0 + contact.restitution), fractionOf(contact, told));
+    double impulse = isImpulseTold ? *contact.impulseNewtonSeconds
+                                   : mass * std::max(0.0, told) * (1.0 + contact.restitution);
+    if (pushed > 0.0 && told > 0.0)
+        impulse = supported(impulse, pushed, told * (1.0 + contact.restitution), fractionOf(contact, told));
     if (!(impulse > 0.0 && std::isfinite(impulse))) { // they part, or cannot be moved
         catcher.passOver(pair.a, pair.b);
         return contact.isSoft ? load(contact) : void();
     }
-    // Of an impulse alone: what it changes of the lighter body's velocity, which is at least the speed before it.
+    // Of an impulse alone: what it changes of the lighter body's velocity, which is at least the speed before
+    // it.
     const bool isSpeedKnown = contact.approachMetresPerSecond || !isImpulseTold || told > 0.0;
     const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
     if (!catcher.isBlow(std::max(a.gravityScale(), b.gravityScale()), speed)) {
@@ -380,13 +414,18 @@ void ContactFeed::load(const FedContact& contact) {
     const TouchingPairs::Name pair = nameOf(contact);
     rub(contact, pair);
     if (!events_.catcher().isHeard(pair)) return;
-    const auto along = static_cast<float>(*contact.impulseNewtonSeconds), across = static_cast<float>(contact.tangentialNewtonSeconds);
-    events_.catcher().push(pair, along * contact.normal + across * contact.normal.turnedLeft(), contact.point);
+    const auto along = static_cast<float>(*contact.impulseNewtonSeconds),
+               across = static_cast<float>(contact.tangentialNewtonSeconds);
+    events_.catcher().push(pair, along * contact.normal + across * contact.normal.turnedLeft(),
+                           contact.point);
 }
 
 void ContactFeed::rub(const FedContact& contact, const TouchingPairs::Name& pair) {
-    if (!contact.alongAMetresPerSecond || !contact.alongBMetresPerSecond || !events_.lasting().isHeard(pair.a, pair.b)) return;
-    rubs_.tell({pair.a, pair.b, *contact.impulseNewtonSeconds, contact.point, *contact.alongAMetresPerSecond, *contact.alongBMetresPerSecond});
+    if (!contact.alongAMetresPerSecond || !contact.alongBMetresPerSecond ||
+        !events_.lasting().isHeard(pair.a, pair.b))
+        return;
+    rubs_.tell({pair.a, pair.b, *contact.impulseNewtonSeconds, contact.point, *contact.alongAMetresPerSecond,
+                *contact.alongBMetresPerSecond});
 }
 
 // Surfaces close a gap, or have closed it, at the speed at which they meet.

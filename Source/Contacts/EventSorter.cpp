@@ -34,8 +34,10 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
     order_.clear();
     std::size_t kept = 0;
     for (const Waiting& each : waiting_) {
-        if (each.timeNs < beforeNs) order_.push_back({each, static_cast<std::uint32_t>(order_.size()), 0});
-        else waiting_[kept++] = each;
+        if (each.timeNs < beforeNs)
+            order_.push_back({each, static_cast<std::uint32_t>(order_.size()), 0});
+        else
+            waiting_[kept++] = each;
     }
     waiting_.resize(kept);
     sort();

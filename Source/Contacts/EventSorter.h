@@ -28,7 +28,9 @@ public:
     void release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished);
 
     /// All of them, whatever their time.
-    void flush(std::vector<CollisionEvent>& finished) { release(std::numeric_limits<std::int64_t>::max(), finished); }
+    void flush(std::vector<CollisionEvent>& finished) {
+        release(std::numeric_limits<std::int64_t>::max(), finished);
+    }
 
     /// Forgets the events of a fixture (by its id), and if `asOther`, those it gave to others.
     void withdraw(std::int32_t fixture, bool asOther) noexcept;

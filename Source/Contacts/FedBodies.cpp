@@ -72,32 +72,37 @@ double FedBodies::largestMassKg() {
 
 double FedBodies::approach(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const {
     const Body &bodyA = at(nameOf(a)), &bodyB = at(nameOf(b));
-    const Vector2 nearing = velocityAt(bodyA.motion, point - bodyA.centre) - velocityAt(bodyB.motion, point - bodyB.centre);
+    const Vector2 nearing =
+        velocityAt(bodyA.motion, point - bodyA.centre) - velocityAt(bodyB.motion, point - bodyB.centre);
     return dot(nearing, normal);
 }
 
 double FedBodies::approachAfter(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const {
     const auto after = [&](const Body& body) { return body.told.massKg > 0.0 ? body.after : body.motion; };
     const Body &bodyA = at(nameOf(a)), &bodyB = at(nameOf(b));
-    const Vector2 nearing = velocityAt(after(bodyA), point - bodyA.centre) - velocityAt(after(bodyB), point - bodyB.centre);
+    const Vector2 nearing =
+        velocityAt(after(bodyA), point - bodyA.centre) - velocityAt(after(bodyB), point - bodyB.centre);
     return dot(nearing, normal);
 }
 
 double FedBodies::slide(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const {
     double sum = 0.0;
     for (const Body* body : {&at(nameOf(a)), &at(nameOf(b))})
-        sum += std::abs(dot(body->motion.metresPerSecond, normal.turnedLeft())) +
-               std::abs(static_cast<double>(body->motion.radiansPerSecond) * dot(point - body->centre, normal));
+        sum +=
+            std::abs(dot(body->motion.metresPerSecond, normal.turnedLeft())) +
+            std::abs(static_cast<double>(body->motion.radiansPerSecond) * dot(point - body->centre, normal));
     return sum;
 }
 
-double FedBodies::coupling(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal, Vector2 otherPoint, Vector2 otherNormal) const {
+double FedBodies::coupling(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal, Vector2 otherPoint,
+                           Vector2 otherNormal) const {
     double sum = 0.0;
     for (const Body* body : {&at(nameOf(a)), &at(nameOf(b))}) {
         if (!(body->told.massKg > 0.0)) continue;
         sum += dot(normal, otherNormal) / body->told.massKg;
         if (!(body->told.inertiaKgSquareMetres > 0.0)) continue;
-        const double lever = dot((point - body->centre).turnedLeft(), normal), other = dot((otherPoint - body->centre).turnedLeft(), otherNormal);
+        const double lever = dot((point - body->centre).turnedLeft(), normal),
+                     other = dot((otherPoint - body->centre).turnedLeft(), otherNormal);
         sum += lever * other / body->told.inertiaKgSquareMetres;
     }
     return sum;

@@ -13,7 +13,8 @@ namespace physvib {
 /// What is told of a body, once.
 struct FedBody {
     double massKg = 0.0;                ///< 0: what strikes it does not move it (a floor, a wall, a platform)
-    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; 0: blows are taken as if they went through the centre
+    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; 0: blows
+                                        ///< are taken as if they went through the centre
     double gravityScale = 1.0;          ///< how much of the world's gravity pulls it
 };
 
@@ -53,16 +54,17 @@ public:
     /// The same behind the solver.
     double approachAfter(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
 
-    /// How fast the point at which they touch may move along the two surfaces, m/s, at most: the sum of what each of the bodies moves
-    /// and turns across the normal.
+    /// How fast the point at which they touch may move along the two surfaces, m/s, at most: the sum of what
+    /// each of the bodies moves and turns across the normal.
     double slide(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
 
-    /// By how much an impulse of 1 N s at one point, along its normal, changes the speed along the other normal at the other point, 1/kg;
-    /// both normals point from A to B.
-    double coupling(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal, Vector2 otherPoint, Vector2 otherNormal) const;
+    /// By how much an impulse of 1 N s at one point, along its normal, changes the speed along the other
+    /// normal at the other point, 1/kg; both normals point from A to B.
+    double coupling(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal, Vector2 otherPoint,
+                    Vector2 otherNormal) const;
 
-    /// Mass that a blow there has to do with, kg: the impulse by the change of the speed at which the surfaces meet. Infinite if
-    /// neither can be moved.
+    /// Mass that a blow there has to do with, kg: the impulse by the change of the speed at which the
+    /// surfaces meet. Infinite if neither can be moved.
     double effectiveMassKg(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
 
     BodyFacts facts(std::uint64_t body) const override;

@@ -9,11 +9,12 @@
 
 namespace physvib {
 
-/// Points of pairs, of this step and of the one before it. All methods: the world's thread (M). Allocates only when it outgrows
-/// what it has had.
+/// Points of pairs, of this step and of the one before it. All methods: the world's thread (M). Allocates
+/// only when it outgrows what it has had.
 class FedPoints {
 public:
-    static constexpr std::int32_t none = -1;    ///< of a point: it is not told apart from others of its pair; of a chain: empty
+    static constexpr std::int32_t none = -1; ///< of a point: it is not told apart from others of its pair; of
+                                             ///< a chain: empty
     static constexpr std::int32_t byPlace = -2; ///< of a point of an engine that does not number them
 
     /// The points of one pair, kept by the pair.
@@ -21,11 +22,13 @@ public:
         std::int32_t now = none, before = none;
     };
 
-    /// Notes a point of this step. Whether the pair did not have it in the step before: no point of that number, or none within so
-    /// many metres across the normal. Along it surfaces sink into each other, several centimetres where contacts are springs.
+    /// Notes a point of this step. Whether the pair did not have it in the step before: no point of that
+    /// number, or none within so many metres across the normal. Along it surfaces sink into each other,
+    /// several centimetres where contacts are springs.
     bool isNew(Chain& chain, std::int32_t id, Vector2 place, Vector2 normal, double withinMetres) {
         bool isOld = false;
-        for (std::int32_t at = chain.before; at != none && !isOld; at = before_[static_cast<std::size_t>(at)].next) {
+        for (std::int32_t at = chain.before; at != none && !isOld;
+             at = before_[static_cast<std::size_t>(at)].next) {
             const Point& point = before_[static_cast<std::size_t>(at)];
             isOld = id == byPlace ? across(point.place - place, normal) <= withinMetres : point.id == id;
         }
@@ -34,14 +37,17 @@ public:
         return !isOld;
     }
 
-    /// The points of this step are those of the one before, from now on; the owner of each chain does the same.
+    /// The points of this step are those of the one before, from now on; the owner of each chain does the
+    /// same.
     void endStep() {
         std::swap(before_, now_);
         now_.clear();
     }
 
 private:
-    static double across(Vector2 way, Vector2 normal) noexcept { return std::abs(static_cast<double>(way.y * normal.x - way.x * normal.y)); }
+    static double across(Vector2 way, Vector2 normal) noexcept {
+        return std::abs(static_cast<double>(way.y * normal.x - way.x * normal.y));
+    }
 
     struct Point {
         Vector2 place;

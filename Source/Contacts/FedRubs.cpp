@@ -40,7 +40,8 @@ void FedRubs::endStep(double seconds, LastingContacts& lasting) {
         for (SurfacePath* path : {&point.onA, &point.onB}) path->metres += path->metresPerSecond * seconds;
         point.slipMetresPerSecond = point.onA.metresPerSecond - point.onB.metresPerSecond;
         point.metresPerSecond = {};
-        if (!std::exchange(track.isNew, false) && seconds > 0.0) point.metresPerSecond = static_cast<float>(1.0 / seconds) * (point.point - track.before);
+        if (!std::exchange(track.isNew, false) && seconds > 0.0)
+            point.metresPerSecond = static_cast<float>(1.0 / seconds) * (point.point - track.before);
         track.before = point.point;
         lasting.touch(point);
         ++i;

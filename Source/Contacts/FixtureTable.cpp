@@ -38,7 +38,8 @@ void FixtureTable::know(std::int32_t slot, const BodyFacts& body) {
     noteBody(slot, body);
 }
 
-std::int32_t FixtureTable::set(std::int32_t slot, const HapticFixture& values, Vector2 centre, std::int32_t id) {
+std::int32_t FixtureTable::set(std::int32_t slot, const HapticFixture& values, Vector2 centre,
+                               std::int32_t id) {
     KnownFixture& known = at(slot);
     if (id == none) id = known.isNamed() ? known.id : nextId_;
     if (const std::int32_t owner = slotOfId_.find(keyOf(id)); owner != none && owner != slot) return none;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The fixtures of a world that have values or touch something, beside the world, whose user data stay the user's.
+// The fixtures of a world that have values or touch something, beside the world, whose user data stay the
+// user's.
 #pragma once
 #include "Contacts/BodyReader.h"
 #include "Contacts/HapticFixture.h"
@@ -33,8 +34,9 @@ struct KnownFixture {
     }
 };
 
-/// Slots are small and used again; ids are not. A fixture is known once it has values or has touched another, so what
-/// a step costs does not grow with a map that lies still. Allocates when it gets to know more than it ever did. M only.
+/// Slots are small and used again; ids are not. A fixture is known once it has values or has touched another,
+/// so what a step costs does not grow with a map that lies still. Allocates when it gets to know more than it
+/// ever did. M only.
 class FixtureTable {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
@@ -43,8 +45,9 @@ public:
     std::int32_t know(std::uint64_t fixture, const BodyFacts& body);
     void know(std::int32_t slot, const BodyFacts& body); ///< of one that is known
 
-    /// Gives values to a known fixture, for the first time or again; `id` is the caller's (>= 0), or `none`: the one it
-    /// has, else the next of 0, 1, 2... Returns the id; `none`, and nothing is changed, if another fixture has it.
+    /// Gives values to a known fixture, for the first time or again; `id` is the caller's (>= 0), or `none`:
+    /// the one it has, else the next of 0, 1, 2... Returns the id; `none`, and nothing is changed, if another
+    /// fixture has it.
     std::int32_t set(std::int32_t slot, const HapticFixture& values, Vector2 centre, std::int32_t id = none);
 
     /// Takes the values away; the fixture stays known, without an id.
@@ -67,7 +70,9 @@ public:
         double movableMassKg = std::numeric_limits<double>::infinity();
         float gravityScale = 0.0F;
     };
-    const Mobility& mobility(std::int32_t slot) const noexcept { return mobility_[static_cast<std::size_t>(slot)]; }
+    const Mobility& mobility(std::int32_t slot) const noexcept {
+        return mobility_[static_cast<std::size_t>(slot)];
+    }
     bool hasCameras() const noexcept { return cameras_ > 0; }
     std::int32_t size() const noexcept {
         return static_cast<std::int32_t>(known_.size());
@@ -84,13 +89,14 @@ private:
     void weigh(const KnownFixture& known);
 
     std::vector<KnownFixture> known_;
-    std::vector<std::uint8_t> isCamera_; // by slot, as the next two: asked of each contact in each step, so they are kept close together
+    std::vector<std::uint8_t> isCamera_; // by slot, as the next two: asked of each contact in each step, so
+                                         // they are kept close together
     std::vector<Mobility> mobility_;
     std::vector<std::uint8_t> isRough_;
     std::int32_t cameras_ = 0;
     NameSketch cameraNames_;
     std::vector<std::int32_t> free_;
-    IntegerMap slots_;   // by the engine's name of the fixture
+    IntegerMap slots_;    // by the engine's name of the fixture
     IntegerMap slotOfId_; // by id + 1
     std::int32_t nextId_ = 0;
     std::int32_t nextNameless_ = -2;

@@ -8,11 +8,14 @@
 
 namespace physvib {
 
-/// How a point moves along a surface during a step: s(t) = start + speed t + acceleration t^2 / 2, t from 0 to `seconds`.
+/// How a point moves along a surface during a step: s(t) = start + speed t + acceleration t^2 / 2, t from 0
+/// to `seconds`.
 struct SurfaceMotion {
     double startMetres = 0.0, metresPerSecond = 0.0, metresPerSecond2 = 0.0, seconds = 0.0;
 
-    double metresAt(double t) const noexcept { return startMetres + (metresPerSecond + 0.5 * metresPerSecond2 * t) * t; }
+    double metresAt(double t) const noexcept {
+        return startMetres + (metresPerSecond + 0.5 * metresPerSecond2 * t) * t;
+    }
     double speedAt(double t) const noexcept { return metresPerSecond + metresPerSecond2 * t; }
     /// When it turns back; `seconds` if it does not.
     double turn() const noexcept {
@@ -21,14 +24,16 @@ struct SurfaceMotion {
     }
 };
 
-/// What chance does to random grains: where they lie in their spacings, and how strong they are, evenly between the ends.
+/// What chance does to random grains: where they lie in their spacings, and how strong they are, evenly
+/// between the ends.
 struct GrainChance {
     static constexpr double spacingRange = 0.9;
     static constexpr double leastStrength = 0.2, strengthRange = 1.6;
 };
 
-/// One surface's. Grain `index` lies at (index + 1/2) spacings, +-45 % if they are random, with a strength of 0.2 to 1.8
-/// that depends on surface and index alone: what goes back feels the same grains again, and every run feels the same. Any thread.
+/// One surface's. Grain `index` lies at (index + 1/2) spacings, +-45 % if they are random, with a strength of
+/// 0.2 to 1.8 that depends on surface and index alone: what goes back feels the same grains again, and every
+/// run feels the same. Any thread.
 class Grains {
 public:
     /// `texture` is rough.
@@ -41,9 +46,12 @@ public:
         const double jitter = isRandom() ? GrainChance::spacingRange * (chance(index, 0) - 0.5) : 0.0;
         return (static_cast<double>(index) + 0.5 + jitter) * texture_.grainMetres;
     }
-    double strengthOf(std::int64_t index) const noexcept { return isRandom() ? GrainChance::leastStrength + GrainChance::strengthRange * chance(index, 1) : 1.0; }
+    double strengthOf(std::int64_t index) const noexcept {
+        return isRandom() ? GrainChance::leastStrength + GrainChance::strengthRange * chance(index, 1) : 1.0;
+    }
 
-    /// Calls `passed(index, t)` for each grain of which the index is a multiple of `every`, in the order in which they are passed.
+    /// Calls `passed(index, t)` for each grain of which the index is a multiple of `every`, in the order in
+    /// which they are passed.
     template <class Passed>
     void along(const SurfaceMotion& motion, std::int64_t every, Passed&& passed) const {
         const double turn = motion.turn();
@@ -85,7 +93,8 @@ private:
         const double start = motion.metresAt(from), end = motion.metresAt(to), speed = motion.speedAt(from);
         const bool isUp = end > start;
         const double sign = isUp ? 1.0 : -1.0;
-        for (Grain grain = next(start, isUp, every); sign * (end - grain.metres) >= 0.0; grain = at(grain.index + (isUp ? every : -every))) {
+        for (Grain grain = next(start, isUp, every); sign * (end - grain.metres) >= 0.0;
+             grain = at(grain.index + (isUp ? every : -every))) {
             const double far = grain.metres - start;
             // The root of the parabola that begins at `from`, in the form that loses no digits.
             const double root = std::sqrt(std::max(0.0, speed * speed + 2.0 * motion.metresPerSecond2 * far));

@@ -20,7 +20,8 @@ ImpactModel modelOf(const HapticFixture& camera, const ImpactModel& model) noexc
 
 } // namespace
 
-double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies, const ImpactModel& model) {
+double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies,
+                   const ImpactModel& model) {
     const KnownFixture& camera = table[impact.camera];
     const ImpactModel own = modelOf(camera.values, model);
     return camera.values.gain * own.amplitude(impact.newtonSeconds, massOf(camera, bodies));

@@ -64,6 +64,7 @@ private:
 };
 
 /// The amplitude of its first mode (Eq. 5.4 and the camera's gain). As above.
-double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies, const ImpactModel& model);
+double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies,
+                   const ImpactModel& model);
 
 } // namespace physvib

@@ -4,6 +4,8 @@
 
 namespace physvib {
 
-double defaultNormalisation(double fieldWidthMetres) noexcept { return 1.0 / (2.0 * largestSpeed(fieldWidthMetres)); }
+double defaultNormalisation(double fieldWidthMetres) noexcept {
+    return 1.0 / (2.0 * largestSpeed(fieldWidthMetres));
+}
 
 } // namespace physvib

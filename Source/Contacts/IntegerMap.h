@@ -75,8 +75,8 @@ private:
     std::size_t mask() const noexcept { return entries_.size() - 1; }
     std::size_t after(std::size_t place) const noexcept { return (place + 1) & mask(); }
     std::size_t home(std::uint64_t key) const noexcept {
-        return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >>
-                                        shift_); // Fibonacci hashing, Knuth 6.4
+        return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_); // Fibonacci hashing,
+                                                                                // Knuth 6.4
     }
     std::size_t locate(std::uint64_t key) const noexcept {
         std::size_t place = home(key);

@@ -23,7 +23,8 @@ bool isUsable(const SurfacePath& path) noexcept {
 }
 
 SurfaceMotion steady(SurfacePath path, double seconds) noexcept {
-    // Half a step's gain of speed behind the engine's own path, see above; of what is new, as if it had come at this speed.
+    // Half a step's gain of speed behind the engine's own path, see above; of what is new, as if it had come
+    // at this speed.
     return {path.metres - 1.5 * path.metresPerSecond * seconds, path.metresPerSecond, 0.0, seconds};
 }
 
@@ -38,7 +39,8 @@ SurfaceMotion between(SurfacePath from, SurfacePath to, double seconds) noexcept
     motion.seconds = seconds;
     motion.startMetres = from.metres - 0.5 * from.metresPerSecond * seconds;
     motion.metresPerSecond2 = (to.metresPerSecond - from.metresPerSecond) / seconds;
-    motion.metresPerSecond = (to.metres - 0.5 * to.metresPerSecond * seconds - motion.startMetres) / seconds - 0.5 * motion.metresPerSecond2 * seconds;
+    motion.metresPerSecond = (to.metres - 0.5 * to.metresPerSecond * seconds - motion.startMetres) / seconds -
+                             0.5 * motion.metresPerSecond2 * seconds;
     return motion;
 }
 
@@ -48,7 +50,9 @@ LastingContacts::LastingContacts(const FixtureTable& table)
     : table_{table} {}
 
 void LastingContacts::touch(const LastingPoint& point) {
-    if (points_.now().size() == mostPoints || !isUsable(point.onA) || !isUsable(point.onB) || !(point.normalNewtonSeconds >= 0.0)) return;
+    if (points_.now().size() == mostPoints || !isUsable(point.onA) || !isUsable(point.onB) ||
+        !(point.normalNewtonSeconds >= 0.0))
+        return;
     const auto [at, before, isFirst] = points_.tell(keyOf(point));
     if (!isFirst) return;
     const auto pair = pairs_.tell(pairKey(point.a, point.b));
@@ -80,24 +84,30 @@ double LastingContacts::steadyShare(const Told& told) const noexcept {
     return std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
 }
 
-void LastingContacts::follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path, double seconds) {
+void LastingContacts::follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path,
+                             double seconds) {
     const double newtons = steadyShare(told) * told.point.normalNewtonSeconds / seconds;
     if (newtons <= 0.0) return;
     const SurfacePath to = told.point.*path;
-    const SurfacePath* const from = told.before != StepMemory<Told>::none ? &(points_.before(told.before).point.*path) : nullptr;
-    const SurfaceMotion motion = from != nullptr && !hasJumped(*from, to, seconds) ? between(*from, to, seconds) : steady(to, seconds);
+    const SurfacePath* const from =
+        told.before != StepMemory<Told>::none ? &(points_.before(told.before).point.*path) : nullptr;
+    const SurfaceMotion motion =
+        from != nullptr && !hasJumped(*from, to, seconds) ? between(*from, to, seconds) : steady(to, seconds);
     const double fastest = std::max(std::abs(motion.metresPerSecond), std::abs(motion.speedAt(seconds)));
     if (fastest < leastMetresPerSecond) return;
     const double perSecond = fastest / table_[surface].values.texture.grainMetres;
     const auto times = static_cast<std::uint64_t>(std::ceil(std::max(1.0, perSecond / mostPerSecond)));
-    passages_.push_back({&told.point, surface, newtons, motion, static_cast<std::int64_t>(std::bit_ceil(times))});
+    passages_.push_back(
+        {&told.point, surface, newtons, motion, static_cast<std::int64_t>(std::bit_ceil(times))});
 }
 
 void LastingContacts::thinTogether(double seconds) {
     double grains = 0.0;
     for (const Passage& p : passages_)
-        grains += std::abs(p.motion.metresAt(seconds) - p.motion.startMetres) / table_[p.surface].values.texture.grainMetres / static_cast<double>(p.every);
-    const auto times = static_cast<std::uint64_t>(std::ceil(std::max(1.0, grains / (mostTogetherPerSecond * seconds))));
+        grains += std::abs(p.motion.metresAt(seconds) - p.motion.startMetres) /
+                  table_[p.surface].values.texture.grainMetres / static_cast<double>(p.every);
+    const auto times =
+        static_cast<std::uint64_t>(std::ceil(std::max(1.0, grains / (mostTogetherPerSecond * seconds))));
     for (Passage& p : passages_) p.every *= static_cast<std::int64_t>(std::bit_ceil(times));
 }
 
@@ -105,7 +115,8 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, std::ve
     const LastingPoint& point = *passage.point;
     const Texture& texture = table_[passage.surface].values.texture;
     const Grains grains{static_cast<std::uint64_t>(table_[passage.surface].id), texture};
-    const double power = std::sqrt(static_cast<double>(passage.every)), perSecond = 1.0 / passage.motion.seconds;
+    const double power = std::sqrt(static_cast<double>(passage.every)),
+                 perSecond = 1.0 / passage.motion.seconds;
     const double backSeconds = 1.5 * passage.motion.seconds;
     const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
     grains.along(passage.motion, passage.every, [&](std::int64_t index, double t) {
@@ -116,7 +127,8 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, std::ve
         const double felt = slip + texture.rolling * (speed - slip);
         Impact impact;
         impact.timeNs = span.timeNs(t * perSecond);
-        impact.newtonSeconds = power * grains.strengthOf(index) * grainImpulse(texture.roughness, passage.loadNewtons, felt);
+        impact.newtonSeconds =
+            power * grains.strengthOf(index) * grainImpulse(texture.roughness, passage.loadNewtons, felt);
         impact.point = point.point + static_cast<float>(t - backSeconds) * point.metresPerSecond;
         impact.kind = slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll;
         const auto feel = [&](std::int32_t camera, std::int32_t other) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contacts that last: what rolls or slides over a rough surface is a train of small blows, one for each grain it passes.
+// Contacts that last: what rolls or slides over a rough surface is a train of small blows, one for each grain
+// it passes.
 #pragma once
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Grains.h"
@@ -11,15 +12,16 @@
 
 namespace physvib {
 
-/// Where a contact point is on a surface at the end of a step, in the surface's own frame, and how fast it moves along it. What
-/// lies on a surface with a point of its own, as a corner does, does not move along that one.
+/// Where a contact point is on a surface at the end of a step, in the surface's own frame, and how fast it
+/// moves along it. What lies on a surface with a point of its own, as a corner does, does not move along that
+/// one.
 struct SurfacePath {
     double metres = 0.0;
     double metresPerSecond = 0.0;
 };
 
-/// What an engine tells of a point at which two fixtures went on to touch in a step, after its solver. Fixtures are slots of
-/// the FixtureTable.
+/// What an engine tells of a point at which two fixtures went on to touch in a step, after its solver.
+/// Fixtures are slots of the FixtureTable.
 struct LastingPoint {
     std::int32_t a = 0, b = 0;
     std::uint64_t feature = 0; ///< which of the pair's points; the same from step to step
@@ -30,18 +32,18 @@ struct LastingPoint {
     SurfacePath onA, onB;
 };
 
-/// Follows points from step to step, and makes impacts of the grains that they pass, in any engine's world. A load that has just
-/// come is not felt before it has stayed for a step: that is the blow's. Engines move bodies by the velocity at a step's end; the
-/// true path of a steady acceleration lies half a step's gain of speed behind that, and this is what is followed, so
-/// that times are right far below the length of a step.
+/// Follows points from step to step, and makes impacts of the grains that they pass, in any engine's world. A
+/// load that has just come is not felt before it has stayed for a step: that is the blow's. Engines move
+/// bodies by the velocity at a step's end; the true path of a steady acceleration lies half a step's gain of
+/// speed behind that, and this is what is followed, so that times are right far below the length of a step.
 ///
 /// All methods: the world's thread (M). None allocates once it has seen as much as it will.
 class LastingContacts {
 public:
     /// Slower than this is at rest.
     static constexpr double leastMetresPerSecond = 0.01;
-    /// More grains than this in a second are thinned to every second, fourth, eighth... of them, stronger by its square root: the
-    /// same power, at a bounded cost.
+    /// More grains than this in a second are thinned to every second, fourth, eighth... of them, stronger by
+    /// its square root: the same power, at a bounded cost.
     static constexpr double mostPerSecond = 2000.0;
     /// All points' together: they are thinned alike, so that a rattling heap costs no more than this.
     static constexpr double mostTogetherPerSecond = 50'000.0;

@@ -16,7 +16,7 @@ constexpr int mostLandingSweeps = 200;
 /// What is asked of each point, and what each does to each.
 struct Problem {
     std::size_t count;
-    std::array<double, maxPoints> wanted, impulse; // m/s, N s
+    std::array<double, maxPoints> wanted, impulse;                 // m/s, N s
     std::array<std::array<double, maxPoints>, maxPoints> coupling; // 1/kg
 
     double sumOf(std::size_t point) const noexcept {
@@ -38,15 +38,16 @@ struct Problem {
         }
         return change;
     }
-    // Levers that are long for their body (a thin pole, corners of a crate) couple points so strongly that sweeps alone hardly
-    // change the sum, which is what is felt.
+    // Levers that are long for their body (a thin pole, corners of a crate) couple points so strongly that
+    // sweeps alone hardly change the sum, which is what is felt.
     void levelSum() noexcept {
         double lacks = 0.0, perNewtonSecond = 0.0, least = 1.0e300;
         for (std::size_t i = 0; i < count; ++i) {
             if (!(impulse[i] > 0.0)) continue;
             lacks += lackingOf(i);
             least = std::min(least, impulse[i]);
-            for (std::size_t j = 0; j < count; ++j) perNewtonSecond += impulse[j] > 0.0 ? coupling[i][j] : 0.0;
+            for (std::size_t j = 0; j < count; ++j)
+                perNewtonSecond += impulse[j] > 0.0 ? coupling[i][j] : 0.0;
         }
         if (!(perNewtonSecond > 0.0)) return;
         const double more = std::max(-least, lacks / perNewtonSecond);
@@ -68,11 +69,13 @@ void solve(const FedBodies& bodies, std::int32_t a, std::int32_t b, std::span<Me
     for (std::size_t i = 0; i < problem.count; ++i) {
         problem.wanted[i] = wantedOf(points[i]);
         for (std::size_t j = 0; j < problem.count; ++j)
-            problem.coupling[i][j] = bodies.coupling(a, b, points[i].point, points[i].normal, points[j].point, points[j].normal);
+            problem.coupling[i][j] =
+                bodies.coupling(a, b, points[i].point, points[i].normal, points[j].point, points[j].normal);
         if (!(problem.coupling[i][i] > 0.0)) return; // nobody can be moved
     }
     for (std::size_t i = 0; i < problem.count; ++i) // right at once where all of them do the same
-        if (const double sum = problem.sumOf(i); sum > 0.0) problem.impulse[i] = std::max(0.0, problem.wanted[i] / sum);
+        if (const double sum = problem.sumOf(i); sum > 0.0)
+            problem.impulse[i] = std::max(0.0, problem.wanted[i] / sum);
     double whole = 0.0;
     for (int sweep = 0; sweep < mostLandingSweeps; ++sweep) {
         problem.levelSum();

@@ -23,14 +23,26 @@ std::int32_t MomentumImpulses::know(const FedBodies& bodies, std::int32_t id) {
     const FedBody& told = bodies.told(id);
     if (!(told.massKg > 0.0)) return none;
     if (const std::int32_t known = bodyOf_.find(FedBodies::nameOf(id)); known != none) return known;
-    bodies_.push_back({1.0 / told.massKg, told.inertiaKgSquareMetres > 0.0 ? 1.0 / told.inertiaKgSquareMetres : 0.0});
+    bodies_.push_back(
+        {1.0 / told.massKg, told.inertiaKgSquareMetres > 0.0 ? 1.0 / told.inertiaKgSquareMetres : 0.0});
     bodyOf_.set(FedBodies::nameOf(id), static_cast<std::int32_t>(bodies_.size()) - 1);
     return static_cast<std::int32_t>(bodies_.size()) - 1;
 }
 
-std::size_t MomentumImpulses::add(const FedBodies& bodies, std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) {
-    const auto lever = [&](std::int32_t id) { return dot((point - bodies.centre(FedBodies::nameOf(id))).turnedLeft(), normal); };
-    Point made{know(bodies, a), know(bodies, b), static_cast<double>(normal.x), static_cast<double>(normal.y), lever(a), lever(b), 0.0, 0.0, 0.0};
+std::size_t MomentumImpulses::add(const FedBodies& bodies, std::int32_t a, std::int32_t b, Vector2 point,
+                                  Vector2 normal) {
+    const auto lever = [&](std::int32_t id) {
+        return dot((point - bodies.centre(FedBodies::nameOf(id))).turnedLeft(), normal);
+    };
+    Point made{know(bodies, a),
+               know(bodies, b),
+               static_cast<double>(normal.x),
+               static_cast<double>(normal.y),
+               lever(a),
+               lever(b),
+               0.0,
+               0.0,
+               0.0};
     const auto ease = [&](std::int32_t body, double arm) {
         if (body == none) return 0.0;
         const Body& of = bodies_[static_cast<std::size_t>(body)];
@@ -73,7 +85,8 @@ void MomentumImpulses::solve() {
         for (Point& point : points_) {
             if (!(point.perNewtonSecond > 0.0)) continue;
             const double before = point.newtonSeconds;
-            point.newtonSeconds = std::max(0.0, before + (point.change - found(point)) / point.perNewtonSecond);
+            point.newtonSeconds =
+                std::max(0.0, before + (point.change - found(point)) / point.perNewtonSecond);
             push(point, point.newtonSeconds - before);
             change = std::max(change, std::abs(point.newtonSeconds - before));
             strongest = std::max(strongest, point.newtonSeconds);

@@ -7,8 +7,8 @@
 
 namespace physvib {
 
-/// Never says no of a name that is there; says yes of one that is not only as often as the set is large. A name counts as
-/// often as it was added. One thread at a time.
+/// Never says no of a name that is there; says yes of one that is not only as often as the set is large. A
+/// name counts as often as it was added. One thread at a time.
 class NameSketch {
 public:
     void add(std::uint64_t name) noexcept { ++counts_[place(name)]; }

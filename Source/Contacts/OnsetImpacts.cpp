@@ -69,30 +69,36 @@ void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impac
         const StrikeCauses::Found found = before_.find(camera, graph_);
         if (found.strongest == nullptr) continue;
         isUsed_.set(camera, 1);
-        complete(handOn(camera, found, {}), catcher_.loads().passed(camera), [&] { return found.aftermath; }, span, impacts);
+        complete(
+            handOn(camera, found, {}), catcher_.loads().passed(camera), [&] { return found.aftermath; }, span,
+            impacts);
     }
 }
 
 // What the causes gave in the second step is asked for only where it could matter, which is seldom.
 template <class Later>
-void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span,
-                            std::vector<Impact>& impacts) const {
+void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later,
+                            const StepSpan& span, std::vector<Impact>& impacts) const {
     if (!table_.isCamera(handedOn.camera)) return;
     const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
     const auto whole = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
     const FixtureTable::Mobility& camera = table_.mobility(handedOn.camera);
-    const FixtureTable::Mobility& other = main.other == FixtureTable::none ? camera : table_.mobility(main.other);
+    const FixtureTable::Mobility& other =
+        main.other == FixtureTable::none ? camera : table_.mobility(main.other);
     const double lighter = std::min(camera.movableMassKg, other.movableMassKg);
     const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
     if (!span.isStrike(whole, lighter, gravityScale)) return;
     const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
     if (span.isStrike(impulse, lighter, gravityScale))
-        impacts.push_back({handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse, main.point});
+        impacts.push_back(
+            {handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse, main.point});
 }
 
 void OnsetImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const {
     for (const HandedOn& handedOn : waiting_)
-        if (handedOn.camera == camera) complete(handedOn, {}, [] { return 0.0; }, span, impacts);
+        if (handedOn.camera == camera)
+            complete(
+                handedOn, {}, [] { return 0.0; }, span, impacts);
 }
 
 void OnsetImpacts::begin() {
@@ -104,8 +110,10 @@ void OnsetImpacts::begin() {
     }
 }
 
-OnsetImpacts::HandedOn OnsetImpacts::handOn(std::int32_t camera, const StrikeCauses::Found& found, const ChainLoads::Passed& passed) noexcept {
-    return {camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds, passed};
+OnsetImpacts::HandedOn OnsetImpacts::handOn(std::int32_t camera, const StrikeCauses::Found& found,
+                                            const ChainLoads::Passed& passed) noexcept {
+    return {camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds,
+            passed};
 }
 
 } // namespace physvib

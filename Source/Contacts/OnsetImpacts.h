@@ -11,12 +11,13 @@
 
 namespace physvib {
 
-/// A camera that is struck itself feels the impulse of that blow in its step. One farther along the chain feels what
-/// its old contacts hand on to it in that step and the next: engines hand on a strike of their time-of-impact pass one
-/// step later, and the impulse through a long chain by two steps, since their iterations end before it is through (a
-/// row of five: half and half). It is laid to the strongest strike that a path of contacts leads from, counts once,
-/// however many strikes there are, and is never more than all of these gave: a path carries a blow, not the humming of
-/// a machine on the same floor. Costs what strikes and what is handed on, whatever the size of the world. M only.
+/// A camera that is struck itself feels the impulse of that blow in its step. One farther along the chain
+/// feels what its old contacts hand on to it in that step and the next: engines hand on a strike of their
+/// time-of-impact pass one step later, and the impulse through a long chain by two steps, since their
+/// iterations end before it is through (a row of five: half and half). It is laid to the strongest strike
+/// that a path of contacts leads from, counts once, however many strikes there are, and is never more than
+/// all of these gave: a path carries a blow, not the humming of a machine on the same floor. Costs what
+/// strikes and what is handed on, whatever the size of the world. M only.
 class OnsetImpacts {
 public:
     OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
@@ -48,16 +49,18 @@ private:
     void complete(const StepSpan& span, std::vector<Impact>& impacts);
     void completeLate(const StepSpan& span, std::vector<Impact>& impacts);
     template <class Later>
-    void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span, std::vector<Impact>& impacts) const;
+    void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span,
+                  std::vector<Impact>& impacts) const;
     void begin();
-    static HandedOn handOn(std::int32_t camera, const StrikeCauses::Found& found, const ChainLoads::Passed& passed) noexcept;
+    static HandedOn handOn(std::int32_t camera, const StrikeCauses::Found& found,
+                           const ChainLoads::Passed& passed) noexcept;
 
     const CollisionCatcher& catcher_;
     const FixtureTable& table_;
     ContactGraph& graph_;
-    StrikeCauses strikes_, before_;          // of this step and the last one
-    std::vector<HandedOn> waiting_;          // for the next step
-    SlotMap isUsed_;                         // what a camera got in this step counts already
+    StrikeCauses strikes_, before_; // of this step and the last one
+    std::vector<HandedOn> waiting_; // for the next step
+    SlotMap isUsed_;                // what a camera got in this step counts already
 };
 
 } // namespace physvib

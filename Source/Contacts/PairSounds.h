@@ -11,20 +11,23 @@ namespace physvib {
 
 /// What a camera sends out when a fixture of another kind strikes it, whatever its voice is.
 struct PairSound {
-    double frequencyHz = 0.0; ///< 0: silent
+    double frequencyHz = 0.0;    ///< 0: silent
     double decayPerSecond = 0.0; ///< of that mode
-    Overtones overtones{}; ///< further modes
-    double gain = 1.0; ///< on top of the camera's
+    Overtones overtones{};       ///< further modes
+    double gain = 1.0;           ///< on top of the camera's
 };
 
 /// By the numbers of two kinds (HapticFixture::surface), in any order. M only.
 class PairSounds {
 public:
-    /// Sets the sound of a pair, at first or again. What is wrong with it, and nothing is changed; empty: it is set. Allocates.
+    /// Sets the sound of a pair, at first or again. What is wrong with it, and nothing is changed; empty: it
+    /// is set. Allocates.
     std::string_view set(int surface, int other, const PairSound& sound) {
         if (surface <= 0 || other <= 0) return "surface: expected more than 0";
-        if (const std::string_view fault = faultOf({.frequencyHz = sound.frequencyHz, .decayPerSecond = sound.decayPerSecond,
-                                                    .overtones = sound.overtones, .gain = sound.gain});
+        if (const std::string_view fault = faultOf({.frequencyHz = sound.frequencyHz,
+                                                    .decayPerSecond = sound.decayPerSecond,
+                                                    .overtones = sound.overtones,
+                                                    .gain = sound.gain});
             !fault.empty())
             return fault;
         if (const std::int32_t known = indices_.find(pairKey(surface, other)); known != IntegerMap::none) {

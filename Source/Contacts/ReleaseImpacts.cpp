@@ -7,8 +7,8 @@
 
 namespace physvib {
 
-ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph,
-                               const BodyReader& bodies)
+ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table,
+                               ContactGraph& graph, const BodyReader& bodies)
     : catcher_(catcher)
     , table_(table)
     , graph_(graph)
@@ -61,10 +61,12 @@ void ReleaseImpacts::findCauses(const StepSpan& span) {
         const Blow& blow = blows[i];
         impulses_[i] = blow.impulse();
         if (!span.isStrike(impulses_[i], blow.lighterMassKg, blow.gravityScale)) continue;
-        causes_.add({blow.a, blow.b, blow.pair, span.timeNs(blow.fraction), impulses_[i], 0.0, 0, 0, SlotMap::none, SlotMap::none});
+        causes_.add({blow.a, blow.b, blow.pair, span.timeNs(blow.fraction), impulses_[i], 0.0, 0, 0,
+                     SlotMap::none, SlotMap::none});
         for (const std::int32_t slot : {blow.a, blow.b}) {
             const std::int32_t component = graph_.component(slot);
-            if (component != ContactGraph::noComponent && isStronger(static_cast<std::int32_t>(i), strongestOf_.find(component)))
+            if (component != ContactGraph::noComponent &&
+                isStronger(static_cast<std::int32_t>(i), strongestOf_.find(component)))
                 strongestOf_.set(component, static_cast<std::int32_t>(i));
         }
     }
@@ -72,7 +74,8 @@ void ReleaseImpacts::findCauses(const StepSpan& span) {
 
 bool ReleaseImpacts::isStronger(std::int32_t blow, std::int32_t than) const noexcept {
     if (blow == SlotMap::none || than == SlotMap::none) return blow != SlotMap::none;
-    const double one = impulses_[static_cast<std::size_t>(blow)], other = impulses_[static_cast<std::size_t>(than)];
+    const double one = impulses_[static_cast<std::size_t>(blow)],
+                 other = impulses_[static_cast<std::size_t>(than)];
     return one != other ? one > other : blow < than;
 }
 
@@ -83,8 +86,9 @@ void ReleaseImpacts::openDirect(const Blow& blow, const StepSpan& span) {
         // What is handed on to this camera from now on cannot be told from what strikes it.
         if (underWay_.find(camera) == handedOn)
             std::erase_if(strikes_, [camera](const Strike& s) { return s.camera == camera && !s.isDirect; });
-        push({camera, isA ? blow.b : blow.a, blow.a, blow.b, blow.order, true, false, span.timeNs(blow.fraction), blow.point,
-              isA ? blow.armA : blow.armB, isA ? blow.motionA : blow.motionB, blow.lighterMassKg, blow.gravityScale});
+        push({camera, isA ? blow.b : blow.a, blow.a, blow.b, blow.order, true, false,
+              span.timeNs(blow.fraction), blow.point, isA ? blow.armA : blow.armB,
+              isA ? blow.motionA : blow.motionB, blow.lighterMassKg, blow.gravityScale});
     }
 }
 
@@ -99,7 +103,8 @@ void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
     graph_.reach(camera, reached_);
     std::int32_t strongest = SlotMap::none;
     for (const std::int32_t component : reached_)
-        if (const std::int32_t blow = strongestOf_.find(component); isStronger(blow, strongest)) strongest = blow;
+        if (const std::int32_t blow = strongestOf_.find(component); isStronger(blow, strongest))
+            strongest = blow;
     if (strongest == SlotMap::none) return;
     const Blow* const cause = &catcher_.blows()[static_cast<std::size_t>(strongest)];
     const ChainLoads::Passed passed = catcher_.loads().passed(camera);
@@ -137,7 +142,8 @@ void ReleaseImpacts::followCauses() {
     if (causes_.isEmpty() && before_.isEmpty()) return;
     for (Strike& strike : strikes_)
         if (!strike.isDirect)
-            strike.causedNewtonSeconds += causes_.find(strike.camera, graph_).newtonSeconds + before_.find(strike.camera, graph_).aftermath;
+            strike.causedNewtonSeconds += causes_.find(strike.camera, graph_).newtonSeconds +
+                                          before_.find(strike.camera, graph_).aftermath;
 }
 
 Vector2 ReleaseImpacts::gain(std::int32_t camera) {
@@ -170,7 +176,9 @@ void ReleaseImpacts::release(bool ofThisStep, const StepSpan& span, std::vector<
     }
     for (const ContactEnd& end : catcher_.ends())
         if (isStruckA_.find(end.a) != SlotMap::none && isStruckB_.find(end.b) != SlotMap::none)
-            release(end, span, impacts, [&](const Strike& strike) { return strike.order < end.order && (strike.order >= 0) == ofThisStep; });
+            release(end, span, impacts, [&](const Strike& strike) {
+                return strike.order < end.order && (strike.order >= 0) == ofThisStep;
+            });
 }
 
 void ReleaseImpacts::cut(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts) {
@@ -178,8 +186,11 @@ void ReleaseImpacts::cut(const ContactEnd& end, const StepSpan& span, std::vecto
 }
 
 template <class Choice>
-void ReleaseImpacts::release(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts, Choice choice) {
-    const auto isReleased = [&](const Strike& strike) { return strike.a == end.a && strike.b == end.b && choice(strike); };
+void ReleaseImpacts::release(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts,
+                             Choice choice) {
+    const auto isReleased = [&](const Strike& strike) {
+        return strike.a == end.a && strike.b == end.b && choice(strike);
+    };
     for (const Strike& strike : strikes_) {
         if (!isReleased(strike)) continue;
         const BodyMotion motion = strike.isDirect ? (strike.camera == end.a ? end.motionA : end.motionB)
@@ -196,15 +207,16 @@ void ReleaseImpacts::expire(const StepSpan& span, std::vector<Impact>& impacts) 
     for (const Strike& strike : strikes_) {
         if (!isOld(strike)) continue;
         const std::int64_t timeNs = strike.isOver ? span.startNs : strike.beginNs + latestNs;
-        finish(strike, bodies_.motion(table_[strike.camera].body.body), std::max(timeNs, span.earliestNs), span,
-               impacts);
+        finish(strike, bodies_.motion(table_[strike.camera].body.body), std::max(timeNs, span.earliestNs),
+               span, impacts);
     }
     std::erase_if(strikes_, isOld);
 }
 
 void ReleaseImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const {
     for (const Strike& strike : strikes_)
-        if (strike.camera == camera) finish(strike, bodies_.motion(table_[camera].body.body), span.endNs, span, impacts);
+        if (strike.camera == camera)
+            finish(strike, bodies_.motion(table_[camera].body.body), span.endNs, span, impacts);
 }
 
 void ReleaseImpacts::finish(const Strike& strike, const BodyMotion& end, std::int64_t timeNs,
@@ -227,7 +239,8 @@ void ReleaseImpacts::finish(const Strike& strike, const BodyMotion& end, std::in
 Vector2 ReleaseImpacts::impulse(const Strike& strike, const BodyMotion& end) const {
     const KnownFixture& camera = table_[strike.camera];
     if (!camera.isDynamic()) return strike.gained;
-    const Vector2 linear = static_cast<float>(camera.massKg()) * (end.metresPerSecond - strike.start.metresPerSecond);
+    const Vector2 linear =
+        static_cast<float>(camera.massKg()) * (end.metresPerSecond - strike.start.metresPerSecond);
     const float length = strike.arm.length();
     if (length <= 0.0F) return linear;
     const auto inertia = static_cast<float>(bodies_.inertia(camera.body.body));

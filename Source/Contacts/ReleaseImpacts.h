@@ -17,14 +17,15 @@ namespace physvib {
 /// ms later, which is the time of the impact, too. A camera that is not dynamic gets the summed momentum
 /// change of the dynamic bodies that touch it. Whatever else changes these velocities meanwhile is in it as
 /// well, gravity for one; where a camera is not struck itself, the smaller value with and without gravity
-/// counts, so that it feels neither rest nor fall, and no more than what struck meanwhile gave (a machine that hums on the same floor is
-/// no part of a pebble's blow). At most one such handed-on impact is under way per camera.
-/// M only.
+/// counts, so that it feels neither rest nor fall, and no more than what struck meanwhile gave (a machine
+/// that hums on the same floor is no part of a pebble's blow). At most one such handed-on impact is under way
+/// per camera. M only.
 class ReleaseImpacts {
 public:
     static constexpr std::int64_t latestNs = 50'000'000; // thesis 5.1.3: released 10 to 50 ms later
 
-    ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph, const BodyReader& bodies);
+    ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph,
+                   const BodyReader& bodies);
 
     /// Appends the impacts of contacts that ended, or got old, in a step that is settled.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
@@ -65,7 +66,8 @@ private:
         double lighterMassKg;
         float gravityScale;
         Vector2 gained{};                 // N s, by what touches an immovable camera
-        double causedNewtonSeconds = 0.0; // of what is handed on: given so far by all from which a path led here
+        double causedNewtonSeconds = 0.0; // of what is handed on: given so far by all from which a path led
+                                          // here
     };
     void open(const StepSpan& span);
     void openDirect(const Blow& blow, const StepSpan& span);
@@ -92,13 +94,13 @@ private:
     const BodyReader& bodies_;
     std::vector<Strike> strikes_;
     static constexpr std::int32_t handedOn = 0, direct = 1;
-    SlotMap underWay_;                     // which of the two a camera has
-    SlotMap isStruckA_, isStruckB_;        // whose contact ends may end strikes
-    std::vector<double> impulses_;         // of the blows of this step
-    SlotMap strongestOf_;                  // of these, by component
-    StrikeCauses causes_, before_;         // of this step and the last one
+    SlotMap underWay_;                  // which of the two a camera has
+    SlotMap isStruckA_, isStruckB_;     // whose contact ends may end strikes
+    std::vector<double> impulses_;      // of the blows of this step
+    SlotMap strongestOf_;               // of these, by component
+    StrikeCauses causes_, before_;      // of this step and the last one
     std::vector<std::int32_t> reached_; // components at the camera in question
-    IntegerMap counted_; // by body: the sum it was last counted in
+    IntegerMap counted_;                // by body: the sum it was last counted in
     std::int32_t sums_ = 0;
     std::uint64_t drops_ = 0;
 };

@@ -7,8 +7,8 @@
 
 namespace physvib {
 
-/// As IntegerMap, for keys that are small (>= 0) and asked for very often. Allocates when it outgrows its largest key. One
-/// thread at a time.
+/// As IntegerMap, for keys that are small (>= 0) and asked for very often. Allocates when it outgrows its
+/// largest key. One thread at a time.
 class SlotMap {
 public:
     static constexpr std::int32_t none = -1;

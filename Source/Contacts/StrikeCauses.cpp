@@ -28,7 +28,8 @@ void StrikeCauses::follow(const CollisionCatcher& catcher) {
 void StrikeCauses::locate(ContactGraph& graph) {
     if (std::exchange(isLocated_, true)) return;
     std::sort(strikes_.begin(), strikes_.end(), [](const HardBlow& one, const HardBlow& two) {
-        return one.newtonSeconds != two.newtonSeconds ? one.newtonSeconds > two.newtonSeconds : one.timeNs < two.timeNs;
+        return one.newtonSeconds != two.newtonSeconds ? one.newtonSeconds > two.newtonSeconds
+                                                      : one.timeNs < two.timeNs;
     });
     sums_.clear();
     sumOf_.clear();
@@ -82,7 +83,9 @@ StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph)
         found.aftermath += sum.aftermath;
     }
     if (std::int32_t own = struck_.find(camera); own != SlotMap::none) {
-        const auto isOwn = [camera](const HardBlow& strike) { return strike.a == camera || strike.b == camera; };
+        const auto isOwn = [camera](const HardBlow& strike) {
+            return strike.a == camera || strike.b == camera;
+        };
         while (own != SlotMap::none) {
             const HardBlow& strike = strikes_[static_cast<std::size_t>(own)];
             own = strike.a == camera ? strike.nextA : strike.nextB;
@@ -90,7 +93,8 @@ StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph)
             found.newtonSeconds -= strike.newtonSeconds;
             found.aftermath -= strike.aftermath;
         }
-        while (strongest < strikes_.size() && (isOwn(strikes_[strongest]) || !isReached(strikes_[strongest]))) ++strongest;
+        while (strongest < strikes_.size() && (isOwn(strikes_[strongest]) || !isReached(strikes_[strongest])))
+            ++strongest;
     }
     if (strongest == strikes_.size()) return {};
     found.strongest = &strikes_[strongest];
@@ -104,7 +108,8 @@ void StrikeCauses::forget(std::int32_t slot) noexcept {
 
 bool StrikeCauses::isReached(const HardBlow& strike) const noexcept {
     const auto isIn = [&](std::int32_t component) {
-        return component != ContactGraph::noComponent && std::find(reached_.begin(), reached_.end(), component) != reached_.end();
+        return component != ContactGraph::noComponent &&
+               std::find(reached_.begin(), reached_.end(), component) != reached_.end();
     };
     return isIn(strike.componentA) || isIn(strike.componentB);
 }

@@ -19,8 +19,8 @@ struct HardBlow {
     std::int32_t nextA, nextB; // the next weaker blow of the same slot
 };
 
-/// Sums are kept per component of the graph, so that a question costs the same however many strikes there are: in a
-/// shaken box of cameras hundreds of strikes meet a thousand questions. M only.
+/// Sums are kept per component of the graph, so that a question costs the same however many strikes there
+/// are: in a shaken box of cameras hundreds of strikes meet a thousand questions. M only.
 class StrikeCauses {
 public:
     StrikeCauses();
@@ -32,10 +32,10 @@ public:
     /// Looks up what the pairs have gone on to push, in a step after which the graph is another.
     void follow(const CollisionCatcher& catcher);
 
-    /// What reaches a camera in the graph as it is now, its own strikes left out. The first question since the last add()
-    /// or follow() costs a look at each strike.
+    /// What reaches a camera in the graph as it is now, its own strikes left out. The first question since
+    /// the last add() or follow() costs a look at each strike.
     struct Found {
-        const HardBlow* strongest = nullptr; // nullptr: nothing does
+        const HardBlow* strongest = nullptr;         // nullptr: nothing does
         double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
     };
     Found find(std::int32_t camera, ContactGraph& graph);

@@ -9,9 +9,9 @@
 
 namespace physvib {
 
-/// Numbers for pairs of fixtures (slots) that touch, or of which something is still to be told. A number is a pair's as
-/// long as one of its fields says something; who keeps it longer asks `is` first. Allocates only when it outgrows what it
-/// has had. M only.
+/// Numbers for pairs of fixtures (slots) that touch, or of which something is still to be told. A number is a
+/// pair's as long as one of its fields says something; who keeps it longer asks `is` first. Allocates only
+/// when it outgrows what it has had. M only.
 class TouchingPairs {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
@@ -57,7 +57,9 @@ public:
     }
 
     Pair& operator[](std::int32_t number) noexcept { return pairs_[static_cast<std::size_t>(number)]; }
-    const Pair& operator[](std::int32_t number) const noexcept { return pairs_[static_cast<std::size_t>(number)]; }
+    const Pair& operator[](std::int32_t number) const noexcept {
+        return pairs_[static_cast<std::size_t>(number)];
+    }
 
     /// The contacts of a pair, of all pairs of a slot, end: it is forgotten when nothing else is left of it.
     void loosen(std::int32_t a, std::int32_t b) {

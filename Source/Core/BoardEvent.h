@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the four-channel board plays: collisions, and legs of what moves; already panned, on the board's frames, in the numbers
-// of the link.
+// What the four-channel board plays: collisions, and legs of what moves; already panned, on the board's
+// frames, in the numbers of the link.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/Trigonometry.h"
@@ -14,7 +14,8 @@ namespace limits::board {
 constexpr int maxLegs = 8; // 40 bytes each: of four tones that move, the leg that sounds and the next
 }
 
-/// x_j(n) = a_j sin(2 pi f k / rate) exp(-tau k / rate), k = n - frame, from k = 0 on (Eq. 5.1 on the board's grid).
+/// x_j(n) = a_j sin(2 pi f k / rate) exp(-tau k / rate), k = n - frame, from k = 0 on (Eq. 5.1 on the board's
+/// grid).
 struct BoardEvent {
     std::uint32_t frame = 0;       ///< onset, in frames of the board's clock; wraps after six days
     std::uint16_t frequency16 = 0; ///< f in 1/16 Hz, below half the sample rate
@@ -30,14 +31,15 @@ constexpr bool isPlayable(const BoardEvent& e) noexcept {
     return e.frequency16 > 0 && e.frequency16 < nyquist16 && (e.decay16 > 0 || e.durationMs > 0);
 }
 
-/// A part of a tone that moves: x_j(n) = (start_j + (end_j - start_j) k / (frames - 1)) sin(2 pi (phase + turn k)) exp(-tau k / rate),
-/// k = n - frame, for so many frames. Nothing of it depends on the leg before, which may be lost.
+/// A part of a tone that moves: x_j(n) = (start_j + (end_j - start_j) k / (frames - 1)) sin(2 pi (phase +
+/// turn k)) exp(-tau k / rate), k = n - frame, for so many frames. Nothing of it depends on the leg before,
+/// which may be lost.
 struct BoardLeg {
-    std::uint32_t frame = 0;    ///< its first, in frames of the board's clock; wraps
-    std::uint32_t turn = 0;     ///< of a frame, in turns / 2^32: legs join in phase, whatever the frequency
+    std::uint32_t frame = 0; ///< its first, in frames of the board's clock; wraps
+    std::uint32_t turn = 0;  ///< of a frame, in turns / 2^32: legs join in phase, whatever the frequency
     std::uint16_t frames = 0;
-    std::uint16_t phase16 = 0;  ///< at the first frame, in turns / 2^16
-    std::uint16_t decay16 = 0;  ///< tau in 1/16 per second
+    std::uint16_t phase16 = 0; ///< at the first frame, in turns / 2^16
+    std::uint16_t decay16 = 0; ///< tau in 1/16 per second
     /// at the first and at the last frame, in 1/4096 of full scale
     std::array<std::int16_t, limits::board::channels> start{}, end{};
     bool operator==(const BoardLeg&) const = default;
@@ -48,7 +50,8 @@ constexpr bool isPlayable(const BoardLeg& leg) noexcept { return leg.frames > 0 
 
 /// What a decay on the link's grid takes in a frame, in octaves / 2^56. Any thread.
 constexpr std::int64_t boardOctaves(std::uint16_t decay16) noexcept {
-    constexpr auto perStep = static_cast<std::int64_t>(octaveUnit * std::numbers::log2e * (1.0 / (limits::board::gridPerHz * limits::board::sampleRateHz)));
+    constexpr auto perStep = static_cast<std::int64_t>(
+        octaveUnit * std::numbers::log2e * (1.0 / (limits::board::gridPerHz * limits::board::sampleRateHz)));
     return perStep * decay16;
 }
 

@@ -8,10 +8,13 @@ namespace physvib {
 namespace {
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-constexpr auto release = static_cast<float>(1.0 / (limits::limiterReleaseSeconds * limits::board::sampleRateHz));
+constexpr auto release =
+    static_cast<float>(1.0 / (limits::limiterReleaseSeconds * limits::board::sampleRateHz));
 
 // 1 to 255: full scale either way of mid-scale. `sample` is within full scale, but for rounding.
-std::uint8_t codeOf(float sample) noexcept { return static_cast<std::uint8_t>(std::clamp(static_cast<int>(sample * 127.0f + 128.5f), 0, 255)); }
+std::uint8_t codeOf(float sample) noexcept {
+    return static_cast<std::uint8_t>(std::clamp(static_cast<int>(sample * 127.0f + 128.5f), 0, 255));
+}
 
 // Without a sign, floats compare as their bits do; that costs the board less than their own comparison.
 std::uint32_t magnitude(float sample) noexcept { return std::bit_cast<std::uint32_t>(sample) & 0x7FFFFFFF; }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// All that the four-channel board computes: events in, codes of its converters out. The board runs these very files;
-// on a computer they are what the board is held against.
+// All that the four-channel board computes: events in, codes of its converters out. The board runs these very
+// files; on a computer they are what the board is held against.
 //
-// Order of one block: the modes are summed; events that are due are struck into it; legs of what moves are added; each
-// channel goes through its gain; one gain for all channels takes at once what exceeds full scale and comes back within
-// limits::limiterReleaseSeconds, so that a phantom stays where it is; the guard turns down what would only
-// warm a coil; the codes saturate.
+// Order of one block: the modes are summed; events that are due are struck into it; legs of what moves are
+// added; each channel goes through its gain; one gain for all channels takes at once what exceeds full scale
+// and comes back within limits::limiterReleaseSeconds, so that a phantom stays where it is; the guard turns
+// down what would only warm a coil; the codes saturate.
 #pragma once
-#include "Core/BoardEvent.h"
 #include "Core/Actuators/BoardGuard.h"
 #include "Core/Actuators/GainRamp.h"
+#include "Core/BoardEvent.h"
 #include "Core/Modes/MovingLegs.h"
 #include "Core/Modes/PhasorBank.h"
 #include "Core/TimeOrdered.h"
@@ -21,8 +21,8 @@ namespace physvib {
 
 /// Counts since prepare, and the state after the last block.
 struct BoardStatus {
-    std::uint32_t played = 0;  ///< events struck, legs taken
-    std::uint32_t late = 0;    ///< of these: after their time; a strike at once, a leg from where it is by then
+    std::uint32_t played = 0; ///< events struck, legs taken
+    std::uint32_t late = 0; ///< of these: after their time; a strike at once, a leg from where it is by then
     std::uint32_t dropped = 0; ///< not playable, or too many waiting
     std::uint32_t stolen = 0;  ///< modes that made room
     int modes = 0;
@@ -35,20 +35,23 @@ public:
     static constexpr int channels = PhasorBank::channels;
     static constexpr int blockFrames = PhasorBank::blockFrames;
     static constexpr std::uint8_t midScale = 128;
-    using Codes = std::array<std::array<std::uint8_t, static_cast<std::size_t>(channels)>, static_cast<std::size_t>(blockFrames)>;
+    using Codes = std::array<std::array<std::uint8_t, static_cast<std::size_t>(channels)>,
+                             static_cast<std::size_t>(blockFrames)>;
     using Gains = std::array<float, static_cast<std::size_t>(channels)>;
 
     /// Silence at frame 0, all gains 1.
     void prepare() noexcept;
 
-    /// False, and counted, if the event is not playable or too many wait. Events of one frame keep their order.
+    /// False, and counted, if the event is not playable or too many wait. Events of one frame keep their
+    /// order.
     bool schedule(const BoardEvent& event) noexcept;
     bool schedule(const BoardLeg& leg) noexcept;
 
     /// Within limits::channelRampSeconds. Negative gains turn the polarity, 0 mutes.
     void setGains(const Gains& gains) noexcept;
 
-    /// Nothing sounds, nothing waits, from the next block on. (Whoever owns the converters fades what they hold.)
+    /// Nothing sounds, nothing waits, from the next block on. (Whoever owns the converters fades what they
+    /// hold.)
     void stopAll() noexcept;
 
     /// The guard lets the next block through as it is: for one that does not leave (the self-test's).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Clips are recordings that stand for no material: known by frequencies that nothing else has, far below what is felt.
+// Clips are recordings that stand for no material: known by frequencies that nothing else has, far below what
+// is felt.
 #pragma once
 
 namespace physvib {

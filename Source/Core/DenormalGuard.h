@@ -8,11 +8,13 @@
 
 namespace physvib {
 
-/// Sets flush-to-zero (and denormals-are-zero) for this thread and restores the mode it found. Within another, or wherever the
-/// mode is set, it costs next to nothing: writing it waits for all arithmetic that is under way. R, wait-free.
+/// Sets flush-to-zero (and denormals-are-zero) for this thread and restores the mode it found. Within
+/// another, or wherever the mode is set, it costs next to nothing: writing it waits for all arithmetic that
+/// is under way. R, wait-free.
 class DenormalGuard {
 public:
-    DenormalGuard() noexcept : saved_{read()} {
+    DenormalGuard() noexcept
+        : saved_{read()} {
         if (!isSet()) write(saved_ | flushBits);
     }
     ~DenormalGuard() {
@@ -47,7 +49,8 @@ private:
     static void write(Mode mode) noexcept { asm volatile("vmsr fpscr, %0" ::"r"(mode)); }
 #elif defined(__wasm__)
     using Mode = std::uint32_t;
-    static constexpr Mode flushBits = 0; // WebAssembly always keeps denormals; tails end at retireDecibels, far above them
+    static constexpr Mode flushBits = 0; // WebAssembly always keeps denormals; tails end at retireDecibels,
+                                         // far above them
     static Mode read() noexcept { return 0; }
     static void write(Mode) noexcept {}
 #else

@@ -21,8 +21,10 @@ constexpr std::array<EnchanterPlace, 4> corners{{{0.0, 1.0}, {1.0, 1.0}, {0.0, 0
 // The thesis gives no coordinates: enchanters on the back of a phone of about 138 x 69 mm, and fingers of two
 // hands that hold one in landscape grip.
 constexpr EnchanterPlace phone{0.12, 0.06}, ring{0.16, 0.08};
-constexpr std::array presets{Preset{"phone1", phone, centre}, Preset{"phone2", phone, sides}, Preset{"phone3", phone, triangle}, Preset{"phone4", phone, corners},
-                             Preset{"ring1", ring, centre},   Preset{"ring2", ring, sides},   Preset{"ring3", ring, triangle},   Preset{"ring4", ring, corners}};
+constexpr std::array presets{Preset{"phone1", phone, centre},   Preset{"phone2", phone, sides},
+                             Preset{"phone3", phone, triangle}, Preset{"phone4", phone, corners},
+                             Preset{"ring1", ring, centre},     Preset{"ring2", ring, sides},
+                             Preset{"ring3", ring, triangle},   Preset{"ring4", ring, corners}};
 constexpr auto presetNames = [] {
     std::array<std::string_view, presets.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = presets[i].name;
@@ -33,13 +35,12 @@ EnchanterLayout layoutOf(const Preset& preset) noexcept {
     const EnchanterPlace extent = preset.extent;
     EnchanterLayout layout{extent.xMetres, extent.yMetres, static_cast<int>(preset.shares.size()), {}};
     for (std::size_t j = 0; j < preset.shares.size(); ++j)
-        layout.places[j] = {preset.shares[j].xMetres * extent.xMetres, preset.shares[j].yMetres * extent.yMetres};
+        layout.places[j] = {preset.shares[j].xMetres * extent.xMetres,
+                            preset.shares[j].yMetres * extent.yMetres};
     return layout;
 }
 
-bool isPositive(double metres) noexcept {
-    return std::isfinite(metres) && metres > 0.0;
-}
+bool isPositive(double metres) noexcept { return std::isfinite(metres) && metres > 0.0; }
 
 } // namespace
 

@@ -16,9 +16,9 @@ struct EnchanterPlace {
 
 /// Places of the enchanters, in channel order; the field of the world is mapped onto `extent`.
 struct EnchanterLayout {
-    double extentWidthMetres = 0.0; ///< above 0
+    double extentWidthMetres = 0.0;  ///< above 0
     double extentHeightMetres = 0.0; ///< above 0
-    int count = 0; ///< 1 to limits::maxEnchanters; channel j is places[j]
+    int count = 0;                   ///< 1 to limits::maxEnchanters; channel j is places[j]
     std::array<EnchanterPlace, limits::maxEnchanters> places{}; ///< the first `count` of them
 };
 
@@ -29,8 +29,8 @@ bool isValid(const EnchanterLayout& layout) noexcept;
 extern const std::span<const std::string_view> layoutPresetNames;
 
 /// Fills `layout` with the preset of that name; false (and untouched) if there is none. Any thread.
-/// PHONE4 and RING4 follow the thesis: A upper left, B upper right, C lower left, D lower right, on the corners.
-/// Extents and the presets with 1 to 3 enchanters are assumptions (Docs/panning.md).
+/// PHONE4 and RING4 follow the thesis: A upper left, B upper right, C lower left, D lower right, on the
+/// corners. Extents and the presets with 1 to 3 enchanters are assumptions (Docs/panning.md).
 bool layoutPreset(std::string_view name, EnchanterLayout& layout) noexcept;
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Voices that sound from one frame to another and can all be faded out: what players of recordings and of moving tones share.
+// Voices that sound from one frame to another and can all be faded out: what players of recordings and of
+// moving tones share.
 #pragma once
 #include "Core/Limits.h"
 #include <algorithm>
@@ -41,20 +42,27 @@ public:
     }
 
     float fadeAt(const Voice& voice, std::int64_t frame) const noexcept {
-        return frame < voice.fadeFrame ? 1.0f : 1.0f - static_cast<float>(frame - voice.fadeFrame) / static_cast<float>(fadeFrames_);
+        return frame < voice.fadeFrame
+                   ? 1.0f
+                   : 1.0f - static_cast<float>(frame - voice.fadeFrame) / static_cast<float>(fadeFrames_);
     }
 
     /// Those that have ended by `frame` go; the others keep their order, in which their samples are added.
-    void forget(std::int64_t frame) noexcept { count_ = static_cast<std::size_t>(std::remove_if(begin(), end(), [=](const Voice& v) { return v.end <= frame; }) - begin()); }
+    void forget(std::int64_t frame) noexcept {
+        count_ = static_cast<std::size_t>(
+            std::remove_if(begin(), end(), [=](const Voice& v) { return v.end <= frame; }) - begin());
+    }
 
     int count() const noexcept { return static_cast<int>(count_); }
     Voice* begin() noexcept { return voices_.data(); }
     Voice* end() noexcept { return voices_.data() + count_; }
 
 private:
-    // Whether there is room depends on the onset alone, not on when what has ended was forgotten: blocks do not matter.
+    // Whether there is room depends on the onset alone, not on when what has ended was forgotten: blocks do
+    // not matter.
     int soundingAt(std::int64_t frame) const noexcept {
-        return static_cast<int>(std::count_if(voices_.data(), voices_.data() + count_, [=](const Voice& v) { return v.end > frame; }));
+        return static_cast<int>(std::count_if(voices_.data(), voices_.data() + count_,
+                                              [=](const Voice& v) { return v.end > frame; }));
     }
 
     int fadeFrames_ = 1;

@@ -17,13 +17,16 @@ inline double peakOfDecay(double frequencyHz, double decayPerSecond) noexcept {
     return std::sin(phase) * std::exp(-decayPerSecond * phase / turn);
 }
 
-/// Hits of one world, in time order: the first from rest peaks at the fixed amplitude, a later one only adds what those that sound still
-/// leave of it, so that no sum of them is higher, on one enchanter or on all. One thread at a time; never allocates.
+/// Hits of one world, in time order: the first from rest peaks at the fixed amplitude, a later one only adds
+/// what those that sound still leave of it, so that no sum of them is higher, on one enchanter or on all. One
+/// thread at a time; never allocates.
 class FixedLevel {
 public:
     /// Events that no fixture caused, or that have no frequency, are left alone.
     CollisionEvent operator()(CollisionEvent event, const RenderingMethod& method) noexcept {
-        if (!method.holdsLevel || !method.fixesAmplitude || event.source.fixture < 0 || !(event.frequencyHz > 0.0)) return event;
+        if (!method.holdsLevel || !method.fixesAmplitude || event.source.fixture < 0 ||
+            !(event.frequencyHz > 0.0))
+            return event;
         const double left = std::max(0.0, method.fixedAmplitude - soundingAt(event.timeNs));
         event.amplitude = left / peakOfDecay(event.frequencyHz, event.decayPerSecond);
         if (left > 0.0) add(event);
@@ -37,7 +40,9 @@ private:
         std::int64_t sinceNs = 0, untilNs = 0;
 
         double at(std::int64_t timeNs) const noexcept {
-            return timeNs >= untilNs ? 0.0 : level * std::exp(-1e-9 * decayPerSecond * static_cast<double>(timeNs - sinceNs));
+            return timeNs >= untilNs
+                       ? 0.0
+                       : level * std::exp(-1e-9 * decayPerSecond * static_cast<double>(timeNs - sinceNs));
         }
     };
 
@@ -47,13 +52,19 @@ private:
         return sum;
     }
 
-    /// Into the quietest place: what stood there is as good as over, as there are more places than materials that sound at once.
+    /// Into the quietest place: what stood there is as good as over, as there are more places than materials
+    /// that sound at once.
     void add(const CollisionEvent& event) noexcept {
         const std::int64_t untilNs = event.durationNs > 0 ? event.timeNs + event.durationNs : INT64_MAX;
-        const auto isSame = [&](const Envelope& e) { return e.untilNs == INT64_MAX && untilNs == INT64_MAX && e.decayPerSecond == event.decayPerSecond; };
+        const auto isSame = [&](const Envelope& e) {
+            return e.untilNs == INT64_MAX && untilNs == INT64_MAX && e.decayPerSecond == event.decayPerSecond;
+        };
         auto at = std::find_if(sounding_.begin(), sounding_.end(), isSame);
         if (at == sounding_.end())
-            at = std::min_element(sounding_.begin(), sounding_.end(), [&](const Envelope& a, const Envelope& b) { return a.at(event.timeNs) < b.at(event.timeNs); });
+            at = std::min_element(sounding_.begin(), sounding_.end(),
+                                  [&](const Envelope& a, const Envelope& b) {
+                                      return a.at(event.timeNs) < b.at(event.timeNs);
+                                  });
         // also of what is replaced: it counts on, if longer or shorter than it lasts
         const double rest = at->at(event.timeNs);
         *at = {rest + event.amplitude, event.decayPerSecond, event.timeNs, untilNs};

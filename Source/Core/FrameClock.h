@@ -5,7 +5,8 @@
 
 namespace physvib {
 
-/// An onset on the frame grid: it lies `leadFrames` before `frame`, the first frame not earlier than the onset.
+/// An onset on the frame grid: it lies `leadFrames` before `frame`, the first frame not earlier than the
+/// onset.
 struct FramePosition {
     std::int64_t frame = 0;
     double leadFrames = 0.0; ///< [0, 1)
@@ -14,13 +15,15 @@ struct FramePosition {
 /// Converts times to frames of one sample rate. Any thread.
 class FrameClock {
 public:
-    explicit FrameClock(int sampleRateHz = 48000) noexcept : rate_{sampleRateHz} {}
+    explicit FrameClock(int sampleRateHz = 48000) noexcept
+        : rate_{sampleRateHz} {}
 
     /// `timeNs` from 0 to limits::maxTimeNs.
     FramePosition at(std::int64_t timeNs) const noexcept {
         const std::int64_t seconds = timeNs / nanosecondsPerSecond;
         const std::int64_t scaled = (timeNs % nanosecondsPerSecond) * rate_; // < 2e14: no overflow
-        const std::int64_t missing = (nanosecondsPerSecond - scaled % nanosecondsPerSecond) % nanosecondsPerSecond;
+        const std::int64_t missing =
+            (nanosecondsPerSecond - scaled % nanosecondsPerSecond) % nanosecondsPerSecond;
         return {seconds * rate_ + (scaled + missing) / nanosecondsPerSecond,
                 static_cast<double>(missing) * 1e-9};
     }

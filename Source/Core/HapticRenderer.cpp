@@ -8,7 +8,9 @@ namespace physvib {
 
 bool HapticRenderer::canTake(const RendererSettings& settings) noexcept {
     const int outputs = settings.outputs();
-    if (!isSampleRate(settings.sampleRateHz) || settings.channels < 0 || settings.modes < 0 || settings.modes > limits::maxModes || outputs < 1 || outputs > limits::maxEnchanters) return false;
+    if (!isSampleRate(settings.sampleRateHz) || settings.channels < 0 || settings.modes < 0 ||
+        settings.modes > limits::maxModes || outputs < 1 || outputs > limits::maxEnchanters)
+        return false;
     if (settings.panner.channels() < 0 || settings.panner.channels() > outputs) return false;
     return std::all_of(settings.ceilings.begin(), settings.ceilings.begin() + outputs,
                        [](float ceiling) { return ceiling > 0.0f && std::isfinite(ceiling); });
@@ -32,15 +34,21 @@ bool HapticRenderer::prepare(const RendererSettings& settings) noexcept {
 }
 
 bool HapticRenderer::takeMemory() noexcept {
-    const auto share = [this](int most, int least) { return settings_.shareOf(most, limits::maxModes, std::min(most, least)); };
-    return bank_.prepare(settings_.sampleRateHz, channels_, settings_.instructions, share(limits::maxModes, 1), share(limits::maxGates, 256)) &&
-           actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) && prepareLimiter() && pending_.resize(share(limits::maxPending, 512)) &&
+    const auto share = [this](int most, int least) {
+        return settings_.shareOf(most, limits::maxModes, std::min(most, least));
+    };
+    return bank_.prepare(settings_.sampleRateHz, channels_, settings_.instructions,
+                         share(limits::maxModes, 1), share(limits::maxGates, 256)) &&
+           actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) && prepareLimiter() &&
+           pending_.resize(share(limits::maxPending, 512)) &&
            controls_.resize(share(limits::maxControls, 64));
 }
 
 bool HapticRenderer::prepareLimiter() noexcept {
-    const bool has = limiter_.prepare(settings_.sampleRateHz, channels_, settings_.limiterEnabled, settings_.instructions);
-    for (int j = 0; j < channels_; ++j) limiter_.setCeiling(j, settings_.ceilings[static_cast<std::size_t>(j)]);
+    const bool has =
+        limiter_.prepare(settings_.sampleRateHz, channels_, settings_.limiterEnabled, settings_.instructions);
+    for (int j = 0; j < channels_; ++j)
+        limiter_.setCeiling(j, settings_.ceilings[static_cast<std::size_t>(j)]);
     return has;
 }
 
@@ -86,13 +94,15 @@ void HapticRenderer::apply(const RenderControl& control) noexcept {
     const bool isSilence = control.kind == Kind::silence;
     if (isSilence) {
         silentUntilNs_ = std::max(silentUntilNs_, control.untilNs);
-        strikesSilentUntilNs_ = std::max(strikesSilentUntilNs_, control.value != 0.0f ? control.timeNs : control.untilNs);
+        strikesSilentUntilNs_ =
+            std::max(strikesSilentUntilNs_, control.value != 0.0f ? control.timeNs : control.untilNs);
     }
     if (isSilence || control.kind == Kind::stopAll) {
         bank_.fadeAll(position_, isSilence ? limits::silenceFadePerSecond : limits::stealFadePerSecond);
         moving_.fadeAll(position_);
     }
-    if (isSilence || control.kind == Kind::stopAll || control.kind == Kind::recordings) player_.fadeAll(position_);
+    if (isSilence || control.kind == Kind::stopAll || control.kind == Kind::recordings)
+        player_.fadeAll(position_);
 }
 
 bool HapticRenderer::isSilenced(const CollisionEvent& event) const noexcept {
@@ -104,8 +114,11 @@ bool HapticRenderer::strike(const CollisionEvent& event, FramePosition onset) no
     const std::int64_t delay = position_ - onset.frame;
     if (delay > 0) onset = {position_, 0.0}; // late: the whole vibration, at once
     const bool isGated = event.durationNs > 0;
-    const std::int64_t end = isGated ? clock_.at(event.timeNs + event.durationNs).frame + std::max<std::int64_t>(delay, 0) : Strike::never;
-    const bool taken = event.course.travelNs > 0 ? end <= onset.frame || moving_.strike(event, onset, end) : strikeStill(event, onset, end);
+    const std::int64_t end =
+        isGated ? clock_.at(event.timeNs + event.durationNs).frame + std::max<std::int64_t>(delay, 0)
+                : Strike::never;
+    const bool taken = event.course.travelNs > 0 ? end <= onset.frame || moving_.strike(event, onset, end)
+                                                 : strikeStill(event, onset, end);
     if (taken)
         playedQueue_.pushBy([&](PlayedEvent& told) noexcept {
             told.event = event;
@@ -118,7 +131,8 @@ bool HapticRenderer::strike(const CollisionEvent& event, FramePosition onset) no
     return taken;
 }
 
-bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {
+bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onset,
+                                 std::int64_t closeFrame) noexcept {
     panner_.gainsAt(event, event.x, event.y, gains_);
     std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
     Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, closeFrame};
@@ -127,7 +141,8 @@ bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onse
         s.phase = phaseAfter(event.frequencyHz * seconds);
         s.amplitude *= shareLeft(event.decayPerSecond, seconds);
     }
-    const bool isRecorded = isClip(event.frequencyHz) || (player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz)));
+    const bool isRecorded =
+        isClip(event.frequencyHz) || (player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz)));
     if (isRecorded) return player_.strike(s.frequencyHz, s.amplitude, onset.frame, closeFrame, gains_.data());
     return isCoupled() ? strikeCoupled(s) : bank_.strike(s, gains_.data());
 }
@@ -135,12 +150,15 @@ bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onse
 MovingTones::Drive HapticRenderer::driveAt(const CollisionEvent& event, double x, double y) noexcept {
     MovingTones::Drive drive;
     panner_.gainsAt(event, x, y, gains_);
-    if (isCoupled()) settings_.drives.apply(event.frequencyHz, gains_.data(), drive.inPhase.data(), drive.ahead.data());
-    else std::copy_n(gains_.begin(), panner_.channels(), drive.inPhase.begin());
+    if (isCoupled())
+        settings_.drives.apply(event.frequencyHz, gains_.data(), drive.inPhase.data(), drive.ahead.data());
+    else
+        std::copy_n(gains_.begin(), panner_.channels(), drive.inPhase.begin());
     return drive;
 }
 
-// A complex drive is two strikes of one mode, a quarter turn apart: they merge, so it costs no mode. Both or none.
+// A complex drive is two strikes of one mode, a quarter turn apart: they merge, so it costs no mode. Both or
+// none.
 bool HapticRenderer::strikeCoupled(Strike strike) noexcept {
     if (strike.closeFrame != Strike::never && bank_.freeGates() < 2) return false;
     std::array<double, static_cast<std::size_t>(limits::maxEnchanters)> inPhase{}, ahead{};
@@ -150,12 +168,13 @@ bool HapticRenderer::strikeCoupled(Strike strike) noexcept {
     return bank_.strike(strike, ahead.data());
 }
 
-// Modes alone, that leave as they are but for the limiter: it reads them where they were summed, and keeps what a delay set later
-// begins with. False: something else is to be done.
+// Modes alone, that leave as they are but for the limiter: it reads them where they were summed, and keeps
+// what a delay set later begins with. False: something else is to be done.
 bool HapticRenderer::passModes(const Channels& out, int frames) noexcept {
     Channels kept;
     std::array<const float*, static_cast<std::size_t>(limits::maxEnchanters)> sums;
-    const bool isAlone = bank_.liveModes() > 0 && limiter_.canPass() && player_.voices() == 0 && moving_.count() == 0;
+    const bool isAlone =
+        bank_.liveModes() > 0 && limiter_.canPass() && player_.voices() == 0 && moving_.count() == 0;
     if (!isAlone || !actuators_.passes(kept.data(), frames)) return false;
     if (!bank_.sumsAt(sums.data(), position_)) {
         if (!bank_.render(out.data(), position_, frames)) return false;
@@ -168,10 +187,17 @@ bool HapticRenderer::passModes(const Channels& out, int frames) noexcept {
 }
 
 void HapticRenderer::playAll(const Channels& out, int frames, const float* const* added) noexcept {
-    const bool modesSound = bank_.render(out.data(), position_, frames), recordingsSound = player_.render(out.data(), position_, frames);
-    const bool movingSounds = moving_.count() > 0 && moving_.render(out.data(), position_, frames, [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
-    for (int j = 0; added && j < channels_; ++j) std::transform(added[j], added[j] + frames, out[static_cast<std::size_t>(j)], out[static_cast<std::size_t>(j)], [](float a, float b) { return a + b; });
-    const bool isSilent = actuators_.process(out.data(), frames, !modesSound && !recordingsSound && !movingSounds && !added);
+    const bool modesSound = bank_.render(out.data(), position_, frames),
+               recordingsSound = player_.render(out.data(), position_, frames);
+    const bool movingSounds =
+        moving_.count() > 0 &&
+        moving_.render(out.data(), position_, frames,
+                       [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
+    for (int j = 0; added && j < channels_; ++j)
+        std::transform(added[j], added[j] + frames, out[static_cast<std::size_t>(j)],
+                       out[static_cast<std::size_t>(j)], [](float a, float b) { return a + b; });
+    const bool isSilent =
+        actuators_.process(out.data(), frames, !modesSound && !recordingsSound && !movingSounds && !added);
     guard(out, frames, limiter_.process(out.data(), frames, isSilent));
 }
 

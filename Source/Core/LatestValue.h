@@ -19,7 +19,8 @@ public:
     /// Writer only, wait-free.
     void write(const T& value) noexcept PHYSVIB_NONBLOCKING {
         slots_[writing_].value = value;
-        writing_ = shared_.exchange(static_cast<std::uint8_t>(writing_ | fresh), std::memory_order_acq_rel) & index;
+        writing_ =
+            shared_.exchange(static_cast<std::uint8_t>(writing_ | fresh), std::memory_order_acq_rel) & index;
     }
 
     /// The newest value; T{} before the first write. Reader only, wait-free.

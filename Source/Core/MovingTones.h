@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Strikes that go somewhere: one tone each, whose gains move with its place.
 //
-// The place is exact in every frame; its gains are taken at both ends of each tile of the absolute frame grid and lie on a
-// line between them. A sample depends on its own frame alone, so block sizes do not matter. Why lines, and what they cost
-// beside the tone: Docs/decisions/0069-what-moves-is-a-row-of-strikes.md.
+// The place is exact in every frame; its gains are taken at both ends of each tile of the absolute frame grid
+// and lie on a line between them. A sample depends on its own frame alone, so block sizes do not matter. Why
+// lines, and what they cost beside the tone: Docs/decisions/0069-what-moves-is-a-row-of-strikes.md.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/FadingVoices.h"
@@ -39,17 +39,20 @@ public:
         voice->phaseIncrement = phaseIncrementOf(event.frequencyHz, rate_);
         voice->decayIncrement = decayIncrementOf(event.decayPerSecond, rate_);
         voice->phase = phaseAfter(event.frequencyHz * static_cast<double>(event.course.sinceNs) * 1e-9);
-        voice->level = static_cast<double>(event.amplitude * shareLeft(event.decayPerSecond, static_cast<double>(event.course.sinceNs) * 1e-9));
+        voice->level = static_cast<double>(
+            event.amplitude *
+            shareLeft(event.decayPerSecond, static_cast<double>(event.course.sinceNs) * 1e-9));
         const std::int64_t life = lifeFramesOf(voice->decayIncrement);
-        voice->end = voice->closeFrame = std::min({closeFrame, VoiceTime::never, life < VoiceTime::never ? onset.frame + life : life});
+        voice->end = voice->closeFrame =
+            std::min({closeFrame, VoiceTime::never, life < VoiceTime::never ? onset.frame + life : life});
         return true;
     }
 
     void fadeAll(std::int64_t frame) noexcept { voices_.fadeAll(frame); }
     int count() const noexcept { return voices_.count(); }
 
-    /// Adds to io[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. `driveAt(event, x, y)`
-    /// is the Drive of a strike there. False if there was nothing to add.
+    /// Adds to io[j][0..frames) for absolute frames [first, first + frames), which lie within one tile.
+    /// `driveAt(event, x, y)` is the Drive of a strike there. False if there was nothing to add.
     template <class DriveAt>
     bool render(float* const* io, std::int64_t first, int frames, DriveAt driveAt) noexcept {
         bool sounds = false;
@@ -85,24 +88,35 @@ private:
         voice.to = at(voice, voice.last, driveAt);
     }
 
-    double ageFrames(const Voice& voice, std::int64_t frame) const noexcept { return static_cast<double>(frame - voice.onset) + voice.leadFrames; }
+    double ageFrames(const Voice& voice, std::int64_t frame) const noexcept {
+        return static_cast<double>(frame - voice.onset) + voice.leadFrames;
+    }
 
     template <class DriveAt>
     Drive at(const Voice& voice, std::int64_t frame, DriveAt driveAt) const noexcept {
         const CollisionEvent& e = voice.event;
-        const double share = std::min(1.0, ageFrames(voice, frame) * 1e9 / (static_cast<double>(e.course.travelNs) * rate_));
+        const double share =
+            std::min(1.0, ageFrames(voice, frame) * 1e9 / (static_cast<double>(e.course.travelNs) * rate_));
         return driveAt(e, e.x + share * (e.course.toX - e.x), e.y + share * (e.course.toY - e.y));
     }
 
     void add(const Voice& voice, std::int64_t frame, float* const* io, std::int64_t n) const noexcept {
-        const auto lead = [&](auto increment) { return static_cast<decltype(increment)>(static_cast<double>(increment) * voice.leadFrames); };
+        const auto lead = [&](auto increment) {
+            return static_cast<decltype(increment)>(static_cast<double>(increment) * voice.leadFrames);
+        };
         const std::int64_t k = frame - voice.onset;
-        const auto tone = unitPhasor<double>(voice.phase + lead(voice.phaseIncrement) + voice.phaseIncrement * static_cast<std::uint64_t>(k)) *
-                          (decayFactor<double>(voice.decayIncrement * k + lead(voice.decayIncrement)) * voice.level * static_cast<double>(voices_.fadeAt(voice, frame)));
-        const auto share = static_cast<double>(frame - voice.first) / static_cast<double>(voice.last - voice.first);
-        const auto between = [share](double from, double to) { return static_cast<double>(from) + share * static_cast<double>(to - from); };
+        const auto tone = unitPhasor<double>(voice.phase + lead(voice.phaseIncrement) +
+                                             voice.phaseIncrement * static_cast<std::uint64_t>(k)) *
+                          (decayFactor<double>(voice.decayIncrement * k + lead(voice.decayIncrement)) *
+                           voice.level * static_cast<double>(voices_.fadeAt(voice, frame)));
+        const auto share =
+            static_cast<double>(frame - voice.first) / static_cast<double>(voice.last - voice.first);
+        const auto between = [share](double from, double to) {
+            return static_cast<double>(from) + share * static_cast<double>(to - from);
+        };
         for (std::size_t j = 0; j < channels_; ++j)
-            io[j][n] += static_cast<float>(between(voice.from.inPhase[j], voice.to.inPhase[j]) * tone.im + between(voice.from.ahead[j], voice.to.ahead[j]) * tone.re);
+            io[j][n] += static_cast<float>(between(voice.from.inPhase[j], voice.to.inPhase[j]) * tone.im +
+                                           between(voice.from.ahead[j], voice.to.ahead[j]) * tone.re);
     }
 
     double rate_ = 48000.0;

@@ -9,12 +9,13 @@
 
 namespace physvib {
 
-/// Renders frames 0 to `frames` of a renderer that has just been prepared, in blocks of `blockFrames`, which are written to out[channel]
-/// and given to `consume(channels, n)`, the next n frames in order, until it says false. The limiter's look-ahead is rendered first
-/// and dropped, so that frame n is time n/rate. M, or whoever holds R.
+/// Renders frames 0 to `frames` of a renderer that has just been prepared, in blocks of `blockFrames`, which
+/// are written to out[channel] and given to `consume(channels, n)`, the next n frames in order, until it says
+/// false. The limiter's look-ahead is rendered first and dropped, so that frame n is time n/rate. M, or
+/// whoever holds R.
 template <class Source, class Consume>
-void renderFromStart(HapticRenderer& renderer, Source& source, float* const* out, int channels, std::int64_t frames, int blockFrames,
-                     Consume&& consume) {
+void renderFromStart(HapticRenderer& renderer, Source& source, float* const* out, int channels,
+                     std::int64_t frames, int blockFrames, Consume&& consume) {
     std::array<float*, static_cast<std::size_t>(limits::maxEnchanters)> kept{};
     const std::int64_t latency = renderer.latencyFrames(), end = frames + latency;
     for (std::int64_t done = 0; done < end;) {
@@ -23,7 +24,8 @@ void renderFromStart(HapticRenderer& renderer, Source& source, float* const* out
         const int dropped = static_cast<int>(std::clamp<std::int64_t>(latency - done, 0, block));
         for (int j = 0; j < channels; ++j) kept[static_cast<std::size_t>(j)] = out[j] + dropped;
         done += block;
-        if (block > dropped && !consume(static_cast<const float* const*>(kept.data()), block - dropped)) break;
+        if (block > dropped && !consume(static_cast<const float* const*>(kept.data()), block - dropped))
+            break;
     }
 }
 

@@ -39,11 +39,10 @@ constexpr const PanningLawDescription& describe(PanningLaw law) noexcept {
 }
 
 /// As files and options have it. Any thread.
-constexpr std::string_view nameOf(PanningLaw law) noexcept {
-    return describe(law).name;
-}
+constexpr std::string_view nameOf(PanningLaw law) noexcept { return describe(law).name; }
 
-/// Where between two enchanters (0 to 1) an impact is felt that is meant at `share` of the way: the centroid of intensity. Any thread.
+/// Where between two enchanters (0 to 1) an impact is felt that is meant at `share` of the way: the centroid
+/// of intensity. Any thread.
 inline double centroidOf(PanningLaw law, double share) noexcept {
     const double near = describe(law).factor(share), far = describe(law).factor(1.0 - share);
     return far * far / (near * near + far * far);

@@ -48,7 +48,8 @@ bool PhantomPanner::findLine() noexcept {
                   std::abs(lineDirection_.y) * layout_.extentHeightMetres;
     const double tolerance = placeTolerance();
     for (int j = 1; j < layout_.count; ++j) {
-        const double aside = (place(j).x - origin.x) * lineDirection_.y - (place(j).y - origin.y) * lineDirection_.x;
+        const double aside =
+            (place(j).x - origin.x) * lineDirection_.y - (place(j).y - origin.y) * lineDirection_.x;
         if (std::abs(aside) > tolerance) return false;
     }
     return true;
@@ -98,8 +99,10 @@ void PhantomPanner::gainsAt(double x, double y, Spread spread, Gains& gains) con
     other.gainsAt(x, y, gains);
     if (spread != Spread::equal) return;
     const auto end = gains.begin() + layout_.count;
-    const double energy = std::accumulate(gains.begin(), end, 0.0, [](double sum, double g) { return sum + g * g; });
-    if (energy > 0.0) std::for_each(gains.begin(), end, [scale = 1.0 / std::sqrt(energy)](double& g) { g *= scale; });
+    const double energy =
+        std::accumulate(gains.begin(), end, 0.0, [](double sum, double g) { return sum + g * g; });
+    if (energy > 0.0)
+        std::for_each(gains.begin(), end, [scale = 1.0 / std::sqrt(energy)](double& g) { g *= scale; });
 }
 
 void PhantomPanner::nearestGains(Vector p, Gains& gains) const noexcept {
@@ -155,9 +158,11 @@ void PhantomPanner::triangleGains(Vector p, Gains& gains) const noexcept {
 }
 
 void PhantomPanner::scatteredGains(Vector p, Gains& gains) const noexcept {
-    // Shepard's weights 1/d^2; a hit on an enchanter is that enchanter's alone. Loops without branches are vectors.
-    constexpr double least = 1e-18; // a nanometre: no division by zero
-    std::array<double, limits::maxEnchanters> weight; // only `count` of them are used: not worth clearing per strike
+    // Shepard's weights 1/d^2; a hit on an enchanter is that enchanter's alone. Loops without branches are
+    // vectors.
+    constexpr double least = 1e-18;                   // a nanometre: no division by zero
+    std::array<double, limits::maxEnchanters> weight; // only `count` of them are used: not worth clearing per
+                                                      // strike
     const auto count = static_cast<std::size_t>(layout_.count);
     for (std::size_t j = 0; j < count; ++j) {
         const double dx = p.x - layout_.places[j].xMetres, dy = p.y - layout_.places[j].yMetres;

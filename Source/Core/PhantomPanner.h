@@ -16,7 +16,8 @@ public:
 
     PhantomPanner() = default;
 
-    /// `layout` valid; field sizes in metres > 0, mapped onto the layout's extent; exponent > 0 (gamma of Eq. 4.2).
+    /// `layout` valid; field sizes in metres > 0, mapped onto the layout's extent; exponent > 0 (gamma of
+    /// Eq. 4.2).
     PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
                   double fieldHeightMetres) noexcept;
 
@@ -26,13 +27,15 @@ public:
     /// The same, spread otherwise. Any thread.
     void gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept;
 
-    /// For an event that is there now: as the event asks; grains, if it asks nothing, by grains(). Any thread.
+    /// For an event that is there now: as the event asks; grains, if it asks nothing, by grains(). Any
+    /// thread.
     void gainsAt(const CollisionEvent& event, double x, double y, Gains& gains) const noexcept {
         const bool isGrain = event.source.kind != ContactKind::hit && event.course.spread == Spread::layout;
         gainsAt(x, y, isGrain ? grains_ : event.course.spread, gains);
     }
 
-    /// Grains of surfaces travel: by `spread`, so that the centroid of what is felt follows them; Spread::layout, as at first: by the law.
+    /// Grains of surfaces travel: by `spread`, so that the centroid of what is felt follows them;
+    /// Spread::layout, as at first: by the law.
     void setGrains(Spread spread) noexcept { grains_ = spread; }
     Spread grains() const noexcept { return grains_; } ///< As it was set. Any thread.
 
@@ -40,9 +43,9 @@ public:
 
     /// What it was made of. Any thread.
     const EnchanterLayout& layout() const noexcept { return layout_; }
-    PanningLaw law() const noexcept { return law_; } ///< As it was given.
-    double exponent() const noexcept { return exponent_; } ///< Of the law.
-    double fieldWidthMetres() const noexcept { return fieldWidthMetres_; } ///< That x spans.
+    PanningLaw law() const noexcept { return law_; }                         ///< As it was given.
+    double exponent() const noexcept { return exponent_; }                   ///< Of the law.
+    double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }   ///< That x spans.
     double fieldHeightMetres() const noexcept { return fieldHeightMetres_; } ///< That y spans.
 
 private:

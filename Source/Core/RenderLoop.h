@@ -8,8 +8,10 @@ namespace physvib {
 template <class Source>
 void HapticRenderer::refill(Source& source) noexcept {
     while (!pending_.full() && source.pop(pending_.blank())) {
-        if (const CollisionEvent& event = pending_.blank(); canPlay(event)) pending_.pushBlank(event.timeNs);
-        else ++rejected_;
+        if (const CollisionEvent& event = pending_.blank(); canPlay(event))
+            pending_.pushBlank(event.timeNs);
+        else
+            ++rejected_;
     }
     if constexpr (requires(RenderControl c) { source.pop(c); }) {
         RenderControl control;
@@ -17,9 +19,9 @@ void HapticRenderer::refill(Source& source) noexcept {
     }
 }
 
-// Strikes what comes before the next change that needs a cut, and says how many frames lie before it: at the next
-// onset as well, unless the bank takes strikes ahead. Taking an event makes room in the pending store for another, and one
-// with a duration is a change.
+// Strikes what comes before the next change that needs a cut, and says how many frames lie before it: at the
+// next onset as well, unless the bank takes strikes ahead. Taking an event makes room in the pending store
+// for another, and one with a duration is a change.
 template <class Source>
 int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
     for (;;) {
@@ -30,11 +32,15 @@ int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
         for (bool isSame = true; isSame;) {
             if (pending_.empty()) return static_cast<int>(end - position_);
             const FramePosition onset = clock_.at(pending_.nextTime());
-            const bool isDue = onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead()), isHeard = !isSilenced(pending_.next());
+            const bool isDue = onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead()),
+                       isHeard = !isSilenced(pending_.next());
             if (isHeard && !isDue) return static_cast<int>(std::min(end, onset.frame) - position_);
             isSame = !wasFull && pending_.next().durationNs == 0;
             if (isHeard && strike(pending_.next(), onset))
-                if constexpr (requires(const CollisionEvent& e, std::int64_t frame) { source.struck(e, frame); }) source.struck(pending_.next(), std::max(onset.frame, position_));
+                if constexpr (requires(const CollisionEvent& e, std::int64_t frame) {
+                                  source.struck(e, frame);
+                              })
+                    source.struck(pending_.next(), std::max(onset.frame, position_));
             pending_.pop();
         }
     }

@@ -7,18 +7,19 @@
 
 namespace physvib {
 
-/// A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency and decay are varied (from physics) or fixed. Turns a collision into the
-/// event that is rendered; AV-FV-DRV changes nothing. Any thread.
+/// A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency and decay are varied (from physics) or fixed. Turns a
+/// collision into the event that is rendered; AV-FV-DRV changes nothing. Any thread.
 struct RenderingMethod {
-    static constexpr double fixedLevelG = 1.5;                ///< acceleration; divide by the full scale for an amplitude
+    static constexpr double fixedLevelG = 1.5; ///< acceleration; divide by the full scale for an amplitude
     static constexpr double fixedFrequencyHz = 250.0;
-    static constexpr std::int64_t fixedPulseNs = 20'000'000;  ///< rectangular: five periods of 250 Hz, cut anywhere of others
+    static constexpr std::int64_t fixedPulseNs = 20'000'000; ///< rectangular: five periods of 250 Hz, cut
+                                                             ///< anywhere of others
 
     bool fixesAmplitude = false;
     bool fixesFrequency = false;
     bool fixesDecay = false;
     double fixedAmplitude = fixedLevelG; ///< 1 = full scale of an enchanter, as in an event
-    bool holdsLevel = false;             ///< it is the peak of what is felt, not each hit's A of Eq. 5.1 (FixedLevel.h)
+    bool holdsLevel = false; ///< it is the peak of what is felt, not each hit's A of Eq. 5.1 (FixedLevel.h)
 
     constexpr CollisionEvent operator()(CollisionEvent event) const noexcept {
         if (fixesAmplitude) event.amplitude = fixedAmplitude;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recorded contacts instead of modes: the thesis' SV rendering (5.2), in which the event's amplitude scales the recording.
+// Recorded contacts instead of modes: the thesis' SV rendering (5.2), in which the event's amplitude scales
+// the recording.
 #pragma once
 #include "Core/FadingVoices.h"
 #include "Core/RecordedContact.h"
@@ -11,7 +12,8 @@
 
 namespace physvib {
 
-/// Adds recordings to what the modes made, from their exact frames on. R only, but for prepare and setContacts: M.
+/// Adds recordings to what the modes made, from their exact frames on. R only, but for prepare and
+/// setContacts: M.
 class SamplePlayer {
 public:
     /// No contacts, silence. M, not while rendering.
@@ -25,30 +27,38 @@ public:
     void setContacts(std::span<const RecordedContact> contacts) noexcept { contacts_ = contacts; }
 
     bool isOn() const noexcept { return !contacts_.empty(); }
-    bool has(double frequencyHz) const noexcept { return std::ranges::find(contacts_, frequencyHz, &RecordedContact::frequencyHz) != contacts_.end(); }
+    bool has(double frequencyHz) const noexcept {
+        return std::ranges::find(contacts_, frequencyHz, &RecordedContact::frequencyHz) != contacts_.end();
+    }
 
-    /// From frame `onset` on, cut at `closeFrame`. False if there is no such recording, or too many sound at once.
-    bool strike(double frequencyHz, double amplitude, std::int64_t onset, std::int64_t closeFrame, const double* gains) noexcept {
+    /// From frame `onset` on, cut at `closeFrame`. False if there is no such recording, or too many sound at
+    /// once.
+    bool strike(double frequencyHz, double amplitude, std::int64_t onset, std::int64_t closeFrame,
+                const double* gains) noexcept {
         const auto found = std::ranges::find(contacts_, frequencyHz, &RecordedContact::frequencyHz);
         if (found == contacts_.end() || found->samples.empty()) return false;
         Voice* const voice = voices_.add(onset);
         if (voice == nullptr) return false;
         voice->samples = found->samples;
         voice->end = std::min(closeFrame, onset + static_cast<std::int64_t>(found->samples.size()));
-        for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) voice->gains[j] = static_cast<float>(amplitude * gains[j]);
+        for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j)
+            voice->gains[j] = static_cast<float>(amplitude * gains[j]);
         return true;
     }
 
     void fadeAll(std::int64_t frame) noexcept { voices_.fadeAll(frame); }
 
-    /// Adds to io[j][0..frames) for absolute frames [first, first + frames). False if there was nothing to add.
+    /// Adds to io[j][0..frames) for absolute frames [first, first + frames). False if there was nothing to
+    /// add.
     bool render(float* const* io, std::int64_t first, int frames) noexcept {
         bool sounds = false;
         for (const Voice& voice : voices_) {
             const std::int64_t from = std::max(first, voice.onset), to = std::min(first + frames, voice.end);
             for (std::int64_t frame = from; frame < to; ++frame) {
-                const float sample = voice.samples[static_cast<std::size_t>(frame - voice.onset)] * voices_.fadeAt(voice, frame);
-                for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) io[j][frame - first] += voice.gains[j] * sample;
+                const float sample = voice.samples[static_cast<std::size_t>(frame - voice.onset)] *
+                                     voices_.fadeAt(voice, frame);
+                for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j)
+                    io[j][frame - first] += voice.gains[j] * sample;
             }
             sounds = sounds || from < to;
         }

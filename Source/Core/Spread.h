@@ -21,7 +21,8 @@ constexpr Spread spreadBy(PanningLaw law) noexcept {
     return static_cast<Spread>(1 + static_cast<std::size_t>(law));
 }
 
-/// Of grains, where nobody asked for another: the centroid of their intensity is where they are (Docs/panning.md).
+/// Of grains, where nobody asked for another: the centroid of their intensity is where they are
+/// (Docs/panning.md).
 inline constexpr Spread grainSpread = spreadBy(PanningLaw::energy);
 
 /// In their order.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Room for items whose number is known when a renderer is prepared: on a computer taken from the heap then, on a board inside
-// the object.
+// Room for items whose number is known when a renderer is prepared: on a computer taken from the heap then,
+// on a board inside the object.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -13,7 +13,8 @@ namespace physvib {
 template <class T, std::size_t Most, bool isOnHeap>
 class Storage {
 public:
-    /// Room for so many. False if there is none: then it is empty. Items are as new if their number has changed, else as they were.
+    /// Room for so many. False if there is none: then it is empty. Items are as new if their number has
+    /// changed, else as they were.
     bool resize(std::size_t count) noexcept { return count <= Most; }
 
     T* data() noexcept { return items_.data(); }
@@ -25,7 +26,8 @@ private:
     std::array<T, Most> items_{};
 };
 
-/// On cache lines of its own. Every item is written when it is taken, so the operating system has nothing left to do in render.
+/// On cache lines of its own. Every item is written when it is taken, so the operating system has nothing
+/// left to do in render.
 template <class T, std::size_t Most>
 class Storage<T, Most, true> {
     static_assert(std::is_trivially_destructible_v<T>);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A fixed store that gives its items back in time order, equal times in the order of arrival: a queue of those that came in
-// order, which is nearly all of them, and beside it a binary heap of the others.
+// A fixed store that gives its items back in time order, equal times in the order of arrival: a queue of
+// those that came in order, which is nearly all of them, and beside it a binary heap of the others.
 #pragma once
 #include "Core/Storage.h"
 #include <algorithm>
@@ -9,12 +9,13 @@
 
 namespace physvib {
 
-/// At most `Capacity` items of type T, or fewer, each with an integer time. R: in order, one step a call; else bounded by
-/// log2(Capacity) moves of small numbers. Items stay where they are.
+/// At most `Capacity` items of type T, or fewer, each with an integer time. R: in order, one step a call;
+/// else bounded by log2(Capacity) moves of small numbers. Items stay where they are.
 template <class T, int Capacity, bool isOnHeap = false>
 class TimeOrdered {
 public:
-    /// Empty, with room for so many, at most `Capacity`; on the heap it has none before. False: no memory. M, not while rendering.
+    /// Empty, with room for so many, at most `Capacity`; on the heap it has none before. False: no memory. M,
+    /// not while rendering.
     bool resize(int capacity) noexcept {
         clear();
         const auto count = static_cast<std::size_t>(capacity);
@@ -46,9 +47,12 @@ public:
         if (free_ != none) free_ = node(at).next;
         node(at) = {time, arrivals_++, none};
         ++size_;
-        if (first_ == none) first_ = last_ = at;
-        else if (time >= node(last_).time) last_ = node(last_).next = at;
-        else heapUp(at);
+        if (first_ == none)
+            first_ = last_ = at;
+        else if (time >= node(last_).time)
+            last_ = node(last_).next = at;
+        else
+            heapUp(at);
     }
 
     /// Time and item that come first. Only when not empty.
@@ -58,19 +62,23 @@ public:
     /// Removes the first item. Only when not empty.
     void pop() noexcept {
         const std::int32_t at = firstPlace();
-        if (at == first_) first_ = node(at).next;
-        else std::pop_heap(heap_.data(), heap_.data() + heaped_--, later());
+        if (at == first_)
+            first_ = node(at).next;
+        else
+            std::pop_heap(heap_.data(), heap_.data() + heaped_--, later());
         node(at).next = free_;
         free_ = at;
         --size_;
     }
 
-    /// Gives every item a new time: `newTime(oldTime, item)`, which may change the item too. M, not while rendering.
+    /// Gives every item a new time: `newTime(oldTime, item)`, which may change the item too. M, not while
+    /// rendering.
     template <class Function>
     void retime(Function newTime) noexcept {
         for (; first_ != none; first_ = node(first_).next)
             heap_[index(heaped_++)] = static_cast<Place>(first_);
-        std::for_each(heap_.data(), heap_.data() + heaped_, [&](std::int32_t at) { node(at).time = newTime(node(at).time, items_[index(at)]); });
+        std::for_each(heap_.data(), heap_.data() + heaped_,
+                      [&](std::int32_t at) { node(at).time = newTime(node(at).time, items_[index(at)]); });
         std::make_heap(heap_.data(), heap_.data() + heaped_, later());
     }
 
@@ -78,8 +86,8 @@ private:
     static constexpr std::int32_t none = -1;
     struct Node {
         std::int64_t time = 0;
-        std::uint32_t arrival = 0;  // may wrap: those in the store are never 2^31 apart
-        std::int32_t next = none;   // in the queue, or among the free places
+        std::uint32_t arrival = 0; // may wrap: those in the store are never 2^31 apart
+        std::int32_t next = none;  // in the queue, or among the free places
     };
     static constexpr std::size_t index(std::int32_t at) noexcept { return static_cast<std::size_t>(at); }
     Node& node(std::int32_t at) noexcept { return nodes_[index(at)]; }

@@ -31,15 +31,19 @@ constexpr Complex<Real> unitPhasor(std::uint64_t phase) noexcept {
                    static_cast<Real>(rest);
     const Real q = x * x;
     constexpr auto over = [](int n) { return static_cast<Real>(1.0 / n); };
-    const Real sine = x * (1 - q * over(6) * (1 - q * over(20) * (1 - q * over(42) * (1 - q * over(72) *
-                          (1 - q * over(110))))));
-    const Real cosine = 1 - q * over(2) * (1 - q * over(12) * (1 - q * over(30) * (1 - q * over(56) *
-                            (1 - q * over(90) * (1 - q * over(132))))));
+    const Real sine =
+        x * (1 - q * over(6) *
+                     (1 - q * over(20) * (1 - q * over(42) * (1 - q * over(72) * (1 - q * over(110))))));
+    const Real cosine =
+        1 - q * over(2) *
+                (1 - q * over(12) *
+                         (1 - q * over(30) * (1 - q * over(56) * (1 - q * over(90) * (1 - q * over(132))))));
     // Phases are as good as random: a branch here would be foretold wrongly three times of four.
     using Bits = std::conditional_t<std::is_same_v<Real, double>, std::uint64_t, std::uint32_t>;
     constexpr int sign = 8 * static_cast<int>(sizeof(Bits)) - 1;
     const auto isOdd = static_cast<Bits>(0) - static_cast<Bits>(quadrant & 1);
-    const auto c = std::bit_cast<Bits>(cosine), swapped = static_cast<Bits>((c ^ std::bit_cast<Bits>(sine)) & isOdd);
+    const auto c = std::bit_cast<Bits>(cosine),
+               swapped = static_cast<Bits>((c ^ std::bit_cast<Bits>(sine)) & isOdd);
     // whether negative
     const auto re = static_cast<Bits>((quadrant + 1) >> 1 & 1), im = static_cast<Bits>(quadrant >> 1 & 1);
     return {std::bit_cast<Real>(static_cast<Bits>((c ^ swapped) ^ re << sign)),
@@ -53,12 +57,20 @@ constexpr double octaveUnit = 72057594037927936.0; // 2^56
 /// 2^-octaves. Relative error: 1e-11 in double, 1e-7 in float. At most 126 octaves either way.
 template <class Real>
 constexpr Real decayFactor(std::int64_t octaves) noexcept {
-    const std::int64_t whole = (octaves + (std::int64_t{1} << (octaveFractionBits - 1))) >> octaveFractionBits;
+    const std::int64_t whole =
+        (octaves + (std::int64_t{1} << (octaveFractionBits - 1))) >> octaveFractionBits;
     const std::int64_t rest = octaves - whole * (std::int64_t{1} << octaveFractionBits);
     const Real x = static_cast<Real>(-std::numbers::ln2 / octaveUnit) * static_cast<Real>(rest);
     constexpr auto over = [](int n) { return static_cast<Real>(1.0 / n); };
-    const Real power = 1 + x * (1 + x * over(2) * (1 + x * over(3) * (1 + x * over(4) * (1 + x * over(5) *
-                           (1 + x * over(6) * (1 + x * over(7) * (1 + x * over(8) * (1 + x * over(9)))))))));
+    const Real power =
+        1 +
+        x * (1 + x * over(2) *
+                     (1 + x * over(3) *
+                              (1 + x * over(4) *
+                                       (1 + x * over(5) *
+                                                (1 + x * over(6) *
+                                                         (1 + x * over(7) *
+                                                                  (1 + x * over(8) * (1 + x * over(9)))))))));
     if constexpr (std::is_same_v<Real, double>)
         return power * std::bit_cast<double>(static_cast<std::uint64_t>(1023 - whole) << 52);
     else

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Event by event: its curves between the moments at which they bend.
-#include "Io/Json/StrictJson.h"
 #include "Formats/AhapPattern.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/TimeOrder.h"
+#include "Io/Json/StrictJson.h"
 #include <cmath>
 
 namespace physvib {

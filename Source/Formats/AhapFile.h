@@ -9,9 +9,9 @@
 //
 // Left out of what others write, and told: sound, attack, decay, release, and what is not known.
 #pragma once
-#include "Io/Result.h"
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
+#include "Io/Result.h"
 #include <string>
 #include <string_view>
 

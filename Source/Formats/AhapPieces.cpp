@@ -13,8 +13,8 @@ constexpr double silenceSeconds = 0.05; // what lasts longer is no part of an ev
 constexpr double rounding = 1e-9;       // of a line's values
 constexpr double leastPieceSeconds = 0.001;
 constexpr double leadSeconds = 0.0004; // by which curves are neutral before a transient
-constexpr double mostChange =
-    2.0; // of the amplitude within a piece: the curves then take at most 3 dB off a transient's end
+constexpr double mostChange = 2.0; // of the amplitude within a piece: the curves then take at most 3 dB off a
+                                   // transient's end
 
 /// A line that takes longer than an event may in pieces that an event takes.
 std::vector<EnvelopePoint> cutToLength(std::span<const EnvelopePoint> envelope) {
@@ -148,8 +148,6 @@ private:
 
 } // namespace
 
-std::vector<AhapPiece> ahapPieces(const ClipChannel& channel) {
-    return Cutter{channel}.take();
-}
+std::vector<AhapPiece> ahapPieces(const ClipChannel& channel) { return Cutter{channel}.take(); }
 
 } // namespace physvib

@@ -12,9 +12,9 @@
 namespace physvib {
 
 struct AhapPiece {
-    std::vector<EnvelopePoint> points; ///< two or more
-    std::optional<EnvelopePoint>
-        level{}; ///< what its event has, for a transient sounds beside it; none: full intensity, no sharpness
+    std::vector<EnvelopePoint> points;    ///< two or more
+    std::optional<EnvelopePoint> level{}; ///< what its event has, for a transient sounds beside it; none:
+                                          ///< full intensity, no sharpness
 };
 
 /// In time order; silences are left out, except where a transient sounds. `channel.transients` are in time

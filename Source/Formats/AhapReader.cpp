@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Entry by entry, as Apple reads it: what is missing has its default, what is not known is left out.
-#include "Io/Json/JsonField.h"
-#include "Io/Json/JsonText.h"
 #include "Formats/AhapFile.h"
 #include "Formats/AhapPattern.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/LeftOut.h"
+#include "Io/Json/JsonField.h"
+#include "Io/Json/JsonText.h"
 
 namespace physvib {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The envelope in pieces: a continuous event each, and two curves that bend it. Of full intensity and no
 // sharpness, except where a transient sounds: there the event has the level, and the curves begin at 1 and 0.
-#include "Io/Json/JsonLines.h"
 #include "Formats/AhapFile.h"
 #include "Formats/AhapPieces.h"
+#include "Io/Json/JsonLines.h"
 #include <cmath>
 
 namespace physvib {

@@ -14,11 +14,16 @@ namespace physvib {
 struct BitRange {
     double least = 0.0, most = 1.0;
 
-    constexpr double at(std::uint32_t share, int bits) const { return least + (most - least) * share / top(bits); }
+    constexpr double at(std::uint32_t share, int bits) const {
+        return least + (most - least) * share / top(bits);
+    }
     /// Of the nearest that has so many bits.
     std::uint32_t share(double value, int bits) const {
         const double place = (value - least) / (most - least);
-        return static_cast<std::uint32_t>(std::llround((place < 0.0 ? 0.0 : place > 1.0 ? 1.0 : place) * top(bits)));
+        return static_cast<std::uint32_t>(std::llround((place < 0.0   ? 0.0
+                                                        : place > 1.0 ? 1.0
+                                                                      : place) *
+                                                       top(bits)));
     }
     static constexpr double top(int bits) { return static_cast<double>((std::uint64_t{1} << bits) - 1); }
 };
@@ -66,7 +71,8 @@ public:
     std::uint32_t number(int bits) {
         expect(static_cast<std::size_t>(bits));
         std::uint64_t value = 0;
-        for (int k = 0; k < bits; ++k, ++at_) value = value << 1 | (static_cast<unsigned char>(bytes_[at_ / 8]) >> (7 - at_ % 8) & 1);
+        for (int k = 0; k < bits; ++k, ++at_)
+            value = value << 1 | (static_cast<unsigned char>(bytes_[at_ / 8]) >> (7 - at_ % 8) & 1);
         return static_cast<std::uint32_t>(value);
     }
     /// With a sign, in two's complement.
@@ -94,7 +100,9 @@ public:
 
 private:
     void expect(std::size_t bits) const {
-        if (bits > 8 * bytes_.size() - at_) fail("expected " + std::to_string((bits + 7) / 8) + " more bytes, found " + std::to_string((8 * bytes_.size() - at_) / 8));
+        if (bits > 8 * bytes_.size() - at_)
+            fail("expected " + std::to_string((bits + 7) / 8) + " more bytes, found " +
+                 std::to_string((8 * bytes_.size() - at_) / 8));
     }
 
     std::string_view bytes_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What every clip keeps to, whatever file it came from.
 #include "Formats/Clip.h"
-#include "Io/Text/NumberText.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/TimeOrder.h"
+#include "Io/Text/NumberText.h"
 #include <cmath>
 
 namespace physvib {
@@ -12,28 +12,36 @@ namespace {
 bool isWithin(std::span<const ClipPoint> curve, double least, double most) {
     double last = 0.0;
     for (const ClipPoint& p : curve) {
-        if (!(p.seconds >= last && p.seconds <= limits::maxClipSeconds && p.value >= least && p.value <= most)) return false;
+        if (!(p.seconds >= last && p.seconds <= limits::maxClipSeconds && p.value >= least &&
+              p.value <= most))
+            return false;
         last = p.seconds;
     }
     return true;
 }
 
 std::string faultOf(const ClipWave& wave) {
-    if (!(wave.startSeconds >= 0.0 && std::isfinite(wave.phaseRadians))) return "expected a wave that begins at 0 s or later, at a finite phase";
+    if (!(wave.startSeconds >= 0.0 && std::isfinite(wave.phaseRadians)))
+        return "expected a wave that begins at 0 s or later, at a finite phase";
     if (!isWithin(wave.amplitude, -limits::maxClipAmplitude, limits::maxClipAmplitude))
         return "expected amplitudes within " + plainNumber(limits::maxClipAmplitude) + ", in time order";
     if (wave.frequencyHz.empty() || !isWithin(wave.frequencyHz, 0.0, limits::maxClipFrequencyHz))
-        return "expected frequencies from 0 to " + plainNumber(limits::maxClipFrequencyHz) + " Hz, in time order";
+        return "expected frequencies from 0 to " + plainNumber(limits::maxClipFrequencyHz) +
+               " Hz, in time order";
     return {};
 }
 
-std::string atMost(double most, const std::string& what) { return "expected at most " + plainNumber(most) + " " + what + ", found more"; }
+std::string atMost(double most, const std::string& what) {
+    return "expected at most " + plainNumber(most) + " " + what + ", found more";
+}
 
 } // namespace
 
 std::string clipFault(const Clip& clip) {
-    if (clip.channels.size() > static_cast<std::size_t>(limits::maxEnchanters)) return atMost(limits::maxEnchanters, "channels");
-    if (clip.points() > limits::maxClipPoints) return atMost(static_cast<double>(limits::maxClipPoints), "points of curves");
+    if (clip.channels.size() > static_cast<std::size_t>(limits::maxEnchanters))
+        return atMost(limits::maxEnchanters, "channels");
+    if (clip.points() > limits::maxClipPoints)
+        return atMost(static_cast<double>(limits::maxClipPoints), "points of curves");
     std::size_t bands = 0;
     double sounding = 0.0;
     for (const ClipChannel& channel : clip.channels) {
@@ -47,14 +55,16 @@ std::string clipFault(const Clip& clip) {
             if (auto fault = faultOf(t.wave()); !fault.empty()) return fault;
     }
     if (bands > limits::maxClipBands) return atMost(static_cast<double>(limits::maxClipBands), "bands");
-    if (!(sounding <= limits::maxClipSounding)) return atMost(limits::maxClipSounding, "seconds of all waves together");
+    if (!(sounding <= limits::maxClipSounding))
+        return atMost(limits::maxClipSounding, "seconds of all waves together");
     if (!(clip.seconds() <= limits::maxClipSeconds)) return atMost(limits::maxClipSeconds, "seconds");
     return clip.seconds() > 0.0 ? "" : "expected something to feel, found silence";
 }
 
 double peakOf(const ClipChannel& channel) noexcept {
     double peak = 0.0;
-    for (const ClipTransient& transient : channel.transients) peak = std::max(peak, std::abs(transient.amplitude));
+    for (const ClipTransient& transient : channel.transients)
+        peak = std::max(peak, std::abs(transient.amplitude));
     for (const ClipBand& band : channel.bands)
         for (const ClipWave& wave : band.waves)
             for (const ClipPoint& p : wave.amplitude) peak = std::max(peak, std::abs(p.value));

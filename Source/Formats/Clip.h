@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one form between the haptic files of others and our strikes: channels of waves whose amplitude and frequency follow lines.
+// The one form between the haptic files of others and our strikes: channels of waves whose amplitude and
+// frequency follow lines.
 #pragma once
 #include "Core/EnchanterLayout.h"
 #include <algorithm>
@@ -24,20 +25,23 @@ struct ClipPoint {
     bool operator==(const ClipPoint&) const = default;
 };
 
-/// The curve's value: a line between points, held before the first and after the last; 0 without points. Any thread.
+/// The curve's value: a line between points, held before the first and after the last; 0 without points. Any
+/// thread.
 inline double valueAt(std::span<const ClipPoint> curve, double seconds) noexcept {
     if (curve.empty()) return 0.0;
-    const auto next = std::upper_bound(curve.begin(), curve.end(), seconds, [](double t, const ClipPoint& p) { return t < p.seconds; });
+    const auto next = std::upper_bound(curve.begin(), curve.end(), seconds,
+                                       [](double t, const ClipPoint& p) { return t < p.seconds; });
     if (next == curve.begin()) return curve.front().value;
     const ClipPoint& before = *(next - 1);
     if (next == curve.end()) return before.value;
-    return before.value + (next->value - before.value) * (seconds - before.seconds) / (next->seconds - before.seconds);
+    return before.value +
+           (next->value - before.value) * (seconds - before.seconds) / (next->seconds - before.seconds);
 }
 
 enum class ClipWaveform { sine, square, triangle, sawtoothUp, sawtoothDown };
 
-/// amplitude(t) waveform(phase + 2 pi integral of the frequency), t = time since `startSeconds`, from there on until
-/// before the last point of the amplitude.
+/// amplitude(t) waveform(phase + 2 pi integral of the frequency), t = time since `startSeconds`, from there
+/// on until before the last point of the amplitude.
 struct ClipWave {
     double startSeconds = 0.0;
     double phaseRadians = 0.0;
@@ -64,7 +68,10 @@ struct ClipTransient {
     double frequencyHz = 0.0;
     bool operator==(const ClipTransient&) const = default;
 
-    ClipWave wave() const { return {seconds, 0.0, ClipWaveform::sine, {{0.0, amplitude}, {lastsSeconds, 0.0}}, {{0.0, frequencyHz}}}; }
+    ClipWave wave() const {
+        return {
+            seconds, 0.0, ClipWaveform::sine, {{0.0, amplitude}, {lastsSeconds, 0.0}}, {{0.0, frequencyHz}}};
+    }
 };
 
 /// What a channel was made for, where a format has room for it; 0: not known.
@@ -80,7 +87,8 @@ struct ClipChannel {
     std::vector<ClipBand> bands{};           ///< all sound together
     std::vector<ClipTransient> transients{}; ///< in time order
     bool operator==(const ClipChannel& other) const {
-        return label == other.label && place.has_value() == other.place.has_value() && bands == other.bands && transients == other.transients;
+        return label == other.label && place.has_value() == other.place.has_value() && bands == other.bands &&
+               transients == other.transients;
     }
 };
 
@@ -97,7 +105,8 @@ struct Clip {
         for (const ClipChannel& channel : channels) {
             for (const ClipBand& band : channel.bands)
                 if (!band.waves.empty()) end = std::max(end, band.waves.back().endSeconds());
-            if (!channel.transients.empty()) end = std::max(end, channel.transients.back().seconds + ClipTransient::lastsSeconds);
+            if (!channel.transients.empty())
+                end = std::max(end, channel.transients.back().seconds + ClipTransient::lastsSeconds);
         }
         return end;
     }

@@ -7,7 +7,8 @@
 namespace physvib {
 namespace {
 
-/// Moments that are closer are one: a wave that begins where another ends follows it. Files have whole microseconds.
+/// Moments that are closer are one: a wave that begins where another ends follows it. Files have whole
+/// microseconds.
 constexpr double sameSeconds = 5e-7;
 
 /// What sounds of a band, asked at growing times.

@@ -38,8 +38,6 @@ std::vector<EnvelopePoint> partOf(std::span<const EnvelopePoint> envelope, doubl
 std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance);
 
 /// Of a time, an amplitude or a share all that anybody feels, in few digits. Any thread.
-inline double shortened(double value) {
-    return std::round(value * 1e6) / 1e6;
-}
+inline double shortened(double value) { return std::round(value * 1e6) / 1e6; }
 
 } // namespace physvib

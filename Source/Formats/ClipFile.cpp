@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Who reads, who writes, and what is lost.
 #include "Formats/ClipFile.h"
-#include "Io/Disk/ReadFile.h"
-#include "Io/Text/NumberText.h"
 #include "Formats/AhapFile.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
 #include "Formats/HmpgFile.h"
 #include "Formats/MetaHapticFile.h"
 #include "Formats/MpegPlaces.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/NumberText.h"
 #include <cmath>
 #include <set>
 
@@ -41,39 +41,56 @@ double farthestFromGrid(const Clip& clip) {
     for (const ClipChannel& channel : clip.channels)
         if (channel.place) {
             const mpeg::GridPoint at = grid.at(*channel.place);
-            most = std::max({most, std::abs(at.x * grid.pitchMetres - channel.place->xMetres), std::abs(at.y * grid.pitchMetres - channel.place->yMetres)});
+            most = std::max({most, std::abs(at.x * grid.pitchMetres - channel.place->xMetres),
+                             std::abs(at.y * grid.pitchMetres - channel.place->yMetres)});
         }
     return most;
 }
 
 std::string placeLoss(const Clip& clip) {
     const double metres = farthestFromGrid(clip);
-    return metres > 1e-6 ? "places are moved by up to " + fixedNumber(1e3 * metres, 2) + " mm, onto a grid of at most 127 points" : "";
+    return metres > 1e-6 ? "places are moved by up to " + fixedNumber(1e3 * metres, 2) +
+                               " mm, onto a grid of at most 127 points"
+                         : "";
 }
 
 std::vector<std::string> hjifLosses(const Clip& clip, const Facts& facts) {
     std::vector<std::string> losses;
     if (const std::string loss = placeLoss(clip); !loss.empty()) losses.push_back(loss);
-    const auto broken = std::ranges::find_if(facts.frequenciesHz, [](double hz) { return hz != std::floor(hz); });
-    if (broken != facts.frequenciesHz.end()) losses.push_back("MPEG's own decoder cuts frequencies to whole Hz, as of " + fixedNumber(*broken, 2) + " Hz; ours does not");
+    const auto broken =
+        std::ranges::find_if(facts.frequenciesHz, [](double hz) { return hz != std::floor(hz); });
+    if (broken != facts.frequenciesHz.end())
+        losses.push_back("MPEG's own decoder cuts frequencies to whole Hz, as of " + fixedNumber(*broken, 2) +
+                         " Hz; ours does not");
     return losses;
 }
 
 std::vector<std::string> hmpgLosses(const Clip& clip, const Facts& facts) {
-    std::vector<std::string> losses{"amplitudes have 8 bits: each wave is within " + fixedNumber(hmpgStep(clip), 5) + " of what it was, in shares of full scale"};
+    std::vector<std::string> losses{"amplitudes have 8 bits: each wave is within " +
+                                    fixedNumber(hmpgStep(clip), 5) +
+                                    " of what it was, in shares of full scale"};
     if (const std::string loss = placeLoss(clip); !loss.empty()) losses.push_back(loss);
     double farthest = 0.0;
     for (const double hz : facts.frequenciesHz) farthest = std::max(farthest, std::abs(hz - std::round(hz)));
-    if (farthest > 0.0) losses.push_back("frequencies are whole Hz: they are moved by up to " + fixedNumber(farthest, 2) + " Hz");
+    if (farthest > 0.0)
+        losses.push_back("frequencies are whole Hz: they are moved by up to " + fixedNumber(farthest, 2) +
+                         " Hz");
     return losses;
 }
 
 std::vector<std::string> monoLosses(const Facts& facts, const FrequencyScale& scale) {
     std::vector<std::string> losses{"where a hit was is not carried"};
-    if (facts.overlaps) losses.push_back("modes that sound at once become one envelope, at the mean of their frequencies");
-    const auto outside = std::ranges::count_if(facts.frequenciesHz, [&](double hz) { return hz < scale.lowHz || hz > scale.highHz; });
-    if (outside > 0) losses.push_back(std::to_string(outside) + " of " + std::to_string(facts.frequenciesHz.size()) + " frequencies lie outside " + fixedNumber(scale.lowHz, 0) + " to " + fixedNumber(scale.highHz, 0) + " Hz and become its ends");
-    if (facts.peak > 1.0) losses.push_back("what is above full scale is cut to it: the strongest is " + fixedNumber(facts.peak, 2));
+    if (facts.overlaps)
+        losses.push_back("modes that sound at once become one envelope, at the mean of their frequencies");
+    const auto outside = std::ranges::count_if(
+        facts.frequenciesHz, [&](double hz) { return hz < scale.lowHz || hz > scale.highHz; });
+    if (outside > 0)
+        losses.push_back(std::to_string(outside) + " of " + std::to_string(facts.frequenciesHz.size()) +
+                         " frequencies lie outside " + fixedNumber(scale.lowHz, 0) + " to " +
+                         fixedNumber(scale.highHz, 0) + " Hz and become its ends");
+    if (facts.peak > 1.0)
+        losses.push_back("what is above full scale is cut to it: the strongest is " +
+                         fixedNumber(facts.peak, 2));
     return losses;
 }
 
@@ -82,11 +99,14 @@ std::vector<std::string> monoLosses(const Facts& facts, const FrequencyScale& sc
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept {
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
     for (std::size_t i = 0; i < clipEndings.size(); ++i)
-        if (path.size() > clipEndings[i].size() && std::ranges::equal(path.substr(path.size() - clipEndings[i].size()), clipEndings[i], {}, lower)) return static_cast<ClipFormat>(i);
+        if (path.size() > clipEndings[i].size() &&
+            std::ranges::equal(path.substr(path.size() - clipEndings[i].size()), clipEndings[i], {}, lower))
+            return static_cast<ClipFormat>(i);
     return {};
 }
 
-Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat format, const FrequencyScale& scale) {
+Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat format,
+                      const FrequencyScale& scale) {
     switch (format) {
     case ClipFormat::hmpg: return readHmpg(bytes, name);
     case ClipFormat::haptic: return readMetaHaptic(bytes, name, scale);
@@ -96,7 +116,9 @@ Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat 
 }
 
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale) {
-    return loadText(path, limits::maxClipFileBytes, [&](std::string_view bytes, std::string_view name) { return readClip(bytes, name, format, scale); });
+    return loadText(path, limits::maxClipFileBytes, [&](std::string_view bytes, std::string_view name) {
+        return readClip(bytes, name, format, scale);
+    });
 }
 
 Result<std::string> clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double frameSlack = 1e-6; // a time in seconds that was a whole number of ticks is one again
 
-std::size_t frameFrom(double seconds, int rateHz) { return static_cast<std::size_t>(std::ceil(std::max(0.0, seconds * rateHz - frameSlack))); }
+std::size_t frameFrom(double seconds, int rateHz) {
+    return static_cast<std::size_t>(std::ceil(std::max(0.0, seconds * rateHz - frameSlack)));
+}
 
 /// Of a phase in cycles.
 double shape(ClipWaveform waveform, double cycles) {

@@ -32,7 +32,9 @@ private:
     void goTo(double seconds) {
         for (; next_ < curve_.size() && curve_[next_].seconds <= seconds; ++next_) {
             const ClipPoint& to = curve_[next_];
-            before_ += next_ == 0 ? to.value * to.seconds : 0.5 * (curve_[next_ - 1].value + to.value) * (to.seconds - curve_[next_ - 1].seconds);
+            before_ += next_ == 0 ? to.value * to.seconds
+                                  : 0.5 * (curve_[next_ - 1].value + to.value) *
+                                        (to.seconds - curve_[next_ - 1].seconds);
         }
     }
     double slope() const {

@@ -24,15 +24,21 @@ double longestChord(double error) {
     return low;
 }
 
-constexpr double lastChord = 6.0; // from so many errors down to nothing, a line that arrives with the exponential at one error stays within one
+constexpr double lastChord = 6.0; // from so many errors down to nothing, a line that arrives with the
+                                  // exponential at one error stays within one
 
 } // namespace
 
-std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::int64_t endTick, double error, int ticksPerSecond) {
-    const auto at = [=](std::int64_t tick, double value) { return ClipPoint{static_cast<double>(tick) / ticksPerSecond, value}; };
+std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::int64_t endTick, double error,
+                                  int ticksPerSecond) {
+    const auto at = [=](std::int64_t tick, double value) {
+        return ClipPoint{static_cast<double>(tick) / ticksPerSecond, value};
+    };
     std::vector<ClipPoint> curve{at(0, amplitude)};
     const double decayPerTick = decayPerSecond / ticksPerSecond;
-    const auto ticksOf = [=](double u) { return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(u / decayPerTick, 9e15))); };
+    const auto ticksOf = [=](double u) {
+        return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(u / decayPerTick, 9e15)));
+    };
     for (std::int64_t tick = 0; tick < endTick;) {
         const double left = std::exp(-decayPerTick * static_cast<double>(tick));
         if (decayPerTick > 0.0 && left <= lastChord * error) {
@@ -42,7 +48,9 @@ std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::
                 return curve;
             }
         }
-        tick = decayPerTick > 0.0 ? std::min(endTick, tick + ticksOf(longestChord(std::min(error / left, 0.5)))) : endTick;
+        tick = decayPerTick > 0.0
+                   ? std::min(endTick, tick + ticksOf(longestChord(std::min(error / left, 0.5))))
+                   : endTick;
         curve.push_back(at(tick, amplitude * std::exp(-decayPerTick * static_cast<double>(tick))));
     }
     return curve;

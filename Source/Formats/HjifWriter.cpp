@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One line per effect; everything in a fixed order.
-#include "Io/Json/JsonLines.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
 #include "Formats/MpegEffects.h"
 #include "Formats/MpegPlaces.h"
+#include "Io/Json/JsonLines.h"
 #include <map>
 
 namespace physvib {
@@ -27,7 +27,8 @@ std::string begun(const OrderedJson& fields) {
 template <class Items, class Write>
 std::string listed(const Items& items, Write write) {
     std::string text = "[";
-    for (std::size_t i = 0; i < items.size(); ++i) text.append(i == 0 ? "\n" : ",\n").append(write(items[i], i));
+    for (std::size_t i = 0; i < items.size(); ++i)
+        text.append(i == 0 ? "\n" : ",\n").append(write(items[i], i));
     return text + "]";
 }
 
@@ -52,14 +53,22 @@ std::string effectText(const ClipWave& wave, double gain) {
 }
 
 std::string effectText(const ClipTransient& transient, double gain) {
-    const OrderedJson frame{{"relative_position", 0}, {"amplitude_modulation", eightDigits(transient.amplitude / gain)}, {"frequency_modulation", transient.frequencyHz}};
-    return jsonLine({{"effect_type", "Basis"}, {"position", tickOf(transient.seconds)}, {"keyframes", OrderedJson::array({frame})}});
+    const OrderedJson frame{{"relative_position", 0},
+                            {"amplitude_modulation", eightDigits(transient.amplitude / gain)},
+                            {"frequency_modulation", transient.frequencyHz}};
+    return jsonLine({{"effect_type", "Basis"},
+                     {"position", tickOf(transient.seconds)},
+                     {"keyframes", OrderedJson::array({frame})}});
 }
 
 template <class Effects>
 std::string bandText(const char* type, const Effects& effects, double topHz, double gain) {
-    return begun({{"band_type", type}, {"lower_frequency_limit", 0}, {"upper_frequency_limit", std::ceil(topHz)}}) + "\"effects\": " +
-           listed(effects, [gain](const auto& effect, std::size_t) { return effectText(effect, gain); }) + " }";
+    return begun({{"band_type", type},
+                  {"lower_frequency_limit", 0},
+                  {"upper_frequency_limit", std::ceil(topHz)}}) +
+           "\"effects\": " +
+           listed(effects, [gain](const auto& effect, std::size_t) { return effectText(effect, gain); }) +
+           " }";
 }
 
 double topOf(const ClipBand& band) {
@@ -73,10 +82,13 @@ double topOf(const ClipBand& band) {
 double gainOf(const ClipChannel& channel) { return std::max(1.0, peakOf(channel)); }
 
 std::string bandsText(const ClipChannel& channel, double gain) {
-    std::string bands = listed(channel.bands, [=](const ClipBand& band, std::size_t) { return bandText("VectorialWave", band.waves, topOf(band), gain); });
+    std::string bands = listed(channel.bands, [=](const ClipBand& band, std::size_t) {
+        return bandText("VectorialWave", band.waves, topOf(band), gain);
+    });
     if (channel.transients.empty()) return bands;
     bands.pop_back();
-    return bands + (channel.bands.empty() ? "\n" : ",\n") + bandText("Transient", channel.transients, usualTopHz, gain) + "]";
+    return bands + (channel.bands.empty() ? "\n" : ",\n") +
+           bandText("Transient", channel.transients, usualTopHz, gain) + "]";
 }
 
 std::string channelText(const Clip& clip, const ClipChannel& channel, std::size_t j) {
@@ -94,7 +106,10 @@ std::string channelText(const Clip& clip, const ClipChannel& channel, std::size_
 std::string deviceText(const ClipChannel& channel, std::size_t j) {
     OrderedJson device{{"id", j + 1}, {"name", channel.label}};
     const ClipDevice& d = channel.device;
-    for (const auto& [name, value] : {std::pair{"maximum_frequency", d.highHz}, {"minimum_frequency", d.lowHz}, {"resonance_frequency", d.resonanceHz}, {"maximum_amplitude", d.fullScaleG * 9.80665}})
+    for (const auto& [name, value] : {std::pair{"maximum_frequency", d.highHz},
+                                      {"minimum_frequency", d.lowHz},
+                                      {"resonance_frequency", d.resonanceHz},
+                                      {"maximum_amplitude", d.fullScaleG * 9.80665}})
         if (value > 0.0) device[name] = value;
     return jsonLine(device);
 }
@@ -102,11 +117,25 @@ std::string deviceText(const ClipChannel& channel, std::size_t j) {
 } // namespace
 
 std::string hjifText(const Clip& clip) {
-    std::string text = begun({{"version", mpeg::version}, {"profile", mpeg::profile}, {"level", mpeg::level}, {"date", mpeg::date}, {"description", clip.title}, {"timescale", mpeg::ticksPerSecond},
-                              {"avatars", OrderedJson::array({{{"id", 1}, {"lod", 0}, {"type", "Vibration"}}})}, {"syncs", OrderedJson::array({{{"timestamp", 0}, {"timescale", mpeg::ticksPerSecond}}})}});
-    text += "\"perceptions\": [\n" + begun({{"id", 0}, {"perception_modality", "Vibrotactile"}, {"description", clip.title}, {"avatar_id", 1}, {"effect_library", OrderedJson::array()}});
+    std::string text =
+        begun({{"version", mpeg::version},
+               {"profile", mpeg::profile},
+               {"level", mpeg::level},
+               {"date", mpeg::date},
+               {"description", clip.title},
+               {"timescale", mpeg::ticksPerSecond},
+               {"avatars", OrderedJson::array({{{"id", 1}, {"lod", 0}, {"type", "Vibration"}}})},
+               {"syncs", OrderedJson::array({{{"timestamp", 0}, {"timescale", mpeg::ticksPerSecond}}})}});
+    text += "\"perceptions\": [\n" + begun({{"id", 0},
+                                            {"perception_modality", "Vibrotactile"},
+                                            {"description", clip.title},
+                                            {"avatar_id", 1},
+                                            {"effect_library", OrderedJson::array()}});
     text += "\"reference_devices\": " + listed(clip.channels, deviceText) + ",\n\"channels\": ";
-    return text + listed(clip.channels, [&](const ClipChannel& channel, std::size_t j) { return channelText(clip, channel, j); }) + " }] }\n";
+    return text +
+           listed(clip.channels,
+                  [&](const ClipChannel& channel, std::size_t j) { return channelText(clip, channel, j); }) +
+           " }] }\n";
 }
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One unit that tells of all channels and bands, then one for each stretch that sounds without a pause, and one for each silence.
+// One unit that tells of all channels and bands, then one for each stretch that sounds without a pause, and
+// one for each silence.
 #include "Formats/ClipLimits.h"
 #include "Formats/CurveWalk.h"
 #include "Formats/HmpgFile.h"
@@ -17,20 +18,25 @@ namespace {
 using namespace hmpg;
 
 constexpr auto longestUnit = static_cast<std::int64_t>(most(unitDurationBits));
-constexpr std::size_t framesOfAnEffect = 16'384;                         // a packet holds 24,000 with frequencies
-constexpr std::size_t bytesOfData = 14'000; // what is begun beyond is another packet: an effect has 86,000 at most, a packet 131,000
+constexpr std::size_t framesOfAnEffect = 16'384; // a packet holds 24,000 with frequencies
+constexpr std::size_t bytesOfData = 14'000; // what is begun beyond is another packet: an effect has 86,000 at
+                                            // most, a packet 131,000
 
 /// Before `seconds` and from there on: the second goes on where the first ends.
 std::pair<ClipWave, ClipWave> cut(const ClipWave& wave, double seconds) {
     ClipWave head{wave.startSeconds, wave.phaseRadians, wave.waveform, {}, {}};
     const double turn = 2.0 * std::numbers::pi;
-    const double phase = std::fmod(wave.phaseRadians + turn * CurveWalk{wave.frequencyHz}.integral(seconds), turn);
+    const double phase =
+        std::fmod(wave.phaseRadians + turn * CurveWalk{wave.frequencyHz}.integral(seconds), turn);
     ClipWave tail{wave.startSeconds + seconds, phase < 0.0 ? phase + turn : phase, wave.waveform, {}, {}};
-    const auto divide = [=](const std::vector<ClipPoint>& curve, std::vector<ClipPoint>& before, std::vector<ClipPoint>& after) {
+    const auto divide = [=](const std::vector<ClipPoint>& curve, std::vector<ClipPoint>& before,
+                            std::vector<ClipPoint>& after) {
         const ClipPoint at{seconds, valueAt(curve, seconds)};
         for (const ClipPoint& p : curve)
-            if (p.seconds < seconds) before.push_back(p);
-            else if (p.seconds > seconds) after.push_back({p.seconds - seconds, p.value});
+            if (p.seconds < seconds)
+                before.push_back(p);
+            else if (p.seconds > seconds)
+                after.push_back({p.seconds - seconds, p.value});
         before.push_back(at);
         after.insert(after.begin(), {0.0, at.value});
     };
@@ -44,10 +50,14 @@ std::vector<ClipWave> pieces(ClipWave wave) {
     constexpr double mostSeconds = static_cast<double>(most(ticksBits)) / mpeg::ticksPerSecond;
     std::vector<ClipWave> all;
     for (;;) {
-        const auto manyFrom = std::max(wave.amplitude.size(), wave.frequencyHz.size()) > framesOfAnEffect / 2
-                                  ? (wave.amplitude.size() > wave.frequencyHz.size() ? wave.amplitude : wave.frequencyHz)[framesOfAnEffect / 2].seconds
-                                  : mostSeconds;
-        const double seconds = static_cast<double>(mpeg::tickOf(std::min(manyFrom, mostSeconds))) / mpeg::ticksPerSecond;
+        const auto manyFrom =
+            std::max(wave.amplitude.size(), wave.frequencyHz.size()) > framesOfAnEffect / 2
+                ? (wave.amplitude.size() > wave.frequencyHz.size() ? wave.amplitude
+                                                                   : wave.frequencyHz)[framesOfAnEffect / 2]
+                      .seconds
+                : mostSeconds;
+        const double seconds =
+            static_cast<double>(mpeg::tickOf(std::min(manyFrom, mostSeconds))) / mpeg::ticksPerSecond;
         if (!(wave.seconds() > seconds) || !(seconds > 0.0)) break;
         auto [head, tail] = cut(wave, seconds);
         all.push_back(std::move(head));
@@ -87,13 +97,16 @@ void takeBands(const ClipChannel& channel, std::size_t j, std::vector<WrittenBan
         bool isNew = true;
         for (const ClipWave& wave : band.waves)
             for (const ClipWave& piece : pieces(wave)) {
-                room(mpeg::BandType::vectorial, isNew).push_back({mpeg::tickOf(piece.startSeconds), mpeg::tickFrames(piece), piece.phaseRadians, piece.waveform});
+                room(mpeg::BandType::vectorial, isNew)
+                    .push_back({mpeg::tickOf(piece.startSeconds), mpeg::tickFrames(piece), piece.phaseRadians,
+                                piece.waveform});
                 isNew = false;
             }
     }
     for (std::size_t i = 0; i < channel.transients.size(); ++i) {
         const ClipTransient& t = channel.transients[i];
-        room(mpeg::BandType::transient, i == 0).push_back({mpeg::tickOf(t.seconds), {{0, t.amplitude, t.frequencyHz}}});
+        room(mpeg::BandType::transient, i == 0)
+            .push_back({mpeg::tickOf(t.seconds), {{0, t.amplitude, t.frequencyHz}}});
     }
 }
 
@@ -110,18 +123,27 @@ public:
     }
 
     std::string fault() const {
-        if (bands_.size() > most(bandBits) + 1) return "expected at most " + std::to_string(most(bandBits) + 1) + " bands, found " + std::to_string(bands_.size());
+        if (bands_.size() > most(bandBits) + 1)
+            return "expected at most " + std::to_string(most(bandBits) + 1) + " bands, found " +
+                   std::to_string(bands_.size());
         for (std::size_t j = 0; j < clip_.channels.size(); ++j)
-            if (std::ranges::count(bands_, j, &WrittenBand::channel) > static_cast<std::ptrdiff_t>(most(bandCountBits))) return "expected at most " + std::to_string(most(bandCountBits)) + " bands in a channel, found more";
+            if (std::ranges::count(bands_, j, &WrittenBand::channel) >
+                static_cast<std::ptrdiff_t>(most(bandCountBits)))
+                return "expected at most " + std::to_string(most(bandCountBits)) +
+                       " bands in a channel, found more";
         for (const WrittenBand& band : bands_)
             for (const WrittenEffect& effect : band.effects)
-                if (effect.frames.size() > framesOfAnEffect) return "expected at most " + std::to_string(framesOfAnEffect) + " keyframes within a tick, found more";
+                if (effect.frames.size() > framesOfAnEffect)
+                    return "expected at most " + std::to_string(framesOfAnEffect) +
+                           " keyframes within a tick, found more";
         return {};
     }
 
     std::string bytes() {
         const std::vector<Stretch> all = stretches();
-        addUnit(Unit::initialization, 0, packet(Packet::initializationTiming, timing(all)) + packet(Packet::experience, experience()) + packet(Packet::perception, perception()) + channelPackets() + bandPackets());
+        addUnit(Unit::initialization, 0,
+                packet(Packet::initializationTiming, timing(all)) + packet(Packet::experience, experience()) +
+                    packet(Packet::perception, perception()) + channelPackets() + bandPackets());
         std::int64_t now = 0;
         for (const Stretch& stretch : all) {
             addSilence(stretch.from - now);
@@ -135,7 +157,8 @@ private:
     static void addWords(BitWriter& out, std::string_view words) {
         std::size_t bytes = std::min(words.size(), most(textLengthBits));
         // not within a character
-        while (bytes < words.size() && bytes > 0 && (static_cast<unsigned char>(words[bytes]) & 0xc0) == 0x80) --bytes;
+        while (bytes < words.size() && bytes > 0 && (static_cast<unsigned char>(words[bytes]) & 0xc0) == 0x80)
+            --bytes;
         out.number(bytes, textLengthBits);
         for (const char c : words.substr(0, bytes)) out.number(static_cast<unsigned char>(c), 8);
     }
@@ -159,17 +182,21 @@ private:
     }
 
     void addSilence(std::int64_t ticks) {
-        for (; ticks > 0; ticks -= std::min(ticks, longestUnit)) addUnit(Unit::silent, std::min(ticks, longestUnit), {});
+        for (; ticks > 0; ticks -= std::min(ticks, longestUnit))
+            addUnit(Unit::silent, std::min(ticks, longestUnit), {});
     }
 
     static BitWriter timing(const std::vector<Stretch>& stretches) {
         std::int64_t longest = 0, shortest = longestUnit;
-        for (const Stretch& stretch : stretches) longest = std::max(longest, stretch.to - stretch.from), shortest = std::min(shortest, stretch.to - stretch.from);
+        for (const Stretch& stretch : stretches)
+            longest = std::max(longest, stretch.to - stretch.from),
+            shortest = std::min(shortest, stretch.to - stretch.from);
         BitWriter out;
         out.number(0, timeBits);
         out.number(mpeg::ticksPerSecond, timescaleBits);
         out.number(static_cast<std::uint64_t>(longest), nominalDurationBits);
-        out.number(static_cast<std::uint64_t>(std::max<std::int64_t>(0, longest - shortest)), durationDeviationBits);
+        out.number(static_cast<std::uint64_t>(std::max<std::int64_t>(0, longest - shortest)),
+                   durationDeviationBits);
         out.number(0, 1); // units do not overlap
         return out;
     }
@@ -212,7 +239,8 @@ private:
         out.number(j + 1, deviceBits);
         addWords(out, channel.label);
         out.number(0, bodyMaskBits);
-        const double facts[] = {channel.device.highHz, channel.device.lowHz, channel.device.resonanceHz, channel.device.fullScaleG * 9.80665};
+        const double facts[] = {channel.device.highHz, channel.device.lowHz, channel.device.resonanceHz,
+                                channel.device.fullScaleG * 9.80665};
         for (const double fact : facts) out.number(fact > 0.0, 1);
         out.number(0, deviceMaskBits - static_cast<int>(std::size(facts)));
         for (const double fact : facts)
@@ -221,7 +249,8 @@ private:
 
     std::string channelPackets() const {
         std::string all;
-        for (std::size_t j = 0; j < clip_.channels.size(); ++j) all += packet(Packet::channel, channelContent(j));
+        for (std::size_t j = 0; j < clip_.channels.size(); ++j)
+            all += packet(Packet::channel, channelContent(j));
         return all;
     }
 
@@ -244,7 +273,8 @@ private:
         }
         out.number(0, samplingBits);
         out.number(0, vertexCountBits);
-        out.number(static_cast<std::uint64_t>(std::ranges::count(bands_, j, &WrittenBand::channel)), bandCountBits);
+        out.number(static_cast<std::uint64_t>(std::ranges::count(bands_, j, &WrittenBand::channel)),
+                   bandCountBits);
         return out;
     }
 
@@ -279,7 +309,8 @@ private:
     std::vector<Stretch> stretches() const {
         std::vector<Stretch> parts, all;
         for (const WrittenBand& band : bands_)
-            for (const WrittenEffect& effect : band.effects) parts.push_back({effect.tick, endOf(band, effect)});
+            for (const WrittenEffect& effect : band.effects)
+                parts.push_back({effect.tick, endOf(band, effect)});
         std::ranges::sort(parts, {}, &Stretch::from);
         for (Stretch& part : parts) {
             const bool touches = !all.empty() && part.from < all.back().to;
@@ -308,7 +339,9 @@ private:
         }
     }
 
-    static std::size_t effectSize(const WrittenEffect& effect) { return 80 + effect.frames.size() * (2 + amplitudeBits + ticksBits + hertzBits); }
+    static std::size_t effectSize(const WrittenEffect& effect) {
+        return 80 + effect.frames.size() * (2 + amplitudeBits + ticksBits + hertzBits);
+    }
 
     BitWriter dataContent(std::size_t b, std::size_t from, std::size_t to, std::int64_t startTick) const {
         const WrittenBand& band = bands_[b];
@@ -335,10 +368,13 @@ private:
             out.number(static_cast<std::uint64_t>(effect.waveform), waveformBits);
         }
         for (const mpeg::TickFrame& frame : effect.frames) {
-            if (isWave) out.number((frame.amplitude ? hasAmplitude : 0) | (frame.frequencyHz ? hasFrequency : 0), 2);
-            if (frame.amplitude) out.share(*frame.amplitude / gains_[band.channel], amplitudeBits, amplitudes);
+            if (isWave)
+                out.number((frame.amplitude ? hasAmplitude : 0) | (frame.frequencyHz ? hasFrequency : 0), 2);
+            if (frame.amplitude)
+                out.share(*frame.amplitude / gains_[band.channel], amplitudeBits, amplitudes);
             out.number(static_cast<std::uint64_t>(frame.ticks), ticksBits);
-            if (frame.frequencyHz) out.number(static_cast<std::uint64_t>(std::llround(*frame.frequencyHz)), hertzBits);
+            if (frame.frequencyHz)
+                out.number(static_cast<std::uint64_t>(std::llround(*frame.frequencyHz)), hertzBits);
         }
     }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // version, metadata, signals.continuous.envelopes.
 #include "Formats/MetaHapticFile.h"
-#include "Io/Json/JsonField.h"
-#include "Io/Json/JsonLines.h"
-#include "Io/Json/JsonText.h"
 #include "Formats/ClipEnvelope.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/TimeOrder.h"
+#include "Io/Json/JsonField.h"
+#include "Io/Json/JsonLines.h"
+#include "Io/Json/JsonText.h"
 #include <cmath>
 
 namespace physvib {
@@ -38,12 +38,20 @@ std::vector<ClipPoint> frequenciesOf(const JsonField& envelopes, double start, c
 
 Clip readClip(const JsonField& root, const FrequencyScale& scale) {
     root.expectObject();
-    if (const JsonField version = root["version"]; version["major"].wholeNumber() != 1) version["major"].fail("expected version 1");
-    Clip clip{root.has("metadata") && root["metadata"].has("description") ? root["metadata"]["description"].line() : "", 0.0, 0.0, {{}}};
+    if (const JsonField version = root["version"]; version["major"].wholeNumber() != 1)
+        version["major"].fail("expected version 1");
+    Clip clip{root.has("metadata") && root["metadata"].has("description")
+                  ? root["metadata"]["description"].line()
+                  : "",
+              0.0,
+              0.0,
+              {{}}};
     const JsonField envelopes = root["signals"]["continuous"]["envelopes"];
     const JsonField amplitudes = envelopes["amplitude"];
-    if (amplitudes.arraySize() < 2) amplitudes.fail("expected at least two points, found " + std::to_string(amplitudes.arraySize()));
-    ClipWave wave{amplitudes.item(0)["time"].numberUpTo(limits::maxClipSeconds), 0.0, ClipWaveform::sine, {}, {}};
+    if (amplitudes.arraySize() < 2)
+        amplitudes.fail("expected at least two points, found " + std::to_string(amplitudes.arraySize()));
+    ClipWave wave{
+        amplitudes.item(0)["time"].numberUpTo(limits::maxClipSeconds), 0.0, ClipWaveform::sine, {}, {}};
     double last = 0.0;
     for (std::size_t i = 0; i < amplitudes.arraySize(); ++i) {
         const JsonField point = amplitudes.item(i);
@@ -52,8 +60,10 @@ Clip readClip(const JsonField& root, const FrequencyScale& scale) {
         if (!point.has("emphasis") || point["emphasis"].isNull()) continue;
         const JsonField emphasis = point["emphasis"];
         const double strength = emphasis["amplitude"].numberUpTo(1.0);
-        if (strength < wave.amplitude.back().value) emphasis["amplitude"].fail("expected at least the envelope's amplitude");
-        clip.channels[0].transients.push_back({last, strength, scale.hertz(emphasis["frequency"].numberUpTo(1.0))});
+        if (strength < wave.amplitude.back().value)
+            emphasis["amplitude"].fail("expected at least the envelope's amplitude");
+        clip.channels[0].transients.push_back(
+            {last, strength, scale.hertz(emphasis["frequency"].numberUpTo(1.0))});
     }
     if (!(wave.seconds() > 0.0)) amplitudes.fail("expected an envelope that lasts");
     wave.frequencyHz = frequenciesOf(envelopes, wave.startSeconds, scale);
@@ -105,13 +115,16 @@ std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
     return with;
 }
 
-OrderedJson amplitudesJson(const std::vector<ClipPoint>& curve, const std::vector<ClipTransient>& transients, const FrequencyScale& scale) {
+OrderedJson amplitudesJson(const std::vector<ClipPoint>& curve, const std::vector<ClipTransient>& transients,
+                           const FrequencyScale& scale) {
     OrderedJson list = OrderedJson::array();
     auto next = transients.begin();
     for (const ClipPoint& p : curve) {
-        OrderedJson& point = list.emplace_back(OrderedJson{{"time", shortened(p.seconds)}, {"amplitude", shortened(p.value)}});
+        OrderedJson& point =
+            list.emplace_back(OrderedJson{{"time", shortened(p.seconds)}, {"amplitude", shortened(p.value)}});
         if (next == transients.end() || next->seconds > p.seconds) continue;
-        point["emphasis"] = {{"amplitude", shortened(std::clamp(next->amplitude, p.value, 1.0))}, {"frequency", shortened(scale.share(next->frequencyHz))}};
+        point["emphasis"] = {{"amplitude", shortened(std::clamp(next->amplitude, p.value, 1.0))},
+                             {"frequency", shortened(scale.share(next->frequencyHz))}};
         ++next;
     }
     return list;
@@ -122,14 +135,17 @@ OrderedJson frequenciesJson(const std::vector<EnvelopePoint>& envelope, const Fr
     std::vector<ClipPoint> curve;
     for (const EnvelopePoint& p : envelope) curve.push_back({p.seconds, scale.share(p.frequencyHz)});
     OrderedJson list = OrderedJson::array();
-    for (const ClipPoint& p : thinned(curve, tolerance)) list.push_back({{"time", shortened(p.seconds)}, {"frequency", shortened(p.value)}});
+    for (const ClipPoint& p : thinned(curve, tolerance))
+        list.push_back({{"time", shortened(p.seconds)}, {"frequency", shortened(p.value)}});
     return list;
 }
 
 } // namespace
 
 Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const FrequencyScale& scale) {
-    return readJson(text, name, limits::maxClipFileBytes, [&](const Json& root) { return readClip({root, {}}, scale); });
+    return readJson(text, name, limits::maxClipFileBytes, [&](const Json& root) {
+        return readClip({root, {}}, scale);
+    });
 }
 
 std::size_t metaHapticRaised(const ClipChannel& channel) {
@@ -147,9 +163,16 @@ std::string metaHapticText(const ClipChannel& channel, std::string_view title, c
     const auto transients = placed(channel.transients, amplitudes);
     OrderedJson envelopes{
         {"amplitude", amplitudesJson(withTransients(amplitudes, transients), transients, scale)}};
-    if (auto frequencies = frequenciesJson(envelope, scale); !frequencies.empty()) envelopes["frequency"] = std::move(frequencies);
+    if (auto frequencies = frequenciesJson(envelope, scale); !frequencies.empty())
+        envelopes["frequency"] = std::move(frequencies);
     return jsonLines({{"version", {{"major", 1}, {"minor", 0}, {"patch", 0}}},
-                      {"metadata", {{"editor", "PhysVib"}, {"author", ""}, {"source", ""}, {"project", ""}, {"tags", OrderedJson::array()}, {"description", title}}},
+                      {"metadata",
+                       {{"editor", "PhysVib"},
+                        {"author", ""},
+                        {"source", ""},
+                        {"project", ""},
+                        {"tags", OrderedJson::array()},
+                        {"description", title}}},
                       {"signals", {{"continuous", {{"envelopes", std::move(envelopes)}}}}}});
 }
 

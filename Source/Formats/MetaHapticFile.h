@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Meta's .haptic, which FMOD and Wwise read as well: one envelope of amplitude, one of frequency, and points of emphasis.
+// Meta's .haptic, which FMOD and Wwise read as well: one envelope of amplitude, one of frequency, and points
+// of emphasis.
 //
 // Carries: one channel, amplitudes and frequencies from 0 to 1, transients as emphasis, any length.
-// Does not carry: several channels, places, several frequencies at once, phases, levels beyond full scale, Hz.
+// Does not carry: several channels, places, several frequencies at once, phases, levels beyond full scale,
+// Hz.
 #pragma once
-#include "Io/Result.h"
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
+#include "Io/Result.h"
 #include <string>
 #include <string_view>
 
@@ -22,6 +24,7 @@ Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const 
 std::size_t metaHapticRaised(const ClipChannel& channel);
 
 /// `channel` as such a file. Any thread.
-std::string metaHapticText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale = {});
+std::string metaHapticText(const ClipChannel& channel, std::string_view title,
+                           const FrequencyScale& scale = {});
 
 } // namespace physvib

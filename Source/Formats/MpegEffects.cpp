@@ -14,7 +14,8 @@ std::vector<ClipPoint> smoothed(const std::vector<ClipPoint>& keyframes) {
         for (int k = 0; k < lines; ++k) {
             const double s = static_cast<double>(k) / lines;
             const ClipPoint &from = keyframes[i], &to = keyframes[i + 1];
-            out.push_back({from.seconds + s * (to.seconds - from.seconds), from.value + s * s * (3.0 - 2.0 * s) * (to.value - from.value)});
+            out.push_back({from.seconds + s * (to.seconds - from.seconds),
+                           from.value + s * s * (3.0 - 2.0 * s) * (to.value - from.value)});
         }
     out.push_back(keyframes.back());
     return out;
@@ -30,13 +31,15 @@ void asCurve(ClipWave& wave, bool isCubic) {
 
 } // namespace
 
-void takeEffect(const Effect& effect, double startSeconds, const BandKind& kind, ClipBand& band, ClipChannel& channel) {
+void takeEffect(const Effect& effect, double startSeconds, const BandKind& kind, ClipBand& band,
+                ClipChannel& channel) {
     ClipWave wave{startSeconds, effect.phaseRadians, effect.waveform, {}, {}};
     for (const Keyframe& frame : effect.keyframes) {
         if (frame.amplitude) wave.amplitude.push_back({frame.seconds, kind.gain * *frame.amplitude});
         if (frame.frequencyHz) wave.frequencyHz.push_back({frame.seconds, *frame.frequencyHz});
         if (kind.type == BandType::transient && frame.amplitude)
-            channel.transients.push_back({startSeconds + frame.seconds, wave.amplitude.back().value, frame.frequencyHz.value_or(0.0)});
+            channel.transients.push_back(
+                {startSeconds + frame.seconds, wave.amplitude.back().value, frame.frequencyHz.value_or(0.0)});
     }
     if (kind.type == BandType::transient) return;
     const double end = effect.keyframes.empty() ? 0.0 : effect.keyframes.back().seconds;
@@ -52,9 +55,11 @@ std::vector<TickFrame> tickFrames(const ClipWave& wave) {
     std::vector<TickFrame> frames;
     auto frequency = wave.frequencyHz.begin();
     for (const ClipPoint& p : wave.amplitude) {
-        for (; frequency != wave.frequencyHz.end() && relative(*frequency) < relative(p); ++frequency) frames.push_back({relative(*frequency), {}, frequency->value});
+        for (; frequency != wave.frequencyHz.end() && relative(*frequency) < relative(p); ++frequency)
+            frames.push_back({relative(*frequency), {}, frequency->value});
         TickFrame& frame = frames.emplace_back(TickFrame{relative(p), p.value, {}});
-        if (frequency != wave.frequencyHz.end() && relative(*frequency) == relative(p)) frame.frequencyHz = (frequency++)->value;
+        if (frequency != wave.frequencyHz.end() && relative(*frequency) == relative(p))
+            frame.frequencyHz = (frequency++)->value;
     }
     return frames;
 }

@@ -14,7 +14,8 @@ namespace physvib::mpeg {
 enum class BandType { transient, curve, vectorial, wavelet }; // their numbers in the binary form
 constexpr std::array<std::string_view, 4> bandTypes{"Transient", "Curve", "VectorialWave", "WaveletWave"};
 
-constexpr std::string_view noWavelets = "expected waves, transients or curves, found wavelets, which are not read";
+constexpr std::string_view noWavelets =
+    "expected waves, transients or curves, found wavelets, which are not read";
 constexpr std::string_view inTimeOrder = "expected keyframes in time order";
 
 struct Keyframe {
@@ -35,7 +36,8 @@ struct BandKind {
 };
 
 /// Adds an effect that begins at `startSeconds` to its band, or, of transients, to its channel. Any thread.
-void takeEffect(const Effect& effect, double startSeconds, const BandKind& kind, ClipBand& band, ClipChannel& channel);
+void takeEffect(const Effect& effect, double startSeconds, const BandKind& kind, ClipBand& band,
+                ClipChannel& channel);
 
 /// A keyframe of what we write: ticks since its effect began.
 struct TickFrame {

@@ -20,7 +20,10 @@ struct PlaceGrid {
         points = {pointsOf(clip.extentWidthMetres), pointsOf(clip.extentHeightMetres)};
     }
     GridPoint at(const EnchanterPlace& place) const {
-        const auto index = [this](double metres, int count) { return static_cast<int>(std::clamp(std::lround(metres / pitchMetres), 0L, static_cast<long>(count - 1))); };
+        const auto index = [this](double metres, int count) {
+            return static_cast<int>(
+                std::clamp(std::lround(metres / pitchMetres), 0L, static_cast<long>(count - 1)));
+        };
         return {index(place.xMetres, points.x), index(place.yMetres, points.y)};
     }
     double pitchMetres;
@@ -30,9 +33,12 @@ private:
     int pointsOf(double metres) const { return static_cast<int>(std::lround(metres / pitchMetres)) + 1; }
 };
 
-/// Takes a channel's place into the clip: on a grid of a millimetre, for want of any other. A grid of one point has no places. Any thread.
+/// Takes a channel's place into the clip: on a grid of a millimetre, for want of any other. A grid of one
+/// point has no places. Any thread.
 inline void takePlace(Clip& clip, ClipChannel& channel, GridPoint points, GridPoint at) {
-    if (points.x < 1 || points.y < 1 || points.x + points.y < 3 || at.x < 0 || at.y < 0 || at.x >= points.x || at.y >= points.y) return;
+    if (points.x < 1 || points.y < 1 || points.x + points.y < 3 || at.x < 0 || at.y < 0 || at.x >= points.x ||
+        at.y >= points.y)
+        return;
     channel.place = EnchanterPlace{1e-3 * at.x, 1e-3 * at.y};
     clip.extentWidthMetres = std::max(clip.extentWidthMetres, 1e-3 * std::max(1, points.x - 1));
     clip.extentHeightMetres = std::max(clip.extentHeightMetres, 1e-3 * std::max(1, points.y - 1));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mode's strikes and cuts become edges on the ticks; between two edges the sum of all that rings is one decaying sine.
+// A mode's strikes and cuts become edges on the ticks; between two edges the sum of all that rings is one
+// decaying sine.
 #include "Formats/StrikeClip.h"
 #include "Core/FrameClock.h"
 #include "Formats/ClipLimits.h"
@@ -25,7 +26,9 @@ struct Mode {
     double frequencyHz, decayPerSecond;
     auto operator<=>(const Mode&) const = default;
     /// What becomes of a phasor in so many seconds.
-    Phasor turn(double seconds) const { return std::exp(Phasor{-decayPerSecond, 2.0 * std::numbers::pi * frequencyHz} * seconds); }
+    Phasor turn(double seconds) const {
+        return std::exp(Phasor{-decayPerSecond, 2.0 * std::numbers::pi * frequencyHz} * seconds);
+    }
 };
 
 /// What is added to the mode at a tick.
@@ -60,8 +63,11 @@ std::vector<ClipWave> wavesOf(const Mode& mode, std::vector<Edge> edges, double 
         const bool isLast = i == edges.size();
         const std::int64_t length = isLast ? std::numeric_limits<std::int64_t>::max() : edges[i].tick - tick;
         if (std::abs(ringing) > silence && !(isLast && mode.decayPerSecond == 0.0))
-            waves.push_back({static_cast<double>(tick) / ticks, positivePhase(ringing), ClipWaveform::sine,
-                             decayCurve(std::abs(ringing), mode.decayPerSecond, length, error, ticks), {{0.0, mode.frequencyHz}}});
+            waves.push_back({static_cast<double>(tick) / ticks,
+                             positivePhase(ringing),
+                             ClipWaveform::sine,
+                             decayCurve(std::abs(ringing), mode.decayPerSecond, length, error, ticks),
+                             {{0.0, mode.frequencyHz}}});
         if (!isLast) ringing *= mode.turn(static_cast<double>(length) / ticks);
     }
     return waves;
@@ -72,8 +78,8 @@ struct ModeWave {
     ClipWave wave;
 };
 
-/// In as few bands as there are waves at once. A mode goes on in its band while that is its own: at the tick where one of its
-/// waves ends, the next begins.
+/// In as few bands as there are waves at once. A mode goes on in its band while that is its own: at the tick
+/// where one of its waves ends, the next begins.
 std::vector<ClipBand> packed(std::vector<ModeWave> waves, std::size_t modes) {
     sortByTime(waves, [](const ModeWave& w) { return w.wave.startSeconds; });
     std::vector<ClipBand> bands;
@@ -82,7 +88,8 @@ std::vector<ClipBand> packed(std::vector<ModeWave> waves, std::size_t modes) {
         if (bands.size() > limits::maxClipBands) break; // more than any clip may have
         std::size_t band = bandOf[mode];
         if (band >= bands.size() || lastMode[band] != mode)
-            for (band = 0; band < bands.size() && bands[band].waves.back().endSeconds() >= wave.startSeconds;) ++band;
+            for (band = 0; band < bands.size() && bands[band].waves.back().endSeconds() >= wave.startSeconds;)
+                ++band;
         if (band == bands.size()) bands.emplace_back(), lastMode.emplace_back();
         bands[band].waves.push_back(std::move(wave));
         lastMode[band] = mode;

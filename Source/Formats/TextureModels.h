@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Textures of the Penn Haptic Texture Toolkit (Culbertson, Lopez Delgado, Kuchenbecker 2014): autoregressive models over speed and force.
+// Textures of the Penn Haptic Texture Toolkit (Culbertson, Lopez Delgado, Kuchenbecker 2014): autoregressive
+// models over speed and force.
 //
-// A file is XML: modelSet holds SampleRate, numMACoeff and a model for each speed and force at which something was
-// drawn over the material: speedMod (mm/s), forceMod (N), var (of the noise) and ARcoeff, a list of values of which the first is 1. Line spectral
-// frequencies, triangles and pictures are passed over. Models with a moving average, which the toolkit makes for other rates, are
-// refused: take those at 10 kHz. None of these files comes with PhysVib: their licence forbids it.
+// A file is XML: modelSet holds SampleRate, numMACoeff and a model for each speed and force at which
+// something was drawn over the material: speedMod (mm/s), forceMod (N), var (of the noise) and ARcoeff, a
+// list of values of which the first is 1. Line spectral frequencies, triangles and pictures are passed over.
+// Models with a moving average, which the toolkit makes for other rates, are refused: take those at 10 kHz.
+// None of these files comes with PhysVib: their licence forbids it.
 #pragma once
 #include "Io/Result.h"
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sorting by time, where equals keep their order: one sort for all that has a time, as the web page has no room
-// for one of each.
+// Sorting by time, where equals keep their order: one sort for all that has a time, as the web page has no
+// room for one of each.
 #pragma once
 #include <algorithm>
 #include <cstddef>

@@ -12,16 +12,20 @@ constexpr std::string_view space = " \t\r\n";
 
 std::string_view trimmed(std::string_view text) {
     const std::size_t from = text.find_first_not_of(space);
-    return from == std::string_view::npos ? std::string_view{} : text.substr(from, text.find_last_not_of(space) - from + 1);
+    return from == std::string_view::npos ? std::string_view{}
+                                          : text.substr(from, text.find_last_not_of(space) - from + 1);
 }
 
 /// Where a tag ends: a > within quotes is part of an attribute.
 std::size_t endOfTag(std::string_view text) {
     char quote = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        if (quote != 0) quote = text[i] == quote ? '\0' : quote;
-        else if (text[i] == '"' || text[i] == '\'') quote = text[i];
-        else if (text[i] == '>') return i;
+        if (quote != 0)
+            quote = text[i] == quote ? '\0' : quote;
+        else if (text[i] == '"' || text[i] == '\'')
+            quote = text[i];
+        else if (text[i] == '>')
+            return i;
     }
     return std::string_view::npos;
 }
@@ -56,7 +60,10 @@ bool XmlLeaves::open(std::string_view tag) {
 }
 
 XmlLeaves::Next XmlLeaves::close(std::string_view name) {
-    if (path_.empty() || path_.back() != name) return fail("expected " + (path_.empty() ? std::string{"an element"} : "</" + printable(path_.back()) + ">") + ", found </" + printable(name) + ">");
+    if (path_.empty() || path_.back() != name)
+        return fail("expected " +
+                    (path_.empty() ? std::string{"an element"} : "</" + printable(path_.back()) + ">") +
+                    ", found </" + printable(name) + ">");
     hasEnded_ = true;
     return std::exchange(isLeaf_, false) ? Next::leaf : Next::closed;
 }
@@ -65,18 +72,24 @@ XmlLeaves::Next XmlLeaves::next() {
     if (std::exchange(hasEnded_, false)) path_.pop_back();
     for (;;) {
         const std::string_view before = take(rest_.find('<'));
-        if (rest_.empty()) return path_.empty() ? Next::end : fail("expected </" + printable(path_.back()) + ">, found the end");
+        if (rest_.empty())
+            return path_.empty() ? Next::end
+                                 : fail("expected </" + printable(path_.back()) + ">, found the end");
         if (isLeaf_) text_ = trimmed(before);
         if (rest_.starts_with("<!--") || rest_.starts_with("<?")) {
-            if (!skipTo(rest_[1] == '!' ? "-->" : "?>")) return fail("expected the end of a comment, found the end");
+            if (!skipTo(rest_[1] == '!' ? "-->" : "?>"))
+                return fail("expected the end of a comment, found the end");
             continue;
         }
-        if (rest_.starts_with("<!")) return fail("expected elements and text alone, found " + inQuotes(rest_.substr(0, 9)));
+        if (rest_.starts_with("<!"))
+            return fail("expected elements and text alone, found " + inQuotes(rest_.substr(0, 9)));
         const std::size_t end = endOfTag(rest_);
         if (end == std::string_view::npos) return fail("expected the end of a tag, found the end");
         const std::string_view tag = take(end + 1).substr(1, end - 1);
         if (tag.starts_with('/')) return close(trimmed(tag.substr(1)));
-        if (!open(tag)) return fail("expected at most 16 elements within each other, each with a name, found " + inQuotes(tag));
+        if (!open(tag))
+            return fail("expected at most 16 elements within each other, each with a name, found " +
+                        inQuotes(tag));
         if (tag.ends_with('/')) return close(path_.back());
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The texts of an XML file's innermost elements, one after the other, in no more memory than the file. No declarations of types, no
-// entities but in what nobody reads, so nothing grows and nothing else is opened.
+// The texts of an XML file's innermost elements, one after the other, in no more memory than the file. No
+// declarations of types, no entities but in what nobody reads, so nothing grows and nothing else is opened.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -36,7 +36,8 @@ private:
 
     std::string_view rest_, text_;
     std::vector<std::string_view> path_;
-    bool isLeaf_ = false, hasEnded_ = false; ///< nothing but text since the last element began; path_'s last has ended
+    bool isLeaf_ = false, hasEnded_ = false; ///< nothing but text since the last element began; path_'s last
+                                             ///< has ended
     std::size_t line_ = 1;
     std::string fault_;
 };

@@ -13,7 +13,8 @@ struct Provenance {
     std::vector<std::pair<std::string, std::string>> entries; ///< e.g. {"seed", "1"}, {"scene", "driving"}
 };
 
-/// `physvib VERSION key=value ...` on one line: control characters would end a comment, or hide in it. Any thread.
+/// `physvib VERSION key=value ...` on one line: control characters would end a comment, or hide in it. Any
+/// thread.
 inline std::string provenanceLine(const Provenance& provenance) {
     std::string line = "physvib " + provenance.version;
     for (const auto& [key, value] : provenance.entries) line += " " + key + "=" + value;
@@ -23,6 +24,8 @@ inline std::string provenanceLine(const Provenance& provenance) {
 }
 
 /// The same as the first line of a CSV file. Any thread.
-inline std::string provenanceComment(const Provenance& provenance) { return "# " + provenanceLine(provenance) + "\n"; }
+inline std::string provenanceComment(const Provenance& provenance) {
+    return "# " + provenanceLine(provenance) + "\n";
+}
 
 } // namespace physvib

@@ -7,7 +7,8 @@
 
 namespace physvib {
 
-/// An error on its way into a Result: one line naming file, place and what was expected; names as they are, Result cleans.
+/// An error on its way into a Result: one line naming file, place and what was expected; names as they are,
+/// Result cleans.
 struct Failure {
     std::string message;
 };

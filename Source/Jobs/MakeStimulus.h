@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a StimulusJob becomes on a layout.
 #pragma once
-#include "Scene/LayoutFile.h"
 #include "Io/Result.h"
+#include "Scene/LayoutFile.h"
 #include "Study/Stimulus.h"
 #include "Study/StimulusJob.h"
 

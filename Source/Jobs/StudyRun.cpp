@@ -20,19 +20,27 @@ bool wasWrittenToday(const std::filesystem::path& path) {
     };
     std::error_code fault;
     const auto written = std::filesystem::last_write_time(path, fault);
-    return !fault && dayOf(std::chrono::time_point_cast<Clock::duration>(std::chrono::file_clock::to_sys(written))) == dayOf(Clock::now());
+    return !fault &&
+           dayOf(std::chrono::time_point_cast<Clock::duration>(std::chrono::file_clock::to_sys(written))) ==
+               dayOf(Clock::now());
 }
 
 } // namespace
 
 bool isStudyCode(const std::string& code) noexcept {
-    const auto isPlain = [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_'; };
+    const auto isPlain = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+               c == '_';
+    };
     return code.size() <= 32 && std::ranges::all_of(code, isPlain);
 }
 
 std::string faultOf(const StudyRun& run) {
-    if (!isStudyCode(run.protocol.name)) return "name: expected letters, digits, - and _, as files are called after it";
-    if (!isStudyCode(run.participant.code)) return "participant: expected at most 32 letters, digits, - and _, found " + inQuotes(run.participant.code);
+    if (!isStudyCode(run.protocol.name))
+        return "name: expected letters, digits, - and _, as files are called after it";
+    if (!isStudyCode(run.participant.code))
+        return "participant: expected at most 32 letters, digits, - and _, found " +
+               inQuotes(run.participant.code);
     return validate(run.protocol);
 }
 
@@ -47,7 +55,9 @@ StudyInProgress::StudyInProgress(StudyRun run)
     for (const TrialRecord& record : log_.records()) {
         const std::string fault = experiment_.redo(record);
         if (fault.empty()) continue;
-        error_ = path_.string() + ": session " + printable(run_.protocol.sessions[record.trial.session].name) + ", trial " + std::to_string(record.trial.number) + ": " + fault;
+        error_ = path_.string() + ": session " +
+                 printable(run_.protocol.sessions[record.trial.session].name) + ", trial " +
+                 std::to_string(record.trial.number) + ": " + fault;
         return;
     }
     before_ = experiment_.trialsTaken();
@@ -57,12 +67,18 @@ StudyInProgress::StudyInProgress(StudyRun run)
 std::string StudyInProgress::apparatusFault(const Apparatus& now) const {
     if (log_.records().empty() || !log_.records().back().answer.apparatus) return {};
     const Apparatus& before = *log_.records().back().answer.apparatus;
-    const auto noiseWords = [](const Apparatus& with) { return with.noiseDb ? numberText(*with.noiseDb) + " dB" : std::string{"off"}; };
-    const auto differs = [&](const char* what, const std::string& was, const std::string& is) {
-        return path_.filename().string() + ": expected " + what + " as in the trials before, " + was + ", found " + is + "; set it so, or begin anew in another folder";
+    const auto noiseWords = [](const Apparatus& with) {
+        return with.noiseDb ? numberText(*with.noiseDb) + " dB" : std::string{"off"};
     };
-    if (before.device != now.device) return differs("the device", inQuotes(before.device), inQuotes(now.device));
-    if (before.masterDb != now.masterDb) return differs("the master level", numberText(before.masterDb) + " dB", numberText(now.masterDb) + " dB");
+    const auto differs = [&](const char* what, const std::string& was, const std::string& is) {
+        return path_.filename().string() + ": expected " + what + " as in the trials before, " + was +
+               ", found " + is + "; set it so, or begin anew in another folder";
+    };
+    if (before.device != now.device)
+        return differs("the device", inQuotes(before.device), inQuotes(now.device));
+    if (before.masterDb != now.masterDb)
+        return differs("the master level", numberText(before.masterDb) + " dB",
+                       numberText(now.masterDb) + " dB");
     if (before.noiseDb != now.noiseDb) return differs("the pink noise", noiseWords(before), noiseWords(now));
     return {};
 }
@@ -76,7 +92,8 @@ std::string StudyInProgress::keepComment(const std::string& words) const {
 bool StudyInProgress::take(Answer answer) {
     if (!error_.empty()) return false;
     if (const std::string fault = experiment_.refusal(answer); !fault.empty()) return error_ = fault, false;
-    if (!log_.append(experiment_.take(std::move(answer))) || (experiment_.isDone() && !log_.sync())) error_ = log_.error();
+    if (!log_.append(experiment_.take(std::move(answer))) || (experiment_.isDone() && !log_.sync()))
+        error_ = log_.error();
     return error_.empty();
 }
 

@@ -29,17 +29,21 @@ Complex spectrumAt(const std::vector<float>& x, double radiansPerFrame) {
     Complex sum = 0.0;
     const Complex turn = std::polar(1.0, -radiansPerFrame);
     for (std::size_t first = 0; first < x.size(); first += 4096) {
-        Complex phasor = std::polar(1.0, -std::remainder(radiansPerFrame * static_cast<double>(first), twoPi));
-        for (std::size_t n = first; n < std::min(first + 4096, x.size()); ++n, phasor *= turn) sum += static_cast<double>(x[n]) * phasor;
+        Complex phasor =
+            std::polar(1.0, -std::remainder(radiansPerFrame * static_cast<double>(first), twoPi));
+        for (std::size_t n = first; n < std::min(first + 4096, x.size()); ++n, phasor *= turn)
+            sum += static_cast<double>(x[n]) * phasor;
     }
     return sum;
 }
 
-/// Adds the transfer function at `count` frequencies, evenly spread on a logarithmic scale: no delay makes their phases agree
-/// but the right one.
-void addPoints(std::vector<Point>& points, const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band, int count) {
+/// Adds the transfer function at `count` frequencies, evenly spread on a logarithmic scale: no delay makes
+/// their phases agree but the right one.
+void addPoints(std::vector<Point>& points, const std::vector<float>& played,
+               const std::vector<float>& recorded, double rateHz, const FrequencyBand& band, int count) {
     for (int i = 0; i < count; ++i) {
-        const double hz = band.lowHz * std::pow(band.highHz / band.lowHz, (i + 0.5) / count), w = twoPi * hz / rateHz;
+        const double hz = band.lowHz * std::pow(band.highHz / band.lowHz, (i + 0.5) / count),
+                     w = twoPi * hz / rateHz;
         points.push_back({hz, spectrumAt(recorded, w) / spectrumAt(played, w)});
     }
 }
@@ -47,7 +51,8 @@ void addPoints(std::vector<Point>& points, const std::vector<float>& played, con
 /// Half the height of the peak, within `band`.
 FrequencyBand peakOf(const Resonator& r, const FrequencyBand& band) {
     const double half = std::max(r.resonanceHz / r.q, 2.0);
-    return {std::clamp(r.resonanceHz - half, band.lowHz, band.highHz - 1.0), std::clamp(r.resonanceHz + half, band.lowHz + 1.0, band.highHz)};
+    return {std::clamp(r.resonanceHz - half, band.lowHz, band.highHz - 1.0),
+            std::clamp(r.resonanceHz + half, band.lowHz + 1.0, band.highHz)};
 }
 
 /// f^4 / |H|^2 is a parabola in f^2 for the model; weighted so that all points count by their magnitude.
@@ -56,7 +61,8 @@ Resonator firstGuess(const std::vector<Point>& points) {
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const Point& p : points) {
-        const double power = std::norm(p.response), square = p.hz * p.hz, target = square * square / power, weight = power * power / (square * square);
+        const double power = std::norm(p.response), square = p.hz * p.hz, target = square * square / power,
+                     weight = power * power / (square * square);
         if (power > strongest) strongest = power, strongestHz = p.hz;
         const Eigen::Vector3d basis{1.0, square, square * square};
         matrix += weight * basis * basis.transpose();
@@ -98,7 +104,8 @@ template <class Guess>
 double delayOf(const std::vector<Point>& points, Guess guess) {
     const auto agreement = [&](double seconds) {
         Complex sum = 0.0;
-        for (const Point& p : points) sum += p.response * std::conj(guess(p.hz)) * std::polar(1.0, twoPi * p.hz * seconds);
+        for (const Point& p : points)
+            sum += p.response * std::conj(guess(p.hz)) * std::polar(1.0, twoPi * p.hz * seconds);
         return std::abs(sum.real());
     };
     const double step = 0.1 / points.back().hz;
@@ -113,8 +120,8 @@ double delayOf(const std::vector<Point>& points, Guess guess) {
     return 0.5 * (low + high);
 }
 
-/// Gauss-Newton on a numerical Jacobian would need derivatives of the projected gain; a shrinking search along the axes
-/// and their combination needs none, and three numbers are few.
+/// Gauss-Newton on a numerical Jacobian would need derivatives of the projected gain; a shrinking search
+/// along the axes and their combination needs none, and three numbers are few.
 Trial refine(const std::vector<Point>& points, Trial best) {
     std::array<double, 3> step{0.02, 0.2, 1e-4};
     for (int round = 0; round < 400 && *std::ranges::max_element(step) > 1e-9; ++round) {
@@ -144,11 +151,15 @@ double energyOf(const std::vector<Point>& points) {
 // its energy is not finite
 constexpr const char* unswept = "what was played: expected a sweep through the whole band";
 
-std::string faultOf(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band) {
-    if (!band.isKnown() || band.highHz >= 0.5 * rateHz || band.highHz < band.lowHz + 10.0) return "expected a band of at least 10 Hz below half the rate";
+std::string faultOf(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz,
+                    const FrequencyBand& band) {
+    if (!band.isKnown() || band.highHz >= 0.5 * rateHz || band.highHz < band.lowHz + 10.0)
+        return "expected a band of at least 10 Hz below half the rate";
     constexpr double shortestSeconds = 0.1;
-    if (auto fault = recordingFault(played, rateHz, shortestSeconds); !fault.empty()) return "what was played: " + fault;
-    if (auto fault = recordingFault(recorded, rateHz, shortestSeconds); !fault.empty()) return "what was recorded: " + fault;
+    if (auto fault = recordingFault(played, rateHz, shortestSeconds); !fault.empty())
+        return "what was played: " + fault;
+    if (auto fault = recordingFault(recorded, rateHz, shortestSeconds); !fault.empty())
+        return "what was recorded: " + fault;
     if (isSilent(played)) return "what was played: expected a sweep, found silence";
     if (isSilent(recorded)) return "what was recorded: expected the sweep, found silence";
     const std::string clipped = clippingFault(recorded, rateHz);
@@ -162,9 +173,11 @@ std::vector<float> sweepOf(const SweepSettings& s, double rateHz) {
     std::vector<float> samples(frames + static_cast<std::size_t>(s.restSeconds * rateHz));
     const double growth = std::log(s.band.highHz / s.band.lowHz) / s.seconds;
     for (std::size_t n = 0; n < frames; ++n) {
-        const double t = static_cast<double>(n) / rateHz, phase = twoPi * s.band.lowHz * std::expm1(growth * t) / growth;
+        const double t = static_cast<double>(n) / rateHz,
+                     phase = twoPi * s.band.lowHz * std::expm1(growth * t) / growth;
         const double edge = std::clamp(std::min(t, s.seconds - t) / fadeSeconds, 0.0, 1.0);
-        samples[n] = static_cast<float>(s.level * std::sin(phase) * 0.5 * (1.0 - std::cos(std::numbers::pi * edge)));
+        samples[n] =
+            static_cast<float>(s.level * std::sin(phase) * 0.5 * (1.0 - std::cos(std::numbers::pi * edge)));
     }
     return samples;
 }
@@ -181,26 +194,38 @@ FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand&
     return band;
 }
 
-Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band) {
+Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std::vector<float>& recorded,
+                                     double rateHz, const FrequencyBand& band) {
     if (auto fault = faultOf(played, recorded, rateHz, band); !fault.empty()) return Failure{fault};
     std::vector<Point> points;
     addPoints(points, played, recorded, rateHz, band, 240);
     const Resonator guess = firstGuess(points);
-    const Trial rough = refine(points, {points, {std::log(guess.resonanceHz), std::log(guess.q), delayOf(points, [&guess](double hz) { return guess.at(hz); })}});
+    const Trial rough = refine(points, {points,
+                                        {std::log(guess.resonanceHz), std::log(guess.q),
+                                         delayOf(points, [&guess](double hz) { return guess.at(hz); })}});
     // where resonance and Q are decided
-    addPoints(points, played, recorded, rateHz, peakOf({std::exp(rough.at[0]), std::exp(rough.at[1])}, band), 120);
+    addPoints(points, played, recorded, rateHz, peakOf({std::exp(rough.at[0]), std::exp(rough.at[1])}, band),
+              120);
     const double energy = energyOf(points);
     if (!std::isfinite(energy)) return Failure{unswept};
     const Trial best = refine(points, {points, rough.at});
-    MeasuredActuator measured{{std::exp(best.at[0]), std::exp(best.at[1])}, best.gain.real(), best.at[2], best.error / energy, rateHz};
+    MeasuredActuator measured{{std::exp(best.at[0]), std::exp(best.at[1])},
+                              best.gain.real(),
+                              best.at[2],
+                              best.error / energy,
+                              rateHz};
     if (!(measured.residualShare < 0.5))
-        return Failure{"expected the response of a resonant actuator, found one of which the model explains " + fixedNumber(100.0 * (1.0 - measured.residualShare), 0) + " %"};
+        return Failure{
+            "expected the response of a resonant actuator, found one of which the model explains " +
+            fixedNumber(100.0 * (1.0 - measured.residualShare), 0) + " %"};
     if (const double hz = measured.resonator.resonanceHz; hz < band.lowHz || hz > band.highHz)
-        return Failure{"expected a resonance from " + numberText(band.lowHz) + " to " + numberText(band.highHz) + " Hz, found none"};
+        return Failure{"expected a resonance from " + numberText(band.lowHz) + " to " +
+                       numberText(band.highHz) + " Hz, found none"};
     return measured;
 }
 
-Result<MeasuredLoopback> fitLoopback(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band) {
+Result<MeasuredLoopback> fitLoopback(const std::vector<float>& played, const std::vector<float>& recorded,
+                                     double rateHz, const FrequencyBand& band) {
     if (auto fault = faultOf(played, recorded, rateHz, band); !fault.empty()) return Failure{fault};
     std::vector<Point> points;
     addPoints(points, played, recorded, rateHz, band, 240);
@@ -214,7 +239,9 @@ Result<MeasuredLoopback> fitLoopback(const std::vector<float>& played, const std
     m.gain = sum.real() / count;
     m.residualShare = 1.0 - m.gain * m.gain * count / energy;
     if (!(m.residualShare < 0.1))
-        return Failure{"expected a cable from the output to the input, found a response that one explains by " + fixedNumber(100.0 * (1.0 - m.residualShare), 0) + " %"};
+        return Failure{
+            "expected a cable from the output to the input, found a response that one explains by " +
+            fixedNumber(100.0 * (1.0 - m.residualShare), 0) + " %"};
     return m;
 }
 

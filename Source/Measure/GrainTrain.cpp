@@ -16,7 +16,8 @@ constexpr double narrowestSeconds = 0.000125, widestSeconds = 0.012;
 constexpr double leastSkewness = 1.2;
 constexpr std::size_t fewestGrains = 20;
 constexpr double mostLost = 0.3;
-constexpr double mostSpread = 0.8; // of heights, in means: chance makes 0.46, ringing of another partial above 1
+constexpr double mostSpread = 0.8; // of heights, in means: chance makes 0.46, ringing of another partial
+                                   // above 1
 
 /// Noise goes both ways, pulses one.
 double noiseOf(std::span<const double> x) {
@@ -33,7 +34,8 @@ struct Standing {
 
 /// Of evenly spread heights those above the threshold have the mean (mean x most + threshold) / 2.
 Standing standingOut(const std::vector<Peak>& peaks, double noise) {
-    constexpr double most = GrainChance::leastStrength + GrainChance::strengthRange, sure = 5.0, leastShare = 0.12;
+    constexpr double most = GrainChance::leastStrength + GrainChance::strengthRange, sure = 5.0,
+                     leastShare = 0.12;
     Standing out{{}, sure * noise, 0.0};
     for (int round = 0; round < 10; ++round) {
         out.peaks.clear();
@@ -42,7 +44,9 @@ Standing standingOut(const std::vector<Peak>& peaks, double noise) {
             if (peak.height > out.threshold) sum += peak.height, out.peaks.push_back(peak);
         if (out.peaks.size() < fewestGrains) break;
         const double seen = sum / static_cast<double>(out.peaks.size());
-        out.mean = out.threshold > GrainChance::leastStrength * seen ? std::max(0.3 * seen, (2.0 * seen - out.threshold) / most) : seen;
+        out.mean = out.threshold > GrainChance::leastStrength * seen
+                       ? std::max(0.3 * seen, (2.0 * seen - out.threshold) / most)
+                       : seen;
         out.threshold = std::max(sure * noise, leastShare * out.mean);
     }
     return out;
@@ -66,7 +70,9 @@ std::vector<double> gapsOf(const std::vector<Peak>& peaks) {
     return gaps;
 }
 
-double meanOf(const std::vector<double>& x) { return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size()); }
+double meanOf(const std::vector<double>& x) {
+    return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+}
 
 double unevennessOf(const std::vector<double>& gaps) {
     const double mean = meanOf(gaps);
@@ -75,7 +81,8 @@ double unevennessOf(const std::vector<double>& gaps) {
     return std::sqrt(sum / static_cast<double>(gaps.size()));
 }
 
-/// Share of random grains that is nearer to the one before than this, in spacings: the difference of two even chances.
+/// Share of random grains that is nearer to the one before than this, in spacings: the difference of two even
+/// chances.
 double nearerThan(double spacings) {
     constexpr double range = GrainChance::spacingRange;
     return std::pow(std::max(0.0, spacings - (1.0 - range)) / range, 2.0) / 2.0;
@@ -93,7 +100,8 @@ std::optional<GrainTrain> countedAt(std::span<const double> samples, double rate
     const std::vector<double> gaps = gapsOf(out.peaks);
     train.perSecond = pulses->heightsPerSecond / meanOf(gaps);
     train.unevenness = unevennessOf(gaps);
-    const double weak = std::clamp((out.threshold / out.mean - GrainChance::leastStrength) / GrainChance::strengthRange, 0.0, 0.95);
+    const double weak = std::clamp(
+        (out.threshold / out.mean - GrainChance::leastStrength) / GrainChance::strengthRange, 0.0, 0.95);
     constexpr double apart = 0.75; // of the half width: nearer pulses are one
     const double near = nearerThan(apart * halfWidthSeconds * train.perSecond / (1.0 - weak));
     train.lostShare = weak + near;
@@ -111,9 +119,11 @@ std::optional<GrainTrain> countedAt(std::span<const double> samples, double rate
 
 std::optional<GrainTrain> grainTrain(std::span<const double> samples, double rateHz) {
     std::optional<GrainTrain> best;
-    for (double width = narrowestSeconds; width < widestSeconds && !(best && best->lostShare == 0.0); width *= std::sqrt(2.0)) {
+    for (double width = narrowestSeconds; width < widestSeconds && !(best && best->lostShare == 0.0);
+         width *= std::sqrt(2.0)) {
         const auto train = countedAt(samples, rateHz, width);
-        if (train && train->lostShare <= mostLost && (!best || train->lostShare < best->lostShare)) best = train;
+        if (train && train->lostShare <= mostLost && (!best || train->lostShare < best->lostShare))
+            best = train;
     }
     return best;
 }

@@ -7,16 +7,19 @@
 namespace physvib {
 namespace {
 
-constexpr double longestHitSeconds = 1.0; // a slower decay is seen well enough by then
-constexpr double frameSeconds = 0.025;    // a period of 40 Hz, so that power does not ripple
+constexpr double longestHitSeconds = 1.0;   // a slower decay is seen well enough by then
+constexpr double frameSeconds = 0.025;      // a period of 40 Hz, so that power does not ripple
 constexpr double leastBeforeSeconds = 0.01; // a shorter silence tells no offset
 
-double power(std::span<const double> samples) { return energyOf(samples) / static_cast<double>(samples.size()); }
+double power(std::span<const double> samples) {
+    return energyOf(samples) / static_cast<double>(samples.size());
+}
 
 /// Power of the quietest twentieth of the recording; 0 if it is too short to tell.
 double noisePower(const std::vector<double>& samples, std::size_t frame) {
     std::vector<double> powers;
-    for (std::size_t i = 0; i + frame <= samples.size(); i += frame) powers.push_back(power(std::span(samples).subspan(i, frame)));
+    for (std::size_t i = 0; i + frame <= samples.size(); i += frame)
+        powers.push_back(power(std::span(samples).subspan(i, frame)));
     if (powers.size() < 4) return 0.0;
     const auto low = powers.begin() + static_cast<std::ptrdiff_t>(powers.size() / 20);
     std::ranges::nth_element(powers, low);
@@ -31,7 +34,8 @@ double offsetOf(std::span<const double> samples) {
 }
 
 std::size_t loudest(const std::vector<double>& samples) {
-    return static_cast<std::size_t>(std::ranges::max_element(samples, {}, [](double s) { return std::abs(s); }) - samples.begin());
+    return static_cast<std::size_t>(
+        std::ranges::max_element(samples, {}, [](double s) { return std::abs(s); }) - samples.begin());
 }
 
 /// First sample near the peak that noise, or a fiftieth of the peak, would hardly reach.
@@ -42,9 +46,11 @@ std::size_t firstLoud(const std::vector<double>& samples, std::size_t peak, doub
     return first;
 }
 
-/// Where the noise begins, or the next hit: ten times the power of what was quietest, and not far below the loudest.
+/// Where the noise begins, or the next hit: ten times the power of what was quietest, and not far below the
+/// loudest.
 std::size_t endOf(const std::vector<double>& samples, std::size_t begin, double noise, double rateHz) {
-    const std::size_t frame = samplesIn(frameSeconds, rateHz), most = std::min(samples.size(), begin + samplesIn(longestHitSeconds, rateHz));
+    const std::size_t frame = samplesIn(frameSeconds, rateHz),
+                      most = std::min(samples.size(), begin + samplesIn(longestHitSeconds, rateHz));
     double least = HUGE_VAL, highest = 0.0;
     for (std::size_t i = begin; i + frame <= most; i += frame) {
         const double now = power(std::span(samples).subspan(i, frame));

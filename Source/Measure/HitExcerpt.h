@@ -20,8 +20,8 @@ inline std::size_t samplesIn(double seconds, double rateHz) noexcept {
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(seconds * rateHz)));
 }
 
-/// From the onset of what is loudest to where it has sunk into the noise, the next hit, or one second; `samples` are not
-/// empty. M only.
+/// From the onset of what is loudest to where it has sunk into the noise, the next hit, or one second;
+/// `samples` are not empty. M only.
 HitExcerpt strongestHit(const std::vector<float>& samples, double rateHz);
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One partial more per round; a round that is not worth its numbers is undone. Then other starts, and Eq. 5.1.
+// One partial more per round; a round that is not worth its numbers is undone. Then other starts, and
+// Eq. 5.1.
 #include "Measure/HitFit.h"
 #include "Measure/DecayingPhasor.h"
 #include "Measure/HitExcerpt.h"
@@ -14,7 +15,8 @@ namespace {
 constexpr std::size_t mostPartials = 6;
 constexpr double cleanShare = 1e-11; // of the energy: below it, what is left is rounding
 constexpr double shortHit = 8.0;     // omega / tau
-constexpr double penalty = 1.5;      // per number, in units of ln N: the number, and the search for it (Schwarz 1978)
+constexpr double penalty = 1.5; // per number, in units of ln N: the number, and the search for it (Schwarz
+                                // 1978)
 
 } // namespace
 
@@ -37,8 +39,9 @@ PartialError HitFit::errorOf(std::size_t partial) const {
     return {more * white.omega, more * white.tau};
 }
 
-// Noise that is not white counts by its density about the frequency (Whittle 1953): that of what is left, seen through the
-// partial's own decay, over the density of white noise of its power. The fit leaves nothing at the partial itself, so beside it.
+// Noise that is not white counts by its density about the frequency (Whittle 1953): that of what is left,
+// seen through the partial's own decay, over the density of white noise of its power. The fit leaves nothing
+// at the partial itself, so beside it.
 double HitFit::noiseAbout(const Partial& partial) const {
     std::vector<double> left = samples_;
     double weight = 0.0, density = 0.0;
@@ -46,14 +49,17 @@ double HitFit::noiseAbout(const Partial& partial) const {
     const auto first = static_cast<std::size_t>(std::ceil(onset * rateHz_));
     for (const Partial& p : partials()) {
         DecayingPhasor phasor{p.omega, p.tau, rateHz_, static_cast<double>(first) / rateHz_ - onset};
-        for (std::size_t i = first; i < left.size(); ++i, phasor.next()) left[i] -= p.cosine * phasor.cosine() + p.sine * phasor.sine();
+        for (std::size_t i = first; i < left.size(); ++i, phasor.next())
+            left[i] -= p.cosine * phasor.cosine() + p.sine * phasor.sine();
     }
     const auto rest = std::span<const double>(left).subspan(first);
-    for (std::size_t i = 0; i < rest.size(); ++i) weight += std::exp(-2.0 * partial.tau * static_cast<double>(i) / rateHz_);
+    for (std::size_t i = 0; i < rest.size(); ++i)
+        weight += std::exp(-2.0 * partial.tau * static_cast<double>(i) / rateHz_);
     // decays: where the partial's own line has sunk
     constexpr std::array<double, 10> besides{-6, -5, -4, -3, -2, 2, 3, 4, 5, 6};
     for (const double by : besides) {
-        const auto point = pointOfSpectrum(rest, rateHz_, std::abs(partial.omega + by * partial.tau), partial.tau);
+        const auto point =
+            pointOfSpectrum(rest, rateHz_, std::abs(partial.omega + by * partial.tau), partial.tau);
         density += (point.re * point.re + point.im * point.im) / besides.size();
     }
     return density / weight * static_cast<double>(left.size()) / energyOf(left);
@@ -63,7 +69,8 @@ double HitFit::energyBeforeOnset() const { return energyOf(std::span(samples_).f
 
 double HitFit::costOf(double unexplained, std::size_t numbers) const {
     const double count = static_cast<double>(samples_.size());
-    return count * std::log(std::max(unexplained, cleanShare * energy_)) + penalty * static_cast<double>(numbers) * std::log(count);
+    return count * std::log(std::max(unexplained, cleanShare * energy_)) +
+           penalty * static_cast<double>(numbers) * std::log(count);
 }
 
 void HitFit::addPartials() {
@@ -102,11 +109,13 @@ void HitFit::tryStruck(const std::vector<Partial>& starts) {
     struck_ = std::move(fit);
 }
 
-// What is over within two periods lies under one broad peak with its neighbours, where the search above goes astray.
+// What is over within two periods lies under one broad peak with its neighbours, where the search above goes
+// astray.
 void HitFit::tryOtherStarts() {
     const std::vector<Partial> found = fit_.partials();
     const auto longest = std::ranges::min(found, {}, &Partial::tau);
-    const auto strongest = std::ranges::max(found, {}, [this](const Partial& p) { return p.spectralPeak(seconds()); });
+    const auto strongest =
+        std::ranges::max(found, {}, [this](const Partial& p) { return p.spectralPeak(seconds()); });
     if (strongest.omega > shortHit * strongest.tau) return;
     for (const double lives : {2.0, 4.0})
         for (const std::size_t blocks : {16u, 48u})
@@ -114,7 +123,9 @@ void HitFit::tryOtherStarts() {
                 if (unexplainedEnergy() < cleanShare * energy_ && count >= partials().size()) break;
                 const auto length = std::min(rest().size(), samplesIn(lives / longest.tau, rateHz_));
                 std::vector<Partial> starts;
-                for (const PredictedPartial& p : predictPartials(rest().first(length), rateHz_, count, blocks)) starts.push_back({p.omega, p.tau, 0.0, 1.0});
+                for (const PredictedPartial& p :
+                     predictPartials(rest().first(length), rateHz_, count, blocks))
+                    starts.push_back({p.omega, p.tau, 0.0, 1.0});
                 if (starts.empty()) continue;
                 tryStruck(starts);
                 tryFree(starts);
@@ -128,7 +139,8 @@ bool HitFit::moveOnset() {
     std::size_t best = reach;
     for (std::size_t i = reach; i-- > 0;) {
         double model = 0.0;
-        for (const Partial& p : fit_.partials()) model += p.at((static_cast<double>(i) - static_cast<double>(onset_)) / rateHz_);
+        for (const Partial& p : fit_.partials())
+            model += p.at((static_cast<double>(i) - static_cast<double>(onset_)) / rateHz_);
         gain += model * (2.0 * samples_[i] - model);
         if (gain > most) {
             most = gain;

@@ -9,9 +9,10 @@
 
 namespace physvib {
 
-/// Takes partial after partial into the fit, as long as each explains more than noise would, and moves the onset to where
-/// the model explains most. Partials that overlap are looked for from other starts as well, and where Eq. 5.1 (all begin at
-/// one moment, at rest) explains the hit as well as free phases do, it is taken: it needs fewer numbers. M only.
+/// Takes partial after partial into the fit, as long as each explains more than noise would, and moves the
+/// onset to where the model explains most. Partials that overlap are looked for from other starts as well,
+/// and where Eq. 5.1 (all begin at one moment, at rest) explains the hit as well as free phases do, it is
+/// taken: it needs fewer numbers. M only.
 class HitFit {
 public:
     /// `guess`: the onset in `samples`, to begin with; it moves by onsetReachSeconds per partial at most.
@@ -23,11 +24,17 @@ public:
     std::vector<Partial> partials() const { return struck_ ? struck_->partials() : fit_.partials(); }
     /// Cramer-Rao bound in noise of the residual's density about the partial
     PartialError errorOf(std::size_t partial) const;
-    double onsetSeconds() const noexcept { return struck_ ? struck_->onsetSeconds() : static_cast<double>(onset_) / rateHz_; }
+    double onsetSeconds() const noexcept {
+        return struck_ ? struck_->onsetSeconds() : static_cast<double>(onset_) / rateHz_;
+    }
     /// after the onset
-    double seconds() const noexcept { return static_cast<double>(samples_.size()) / rateHz_ - onsetSeconds(); }
+    double seconds() const noexcept {
+        return static_cast<double>(samples_.size()) / rateHz_ - onsetSeconds();
+    }
     double energy() const noexcept { return energy_; }
-    double unexplainedEnergy() const { return struck_ ? struck_->residualEnergy() : energyBeforeOnset() + fit_.residualEnergy(); }
+    double unexplainedEnergy() const {
+        return struck_ ? struck_->residualEnergy() : energyBeforeOnset() + fit_.residualEnergy();
+    }
 
 private:
     void addPartials();

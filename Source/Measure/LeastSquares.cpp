@@ -20,8 +20,12 @@ bool solve(const Matrix& a, Eigen::Ref<Eigen::VectorXd> b) {
 
 Eigen::Index index(std::size_t i) noexcept { return static_cast<Eigen::Index>(i); }
 
-Matrix square(const std::vector<double>& byRows, std::size_t size) { return Eigen::Map<const Matrix>(byRows.data(), index(size), index(size)); }
-Eigen::Map<Eigen::VectorXd> vectorOf(std::vector<double>& numbers) { return {numbers.data(), index(numbers.size())}; }
+Matrix square(const std::vector<double>& byRows, std::size_t size) {
+    return Eigen::Map<const Matrix>(byRows.data(), index(size), index(size));
+}
+Eigen::Map<Eigen::VectorXd> vectorOf(std::vector<double>& numbers) {
+    return {numbers.data(), index(numbers.size())};
+}
 
 } // namespace
 
@@ -30,10 +34,12 @@ NormalEquations::NormalEquations(std::size_t size)
     , right_(size) {}
 
 void NormalEquations::add(const std::vector<Column>& columns, std::span<const double> rest) {
-    const Rows derivatives(columns.front().data(), index(rest.size()), index(size()), Eigen::OuterStride<>(index(block)));
+    const Rows derivatives(columns.front().data(), index(rest.size()), index(size()),
+                           Eigen::OuterStride<>(index(block)));
     Eigen::Map<Matrix> matrix(matrix_.data(), index(size()), index(size()));
     matrix.triangularView<Eigen::Lower>() += derivatives.transpose() * derivatives;
-    vectorOf(right_) += derivatives.transpose() * Eigen::Map<const Eigen::VectorXd>(rest.data(), index(rest.size()));
+    vectorOf(right_) +=
+        derivatives.transpose() * Eigen::Map<const Eigen::VectorXd>(rest.data(), index(rest.size()));
 }
 
 std::vector<double> NormalEquations::step(double lambda) const {
@@ -49,7 +55,8 @@ NormalEquations NormalEquations::each(std::size_t first, std::size_t stride, std
         for (std::size_t i = 0; i < width; ++i) kept.push_back(at + i);
     NormalEquations part(kept.size());
     for (std::size_t a = 0; a < kept.size(); ++a) {
-        for (std::size_t b = 0; b <= a; ++b) part.matrix_[a * kept.size() + b] = matrix_[kept[a] * size() + kept[b]];
+        for (std::size_t b = 0; b <= a; ++b)
+            part.matrix_[a * kept.size() + b] = matrix_[kept[a] * size() + kept[b]];
         part.right_[a] = right_[kept[a]];
     }
     return part;

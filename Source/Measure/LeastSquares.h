@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nonlinear least squares in small steps, damped (Levenberg 1944, Marquardt 1963): what fits to samples share.
+// Nonlinear least squares in small steps, damped (Levenberg 1944, Marquardt 1963): what fits to samples
+// share.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -16,7 +17,8 @@ public:
 
     explicit NormalEquations(std::size_t size);
 
-    /// Adds as many rows as `rest` has, at most `block`: the residual there, and the derivative by each number.
+    /// Adds as many rows as `rest` has, at most `block`: the residual there, and the derivative by each
+    /// number.
     void add(const std::vector<Column>& columns, std::span<const double> rest);
 
     /// The step under a damping of `lambda`; empty if the equations do not tell one.
@@ -25,7 +27,8 @@ public:
     /// Only the numbers `first`, `first + stride`, ...: of a model in which those are linear.
     NormalEquations each(std::size_t first, std::size_t stride, std::size_t width) const;
 
-    /// Standard error of a number under white noise of `variance` (Cramer-Rao bound); infinite if nothing tells it.
+    /// Standard error of a number under white noise of `variance` (Cramer-Rao bound); infinite if nothing
+    /// tells it.
     double errorOf(std::size_t number, double variance) const;
 
     std::size_t size() const noexcept { return right_.size(); }

@@ -14,7 +14,8 @@ namespace {
 std::vector<std::complex<double>> rootsOf(std::vector<double> c) {
     if (c.empty()) return {};
     c.insert(c.begin(), 1.0);
-    const Eigen::VectorXd rising = Eigen::Map<const Eigen::VectorXd>(c.data(), static_cast<Eigen::Index>(c.size())).reverse();
+    const Eigen::VectorXd rising =
+        Eigen::Map<const Eigen::VectorXd>(c.data(), static_cast<Eigen::Index>(c.size())).reverse();
     const auto roots = Eigen::PolynomialSolver<double, Eigen::Dynamic>(rising).roots();
     return {roots.begin(), roots.end()};
 }
@@ -23,7 +24,8 @@ std::vector<double> meansOf(std::span<const double> samples, std::size_t blocks)
     const std::size_t length = samples.size() / blocks;
     std::vector<double> means(blocks);
     for (std::size_t b = 0; b < blocks; ++b)
-        for (std::size_t i = 0; i < length; ++i) means[b] += samples[b * length + i] / static_cast<double>(length);
+        for (std::size_t i = 0; i < length; ++i)
+            means[b] += samples[b * length + i] / static_cast<double>(length);
     return means;
 }
 
@@ -40,13 +42,15 @@ std::vector<double> predictionOf(const std::vector<double>& x, std::size_t order
 
 } // namespace
 
-std::vector<PredictedPartial> predictPartials(std::span<const double> samples, double rateHz, std::size_t partials, std::size_t blocks) {
+std::vector<PredictedPartial> predictPartials(std::span<const double> samples, double rateHz,
+                                              std::size_t partials, std::size_t blocks) {
     std::vector<PredictedPartial> found;
     if (samples.size() < blocks || blocks < 4 * partials) return found;
     const double blockRateHz = rateHz / static_cast<double>(samples.size() / blocks);
     for (const std::complex<double> root : rootsOf(predictionOf(meansOf(samples, blocks), 2 * partials)))
         if (root.imag() > 1e-6 && std::isfinite(root.real()))
-            found.push_back({std::arg(root) * blockRateHz, std::max(-std::log(std::abs(root)) * blockRateHz, 1.0)});
+            found.push_back(
+                {std::arg(root) * blockRateHz, std::max(-std::log(std::abs(root)) * blockRateHz, 1.0)});
     std::ranges::sort(found, {}, &PredictedPartial::omega);
     return found;
 }

@@ -15,25 +15,34 @@ namespace physvib {
 namespace {
 
 constexpr double shortestSeconds = 0.01; // half a period of the lowest frequency that is felt
-constexpr double slowestTau = 0.5;        // a partial that lasts longer was there before the hit: hum
+constexpr double slowestTau = 0.5;       // a partial that lasts longer was there before the hit: hum
 
 std::string faultOf(const std::vector<float>& x, double rateHz, ExtractionBand band) {
-    if (!(rateHz > 0.0) || !(band.lowHz > 0.0) || !(band.highHz > band.lowHz)) return "expected a band of two rising frequencies";
-    if (band.highHz > 0.5 * rateHz) return "expected a band below half the rate of " + fixedNumber(rateHz, 0) + " Hz, found " + numberText(band.highHz) + " Hz";
+    if (!(rateHz > 0.0) || !(band.lowHz > 0.0) || !(band.highHz > band.lowHz))
+        return "expected a band of two rising frequencies";
+    if (band.highHz > 0.5 * rateHz)
+        return "expected a band below half the rate of " + fixedNumber(rateHz, 0) + " Hz, found " +
+               numberText(band.highHz) + " Hz";
     if (auto fault = recordingFault(x, rateHz, shortestSeconds); !fault.empty()) return fault;
     if (isSilent(x)) return "expected a hit, found silence";
     return clippingFault(x, rateHz);
 }
 
-std::string noneIn(ExtractionBand band) { return "expected a decaying sound from " + numberText(band.lowHz) + " to " + numberText(band.highHz) + " Hz, found none"; }
+std::string noneIn(ExtractionBand band) {
+    return "expected a decaying sound from " + numberText(band.lowHz) + " to " + numberText(band.highHz) +
+           " Hz, found none";
+}
 
-std::vector<double> cut(const std::vector<float>& samples, std::size_t begin, std::size_t end, double offset) {
-    std::vector<double> all(samples.begin() + static_cast<std::ptrdiff_t>(begin), samples.begin() + static_cast<std::ptrdiff_t>(end));
+std::vector<double> cut(const std::vector<float>& samples, std::size_t begin, std::size_t end,
+                        double offset) {
+    std::vector<double> all(samples.begin() + static_cast<std::ptrdiff_t>(begin),
+                            samples.begin() + static_cast<std::ptrdiff_t>(end));
     for (double& x : all) x -= offset;
     return all;
 }
 
-Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& hit, double rateHz, ExtractionBand band) {
+Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& hit, double rateHz,
+                           ExtractionBand band) {
     const std::size_t begin = hit.begin - std::min(hit.begin, samplesIn(onsetReachSeconds, rateHz));
     const HitFit hitFit{cut(samples, begin, hit.end, hit.offset), hit.begin - begin, rateHz};
     const std::vector<Partial> partials = hitFit.partials();
@@ -69,19 +78,23 @@ std::vector<Peak> twoHighest(std::vector<double> x, double rateHz, double apart)
     std::ranges::sort(all, std::greater{}, &Peak::height);
     for (const Peak& peak : all) {
         const double seconds = peak.at / rateHz;
-        if (two.size() < 2 && (two.empty() || std::abs(seconds - two.front().at) >= apart)) two.push_back({seconds, peak.height});
+        if (two.size() < 2 && (two.empty() || std::abs(seconds - two.front().at) >= apart))
+            two.push_back({seconds, peak.height});
     }
     return two;
 }
 
-Result<ContactSound> byTwoPeaks(const std::vector<float>& samples, const HitExcerpt& hit, double rateHz, ExtractionBand band) {
+Result<ContactSound> byTwoPeaks(const std::vector<float>& samples, const HitExcerpt& hit, double rateHz,
+                                ExtractionBand band) {
     const std::vector<double> x = cut(samples, hit.begin, hit.end, hit.offset);
     ContactSound sound;
     sound.frequencyHz = highestPeakHz(x, rateHz, band.lowHz, band.highHz);
     const auto two = twoHighest(x, rateHz, 0.25 / sound.frequencyHz);
-    if (two.size() < 2) return Failure{"two-peaks: expected two peaks in time, found " + std::to_string(two.size())};
+    if (two.size() < 2)
+        return Failure{"two-peaks: expected two peaks in time, found " + std::to_string(two.size())};
     sound.decayPerSecond = std::log(two[0].height / two[1].height) / (two[1].at - two[0].at);
-    if (!(sound.decayPerSecond > 0.0)) return Failure{"two-peaks: expected the higher peak before the lower one, found it after"};
+    if (!(sound.decayPerSecond > 0.0))
+        return Failure{"two-peaks: expected the higher peak before the lower one, found it after"};
     sound.partials = 1;
     PartialFit fit{x, rateHz};
     fit.add({2.0 * std::numbers::pi * sound.frequencyHz, sound.decayPerSecond, 0.0, 0.0});
@@ -98,15 +111,19 @@ Result<ContactSound> byTwoPeaks(const std::vector<float>& samples, const HitExce
 } // namespace
 
 bool ContactSound::isConfident() const noexcept {
-    return frequencyErrorHz > 0.0 && frequencyErrorHz < 0.005 * frequencyHz && decayErrorPerSecond < 0.05 * decayPerSecond && residualShare < 0.5;
+    return frequencyErrorHz > 0.0 && frequencyErrorHz < 0.005 * frequencyHz &&
+           decayErrorPerSecond < 0.05 * decayPerSecond && residualShare < 0.5;
 }
 
-Result<ContactSound> extractMaterial(const std::vector<float>& samples, double rateHz, ExtractionBand band, MaterialRule rule) {
+Result<ContactSound> extractMaterial(const std::vector<float>& samples, double rateHz, ExtractionBand band,
+                                     MaterialRule rule) {
     if (auto fault = faultOf(samples, rateHz, band); !fault.empty()) return Failure{std::move(fault)};
     const HitExcerpt hit = strongestHit(samples, rateHz);
     if (static_cast<double>(hit.end - hit.begin) < shortestSeconds * rateHz)
-        return Failure{"expected a hit and " + numberText(shortestSeconds) + " s after it, found its end" + placeOf(hit.end, rateHz)};
-    return rule == MaterialRule::fit ? byFit(samples, hit, rateHz, band) : byTwoPeaks(samples, hit, rateHz, band);
+        return Failure{"expected a hit and " + numberText(shortestSeconds) + " s after it, found its end" +
+                       placeOf(hit.end, rateHz)};
+    return rule == MaterialRule::fit ? byFit(samples, hit, rateHz, band)
+                                     : byTwoPeaks(samples, hit, rateHz, band);
 }
 
 } // namespace physvib

@@ -40,44 +40,53 @@ std::vector<double> spectrumOf(const AutoregressiveModel& model) {
     return all;
 }
 
-/// Hz between the two places where a peak has fallen to half; of a peak at an end of the band, twice what is there.
+/// Hz between the two places where a peak has fallen to half; of a peak at an end of the band, twice what is
+/// there.
 double halfWidthHz(const std::vector<double>& spectrum, std::size_t peak) {
     std::size_t low = peak, high = peak;
     while (low > 0 && spectrum[low] > 0.5 * spectrum[peak]) --low;
     while (high + 1 < spectrum.size() && spectrum[high] > 0.5 * spectrum[peak]) ++high;
-    const bool endsLow = spectrum[low] > 0.5 * spectrum[peak], endsHigh = spectrum[high] > 0.5 * spectrum[peak];
+    const bool endsLow = spectrum[low] > 0.5 * spectrum[peak],
+               endsHigh = spectrum[high] > 0.5 * spectrum[peak];
     if (endsLow && !endsHigh) low = peak - std::min(peak, high - peak), high += high - peak - (peak - low);
     if (endsHigh && !endsLow) high = peak + (peak - low);
     return stepHz * static_cast<double>(high - low);
 }
 
-/// How much of a grain's power is there, once for each: random spacings leave some of their mean rate's regularity, see decision 68.
+/// How much of a grain's power is there, once for each: random spacings leave some of their mean rate's
+/// regularity, see decision 68.
 double unevenPower() {
-    const double angle = std::numbers::pi * GrainChance::spacingRange / grainsPerPeriod, order = std::sin(angle) / angle;
+    const double angle = std::numbers::pi * GrainChance::spacingRange / grainsPerPeriod,
+                 order = std::sin(angle) / angle;
     const double mean = GrainChance::leastStrength + 0.5 * GrainChance::strengthRange;
-    return mean * mean + GrainChance::strengthRange * GrainChance::strengthRange / 12.0 - mean * mean * order * order;
+    return mean * mean + GrainChance::strengthRange * GrainChance::strengthRange / 12.0 -
+           mean * mean * order * order;
 }
 
 } // namespace
 
 Result<ScrapedTexture> textureOf(const AutoregressiveModel& model, const Scrape& scrape) {
-    if (!isStable(model.coefficients)) return Failure{"expected a model that comes to rest without noise, found one that grows"};
+    if (!isStable(model.coefficients))
+        return Failure{"expected a model that comes to rest without noise, found one that grows"};
     const std::vector<double> spectrum = spectrumOf(model);
     const auto highest = std::ranges::max_element(spectrum);
-    if (highest == spectrum.end() || !(*highest > 0.0) || !std::isfinite(*highest)) return Failure{"expected a model that is felt from 20 to 1000 Hz, found none"};
+    if (highest == spectrum.end() || !(*highest > 0.0) || !std::isfinite(*highest))
+        return Failure{"expected a model that is felt from 20 to 1000 Hz, found none"};
     const auto peak = static_cast<std::size_t>(highest - spectrum.begin());
     double power = 0.0;
     for (const double density : spectrum) power += density * stepHz;
     ScrapedTexture found;
     found.frequencyHz = lowHz + stepHz * static_cast<double>(peak);
-    found.decayPerSecond = std::clamp(std::numbers::pi * halfWidthHz(spectrum, peak), 0.5, limits::maxDecayPerSecond);
+    found.decayPerSecond =
+        std::clamp(std::numbers::pi * halfWidthHz(spectrum, peak), 0.5, limits::maxDecayPerSecond);
     found.grainsPerSecond = grainsPerPeriod * found.frequencyHz;
     found.texture.grainMetres = scrape.metresPerSecond / found.grainsPerSecond;
     const double omega = 2.0 * std::numbers::pi * found.frequencyHz, tau = found.decayPerSecond;
     // energy of exp(-tau t) sin(omega t)
     const double ringing = omega * omega / (4.0 * tau * (omega * omega + tau * tau));
     found.strength = std::sqrt(power / (found.grainsPerSecond * unevenPower() * ringing));
-    found.texture.roughness = found.strength / omega * scrape.massKg / grainImpulse(1.0, scrape.loadNewtons, scrape.metresPerSecond);
+    found.texture.roughness = found.strength / omega * scrape.massKg /
+                              grainImpulse(1.0, scrape.loadNewtons, scrape.metresPerSecond);
     if (const auto fault = faultOf(found.texture); !fault.empty()) return Failure{std::string{fault}};
     return found;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Start values from the residual's spectrum and matched filters; then all four numbers of every partial at once.
+// Start values from the residual's spectrum and matched filters; then all four numbers of every partial at
+// once.
 #include "Measure/PartialFit.h"
 #include "Measure/DecayingPhasor.h"
 #include "Measure/Spectrum.h"
@@ -10,7 +11,7 @@ namespace physvib {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double lowestHz = 10.0;     // below: drift, not vibration
+constexpr double lowestHz = 10.0;                   // below: drift, not vibration
 constexpr double leastTau = 0.01, mostTau = 5000.0; // a hum; a click
 
 /// Numbers of one partial in the order in which they stand in the equations.
@@ -50,11 +51,14 @@ double energyOf(std::span<const double> samples) {
 }
 
 Partial Partial::shifted(double seconds) const noexcept {
-    const double decay = std::exp(-tau * seconds), c = decay * std::cos(omega * seconds), s = decay * std::sin(omega * seconds);
+    const double decay = std::exp(-tau * seconds), c = decay * std::cos(omega * seconds),
+                 s = decay * std::sin(omega * seconds);
     return {omega, tau, cosine * c + sine * s, sine * c - cosine * s};
 }
 
-double Partial::spectralPeak(double seconds) const noexcept { return amplitude() * -std::expm1(-tau * seconds) / (2.0 * tau); }
+double Partial::spectralPeak(double seconds) const noexcept {
+    return amplitude() * -std::expm1(-tau * seconds) / (2.0 * tau);
+}
 
 PartialFit::PartialFit(std::span<const double> samples, double rateHz)
     : samples_{samples}
@@ -71,7 +75,8 @@ NormalEquations PartialFit::equationsOf(const std::vector<Partial>& partials) co
         for (std::size_t k = 0; k < partials.size(); ++k)
             for (std::size_t i = 0; i < count; ++i, phasors[k].next()) {
                 const Partial& p = partials[k];
-                const double t = static_cast<double>(first + i) / rateHz_, c = phasors[k].cosine(), s = phasors[k].sine();
+                const double t = static_cast<double>(first + i) / rateHz_, c = phasors[k].cosine(),
+                             s = phasors[k].sine();
                 columns[numbersEach * k][i] = c;
                 columns[numbersEach * k + 1][i] = s;
                 columns[numbersEach * k + 2][i] = t * (p.sine * c - p.cosine * s);
@@ -88,7 +93,9 @@ std::vector<double> PartialFit::residualOf(const std::vector<Partial>& partials)
     return rest;
 }
 
-double PartialFit::energyWith(const std::vector<Partial>& partials) const { return energyOf(residualOf(partials)); }
+double PartialFit::energyWith(const std::vector<Partial>& partials) const {
+    return energyOf(residualOf(partials));
+}
 
 // The spectrum of a decaying sine peaks at omega_p^2 = omega^2 - tau^2: below its frequency.
 void PartialFit::addHighest() {
@@ -110,10 +117,13 @@ void PartialFit::addHighest() {
 void PartialFit::solveLinear() {
     for (Partial& p : partials_) p.cosine = p.sine = 0.0;
     const std::vector<double> amplitudes = equationsOf(partials_).each(0, numbersEach, 2).step(1e-12);
-    for (std::size_t k = 0; k < partials_.size() && !amplitudes.empty(); ++k) partials_[k].cosine = amplitudes[2 * k], partials_[k].sine = amplitudes[2 * k + 1];
+    for (std::size_t k = 0; k < partials_.size() && !amplitudes.empty(); ++k)
+        partials_[k].cosine = amplitudes[2 * k], partials_[k].sine = amplitudes[2 * k + 1];
 }
 
-double PartialFit::allowedOmega(double omega, double rateHz) noexcept { return std::clamp(omega, 2.0 * pi * lowestHz, pi * rateHz); }
+double PartialFit::allowedOmega(double omega, double rateHz) noexcept {
+    return std::clamp(omega, 2.0 * pi * lowestHz, pi * rateHz);
+}
 double PartialFit::allowedTau(double tau) noexcept { return std::clamp(tau, leastTau, mostTau); }
 
 bool PartialFit::refine() {
@@ -121,25 +131,33 @@ bool PartialFit::refine() {
         for (std::size_t k = 0; k < partials.size(); ++k) {
             const double* const by = &step[numbersEach * k];
             Partial& p = partials[k];
-            p = {allowedOmega(p.omega + by[2], rateHz_), allowedTau(p.tau + by[3]), p.cosine + by[0], p.sine + by[1]};
+            p = {allowedOmega(p.omega + by[2], rateHz_), allowedTau(p.tau + by[3]), p.cosine + by[0],
+                 p.sine + by[1]};
         }
         return partials;
     };
-    return descend(partials_, [this](const auto& partials) { return energyWith(partials); }, [this](const auto& partials) { return equationsOf(partials); }, moved);
+    return descend(
+        partials_, [this](const auto& partials) { return energyWith(partials); },
+        [this](const auto& partials) { return equationsOf(partials); }, moved);
 }
 
 PartialError PartialFit::errorOf(std::size_t partial) const {
     const NormalEquations equations = equationsOf(partials_);
     if (samples_.size() <= equations.size()) return {HUGE_VAL, HUGE_VAL};
     const double variance = residualEnergy() / static_cast<double>(samples_.size() - equations.size());
-    return {equations.errorOf(numbersEach * partial + 2, variance), equations.errorOf(numbersEach * partial + 3, variance)};
+    return {equations.errorOf(numbersEach * partial + 2, variance),
+            equations.errorOf(numbersEach * partial + 3, variance)};
 }
 
 double highestPeakHz(std::span<const double> samples, double rateHz, double lowHz, double highHz) {
     const std::vector<double> all = magnitudes(samples);
     const double binHz = 0.5 * rateHz / static_cast<double>(all.size() - 1);
-    const auto bin = [&](double hz) { return std::clamp<std::ptrdiff_t>(std::lround(hz / binHz), 1, static_cast<std::ptrdiff_t>(all.size()) - 2); };
-    const auto highest = std::max_element(all.begin() + bin(lowHz), all.begin() + bin(highHz) + 1) - all.begin();
+    const auto bin = [&](double hz) {
+        return std::clamp<std::ptrdiff_t>(std::lround(hz / binHz), 1,
+                                          static_cast<std::ptrdiff_t>(all.size()) - 2);
+    };
+    const auto highest =
+        std::max_element(all.begin() + bin(lowHz), all.begin() + bin(highHz) + 1) - all.begin();
     double low = static_cast<double>(highest - 1) * binHz, high = static_cast<double>(highest + 1) * binHz;
     const auto height = [&](double hz) {
         const auto point = pointOfSpectrum(samples, rateHz, 2.0 * pi * hz, 0.0);
@@ -147,8 +165,10 @@ double highestPeakHz(std::span<const double> samples, double rateHz, double lowH
     };
     while (high - low > 1e-3 * binHz) { // one maximum between neighbours of the highest bin
         const double third = (high - low) / 3.0;
-        if (height(low + third) < height(high - third)) low += third;
-        else high -= third;
+        if (height(low + third) < height(high - third))
+            low += third;
+        else
+            high -= third;
     }
     return std::clamp(0.5 * (low + high), lowHz, highHz);
 }

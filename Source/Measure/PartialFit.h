@@ -16,7 +16,8 @@ struct Partial {
 
     double amplitude() const noexcept { return std::hypot(cosine, sine); }
     double at(double seconds) const noexcept {
-        return std::exp(-tau * seconds) * (cosine * std::cos(omega * seconds) + sine * std::sin(omega * seconds));
+        return std::exp(-tau * seconds) *
+               (cosine * std::cos(omega * seconds) + sine * std::sin(omega * seconds));
     }
     /// The same sound, told from a first sample that is `seconds` later.
     Partial shifted(double seconds) const noexcept;
@@ -35,7 +36,8 @@ public:
     /// `samples` outlive the fit.
     PartialFit(std::span<const double> samples, double rateHz);
 
-    /// Adds the partial under the highest peak of what is left, where it takes most of it away; not refined yet.
+    /// Adds the partial under the highest peak of what is left, where it takes most of it away; not refined
+    /// yet.
     void addHighest();
 
     /// Takes a partial as a start.
@@ -67,7 +69,8 @@ private:
 /// The sum of their squares. Any thread.
 double energyOf(std::span<const double> samples);
 
-/// Frequency in Hz, between `lowHz` and `highHz`, of the highest peak in the magnitude spectrum, to a thousandth of a bin.
+/// Frequency in Hz, between `lowHz` and `highHz`, of the highest peak in the magnitude spectrum, to a
+/// thousandth of a bin.
 double highestPeakHz(std::span<const double> samples, double rateHz, double lowHz, double highHz);
 
 } // namespace physvib

@@ -12,9 +12,11 @@ struct Peak {
     double at, height;
 };
 
-/// The vertex of the parabola through x[i - 1], x[i] and x[i + 1], of which the middle one is the highest. Any thread.
+/// The vertex of the parabola through x[i - 1], x[i] and x[i + 1], of which the middle one is the highest.
+/// Any thread.
 inline Peak vertex(std::span<const double> x, std::size_t i) {
-    const double bend = x[i - 1] - 2.0 * x[i] + x[i + 1], at = bend < 0.0 ? 0.5 * (x[i - 1] - x[i + 1]) / bend : 0.0;
+    const double bend = x[i - 1] - 2.0 * x[i] + x[i + 1],
+                 at = bend < 0.0 ? 0.5 * (x[i - 1] - x[i + 1]) / bend : 0.0;
     return {static_cast<double>(i) + at, x[i] - 0.25 * (x[i - 1] - x[i + 1]) * at};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two channels are one complex signal z = a + ib: |Z(k)|^2 + |Z(-k)|^2 = 2 (|A(k)|^2 + |B(k)|^2), so a transform does for both.
+// Two channels are one complex signal z = a + ib: |Z(k)|^2 + |Z(-k)|^2 = 2 (|A(k)|^2 + |B(k)|^2), so a
+// transform does for both.
 #include "Measure/PowerSpectrum.h"
 #include <algorithm>
 #include <bit>
@@ -25,13 +26,16 @@ struct PowerSpectrum::State {
         , channels{count}
         , pairs(static_cast<std::size_t>(count + 1) / 2, Pair{Bins(2 * hop), {}})
         , power(hop + 1) {
-        for (std::size_t i = 0; i < 2 * hop; ++i) hann.push_back(static_cast<float>(0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(hop))));
+        for (std::size_t i = 0; i < 2 * hop; ++i)
+            hann.push_back(static_cast<float>(
+                0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(hop))));
     }
 
     /// A sample of each channel stands at `kept` of the last half.
     void next() {
         for (Pair& pair : pairs) {
-            pair.window[hop + kept] = std::complex{pair.sums[0], pair.sums[1]} / static_cast<float>(framesPerSample);
+            pair.window[hop + kept] =
+                std::complex{pair.sums[0], pair.sums[1]} / static_cast<float>(framesPerSample);
             pair.sums[0] = pair.sums[1] = 0.0f;
         }
         summed = 0;
@@ -44,7 +48,10 @@ struct PowerSpectrum::State {
         if (std::ranges::any_of(window, [](const auto& z) { return z != std::complex<float>{}; })) {
             for (std::size_t i = 0; i < weighted.size(); ++i) weighted[i] = hann[i] * window[i];
             fft.fwd(bins, weighted);
-            for (std::size_t k = 0; k < hop; ++k) power[k] += static_cast<double>(std::norm(bins[k]) + std::norm(bins[(2 * hop - k) % (2 * hop)])) * (k == 0 ? 0.5 : 1.0);
+            for (std::size_t k = 0; k < hop; ++k)
+                power[k] +=
+                    static_cast<double>(std::norm(bins[k]) + std::norm(bins[(2 * hop - k) % (2 * hop)])) *
+                    (k == 0 ? 0.5 : 1.0);
             power[hop] += static_cast<double>(std::norm(bins[hop])); // as 0 Hz, its own mirror
         }
         std::copy(window.begin() + static_cast<std::ptrdiff_t>(hop), window.end(), window.begin());

@@ -6,8 +6,9 @@
 
 namespace physvib {
 
-/// Welch's mean of short spectra, by Hann windows that overlap by half; of all channels together. What no hand feels (above keptRateHz / 2) is
-/// not told apart: faster samples are means of a few. M only (allocates).
+/// Welch's mean of short spectra, by Hann windows that overlap by half; of all channels together. What no
+/// hand feels (above keptRateHz / 2) is not told apart: faster samples are means of a few. M only
+/// (allocates).
 class PowerSpectrum {
 public:
     static constexpr int keptRateHz = 8000; ///< at least, where there are as many

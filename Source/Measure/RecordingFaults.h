@@ -10,10 +10,13 @@
 
 namespace physvib {
 
-inline std::string placeOf(std::size_t sample, double rateHz) { return " at " + fixedNumber(static_cast<double>(sample) / rateHz, 4) + " s"; }
+inline std::string placeOf(std::size_t sample, double rateHz) {
+    return " at " + fixedNumber(static_cast<double>(sample) / rateHz, 4) + " s";
+}
 
-/// Empty, or that the recording is clipped: three equal samples at the very peak between steep flanks. Rounding flattens peaks as well, but then the next
-/// sample is few steps lower; `step` is the smallest difference in the recording.
+/// Empty, or that the recording is clipped: three equal samples at the very peak between steep flanks.
+/// Rounding flattens peaks as well, but then the next sample is few steps lower; `step` is the smallest
+/// difference in the recording.
 inline std::string clippingFault(const std::vector<float>& x, double rateHz) {
     float peak = 0.0f, step = HUGE_VALF;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -24,9 +27,11 @@ inline std::string clippingFault(const std::vector<float>& x, double rateHz) {
         if (std::abs(x[i]) < peak || x[i + 1] != x[i] || x[i + 2] != x[i]) continue;
         std::size_t after = i + 3;
         while (after < x.size() && x[after] == x[i]) ++after;
-        const float before = i > 0 ? std::abs(x[i] - x[i - 1]) : 0.0f, behind = after < x.size() ? std::abs(x[i] - x[after]) : 0.0f;
+        const float before = i > 0 ? std::abs(x[i] - x[i - 1]) : 0.0f,
+                    behind = after < x.size() ? std::abs(x[i] - x[after]) : 0.0f;
         if (std::max(before, behind) > 8.0f * step)
-            return "expected a recording that is not clipped, found " + std::to_string(after - i) + " equal samples at its peak" + placeOf(i, rateHz);
+            return "expected a recording that is not clipped, found " + std::to_string(after - i) +
+                   " equal samples at its peak" + placeOf(i, rateHz);
         i = after;
     }
     return {};
@@ -39,10 +44,12 @@ inline bool isSilent(const std::vector<float>& x) {
 /// Empty, or that it is too short or holds samples that are no samples.
 inline std::string recordingFault(const std::vector<float>& x, double rateHz, double shortestSeconds) {
     if (static_cast<double>(x.size()) < shortestSeconds * rateHz)
-        return "expected at least " + numberText(shortestSeconds) + " s, found " + std::to_string(x.size()) + (x.size() == 1 ? " sample" : " samples");
+        return "expected at least " + numberText(shortestSeconds) + " s, found " + std::to_string(x.size()) +
+               (x.size() == 1 ? " sample" : " samples");
     const auto bad = std::ranges::find_if(x, [](float s) { return !std::isfinite(s) || std::abs(s) > 1e6f; });
     if (bad == x.end()) return {};
-    return "expected finite samples, found " + std::string(std::isnan(*bad) ? "NaN" : "infinity") + placeOf(static_cast<std::size_t>(bad - x.begin()), rateHz);
+    return "expected finite samples, found " + std::string(std::isnan(*bad) ? "NaN" : "infinity") +
+           placeOf(static_cast<std::size_t>(bad - x.begin()), rateHz);
 }
 
 } // namespace physvib

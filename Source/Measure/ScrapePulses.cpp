@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Smoothing by cos^4 and its derivatives; the ringing by weighted least squares, of which the past is the instrument.
+// Smoothing by cos^4 and its derivatives; the ringing by weighted least squares, of which the past is the
+// instrument.
 #include "Measure/ScrapePulses.h"
 #include <Eigen/Dense>
 #include <algorithm>
@@ -20,7 +21,8 @@ struct Smoothing {
         const double turn = 0.5 * std::numbers::pi / steps, perSecond = turn * rateHz;
         double area = 0.0;
         for (std::size_t i = 0; i <= 2 * reach; ++i) {
-            const double phase = turn * (static_cast<double>(i) - static_cast<double>(reach)), c = std::cos(phase), s = std::sin(phase);
+            const double phase = turn * (static_cast<double>(i) - static_cast<double>(reach)),
+                         c = std::cos(phase), s = std::sin(phase);
             value.push_back(c * c * c * c);
             slope.push_back(-4.0 * perSecond * c * c * c * s);
             bend.push_back(perSecond * perSecond * (12.0 * c * c * s * s - 4.0 * c * c * c * c));
@@ -34,7 +36,8 @@ struct Smoothing {
 };
 
 /// `kernel` * x at every `step`-th sample that has so many on both sides.
-std::vector<double> convolved(std::span<const double> x, const std::vector<double>& kernel, std::size_t step) {
+std::vector<double> convolved(std::span<const double> x, const std::vector<double>& kernel,
+                              std::size_t step) {
     std::vector<double> all;
     for (std::size_t n = kernel.size(); n <= x.size(); n += step) {
         double sum = 0.0;
@@ -44,11 +47,15 @@ std::vector<double> convolved(std::span<const double> x, const std::vector<doubl
     return all;
 }
 
-Eigen::Map<const Eigen::ArrayXd> mapped(const std::vector<double>& x) { return {x.data(), static_cast<Eigen::Index>(x.size())}; }
+Eigen::Map<const Eigen::ArrayXd> mapped(const std::vector<double>& x) {
+    return {x.data(), static_cast<Eigen::Index>(x.size())};
+}
 
-/// 2 tau, omega^2 + tau^2 and minus what lies under the blows, such that bend + [0] slope + [1] value + [2] is small nearly always. Noise in
-/// the regressors would make ringing look shorter; what was `lag` heights before has other noise, and knows nothing of the blows that come.
-std::optional<Eigen::Vector3d> ringing(const std::vector<double>& value, const std::vector<double>& slope, const std::vector<double>& bend, Eigen::Index lag) {
+/// 2 tau, omega^2 + tau^2 and minus what lies under the blows, such that bend + [0] slope + [1] value + [2]
+/// is small nearly always. Noise in the regressors would make ringing look shorter; what was `lag` heights
+/// before has other noise, and knows nothing of the blows that come.
+std::optional<Eigen::Vector3d> ringing(const std::vector<double>& value, const std::vector<double>& slope,
+                                       const std::vector<double>& bend, Eigen::Index lag) {
     constexpr int rounds = 20;
     constexpr double least = 0.02; // of the rms; who is nearer counts no more than that
     const Eigen::Index rows = static_cast<Eigen::Index>(value.size()) - lag;
@@ -78,12 +85,15 @@ double skewnessOf(const std::vector<double>& x) {
 
 } // namespace
 
-std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double rateHz, double halfWidthSeconds) {
+std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double rateHz,
+                                         double halfWidthSeconds) {
     const auto reach = static_cast<std::size_t>(std::lround(halfWidthSeconds * rateHz));
     if (reach < fewestSamples || samples.size() < 100 * reach) return std::nullopt;
     const Smoothing smoothing{reach, rateHz};
     const std::size_t step = std::max<std::size_t>(1, reach / 8);
-    const auto value = convolved(samples, smoothing.value, step), slope = convolved(samples, smoothing.slope, step), bend = convolved(samples, smoothing.bend, step);
+    const auto value = convolved(samples, smoothing.value, step),
+               slope = convolved(samples, smoothing.slope, step),
+               bend = convolved(samples, smoothing.bend, step);
     const auto found = ringing(value, slope, bend, static_cast<Eigen::Index>(2 * reach / step + 2));
     if (!found) return std::nullopt;
     const double tau = 0.5 * (*found)[0], omega2 = (*found)[1] - tau * tau;
@@ -93,7 +103,9 @@ std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double
     pulses.decayPerSecond = tau;
     pulses.heightsPerSecond = rateHz / static_cast<double>(step);
     const double highest = smoothing.value[reach] * rateHz * std::sqrt(omega2);
-    for (std::size_t n = 0; n < value.size(); ++n) pulses.heights.push_back((bend[n] + (*found)[0] * slope[n] + (*found)[1] * value[n] + (*found)[2]) / highest);
+    for (std::size_t n = 0; n < value.size(); ++n)
+        pulses.heights.push_back((bend[n] + (*found)[0] * slope[n] + (*found)[1] * value[n] + (*found)[2]) /
+                                 highest);
     pulses.skewness = skewnessOf(pulses.heights);
     if (pulses.skewness < 0.0) { // recorded upside down
         for (double& height : pulses.heights) height = -height;

@@ -15,12 +15,14 @@ struct ScrapePulses {
     double skewness = 0.0; ///< of the heights: noise has none
 };
 
-/// `samples` are smoothed over halfWidthSeconds to both sides; x'' + 2 tau x' + (omega^2 + tau^2) x, which is nothing but
-/// the blows, then has the tau and omega that leave most of the time as nothing. None if no decaying sinusoid does, or
-/// where the width is less than a few samples. M only.
-std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double rateHz, double halfWidthSeconds);
+/// `samples` are smoothed over halfWidthSeconds to both sides; x'' + 2 tau x' + (omega^2 + tau^2) x, which is
+/// nothing but the blows, then has the tau and omega that leave most of the time as nothing. None if no
+/// decaying sinusoid does, or where the width is less than a few samples. M only.
+std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double rateHz,
+                                         double halfWidthSeconds);
 
-/// x', smoothed over halfWidthSeconds to both sides: one value for each sample that has so many on both. M only.
+/// x', smoothed over halfWidthSeconds to both sides: one value for each sample that has so many on both. M
+/// only.
 std::vector<double> smoothSlope(std::span<const double> samples, double rateHz, double halfWidthSeconds);
 
 } // namespace physvib

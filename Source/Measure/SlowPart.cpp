@@ -9,7 +9,8 @@
 namespace physvib {
 namespace {
 
-/// Of samples in which what is no number counts as silence, as for the limiter, and nothing is so high that a sum would not forget it.
+/// Of samples in which what is no number counts as silence, as for the limiter, and nothing is so high that a
+/// sum would not forget it.
 class Heard {
 public:
     Heard(std::span<const float> samples, double fullScale)
@@ -57,7 +58,8 @@ public:
 private:
     Heard samples_;
     std::ptrdiff_t reach_, next_;
-    double ahead_ = 0.0, behind_ = 0.0; // sums of the 2 reach_ + 1 samples around next_ + reach_ and next_ - reach_ - 1
+    double ahead_ = 0.0, behind_ = 0.0; // sums of the 2 reach_ + 1 samples around next_ + reach_ and next_ -
+                                        // reach_ - 1
     double sum_ = 0.0;                  // of the 2 reach_ + 1 such sums around next_
 };
 
@@ -65,7 +67,8 @@ private:
 
 SlowPart takeSlowPart(std::vector<float>& samples, double sampleRateHz, double fullScale) {
     SlowPart taken;
-    if (!(fullScale > 0.0) || static_cast<double>(samples.size()) < SlowPart::leastSeconds * sampleRateHz) return taken;
+    if (!(fullScale > 0.0) || static_cast<double>(samples.size()) < SlowPart::leastSeconds * sampleRateHz)
+        return taken;
     const Heard heard{samples, fullScale};
     if (const double mean = heard.mean(); std::abs(mean) >= SlowPart::leastMean * fullScale) {
         taken.mean = std::abs(mean) / fullScale;
@@ -85,8 +88,12 @@ SlowPart takeSlowPart(std::vector<float>& samples, double sampleRateHz, double f
 
 std::string SlowPart::text() const {
     if (!isAny()) return {};
-    const std::string ofMean = mean != 0.0 ? "a mean of " + fixedNumber(mean, 2) : "", ofRest = rest != 0.0 ? "up to " + fixedNumber(rest, 2) + (mean != 0.0 ? " beside it" : "") : "";
-    return "what lies below " + numberText(limits::slowestToneHz) + " Hz is not played: " + ofMean + (mean != 0.0 && rest != 0.0 ? ", and " : "") + ofRest + ", of full scale";
+    const std::string ofMean = mean != 0.0 ? "a mean of " + fixedNumber(mean, 2) : "",
+                      ofRest = rest != 0.0
+                                   ? "up to " + fixedNumber(rest, 2) + (mean != 0.0 ? " beside it" : "")
+                                   : "";
+    return "what lies below " + numberText(limits::slowestToneHz) + " Hz is not played: " + ofMean +
+           (mean != 0.0 && rest != 0.0 ? ", and " : "") + ofRest + ", of full scale";
 }
 
 } // namespace physvib

@@ -8,11 +8,12 @@
 
 namespace physvib {
 
-/// sum x[i] exp(-(tau + i omega) i / rateHz): the spectrum at tau = 0, a matched filter otherwise. Any thread.
+/// sum x[i] exp(-(tau + i omega) i / rateHz): the spectrum at tau = 0, a matched filter otherwise. Any
+/// thread.
 Complex<double> pointOfSpectrum(std::span<const double> samples, double rateHz, double omega, double tau);
 
-/// Magnitudes of bins 0 to n/2 of the n points to which the samples are padded (at least twice as many, a power of two);
-/// bin k is k rateHz / n. M only (allocates).
+/// Magnitudes of bins 0 to n/2 of the n points to which the samples are padded (at least twice as many, a
+/// power of two); bin k is k rateHz / n. M only (allocates).
 std::vector<double> magnitudes(std::span<const double> samples);
 
 /// sum x[i] x[i + lag], for lags of 0 to size - 1. M only (allocates).

@@ -13,7 +13,8 @@ constexpr std::size_t numbersEach = 3;
 } // namespace
 
 std::size_t StruckFit::firstOf(const State& state) const {
-    return std::min(samples_.size(), static_cast<std::size_t>(std::max(0.0, std::ceil(state.onset * rateHz_))));
+    return std::min(samples_.size(),
+                    static_cast<std::size_t>(std::max(0.0, std::ceil(state.onset * rateHz_))));
 }
 
 std::vector<double> StruckFit::residual(const State& state) const {
@@ -21,7 +22,8 @@ std::vector<double> StruckFit::residual(const State& state) const {
     const std::size_t first = firstOf(state);
     for (const StruckPartial& p : state.partials) {
         DecayingPhasor phasor{p.omega, p.tau, rateHz_, static_cast<double>(first) / rateHz_ - state.onset};
-        for (std::size_t i = first; i < rest.size(); ++i, phasor.next()) rest[i] -= p.amplitude * phasor.sine();
+        for (std::size_t i = first; i < rest.size(); ++i, phasor.next())
+            rest[i] -= p.amplitude * phasor.sine();
     }
     return rest;
 }
@@ -42,7 +44,8 @@ NormalEquations StruckFit::equationsOf(const State& state) const {
         for (std::size_t k = 0; k < state.partials.size(); ++k)
             for (std::size_t i = 0; i < count; ++i, phasors[k].next()) {
                 const StruckPartial& p = state.partials[k];
-                const double t = begin + static_cast<double>(at - first + i) / rateHz_, c = phasors[k].cosine(), s = phasors[k].sine();
+                const double t = begin + static_cast<double>(at - first + i) / rateHz_,
+                             c = phasors[k].cosine(), s = phasors[k].sine();
                 columns[0][i] += p.amplitude * (p.tau * s - p.omega * c);
                 columns[1 + numbersEach * k][i] = t * p.amplitude * c;
                 columns[2 + numbersEach * k][i] = -t * p.amplitude * s;
@@ -67,13 +70,15 @@ StruckFit::State StruckFit::moved(const State& from, std::span<const double> ste
     for (std::size_t k = 0; k < to.partials.size(); ++k) {
         const auto by = step.subspan(1 + numbersEach * k, numbersEach);
         StruckPartial& p = to.partials[k];
-        p = {PartialFit::allowedOmega(p.omega + by[0], rateHz_), PartialFit::allowedTau(p.tau + by[1]), p.amplitude + by[2]};
+        p = {PartialFit::allowedOmega(p.omega + by[0], rateHz_), PartialFit::allowedTau(p.tau + by[1]),
+             p.amplitude + by[2]};
     }
     return to;
 }
 
 // A partial is at rest where its phase passes zero, either way: each offers the moment next to the onset.
-StruckFit::StruckFit(std::span<const double> samples, double rateHz, std::size_t onset, std::span<const Partial> partials)
+StruckFit::StruckFit(std::span<const double> samples, double rateHz, std::size_t onset,
+                     std::span<const Partial> partials)
     : samples_{samples}
     , rateHz_{rateHz} {
     for (const Partial& p : partials) state_.partials.push_back({p.omega, p.tau, 0.0});
@@ -91,8 +96,10 @@ StruckFit::StruckFit(std::span<const double> samples, double rateHz, std::size_t
 }
 
 bool StruckFit::refine() {
-    return descend(state_, [this](const State& s) { return energyOf(s); }, [this](const State& s) { return equationsOf(s); },
-                   [this](const State& s, std::span<const double> step) { return moved(s, step); });
+    return descend(
+        state_, [this](const State& s) { return energyOf(s); },
+        [this](const State& s) { return equationsOf(s); },
+        [this](const State& s, std::span<const double> step) { return moved(s, step); });
 }
 
 std::vector<Partial> StruckFit::partials() const {
@@ -105,7 +112,8 @@ PartialError StruckFit::errorOf(std::size_t partial) const {
     const NormalEquations equations = equationsOf(state_);
     if (samples_.size() <= equations.size()) return {HUGE_VAL, HUGE_VAL};
     const double variance = residualEnergy() / static_cast<double>(samples_.size() - equations.size());
-    return {equations.errorOf(1 + numbersEach * partial, variance), equations.errorOf(2 + numbersEach * partial, variance)};
+    return {equations.errorOf(1 + numbersEach * partial, variance),
+            equations.errorOf(2 + numbersEach * partial, variance)};
 }
 
 } // namespace physvib

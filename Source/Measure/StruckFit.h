@@ -13,12 +13,14 @@ struct StruckPartial {
     double omega = 0.0, tau = 0.0, amplitude = 0.0;
 };
 
-/// Samples x[i] at i / rateHz seconds; silence before the onset, which lies at a fraction of a sample. One number fewer per
-/// partial than with free phases, so that overlapping ones stay apart. M only.
+/// Samples x[i] at i / rateHz seconds; silence before the onset, which lies at a fraction of a sample. One
+/// number fewer per partial than with free phases, so that overlapping ones stay apart. M only.
 class StruckFit {
 public:
-    /// `samples` outlive the fit. The partials' phases and amplitudes are only hints for the onset: time 0 is sample `onset`.
-    StruckFit(std::span<const double> samples, double rateHz, std::size_t onset, std::span<const Partial> partials);
+    /// `samples` outlive the fit. The partials' phases and amplitudes are only hints for the onset: time 0 is
+    /// sample `onset`.
+    StruckFit(std::span<const double> samples, double rateHz, std::size_t onset,
+              std::span<const Partial> partials);
 
     bool refine();
     double residualEnergy() const { return energyOf(state_); }

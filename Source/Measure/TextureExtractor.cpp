@@ -16,12 +16,15 @@ constexpr double shortestSeconds = 0.5, mostSeconds = 8.0;
 constexpr std::size_t mostSamples = 400'000; // a second of arithmetic, 50 MB
 
 std::vector<double> middleOf(const std::vector<float>& x, double rateHz) {
-    const std::size_t size = std::min({x.size(), mostSamples, static_cast<std::size_t>(mostSeconds * rateHz)}), from = (x.size() - size) / 2;
+    const std::size_t size =
+                          std::min({x.size(), mostSamples, static_cast<std::size_t>(mostSeconds * rateHz)}),
+                      from = (x.size() - size) / 2;
     const auto begin = x.begin() + static_cast<std::ptrdiff_t>(from);
     return {begin, begin + static_cast<std::ptrdiff_t>(size)};
 }
 
-/// Products of x with itself `lag` later, as shares of what the stronger of both parts has: what dies away is not alike.
+/// Products of x with itself `lag` later, as shares of what the stronger of both parts has: what dies away is
+/// not alike.
 std::vector<double> likenessOf(std::span<const double> x) {
     std::vector<double> likeness = autocorrelation(x), energy{0.0};
     for (const double sample : x) energy.push_back(energy.back() + sample * sample);
@@ -33,11 +36,14 @@ std::vector<double> likenessOf(std::span<const double> x) {
 }
 
 Peak highestWithin(std::span<const double> x, std::size_t from, std::size_t to) {
-    return vertex(x, static_cast<std::size_t>(std::max_element(x.begin() + static_cast<std::ptrdiff_t>(from), x.begin() + static_cast<std::ptrdiff_t>(to)) - x.begin()));
+    return vertex(x, static_cast<std::size_t>(std::max_element(x.begin() + static_cast<std::ptrdiff_t>(from),
+                                                               x.begin() + static_cast<std::ptrdiff_t>(to)) -
+                                              x.begin()));
 }
 
-/// Repetitions in a second of what repeats steadily, within 0.1 %, as ridges do that are passed too fast to be told from what rings; 0 if
-/// nothing does. By the autocorrelation of the slope: far from 0 what rings is gone, what repeats is not.
+/// Repetitions in a second of what repeats steadily, within 0.1 %, as ridges do that are passed too fast to
+/// be told from what rings; 0 if nothing does. By the autocorrelation of the slope: far from 0 what rings is
+/// gone, what repeats is not.
 double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
     constexpr double smoothSeconds = 0.00025, leastLikeness = 0.6;
     const std::vector<double> slope = smoothSlope(samples, rateHz, smoothSeconds);
@@ -50,10 +56,14 @@ double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
     double lag = 0.0;
     for (std::size_t i = 1; lag == 0.0 && i + 1 < n / 2; ++i)
         if (isPeak(likeness, i))
-            if (const Peak peak = vertex(likeness, i); peak.height >= 1.0 - 3.0 * (1.0 - far) - 0.003) lag = peak.at;
+            if (const Peak peak = vertex(likeness, i); peak.height >= 1.0 - 3.0 * (1.0 - far) - 0.003)
+                lag = peak.at;
     // the longer, the finer
     for (double times = 2.0; lag > 4.0 && lag * times < 0.5 * static_cast<double>(n) - lag; times *= 2.0)
-        lag = highestWithin(likeness, static_cast<std::size_t>((times - 0.25) * lag), static_cast<std::size_t>((times + 0.25) * lag) + 2).at / times;
+        lag = highestWithin(likeness, static_cast<std::size_t>((times - 0.25) * lag),
+                            static_cast<std::size_t>((times + 0.25) * lag) + 2)
+                  .at /
+              times;
     return lag > 4.0 ? rateHz / lag : 0.0;
 }
 
@@ -69,8 +79,10 @@ void tellWhatRings(ScrapedTexture& found, const GrainTrain& train) {
 
 } // namespace
 
-Result<ScrapedTexture> extractTexture(const std::vector<float>& samples, double rateHz, const Scrape& scrape) {
-    if (auto fault = recordingFault(samples, rateHz, shortestSeconds); !fault.empty()) return Failure{std::move(fault)};
+Result<ScrapedTexture> extractTexture(const std::vector<float>& samples, double rateHz,
+                                      const Scrape& scrape) {
+    if (auto fault = recordingFault(samples, rateHz, shortestSeconds); !fault.empty())
+        return Failure{std::move(fault)};
     if (isSilent(samples)) return Failure{"expected a scrape, found silence"};
     if (auto fault = clippingFault(samples, rateHz); !fault.empty()) return Failure{std::move(fault)};
     const std::vector<double> x = middleOf(samples, rateHz);
@@ -79,10 +91,13 @@ Result<ScrapedTexture> extractTexture(const std::vector<float>& samples, double 
     ScrapedTexture found;
     found.texture.pattern = isRandom ? GrainPattern::random : GrainPattern::regular;
     found.grainsPerSecond = isCounted ? train->perSecond : repetitionsPerSecond(x, rateHz);
-    if (!(found.grainsPerSecond > 0.0)) return Failure{"expected a scrape whose grains stand out or repeat, found none that do"};
+    if (!(found.grainsPerSecond > 0.0))
+        return Failure{"expected a scrape whose grains stand out or repeat, found none that do"};
     if (isCounted) tellWhatRings(found, *train);
     found.texture.grainMetres = scrape.metresPerSecond / found.grainsPerSecond;
-    if (found.strength > 0.0) found.texture.roughness = found.strength * scrape.massKg / grainImpulse(1.0, scrape.loadNewtons, scrape.metresPerSecond);
+    if (found.strength > 0.0)
+        found.texture.roughness =
+            found.strength * scrape.massKg / grainImpulse(1.0, scrape.loadNewtons, scrape.metresPerSecond);
     if (const auto fault = faultOf(found.texture); !fault.empty()) return Failure{std::string{fault}};
     return found;
 }

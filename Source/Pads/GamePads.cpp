@@ -32,7 +32,8 @@ private:
 };
 
 std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -59,7 +60,8 @@ GamePadInfo infoOf(const SdlLibrary& sdl, int index) {
     info.name = name ? name : "a controller without a name";
     info.id = sdl.JoystickGetDeviceInstanceID(index);
     info.bus = busOf(sdl.JoystickGetDeviceGUID(index));
-    const auto type = sdl.IsGameController(index) ? sdl.GameControllerTypeForIndex(index) : SDL_CONTROLLER_TYPE_UNKNOWN;
+    const auto type =
+        sdl.IsGameController(index) ? sdl.GameControllerTypeForIndex(index) : SDL_CONTROLLER_TYPE_UNKNOWN;
     info.profile = profileOf(type);
     info.isDualSense = type == SDL_CONTROLLER_TYPE_PS5;
     return info;
@@ -91,16 +93,22 @@ public:
     bool isAttached() override { return sdl_.JoystickGetAttached(joystick_); }
     bool rumble(double low, double high) override {
         hasRumbled_ = true;
-        const auto word = [](double command) { return static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(command, 0.0, 1.0))); };
+        const auto word = [](double command) {
+            return static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(command, 0.0, 1.0)));
+        };
         const auto ms = low > 0.0 || high > 0.0 ? static_cast<std::uint32_t>(padTimeOut.count()) : 0u;
         return sdl_.JoystickRumble(joystick_, word(low), word(high), ms) == 0;
     }
     bool acceleration(std::array<float, 3>& metresPerSecond2) override {
         if (!info_.hasAccelerometer) return false;
-        if (!isSensing_) isSensing_ = sdl_.GameControllerSetSensorEnabled(controller_, SDL_SENSOR_ACCEL, SDL_TRUE) == 0;
-        return isSensing_ && sdl_.GameControllerGetSensorData(controller_, SDL_SENSOR_ACCEL, metresPerSecond2.data(), 3) == 0;
+        if (!isSensing_)
+            isSensing_ = sdl_.GameControllerSetSensorEnabled(controller_, SDL_SENSOR_ACCEL, SDL_TRUE) == 0;
+        return isSensing_ && sdl_.GameControllerGetSensorData(controller_, SDL_SENSOR_ACCEL,
+                                                              metresPerSecond2.data(), 3) == 0;
     }
-    bool sendEffect(const void* bytes, int size) override { return controller_ && sdl_.GameControllerSendEffect(controller_, bytes, size) == 0; }
+    bool sendEffect(const void* bytes, int size) override {
+        return controller_ && sdl_.GameControllerSendEffect(controller_, bytes, size) == 0;
+    }
 
 private:
     const SdlLibrary& sdl_;
@@ -122,7 +130,9 @@ bool take(std::int64_t id) {
 // A host that uses SDL itself keeps what it has asked for.
 void giveHints(const SdlLibrary& sdl, GamePads::Driver driver) {
     if (sdl.WasInit(SDL_INIT_JOYSTICK) != 0) return;
-    const auto hint = [&](const char* name, const char* value) { sdl.SetHintWithPriority(name, value, SDL_HINT_DEFAULT); };
+    const auto hint = [&](const char* name, const char* value) {
+        sdl.SetHintWithPriority(name, value, SDL_HINT_DEFAULT);
+    };
     sdl.SetMainReady();
     hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     hint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
@@ -136,7 +146,9 @@ void giveHints(const SdlLibrary& sdl, GamePads::Driver driver) {
 
 } // namespace
 
-const char* busName(PadBus bus) noexcept { return bus == PadBus::usb ? "usb" : bus == PadBus::bluetooth ? "bluetooth" : "other"; }
+const char* busName(PadBus bus) noexcept {
+    return bus == PadBus::usb ? "usb" : bus == PadBus::bluetooth ? "bluetooth" : "other";
+}
 double mostCommandsPerSecond(PadBus bus) noexcept { return bus == PadBus::usb ? 125.0 : 30.0; }
 
 GamePads::GamePads(Driver driver)

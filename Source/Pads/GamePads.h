@@ -27,7 +27,8 @@ const char* busName(PadBus bus) noexcept;
 /// What that connection takes; closer commands queue up and are felt late (Docs/pads.md).
 double mostCommandsPerSecond(PadBus bus) noexcept;
 
-/// How often it has to be told again: a command is over after this time, whatever becomes of the program that sent it.
+/// How often it has to be told again: a command is over after this time, whatever becomes of the program that
+/// sent it.
 constexpr std::chrono::milliseconds padTimeOut{200};
 
 /// One that is open, which nobody else in the process has. Its methods on any thread, one at a time.
@@ -47,8 +48,8 @@ public:
 /// While it lives, SDL knows of controllers; motors of those that it opened are at rest when they are closed.
 class GamePads {
 public:
-    /// Whose driver is asked for reports that only it knows (SDL's own), instead of the system's, which stops motors when a program is
-    /// killed. Counts for the first of a process.
+    /// Whose driver is asked for reports that only it knows (SDL's own), instead of the system's, which stops
+    /// motors when a program is killed. Counts for the first of a process.
     enum class Driver { system, sdl };
     explicit GamePads(Driver driver = Driver::system);
     ~GamePads();
@@ -61,7 +62,8 @@ public:
     void update();
     /// All; what one can do is asked by opening it.
     std::vector<GamePadInfo> list();
-    /// The first with motors that nobody in this process has open and whose name holds `name`, whatever the case; anyPad: any. Null: none.
+    /// The first with motors that nobody in this process has open and whose name holds `name`, whatever the
+    /// case; anyPad: any. Null: none.
     std::unique_ptr<GamePad> open(const std::string& name);
 
 private:

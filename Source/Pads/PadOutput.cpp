@@ -10,13 +10,15 @@ namespace {
 
 constexpr std::chrono::milliseconds pause{1};
 constexpr std::int64_t msNs = 1'000'000;
-constexpr std::int64_t repeatNs = 100 * msNs;  // half of what a command lasts
-constexpr std::int64_t lookNs = 250 * msNs;    // for one that was plugged in
+constexpr std::int64_t repeatNs = 100 * msNs;    // half of what a command lasts
+constexpr std::int64_t lookNs = 250 * msNs;      // for one that was plugged in
 constexpr std::int64_t patienceNs = 2000 * msNs; // pads on Bluetooth take a second to come
-constexpr std::int64_t jumpNs = 1000 * msNs;   // session time that goes back by so much has begun anew
+constexpr std::int64_t jumpNs = 1000 * msNs;     // session time that goes back by so much has begun anew
 
 std::int64_t steadyNowNs() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
 std::string milliseconds(double seconds) { return fixedNumber(1e3 * seconds, 0) + " ms"; }
@@ -64,8 +66,10 @@ void PadOutput::follow(FeltOutput* device) {
     if (device == device_) return;
     rest();
     device_ = device;
-    for (CollisionEvent event; device && events_.pop(event);) {} // of another time
-    for (RenderControl control; device && controls_.pop(control);) {}
+    for (CollisionEvent event; device && events_.pop(event);) {
+    } // of another time
+    for (RenderControl control; device && controls_.pop(control);) {
+    }
     grips_ = PadMotors::gripsOf(first_);
     clock_ = {};
     begin();
@@ -73,7 +77,8 @@ void PadOutput::follow(FeltOutput* device) {
 
 void PadOutput::begin() {
     PadLaw law = profile_.law;
-    if (pad_) law.commandsPerSecond = std::min(law.commandsPerSecond, mostCommandsPerSecond(pad_->info().bus));
+    if (pad_)
+        law.commandsPerSecond = std::min(law.commandsPerSecond, mostCommandsPerSecond(pad_->info().bus));
     motors_ = PadMotors{law};
     layouts_.clear();
     stops_.clear();
@@ -111,8 +116,10 @@ void PadOutput::connect(GamePads& pads) {
     const std::int64_t nowNs = steadyNowNs();
     if (nowNs < looksNs_) return;
     looksNs_ = nowNs + lookNs;
-    if (auto pad = pads.open(lastName_.empty() ? name_ : lastName_)) adopt(std::move(pad));
-    else if (auto other = lastName_.empty() ? nullptr : pads.open(name_)) adopt(std::move(other));
+    if (auto pad = pads.open(lastName_.empty() ? name_ : lastName_))
+        adopt(std::move(pad));
+    else if (auto other = lastName_.empty() ? nullptr : pads.open(name_))
+        adopt(std::move(other));
 }
 
 void PadOutput::adopt(std::unique_ptr<GamePad> pad) {
@@ -144,7 +151,8 @@ void PadOutput::takeControls(std::int64_t sessionNs) {
         if (control.kind == RenderControl::Kind::panner) layouts_.push_back(control);
         if (control.kind == RenderControl::Kind::stopAll) stops_.push_back(control);
     }
-    for (; !stops_.empty() && stops_.front().timeNs <= sessionNs; stops_.erase(stops_.begin())) motors_.stop(stops_.front().timeNs);
+    for (; !stops_.empty() && stops_.front().timeNs <= sessionNs; stops_.erase(stops_.begin()))
+        motors_.stop(stops_.front().timeNs);
 }
 
 void PadOutput::takeEvents() {
@@ -165,8 +173,10 @@ void PadOutput::command(std::int64_t sessionNs, std::int64_t nowNs) {
     if (due > 1) counts_.late += static_cast<std::uint64_t>(due - 1);
     if (!pad_) return;
     const bool isNew = !newest.isSame(sent_);
-    if (isNew) send(newest, nowNs), ++counts_.commands;
-    else if (!sent_.isSame({}) && nowNs - sentNs_ >= repeatNs) send(sent_, nowNs), ++counts_.repeats;
+    if (isNew)
+        send(newest, nowNs), ++counts_.commands;
+    else if (!sent_.isSame({}) && nowNs - sentNs_ >= repeatNs)
+        send(sent_, nowNs), ++counts_.repeats;
 }
 
 void PadOutput::send(const PadCommand& command, std::int64_t nowNs) {
@@ -179,8 +189,9 @@ std::string PadOutput::troubleNow() const {
     if (!fault_.empty()) return fault_;
     if (pad_) return {};
     if (!lastName_.empty()) return lastName_ + " is gone; it is looked for";
-    return name_ == anyPad ? "no game controller with motors is there (see physvib pads)"
-                           : "no game controller with motors is called " + inQuotes(name_) + " (see physvib pads)";
+    return name_ == anyPad
+               ? "no game controller with motors is there (see physvib pads)"
+               : "no game controller with motors is called " + inQuotes(name_) + " (see physvib pads)";
 }
 
 PadCounts PadOutput::counts() const {
@@ -196,19 +207,28 @@ SinkState PadOutput::state() const {
     state.sent = counts_.events;
     state.lost = motors_.lost() + events_.overflows() + controls_.overflows();
     state.trouble = troubleNow();
-    state.where = pad_ ? pad_->info().name + " (" + busName(pad_->info().bus) + "): " + profile_.name + ", needs " + milliseconds(leadSeconds_) : state.trouble;
-    state.facts = {{"Controller", state.where, !state.isReady},
-                   {"Motors", std::to_string(counts_.commands) + " commands, " + std::to_string(counts_.refused) + " refused", counts_.refused > 0}};
+    state.where = pad_ ? pad_->info().name + " (" + busName(pad_->info().bus) + "): " + profile_.name +
+                             ", needs " + milliseconds(leadSeconds_)
+                       : state.trouble;
+    state.facts = {
+        {"Controller", state.where, !state.isReady},
+        {"Motors",
+         std::to_string(counts_.commands) + " commands, " + std::to_string(counts_.refused) + " refused",
+         counts_.refused > 0}};
     return state;
 }
 
 std::string PadOutput::summary(const std::function<bool()>&) const {
     const std::lock_guard lock{mutex_};
-    const PadMotor& slow = profile_.law.low.riseSeconds > profile_.law.high.riseSeconds ? profile_.law.low : profile_.law.high;
-    std::string line = (lastName_.empty() ? name_ : lastName_) + ": " + std::to_string(counts_.events) + " events as " + profile_.name + ", " +
-                       std::to_string(counts_.commands) + " commands, " + std::to_string(counts_.repeats) + " repeated, " + std::to_string(counts_.late) + " overtaken, " +
-                       std::to_string(counts_.refused) + " refused, " + std::to_string(motors_.lost() + events_.overflows()) + " events lost; ";
-    line += "began " + milliseconds(leadSeconds_) + " before the device, motors take " + milliseconds(slow.riseSeconds);
+    const PadMotor& slow =
+        profile_.law.low.riseSeconds > profile_.law.high.riseSeconds ? profile_.law.low : profile_.law.high;
+    std::string line = (lastName_.empty() ? name_ : lastName_) + ": " + std::to_string(counts_.events) +
+                       " events as " + profile_.name + ", " + std::to_string(counts_.commands) +
+                       " commands, " + std::to_string(counts_.repeats) + " repeated, " +
+                       std::to_string(counts_.late) + " overtaken, " + std::to_string(counts_.refused) +
+                       " refused, " + std::to_string(motors_.lost() + events_.overflows()) + " events lost; ";
+    line += "began " + milliseconds(leadSeconds_) + " before the device, motors take " +
+            milliseconds(slow.riseSeconds);
     if (counts_.connections > 1) line += "; plugged in " + std::to_string(counts_.connections) + " times";
     return line + "\n";
 }

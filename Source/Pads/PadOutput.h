@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A session on a game controller beside its device: hits are felt at the same moment, as far as motors can.
 //
-// The device's blocks say when a moment of the session is felt (FeltClock). Each command of the motors has a session time, so the
-// commands are those of an offline render, to the last one, while events come in time. A command lasts 200 ms at most and is sent
-// again before; so motors stop soon, whatever becomes of the program.
+// The device's blocks say when a moment of the session is felt (FeltClock). Each command of the motors has a
+// session time, so the commands are those of an offline render, to the last one, while events come in time. A
+// command lasts 200 ms at most and is sent again before; so motors stop soon, whatever becomes of the
+// program.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/Pads/PadMotors.h"
@@ -21,15 +22,16 @@ namespace physvib {
 /// What a controller has been sent so far, for people and tests.
 struct PadCounts {
     std::uint64_t events = 0, commands = 0, repeats = 0; ///< repeats: commands again, before they time out
-    std::uint64_t late = 0;                              ///< commands that the next one overtook before they were sent
-    std::uint64_t refused = 0;                           ///< by the controller
+    std::uint64_t late = 0;    ///< commands that the next one overtook before they were sent
+    std::uint64_t refused = 0; ///< by the controller
     std::uint64_t connections = 0;
 };
 
 /// Its own thread asks the controller; nobody waits for it but M.
 class PadOutput final : public Sink {
 public:
-    /// `where`: a name or anyPad, then, if it is not the one that suits the controller, "@" and a profile's name or file. M.
+    /// `where`: a name or anyPad, then, if it is not the one that suits the controller, "@" and a profile's
+    /// name or file. M.
     PadOutput(const std::string& where, const PhantomPanner& panner);
     ~PadOutput() override;
 
@@ -64,10 +66,10 @@ private:
 
     mutable std::mutex mutex_; // all below; its thread and M
     PadProfile profile_;
-    std::string fault_;        // nothing can be played, now or later
+    std::string fault_; // nothing can be played, now or later
     FeltOutput* device_ = nullptr;
     std::unique_ptr<GamePad> pad_;
-    std::string lastName_;     // of the controller that was there
+    std::string lastName_; // of the controller that was there
     PadMotors motors_{PadLaw{}};
     FeltClock clock_;
     const PhantomPanner first_; // of the session

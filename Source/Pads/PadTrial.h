@@ -27,11 +27,12 @@ struct PadStep {
     std::vector<Sample> samples;
 };
 
-/// Commands from 0.1 to 1 of one motor, with rests between them: 15 s. One line if the controller does not tell its acceleration, is
-/// unplugged, or the trial is ended. The caller's thread.
+/// Commands from 0.1 to 1 of one motor, with rests between them: 15 s. One line if the controller does not
+/// tell its acceleration, is unplugged, or the trial is ended. The caller's thread.
 Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTrialTime& time);
 
-/// Threshold, half, full, rise and fall of such steps; one line if nothing moved, or not more with more. Any thread.
+/// Threshold, half, full, rise and fall of such steps; one line if nothing moved, or not more with more. Any
+/// thread.
 Result<PadMotor> fitMotor(const std::vector<PadStep>& steps);
 
 /// Holds both commands for so long, sent again as often as it takes; false: ended before.

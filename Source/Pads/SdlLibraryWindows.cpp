@@ -7,7 +7,9 @@
 namespace physvib {
 
 void* openLibrary(const char* name) { return reinterpret_cast<void*>(LoadLibraryA(name)); }
-void* functionIn(void* library, const char* name) { return reinterpret_cast<void*>(GetProcAddress(static_cast<HMODULE>(library), name)); }
+void* functionIn(void* library, const char* name) {
+    return reinterpret_cast<void*>(GetProcAddress(static_cast<HMODULE>(library), name));
+}
 
 } // namespace physvib
 #endif

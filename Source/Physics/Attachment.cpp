@@ -17,9 +17,11 @@ void keepForEver(std::unique_ptr<WorldListener> listener) {
         std::unique_ptr<WorldListener> listener;
         Kept* next;
     };
-    static std::atomic<Kept*> newest{nullptr}; // worlds may live on threads of their own; never destroyed: worlds may be, later
+    static std::atomic<Kept*> newest{nullptr}; // worlds may live on threads of their own; never destroyed:
+                                               // worlds may be, later
     auto* const kept = new Kept{std::move(listener), newest.load()};
-    while (!newest.compare_exchange_weak(kept->next, kept)) {}
+    while (!newest.compare_exchange_weak(kept->next, kept)) {
+    }
 }
 
 } // namespace
@@ -48,7 +50,8 @@ void Attachment::detach() {
 }
 
 SetResult Attachment::set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id) {
-    if (fixture.GetBody()->GetWorld() != world_) return {-1, "fixture: expected one of the world attached to"};
+    if (fixture.GetBody()->GetWorld() != world_)
+        return {-1, "fixture: expected one of the world attached to"};
     listener_->finder().find(fixture); // an heir of its address starts anew
     return events_.set(nameOf(fixture), factsOf(*fixture.GetBody()), centreOf(fixture), values, id);
 }
@@ -56,12 +59,14 @@ SetResult Attachment::set(const b2Fixture& fixture, const HapticFixture& values,
 const HapticFixture* Attachment::find(const b2Fixture& fixture) const noexcept {
     const FixtureTable& fixtures = events_.fixtures();
     const std::int32_t slot = fixtures.find(nameOf(fixture));
-    const bool isIt = slot != FixtureTable::none && fixtures[slot].isNamed() && fixtures[slot].body.body == nameOf(*fixture.GetBody());
+    const bool isIt = slot != FixtureTable::none && fixtures[slot].isNamed() &&
+                      fixtures[slot].body.body == nameOf(*fixture.GetBody());
     return isIt ? &fixtures[slot].values : nullptr;
 }
 
 void Attachment::remove(const b2Fixture& fixture) {
-    if (const std::int32_t slot = events_.fixtures().find(nameOf(fixture)); slot != FixtureTable::none) events_.remove(slot);
+    if (const std::int32_t slot = events_.fixtures().find(nameOf(fixture)); slot != FixtureTable::none)
+        events_.remove(slot);
 }
 
 void Attachment::step(float stepSeconds, int velocityIterations, int positionIterations) {
@@ -104,7 +109,8 @@ void Attachment::releaseUnseen() {
     listener_->finder().forgetContacts();
     bodies_.doubt();
     for (std::int32_t slot = 0; slot < events_.fixtures().size(); ++slot)
-        if (const KnownFixture& known = events_.fixtures()[slot]; known.isUsed() && !bodies_.has(known.body.body))
+        if (const KnownFixture& known = events_.fixtures()[slot];
+            known.isUsed() && !bodies_.has(known.body.body))
             events_.release(slot);
 }
 

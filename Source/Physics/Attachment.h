@@ -16,17 +16,19 @@
 
 namespace physvib {
 
-/// Turns the collisions of one world into events. The world stays its owner's: user data are not touched, its motion
-/// is the same to the bit, and its contact and destruction listeners are called as before, also those that are set, or
-/// taken away, while the attachment is there. Bodies and fixtures may come and go between steps, or between the parts
-/// of one. Only a fixture destroyed by b2Body::DestroyFixture should be named to remove() first: Box2D tells nobody, and
-/// the next fixture of that body may take its address, and so its values. Who forgets that loses values, and no memory.
+/// Turns the collisions of one world into events. The world stays its owner's: user data are not touched, its
+/// motion is the same to the bit, and its contact and destruction listeners are called as before, also those
+/// that are set, or taken away, while the attachment is there. Bodies and fixtures may come and go between
+/// steps, or between the parts of one. Only a fixture destroyed by b2Body::DestroyFixture should be named to
+/// remove() first: Box2D tells nobody, and the next fixture of that body may take its address, and so its
+/// values. Who forgets that loses values, and no memory.
 ///
-/// World and attachment may end in any order. A world outlived by its attachment is not touched any more; an attachment
-/// outlived by its world leaves a listener there that hands on calls, unless it has been detached.
+/// World and attachment may end in any order. A world outlived by its attachment is not touched any more; an
+/// attachment outlived by its world leaves a listener there that hands on calls, unless it has been detached.
 ///
-/// All methods: the world's thread (M), not inside a step. None allocates once it has seen as much as it will, but where
-/// the caller's vector grows. What a step costs follows what moves, touches and strikes, not the size of the map.
+/// All methods: the world's thread (M), not inside a step. None allocates once it has seen as much as it
+/// will, but where the caller's vector grows. What a step costs follows what moves, touches and strikes, not
+/// the size of the map.
 class Attachment final {
 public:
     /// Throws std::invalid_argument if a setting is out of range.
@@ -44,14 +46,18 @@ public:
     /// Any thread but while it steps.
     const ImpactSettings& settings() const noexcept { return events_.settings(); }
 
-    /// Gives a fixture its values, at first or again (the camera may come and go). Its id in events is `id` (>= 0), if
-    /// given (a number of the game's own for it), else 0, 1, 2... in order of first calls, never used twice. Refused, told by the result, are values that
-    /// cannot be played, a fixture of another world, an id below 0, and one that another fixture has.
-    SetResult set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id = FixtureTable::none);
+    /// Gives a fixture its values, at first or again (the camera may come and go). Its id in events is `id`
+    /// (>= 0), if given (a number of the game's own for it), else 0, 1, 2... in order of first calls, never
+    /// used twice. Refused, told by the result, are values that cannot be played, a fixture of another world,
+    /// an id below 0, and one that another fixture has.
+    SetResult set(const b2Fixture& fixture, const HapticFixture& values,
+                  std::int32_t id = FixtureTable::none);
 
-    /// How two kinds of surfaces sound together (HapticFixture::surface), in any order, whatever the voice of the camera is.
-    /// What is wrong with it, and nothing is changed; empty: it is set.
-    std::string_view setPair(int surface, int other, const PairSound& sound) { return events_.setPair(surface, other, sound); }
+    /// How two kinds of surfaces sound together (HapticFixture::surface), in any order, whatever the voice of
+    /// the camera is. What is wrong with it, and nothing is changed; empty: it is set.
+    std::string_view setPair(int surface, int other, const PairSound& sound) {
+        return events_.setPair(surface, other, sound);
+    }
 
     /// The values of a fixture; nullptr if it has none. Valid until the next call of anything.
     const HapticFixture* find(const b2Fixture& fixture) const noexcept;
@@ -59,12 +65,13 @@ public:
     /// Takes a fixture's values away, and its events that have not been handed out.
     void remove(const b2Fixture& fixture);
 
-    /// One step of the world with everything around it. No time: as Box2D has it, contacts are found, and nothing moves.
-    /// Negative times do nothing.
+    /// One step of the world with everything around it. No time: as Box2D has it, contacts are found, and
+    /// nothing moves. Negative times do nothing.
     void step(float stepSeconds, int velocityIterations = 8, int positionIterations = 3);
 
-    /// The same around a b2World::Step of the user's own. Step lengths may differ; time is the sum of their nanoseconds,
-    /// each rounded. What happens in steps that are not told is felt at the start of the next one that is.
+    /// The same around a b2World::Step of the user's own. Step lengths may differ; time is the sum of their
+    /// nanoseconds, each rounded. What happens in steps that are not told is felt at the start of the next
+    /// one that is.
     void beginStep(double stepSeconds);
     /// For worlds whose clock is a step count: the step ends at `endNs` (not before timeNs()).
     void beginStepUntil(std::int64_t endNs);

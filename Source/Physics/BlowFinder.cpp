@@ -20,13 +20,16 @@ bool isIn(unsigned mask, int point) noexcept { return (mask >> point & 1U) != 0;
 
 /// The larger one of the two, as KnownFixture has them.
 float gravityScaleOf(const b2Contact& contact) noexcept {
-    const auto of = [](const b2Body& body) { return body.GetType() == b2_dynamicBody ? std::abs(body.GetGravityScale()) : 0.0F; };
+    const auto of = [](const b2Body& body) {
+        return body.GetType() == b2_dynamicBody ? std::abs(body.GetGravityScale()) : 0.0F;
+    };
     return std::max(of(bodyA(contact)), of(bodyB(contact)));
 }
 
 /// How fast B comes towards A at a point; the normal points from A to B.
 double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
-    const b2Vec2 velocity = bodyB(contact).GetLinearVelocityFromWorldPoint(point) - bodyA(contact).GetLinearVelocityFromWorldPoint(point);
+    const b2Vec2 velocity = bodyB(contact).GetLinearVelocityFromWorldPoint(point) -
+                            bodyA(contact).GetLinearVelocityFromWorldPoint(point);
     return -b2Dot(velocity, normal);
 }
 
@@ -34,7 +37,8 @@ double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
 
 std::int32_t BlowFinder::find(const b2Fixture& fixture) {
     const std::int32_t slot = events_.fixtures().find(nameOf(fixture));
-    if (slot == FixtureTable::none || events_.fixtures()[slot].body.body == nameOf(*fixture.GetBody())) return slot;
+    if (slot == FixtureTable::none || events_.fixtures()[slot].body.body == nameOf(*fixture.GetBody()))
+        return slot;
     forgetContacts();
     events_.release(slot);
     return FixtureTable::none;
@@ -120,7 +124,8 @@ void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
     contact.GetWorldManifold(&manifold);
     double fastest = 0.0;
     for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
-        if (isIn(fresh, i)) fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
+        if (isIn(fresh, i))
+            fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
     if (!events_.catcher().isBlow(gravityScaleOf(contact), fastest)) return passOver(contact);
     const Pair& pair = pairOf(know(contact));
     if (events_.catcher().blow(pair) != nullptr) return;
@@ -132,7 +137,8 @@ void BlowFinder::passOver(const b2Contact& contact) {
     if (const Known* const known = find(contact)) events_.catcher().passOver(known->pair.a, known->pair.b);
 }
 
-void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const {
+void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
+                          Blow& blow) const {
     const int count = contact.GetManifold()->pointCount;
     int deepest = isIn(fresh, 0) ? 0 : 1;
     const bool isFlat = count > 1 && isIn(fresh, 0) && isIn(fresh, 1);
@@ -150,7 +156,8 @@ void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manif
     blow.fraction = momentOf(contact, speed > 0.0 ? depth / speed : 0.0);
 }
 
-// Surfaces sink into each other in the step before, whose length counts. What is not told has no time of its own.
+// Surfaces sink into each other in the step before, whose length counts. What is not told has no time of its
+// own.
 double BlowFinder::momentOf(const b2Contact& contact, double secondsAgo) const noexcept {
     if (!events_.catcher().isStepping()) return 0.0;
     const double now = sweeps_.stepSeconds(), before = sweeps_.lastStepSeconds();
@@ -162,7 +169,8 @@ double BlowFinder::momentOf(const b2Contact& contact, double secondsAgo) const n
 
 double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {
     if (!events_.catcher().isStepping()) return 0.0;
-    const bool aIsFaster = bodyA(contact).GetLinearVelocity().LengthSquared() > bodyB(contact).GetLinearVelocity().LengthSquared();
+    const bool aIsFaster = bodyA(contact).GetLinearVelocity().LengthSquared() >
+                           bodyB(contact).GetLinearVelocity().LengthSquared();
     return sweeps_.fraction(aIsFaster ? bodyA(contact) : bodyB(contact));
 }
 
@@ -170,7 +178,9 @@ double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {
 void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const unsigned fresh = fresh_.solved(contact); // old from the next step on
     if (!events_.catcher().isHearing()) return;
-    if (fresh == 0 && !events_.catcher().mayBeHeard(nameOf(*contact.GetFixtureA()), nameOf(*contact.GetFixtureB()))) return;
+    if (fresh == 0 &&
+        !events_.catcher().mayBeHeard(nameOf(*contact.GetFixtureA()), nameOf(*contact.GetFixtureB())))
+        return;
     Known* const known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
@@ -181,10 +191,12 @@ void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse)
     if (isHeard) contact.GetWorldManifold(&manifold);
     share(impulse, manifold, pair, fresh, blow, isHeard);
     if (events_.lasting().isHeard(pair.a, pair.b)) // only of heard ones
-        tellLasting(contact, manifold, impulse, blow != nullptr ? fresh : 0U, pair.a, pair.b, events_.lasting());
+        tellLasting(contact, manifold, impulse, blow != nullptr ? fresh : 0U, pair.a, pair.b,
+                    events_.lasting());
 }
 
-void BlowFinder::share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard) {
+void BlowFinder::share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair,
+                       unsigned fresh, Blow* blow, bool isHeard) {
     b2Vec2 onB{0.0F, 0.0F};
     bool isLoaded = false;
     for (int i = 0; i < impulse.count; ++i) {
@@ -193,7 +205,8 @@ void BlowFinder::share(const b2ContactImpulse& impulse, const b2WorldManifold& m
             blow->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
         } else if (isHeard) {
             isLoaded = true;
-            onB += impulse.normalImpulses[i] * manifold.normal + impulse.tangentImpulses[i] * b2Cross(manifold.normal, 1.0F);
+            onB += impulse.normalImpulses[i] * manifold.normal +
+                   impulse.tangentImpulses[i] * b2Cross(manifold.normal, 1.0F);
         }
     }
     if (isLoaded) events_.catcher().push(pair, toVector(onB), toVector(manifold.points[0]));

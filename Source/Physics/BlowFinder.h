@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where, when and how fast the surfaces of a b2World meet, and what they push each other by: Box2D tells little of it.
+// Where, when and how fast the surfaces of a b2World meet, and what they push each other by: Box2D tells
+// little of it.
 #pragma once
 #include "Contacts/ContactEvents.h"
 #include "Physics/BodySweeps.h"
@@ -19,15 +20,15 @@ public:
         known_.reserve(expectedContacts);
     }
 
-    /// The slot of a fixture, FixtureTable::none if it is not known. One that has taken the address of another, on
-    /// another body, is not that one.
+    /// The slot of a fixture, FixtureTable::none if it is not known. One that has taken the address of
+    /// another, on another body, is not that one.
     std::int32_t find(const b2Fixture& fixture);
 
     /// Which fixtures contacts have is asked anew: some may have ended unheard, or their fixtures have gone.
     void forgetContacts() noexcept;
 
-    void begin(const b2Contact& contact);                                 ///< in BeginContact
-    void end(const b2Contact& contact);                                   ///< in EndContact
+    void begin(const b2Contact& contact); ///< in BeginContact
+    void end(const b2Contact& contact);   ///< in EndContact
     /// in PreSolve, after the game's own
     void look(const b2Contact& contact, const b2Manifold& before);
     void push(const b2Contact& contact, const b2ContactImpulse& impulse); ///< in PostSolve
@@ -55,15 +56,17 @@ private:
     Known& know(const b2Contact& contact);
     Known& remember(const b2Contact& contact, Pair pair);
     void forget(const b2Contact& contact) noexcept;
-    void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const;
-    void share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard);
+    void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
+                  Blow& blow) const;
+    void share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair,
+               unsigned fresh, Blow* blow, bool isHeard);
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
     ContactEvents& events_;
     BodySweeps& sweeps_;
     FreshPoints fresh_;
-    std::vector<Known> known_; // that touch
+    std::vector<Known> known_;             // that touch
     IntegerMap knownAt_{expectedContacts}; // by contact
 };
 

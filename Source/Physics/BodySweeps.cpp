@@ -17,10 +17,13 @@ void BodySweeps::beginStep(const b2World& world, double stepSeconds) {
         if (body->GetType() == b2_staticBody) continue;
         isKnown = isKnown && count < sweeps_.size() && sweeps_[count].body == body;
         const Sweep sweep{body, body->GetWorldCenter(), motionOf(*body)};
-        if (count < sweeps_.size()) sweeps_[count] = sweep;
-        else sweeps_.push_back(sweep);
+        if (count < sweeps_.size())
+            sweeps_[count] = sweep;
+        else
+            sweeps_.push_back(sweep);
         ++count;
-        if (body->GetType() == b2_dynamicBody && body->IsEnabled()) largestMassKg_ = std::max(largestMassKg_, static_cast<double>(body->GetMass()));
+        if (body->GetType() == b2_dynamicBody && body->IsEnabled())
+            largestMassKg_ = std::max(largestMassKg_, static_cast<double>(body->GetMass()));
     }
     if (isKnown && count == sweeps_.size()) return;
     sweeps_.erase(sweeps_.begin() + static_cast<std::ptrdiff_t>(count), sweeps_.end());
@@ -29,13 +32,15 @@ void BodySweeps::beginStep(const b2World& world, double stepSeconds) {
 
 std::uint64_t BodySweeps::censusOf(const b2World& world) noexcept {
     std::uint64_t sum = static_cast<std::uint64_t>(world.GetBodyCount()) + 1; // never 0
-    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) sum = (sum ^ nameOf(*body)) * 0x9E3779B97F4A7C15U;
+    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+        sum = (sum ^ nameOf(*body)) * 0x9E3779B97F4A7C15U;
     return sum;
 }
 
 void BodySweeps::index() {
     indices_.clear();
-    for (std::size_t i = 0; i < sweeps_.size(); ++i) indices_.set(nameOf(*sweeps_[i].body), static_cast<std::int32_t>(i));
+    for (std::size_t i = 0; i < sweeps_.size(); ++i)
+        indices_.set(nameOf(*sweeps_[i].body), static_cast<std::int32_t>(i));
 }
 
 const BodySweeps::Sweep* BodySweeps::find(const b2Body& body) const noexcept {

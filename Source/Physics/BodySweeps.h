@@ -10,12 +10,12 @@
 
 namespace physvib {
 
-/// Contacts of the regular pass are found where a step begins, those of the time-of-impact pass wherever the body has been
-/// moved to. M only.
+/// Contacts of the regular pass are found where a step begins, those of the time-of-impact pass wherever the
+/// body has been moved to. M only.
 class BodySweeps {
 public:
-    /// Before b2World::Step: every body is where its step begins. Looks at each body once, as Box2D does several times,
-    /// and at no fixture. Allocates if the world has grown.
+    /// Before b2World::Step: every body is where its step begins. Looks at each body once, as Box2D does
+    /// several times, and at no fixture. Allocates if the world has grown.
     void beginStep(const b2World& world, double stepSeconds);
 
     double stepSeconds() const noexcept { return stepSeconds_; }
@@ -25,7 +25,8 @@ public:
     /// The largest mass of an enabled dynamic body, kg (m_max of Eq. 5.7).
     double largestMassKg() const noexcept { return largestMassKg_; }
 
-    /// In BeginContact, PreSolve and EndContact: 0 (start) to 1 (end of the step), how far this body has come.
+    /// In BeginContact, PreSolve and EndContact: 0 (start) to 1 (end of the step), how far this body has
+    /// come.
     double fraction(const b2Body& body) const noexcept;
 
     /// A number of the bodies that a world has and of their order (2^-64 of lists that differ have the same).

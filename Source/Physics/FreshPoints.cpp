@@ -42,7 +42,8 @@ unsigned FreshPoints::look(const b2Contact& contact, const b2Manifold& before, b
             indices_.set(nameOf(contact), known);
         }
         Entry& entry = entries_[static_cast<std::size_t>(known)];
-        if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size())) entry.ids[static_cast<std::size_t>(entry.count++)] = id;
+        if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
+            entry.ids[static_cast<std::size_t>(entry.count++)] = id;
     }
     return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
 }
@@ -61,7 +62,8 @@ bool FreshPoints::has(const Entry& entry, std::uint32_t id) noexcept {
 
 unsigned FreshPoints::maskOf(const Entry& entry, const b2Manifold& manifold) noexcept {
     unsigned mask = 0;
-    for (int i = 0; i < manifold.pointCount; ++i) mask |= has(entry, manifold.points[i].id.key) ? 1U << i : 0U;
+    for (int i = 0; i < manifold.pointCount; ++i)
+        mask |= has(entry, manifold.points[i].id.key) ? 1U << i : 0U;
     return mask;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which points of Box2D's contacts are new: where surfaces that were apart have met and nothing has been pushed yet.
+// Which points of Box2D's contacts are new: where surfaces that were apart have met and nothing has been
+// pushed yet.
 #pragma once
 #include "Contacts/IntegerMap.h"
 #include <array>
@@ -10,15 +11,16 @@
 
 namespace physvib {
 
-/// A point is fresh from when Box2D finds it until the end of the step in which the solver has pushed there: in a contact
-/// that is switched off (a one-way platform), or was found in a step without time, that is later. A point that Box2D's
-/// manifold keeps, by its id, is old. Contacts are known by their addresses. M only.
+/// A point is fresh from when Box2D finds it until the end of the step in which the solver has pushed there:
+/// in a contact that is switched off (a one-way platform), or was found in a step without time, that is
+/// later. A point that Box2D's manifold keeps, by its id, is old. Contacts are known by their addresses. M
+/// only.
 class FreshPoints {
 public:
     FreshPoints() { entries_.reserve(expectedContacts); }
 
-    /// In PreSolve: brings a contact up to date; which of its points are fresh, a bit for each. Outside a step that is told,
-    /// nobody knows where one ends: what has been pushed is old at once.
+    /// In PreSolve: brings a contact up to date; which of its points are fresh, a bit for each. Outside a
+    /// step that is told, nobody knows where one ends: what has been pushed is old at once.
     unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping);
 
     /// In PostSolve: the same, and its points have been pushed.

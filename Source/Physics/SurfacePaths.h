@@ -7,7 +7,9 @@
 
 namespace physvib {
 
-/// In PostSolve: tells the points of a contact of two slots, but for those in `blows` (a bit each), whose push is a blow. M only.
-void tellLasting(const b2Contact& contact, const b2WorldManifold& world, const b2ContactImpulse& impulse, unsigned blows, std::int32_t a, std::int32_t b, LastingContacts& lasting);
+/// In PostSolve: tells the points of a contact of two slots, but for those in `blows` (a bit each), whose
+/// push is a blow. M only.
+void tellLasting(const b2Contact& contact, const b2WorldManifold& world, const b2ContactImpulse& impulse,
+                 unsigned blows, std::int32_t a, std::int32_t b, LastingContacts& lasting);
 
 } // namespace physvib

@@ -20,7 +20,8 @@ void WorldBodies::look() const {
     if (census == census_) return;
     census_ = census;
     bodies_.clear();
-    for (const b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext()) bodies_.set(nameOf(*body), 0);
+    for (const b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext())
+        bodies_.set(nameOf(*body), 0);
 }
 
 double WorldBodies::inertia(std::uint64_t body) const {

@@ -9,27 +9,36 @@
 
 namespace physvib {
 
-/// Bodies are named by their addresses. Box2D says nothing of a body whose fixtures were destroyed before it, so an address
-/// that is still known may be of a body that is gone: it is looked up in the world's list before it is followed. A body that
-/// is gone is a static one without mass, disabled, at the origin. M only, within a step or right after it.
+/// Bodies are named by their addresses. Box2D says nothing of a body whose fixtures were destroyed before it,
+/// so an address that is still known may be of a body that is gone: it is looked up in the world's list
+/// before it is followed. A body that is gone is a static one without mass, disabled, at the origin. M only,
+/// within a step or right after it.
 class WorldBodies final : public BodyReader {
 public:
     WorldBodies(const b2World& world, const BodySweeps& sweeps) noexcept
         : world_(world)
         , sweeps_(sweeps) {}
 
-    /// The world's owner may have destroyed bodies since; the two named, if any, are certainly still there. The next question
-    /// about another one costs a walk along the world's list, and only one.
+    /// The world's owner may have destroyed bodies since; the two named, if any, are certainly still there.
+    /// The next question about another one costs a walk along the world's list, and only one.
     void doubt(const b2Body* one = nullptr, const b2Body* other = nullptr) noexcept {
         isCertain_ = false;
         present_ = {one, other};
     }
     bool has(std::uint64_t body) const;
 
-    BodyFacts facts(std::uint64_t body) const override { return has(body) ? factsOf(bodyOf(body)) : BodyFacts{body, 0.0, 1.0F, false, false}; }
-    BodyMotion motion(std::uint64_t body) const override { return has(body) ? motionOf(bodyOf(body)) : BodyMotion{}; }
-    BodyMotion motionBefore(std::uint64_t body) const override { return has(body) ? sweeps_.start(bodyOf(body)) : BodyMotion{}; }
-    Vector2 centre(std::uint64_t body) const override { return has(body) ? toVector(bodyOf(body).GetWorldCenter()) : Vector2{}; }
+    BodyFacts facts(std::uint64_t body) const override {
+        return has(body) ? factsOf(bodyOf(body)) : BodyFacts{body, 0.0, 1.0F, false, false};
+    }
+    BodyMotion motion(std::uint64_t body) const override {
+        return has(body) ? motionOf(bodyOf(body)) : BodyMotion{};
+    }
+    BodyMotion motionBefore(std::uint64_t body) const override {
+        return has(body) ? sweeps_.start(bodyOf(body)) : BodyMotion{};
+    }
+    Vector2 centre(std::uint64_t body) const override {
+        return has(body) ? toVector(bodyOf(body).GetWorldCenter()) : Vector2{};
+    }
     Vector2 toWorld(std::uint64_t body, Vector2 ofBody) const override {
         return has(body) ? toVector(bodyOf(body).GetWorldPoint({ofBody.x, ofBody.y})) : ofBody;
     }

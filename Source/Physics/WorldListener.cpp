@@ -69,7 +69,8 @@ void WorldListener::SayGoodbye(b2Joint* joint) {
 void WorldListener::SayGoodbye(b2Fixture* fixture) {
     const Call call{*this, fixture};
     if (!call) return;
-    if (const std::int32_t slot = finder_ ? finder_->find(*fixture) : FixtureTable::none; slot != FixtureTable::none) {
+    if (const std::int32_t slot = finder_ ? finder_->find(*fixture) : FixtureTable::none;
+        slot != FixtureTable::none) {
         finder_->forgetContacts();
         bodies_.doubt(fixture->GetBody());
         events_.vanish(slot);
@@ -80,7 +81,8 @@ void WorldListener::SayGoodbye(b2Fixture* fixture) {
 // What a world's listener really is: those of attachments that have ended are passed over.
 template <class Listener>
 Listener* WorldListener::behindDeaf(Listener* found, Listener* WorldListener::*next) {
-    for (auto* deaf = dynamic_cast<WorldListener*>(found); deaf != nullptr && !deaf->finder_; deaf = dynamic_cast<WorldListener*>(found))
+    for (auto* deaf = dynamic_cast<WorldListener*>(found); deaf != nullptr && !deaf->finder_;
+         deaf = dynamic_cast<WorldListener*>(found))
         found = deaf->*next;
     return found;
 }
@@ -89,19 +91,22 @@ Listener* WorldListener::behindDeaf(Listener* found, Listener* WorldListener::*n
 template <class Listener>
 bool WorldListener::isReachedBy(Listener* found, Listener* WorldListener::*next) const {
     if (found == this) return true; // the rule
-    for (auto* link = dynamic_cast<WorldListener*>(found); link != nullptr; link = dynamic_cast<WorldListener*>(link->*next))
+    for (auto* link = dynamic_cast<WorldListener*>(found); link != nullptr;
+         link = dynamic_cast<WorldListener*>(link->*next))
         if (link == this) return true;
     return false;
 }
 
 void WorldListener::install(b2World& world) {
-    if (b2ContactListener* found = world.GetContactManager().m_contactListener; !isReachedBy(found, &WorldListener::chained_)) {
+    if (b2ContactListener* found = world.GetContactManager().m_contactListener;
+        !isReachedBy(found, &WorldListener::chained_)) {
         chained_ = behindDeaf(found, &WorldListener::chained_);
         isAlone_ = chained_ == nullptr || typeid(*chained_) == typeid(b2ContactListener);
         world.SetContactListener(this);
         if (finder_) finder_->forgetContacts();
     }
-    if (b2DestructionListener* found = destructionListenerOf(world); !isReachedBy(found, &WorldListener::chainedEnds_)) {
+    if (b2DestructionListener* found = destructionListenerOf(world);
+        !isReachedBy(found, &WorldListener::chainedEnds_)) {
         chainedEnds_ = behindDeaf(found, &WorldListener::chainedEnds_);
         world.SetDestructionListener(this);
     }

@@ -10,9 +10,9 @@ namespace physvib {
 
 /// Listens to one b2World, and hands every call on to the listeners that were there before.
 ///
-/// A world keeps bare pointers to its listeners and tells nobody when it ends. So a listener is only destroyed once its
-/// world is known to have another one (`remove`); an attachment that ends without that leaves it behind, deaf, handing
-/// on calls. M only.
+/// A world keeps bare pointers to its listeners and tells nobody when it ends. So a listener is only
+/// destroyed once its world is known to have another one (`remove`); an attachment that ends without that
+/// leaves it behind, deaf, handing on calls. M only.
 class WorldListener final : public b2ContactListener, public b2DestructionListener {
 public:
     WorldListener(ContactEvents& events, BodySweeps& sweeps, WorldBodies& bodies)
@@ -22,7 +22,8 @@ public:
     WorldListener(const WorldListener&) = delete;
     WorldListener& operator=(const WorldListener&) = delete;
 
-    /// Becomes the world's listener, or is again after a game has set another or none; what it finds is called as well.
+    /// Becomes the world's listener, or is again after a game has set another or none; what it finds is
+    /// called as well.
     void install(b2World& world);
 
     /// Whether the world tells it what is destroyed.

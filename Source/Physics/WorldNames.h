@@ -22,7 +22,8 @@ inline BodyMotion motionOf(const b2Body& body) noexcept {
 }
 
 inline BodyFacts factsOf(const b2Body& body) noexcept {
-    return {nameOf(body), body.GetMass(), body.GetGravityScale(), body.GetType() == b2_dynamicBody, body.IsEnabled()};
+    return {nameOf(body), body.GetMass(), body.GetGravityScale(), body.GetType() == b2_dynamicBody,
+            body.IsEnabled()};
 }
 
 /// Centre of mass of the fixture alone, in its body's frame.

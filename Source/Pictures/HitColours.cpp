@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which colour a hit has, and what that colour is called in the legend.
-#include "Scene/World/SceneCast.h"
 #include "Pictures/PictureParts.h"
+#include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <limits>
 #include <set>

@@ -115,9 +115,7 @@ Letters::Letters(const std::vector<std::filesystem::path>& folders)
 
 Letters::~Letters() = default;
 
-bool Letters::empty() const noexcept {
-    return fonts_->faces[0].empty() && fonts_->faces[1].empty();
-}
+bool Letters::empty() const noexcept { return fonts_->faces[0].empty() && fonts_->faces[1].empty(); }
 
 float Letters::width(std::string_view words, float height, bool bold) const {
     return fonts_->walk(words, height, bold, [](FT_Face, float) {});

@@ -7,9 +7,7 @@
 namespace physvib::picture {
 
 /// Or a grain that was passed.
-inline bool isHit(const CollisionEvent& event) noexcept {
-    return event.source.kind == ContactKind::hit;
-}
+inline bool isHit(const CollisionEvent& event) noexcept { return event.source.kind == ContactKind::hit; }
 
 /// What a colour of a hit means: its material where the scene tells, else its frequency.
 class HitColours {

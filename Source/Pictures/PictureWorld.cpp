@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The panel that shows the world: field, bodies, hits as light, enchanters.
-#include "Scene/World/SceneCast.h"
 #include "Pictures/PictureLight.h"
 #include "Pictures/PictureParts.h"
 #include "Pictures/ShapeOutline.h"
 #include "Pictures/WorldParts.h"
+#include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <cmath>
 

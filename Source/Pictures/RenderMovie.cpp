@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What does not move is drawn once; each picture is a copy of it with the world, the light of the last impacts and the time.
+// What does not move is drawn once; each picture is a copy of it with the world, the light of the last
+// impacts and the time.
 #include "Pictures/RenderMovie.h"
 #include "Pictures/PictureLight.h"
 #include "Pictures/WorldParts.h"
@@ -36,7 +37,8 @@ struct RenderMovie::Parts {
         , colours{picture} {
         Area page = still.bounds().reduced(margin, 0);
         header = page.removeFromTop(headerHeight + 6).withTrimmedTop(6);
-        lanes = page.removeFromBottom(lanesHeightPixels + headingHeight + axisHeight + 12).withTrimmedBottom(8);
+        lanes =
+            page.removeFromBottom(lanesHeightPixels + headingHeight + axisHeight + 12).withTrimmedBottom(8);
         world = page.withTrimmedBottom(4);
         if (const auto strongest = strongestEvent(input.events); strongest >= 0)
             loudest = decibels(input.events[static_cast<std::size_t>(strongest)].amplitude);
@@ -63,9 +65,11 @@ struct RenderMovie::Parts {
 
     /// How strongly channel `c` vibrates then, from 0 to 1 for the loudest moment of all.
     float levelAt(int c, double seconds) const {
-        if (input.waveform == nullptr || c >= input.waveform->channels() || input.waveform->peak() <= 0.0f) return 0.0f;
+        if (input.waveform == nullptr || c >= input.waveform->channels() || input.waveform->peak() <= 0.0f)
+            return 0.0f;
         const double from = seconds / std::max(input.durationSeconds, 1e-9) * WaveformEnvelope::columns,
-                     columns = WaveformEnvelope::columns / std::max(input.durationSeconds, 1e-9) / picturesPerSecond;
+                     columns = WaveformEnvelope::columns / std::max(input.durationSeconds, 1e-9) /
+                               picturesPerSecond;
         float most = 0.0f;
         for (int i = static_cast<int>(from - columns); i <= static_cast<int>(from); ++i) {
             if (i < 0 || i >= WaveformEnvelope::columns) continue;
@@ -80,7 +84,8 @@ struct RenderMovie::Parts {
             const float level = std::sqrt(levelAt(c, seconds)), radius = 18.0f + 60.0f * level;
             const Spot centre = placeOf(input, map, c);
             const Colour colour = palette::enchanter(c);
-            canvas.graphics.setGradient({centre, radius, colour.withAlpha(0.7f * level), colour.withAlpha(0.0f)});
+            canvas.graphics.setGradient(
+                {centre, radius, colour.withAlpha(0.7f * level), colour.withAlpha(0.0f)});
             canvas.graphics.fillEllipse(boxAround(centre, 2.0f * radius, 2.0f * radius));
         }
     }
@@ -90,10 +95,12 @@ struct RenderMovie::Parts {
         for (const CollisionEvent& event : input.events) {
             const double age = static_cast<double>(momentNs - event.timeNs) * 1e-9;
             if (age < 0.0 || age > glowSeconds) continue;
-            const float level = 1.0f + static_cast<float>(decibels(event.amplitude) - loudest) / floorDecibels;
+            const float level =
+                1.0f + static_cast<float>(decibels(event.amplitude) - loudest) / floorDecibels;
             if (level <= 0.0f) continue;
             const auto fade = static_cast<float>(std::exp(-fadePerSecond * age));
-            light.add(map.at(event.x, event.y), (isHit(event) ? 10.0f : 5.0f) + 36.0f * level * level * fade, 1.8f * level * level * fade, colours.of(event));
+            light.add(map.at(event.x, event.y), (isHit(event) ? 10.0f : 5.0f) + 36.0f * level * level * fade,
+                      1.8f * level * level * fade, colours.of(event));
         }
         light.draw(canvas.graphics);
     }
@@ -125,7 +132,8 @@ RenderMovie::RenderMovie(const PictureInput& input)
 RenderMovie::~RenderMovie() = default;
 
 std::int64_t RenderMovie::count() const noexcept {
-    return std::max<std::int64_t>(1, std::llround(std::ceil(parts_->input.durationSeconds * picturesPerSecond)));
+    return std::max<std::int64_t>(1,
+                                  std::llround(std::ceil(parts_->input.durationSeconds * picturesPerSecond)));
 }
 
 Image RenderMovie::at(std::int64_t momentNs, std::span<const BodyPose> bodies, const Scene* scene) const {

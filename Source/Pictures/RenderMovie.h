@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A render as moving pictures: the world and its impacts as they happen, and what each actuator has played so far.
+// A render as moving pictures: the world and its impacts as they happen, and what each actuator has played so
+// far.
 #pragma once
 #include "Pictures/RenderPicture.h"
 #include <memory>
@@ -7,7 +8,8 @@
 
 namespace physvib {
 
-/// The pictures of one render, in any order of time. One thread at a time; draws the same pixels for the same input and fonts.
+/// The pictures of one render, in any order of time. One thread at a time; draws the same pixels for the same
+/// input and fonts.
 class RenderMovie {
 public:
     static constexpr int picturesPerSecond = 20;
@@ -22,7 +24,9 @@ public:
     /// How many pictures the render has: one at least.
     std::int64_t count() const noexcept;
     /// When picture `index` is shown, in nanoseconds of the render.
-    static std::int64_t timeNs(std::int64_t index) noexcept { return index * (1'000'000'000 / picturesPerSecond); }
+    static std::int64_t timeNs(std::int64_t index) noexcept {
+        return index * (1'000'000'000 / picturesPerSecond);
+    }
 
     /// The picture of that moment, with the bodies where they are then (per body of sceneCast()); of another
     /// scene than the input's, if one is given.

@@ -23,9 +23,7 @@ void drawHeader(const Canvas& canvas, const PictureInput& input, Area row) {
     canvas.text(cleanLine(input.subtitle), row, Align::left, palette::muted);
 }
 
-std::string dot() {
-    return "  \xc2\xb7  ";
-}
+std::string dot() { return "  \xc2\xb7  "; }
 
 std::string eventNumbers(const PictureInput& input) {
     const auto count = static_cast<double>(input.events.size());
@@ -97,8 +95,6 @@ Image drawPicture(const PictureInput& input, const Letters& letters) {
     return image;
 }
 
-std::string picturePng(const PictureInput& input) {
-    return drawPicture(input).png();
-}
+std::string picturePng(const PictureInput& input) { return drawPicture(input).png(); }
 
 } // namespace physvib

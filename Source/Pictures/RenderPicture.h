@@ -4,11 +4,11 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
-#include "Scene/Scene.h"
-#include "Scene/World/SceneRun.h"
 #include "Pictures/Image.h"
 #include "Pictures/Letters.h"
 #include "Pictures/WaveformEnvelope.h"
+#include "Scene/Scene.h"
+#include "Scene/World/SceneRun.h"
 #include <span>
 #include <string>
 #include <vector>

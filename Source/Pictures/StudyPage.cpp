@@ -54,8 +54,8 @@ std::string studyPagePng(const StudyPage& page, const PictureWords& words) {
 
 Colour shareColour(double share) {
     if (share <= 0.0) return palette::well;
-    const auto level =
-        static_cast<float>(0.12 + 0.88 * std::sqrt(share)); // a single wrong answer in a hundred is visible
+    const auto level = static_cast<float>(0.12 + 0.88 * std::sqrt(share)); // a single wrong answer in a
+                                                                           // hundred is visible
     return palette::well.mixedWith(palette::enchanter(0), std::min(level, 1.0f));
 }
 

@@ -7,9 +7,7 @@
 namespace physvib {
 namespace {
 constexpr SampleRange nothing{1.0f, -1.0f};
-constexpr bool isNothing(const SampleRange& r) {
-    return r.lowest > r.highest;
-}
+constexpr bool isNothing(const SampleRange& r) { return r.lowest > r.highest; }
 } // namespace
 
 WaveformEnvelope::WaveformEnvelope(int channels, std::int64_t firstFrame, std::int64_t frameCount)

@@ -8,7 +8,8 @@ namespace physvib {
 
 namespace {
 
-constexpr float quality = 78.0f; // of libwebp's 0 to 100: words stay sharp, ten seconds of a scene take about a megabyte
+constexpr float quality = 78.0f; // of libwebp's 0 to 100: words stay sharp, ten seconds of a scene take about
+                                 // a megabyte
 constexpr int method = 3;        // of 0 to 6: slower is a few per cent smaller
 
 [[noreturn]] void fail(const std::string& why) { throw std::runtime_error{"no WebP could be made: " + why}; }
@@ -24,7 +25,8 @@ struct WebpMovie::Encoder {
         : width{w}
         , height{h} {
         WebPAnimEncoderOptions options{};
-        if (!WebPAnimEncoderOptionsInit(&options) || !WebPConfigInit(&config)) fail("another version of libwebp");
+        if (!WebPAnimEncoderOptionsInit(&options) || !WebPConfigInit(&config))
+            fail("another version of libwebp");
         config.quality = quality, config.method = method;
         animation = WebPAnimEncoderNew(w, h, &options);
         if (animation == nullptr) fail("memory");
@@ -42,8 +44,9 @@ void WebpMovie::add(const picture::Image& image, std::int64_t timeMs) {
     WebPPicture picture{};
     if (!WebPPictureInit(&picture)) fail("another version of libwebp");
     picture.use_argb = 1, picture.width = encoder_->width, picture.height = encoder_->height;
-    const bool isAdded = WebPPictureImportRGB(&picture, image.rgb(), 3 * image.width()) &&
-                         WebPAnimEncoderAdd(encoder_->animation, &picture, static_cast<int>(timeMs), &encoder_->config);
+    const bool isAdded =
+        WebPPictureImportRGB(&picture, image.rgb(), 3 * image.width()) &&
+        WebPAnimEncoderAdd(encoder_->animation, &picture, static_cast<int>(timeMs), &encoder_->config);
     WebPPictureFree(&picture);
     if (!isAdded) fail(WebPAnimEncoderGetError(encoder_->animation));
 }
@@ -51,7 +54,8 @@ void WebpMovie::add(const picture::Image& image, std::int64_t timeMs) {
 std::string WebpMovie::bytes(std::int64_t endMs) {
     WebPData data{};
     WebPDataInit(&data);
-    if (!WebPAnimEncoderAdd(encoder_->animation, nullptr, static_cast<int>(endMs), nullptr) || !WebPAnimEncoderAssemble(encoder_->animation, &data))
+    if (!WebPAnimEncoderAdd(encoder_->animation, nullptr, static_cast<int>(endMs), nullptr) ||
+        !WebPAnimEncoderAssemble(encoder_->animation, &data))
         fail(WebPAnimEncoderGetError(encoder_->animation));
     std::string all(reinterpret_cast<const char*>(data.bytes), data.size);
     WebPDataClear(&data);

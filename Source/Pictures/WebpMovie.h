@@ -8,7 +8,8 @@
 
 namespace physvib {
 
-/// Takes pictures of one size in the order of their times. One thread at a time. What libwebp refuses is thrown as std::runtime_error.
+/// Takes pictures of one size in the order of their times. One thread at a time. What libwebp refuses is
+/// thrown as std::runtime_error.
 class WebpMovie {
 public:
     WebpMovie(int width, int height);

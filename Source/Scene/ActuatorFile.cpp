@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Every field of an actuator profile, checked when read and in a fixed order when written.
 #include "Scene/ActuatorFile.h"
-#include "Io/Disk/Embedded.h"
 #include "Core/Limits.h"
-#include "Scene/SceneFileLimits.h"
+#include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
-#include "Scene/JsonWriter.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/JsonWriter.h"
 #include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFileLimits.h"
 #include <array>
 
 namespace physvib {
@@ -28,7 +28,8 @@ struct Figure {
     std::optional<double> ActuatorProfile::*member;
     double least, most;
 };
-constexpr Figure resonance{"resonance_hz", &ActuatorProfile::resonanceHz, limits::leastMeasuredHz, limits::maxFrequencyHz};
+constexpr Figure resonance{"resonance_hz", &ActuatorProfile::resonanceHz, limits::leastMeasuredHz,
+                           limits::maxFrequencyHz};
 constexpr Figure quality{"q", &ActuatorProfile::q, limits::leastQ, limits::mostQ};
 constexpr std::array<Figure, 4> others{{{"drive_limit_v", &ActuatorProfile::driveLimitVolts, 0.001, 1000.0},
                                         {"rise_time_s", &ActuatorProfile::riseSeconds, 1e-5, 10.0},
@@ -42,16 +43,19 @@ void readFigure(const JsonField& root, const Figure& figure, ActuatorProfile& pr
 
 std::optional<FrequencyBand> readOptionalBand(const JsonField& json) {
     if (json.isNull()) return std::nullopt;
-    if (const std::size_t size = json.arraySize(); size != 2) json.fail("expected [lowest, highest] or null, found " + std::to_string(size) + " items");
-    const FrequencyBand band{json.item(0).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz), json.item(1).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz)};
+    if (const std::size_t size = json.arraySize(); size != 2)
+        json.fail("expected [lowest, highest] or null, found " + std::to_string(size) + " items");
+    const FrequencyBand band{json.item(0).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz),
+                             json.item(1).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz)};
     if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
     return band;
 }
 
 ActuatorProfile readActuatorRoot(const JsonField& root) {
     checkVersion(root, actuatorVersionField, actuatorFormatVersion);
-    root.expectObject({actuatorVersionField, "name", "description", "source", "kind", resonance.field, quality.field, "band_hz", others[0].field, others[1].field,
-                       others[2].field, others[3].field});
+    root.expectObject({actuatorVersionField, "name", "description", "source", "kind", resonance.field,
+                       quality.field, "band_hz", others[0].field, others[1].field, others[2].field,
+                       others[3].field});
     ActuatorProfile profile;
     profile.name = root["name"].text();
     if (profile.name.empty()) root["name"].fail("expected a name, found an empty string");
@@ -65,20 +69,24 @@ ActuatorProfile readActuatorRoot(const JsonField& root) {
     return profile;
 }
 
-OrderedJson orNull(const std::optional<double>& figure) { return figure ? OrderedJson(*figure) : OrderedJson(); }
+OrderedJson orNull(const std::optional<double>& figure) {
+    return figure ? OrderedJson(*figure) : OrderedJson();
+}
 
 } // namespace
 
 std::string equaliserFault(const ActuatorProfile& profile) {
     const std::string measure = " is not known (measure it with physvib calibrate)";
-    if (profile.kind == ActuatorKind::rotating) return "a rotating mass has the frequency of its speed: nothing can be equalised";
+    if (profile.kind == ActuatorKind::rotating)
+        return "a rotating mass has the frequency of its speed: nothing can be equalised";
     if (!profile.resonanceHz) return resonance.field + measure;
     if (!profile.q) return quality.field + measure;
     return profile.band ? std::string{} : "band_hz" + measure;
 }
 
 Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxActuatorFileBytes, [](const Json& root) { return readActuatorRoot(JsonField(root, {})); });
+    return readJson(text, name, limits::maxActuatorFileBytes,
+                    [](const Json& root) { return readActuatorRoot(JsonField(root, {})); });
 }
 
 Result<ActuatorProfile> loadActuator(const std::filesystem::path& path) {
@@ -86,7 +94,10 @@ Result<ActuatorProfile> loadActuator(const std::filesystem::path& path) {
 }
 
 std::string actuatorJson(const ActuatorProfile& profile) {
-    OrderedJson root{{actuatorVersionField, actuatorFormatVersion}, {"name", profile.name}, {"description", profile.description}, {"source", profile.source},
+    OrderedJson root{{actuatorVersionField, actuatorFormatVersion},
+                     {"name", profile.name},
+                     {"description", profile.description},
+                     {"source", profile.source},
                      {"kind", kindNames[static_cast<std::size_t>(profile.kind)]}};
     root[resonance.field] = orNull(profile.resonanceHz);
     root[quality.field] = orNull(profile.q);

@@ -31,21 +31,24 @@ struct ActuatorProfile {
     std::optional<double> driveLimitVolts; ///< largest voltage, either way: what a sample of 1 is to become
     std::optional<double> riseSeconds;     ///< from 10 to 90 % of the level
     std::optional<double> fullScaleG;      ///< peak acceleration at the resonance, driven at its limit
-    std::optional<double> delaySeconds;    ///< from sample to acceleration, of the whole set-up that was measured
+    std::optional<double> delaySeconds;    ///< from sample to acceleration, of the whole set-up that was
+                                           ///< measured
     bool operator==(const ActuatorProfile&) const = default;
 
     /// Not known (Resonator::isKnown) if either figure is missing. Any thread.
-    Resonator resonator() const noexcept { return resonanceHz && q ? Resonator{*resonanceHz, *q} : Resonator{}; }
+    Resonator resonator() const noexcept {
+        return resonanceHz && q ? Resonator{*resonanceHz, *q} : Resonator{};
+    }
     FrequencyBand bandOrNone() const noexcept { return band.value_or(FrequencyBand{}); }
 };
 
-/// What keeps the actuator from being equalised: "q is not known (measure it with physvib calibrate)"; empty: nothing.
-/// Any thread.
+/// What keeps the actuator from being equalised: "q is not known (measure it with physvib calibrate)"; empty:
+/// nothing. Any thread.
 std::string equaliserFault(const ActuatorProfile& profile);
 
 /// The profile that `text` describes; or, of the first thing that is wrong, one line
-/// `name: band_hz[1]: expected a number from ...`. Every field must be there, null if it is not known; unknown and
-/// repeated fields are errors. Any thread.
+/// `name: band_hz[1]: expected a number from ...`. Every field must be there, null if it is not known;
+/// unknown and repeated fields are errors. Any thread.
 Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name);
 
 /// The same of a file. M only.

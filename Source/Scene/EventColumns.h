@@ -74,7 +74,9 @@ inline constexpr std::size_t requiredEventColumns = 6;
 
 /// What is wrong with the frequency of an event that isTooSlow. Any thread.
 inline std::string tooSlowFault(const CollisionEvent& event) {
-    return "expected at least " + numberText(limits::slowestToneHz) + " Hz, or a decay of at least " + numberText(limits::slowDecayPerSecond) + " per second, found " + numberText(event.frequencyHz) + " Hz";
+    return "expected at least " + numberText(limits::slowestToneHz) + " Hz, or a decay of at least " +
+           numberText(limits::slowDecayPerSecond) + " per second, found " + numberText(event.frequencyHz) +
+           " Hz";
 }
 
 /// What the cell should have held, empty if the event has taken it.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Header, rows and order of an event list; the cells are in EventColumns.h.
 #include "Scene/EventsCsv.h"
-#include "Io/Text/CsvText.h"
-#include "Scene/EventColumns.h"
 #include "Io/Disk/ReadFile.h"
+#include "Io/Text/CsvText.h"
 #include "Io/Text/TextLines.h"
+#include "Scene/EventColumns.h"
 #include <algorithm>
 #include <cerrno>
 
@@ -59,7 +59,8 @@ private:
         std::string_view header;
         while (header.empty() || header.starts_with('#')) {
             if (!readComment(header)) return false;
-            if (!nextLine(header)) return failEnd("expected a header line " + columnNames() + ", found the end of the file");
+            if (!nextLine(header))
+                return failEnd("expected a header line " + columnNames() + ", found the end of the file");
         }
         for (std::size_t left = cellsIn(header); left > 0; --left)
             if (!readName(trimmed(takeUntil(',', header)))) return false;
@@ -100,17 +101,19 @@ private:
         std::size_t blank = 0;
         while (nextLine(line)) {
             if (!line.empty() && blank > 0) break;
-            if (line.empty()) ++blank;
-            else if (!readRow(line)) return false;
+            if (line.empty())
+                ++blank;
+            else if (!readRow(line))
+                return false;
         }
         line_ -= blank;
         if (!line.empty() && blank > 0) return readRow({});
-        return count_ == 0 ? failEnd("expected events after the header, found none") : !lines_.isTooLong() || failEnd({});
+        return count_ == 0 ? failEnd("expected events after the header, found none")
+                           : !lines_.isTooLong() || failEnd({});
     }
 
     bool readRow(std::string_view line) {
-        if (count_ == maxRows_)
-            return fail("expected at most " + std::to_string(maxRows_) + " events");
+        if (count_ == maxRows_) return fail("expected at most " + std::to_string(maxRows_) + " events");
         const std::size_t cells = cellsIn(line);
         if (cells != order_.size())
             return fail("expected " + std::to_string(order_.size()) + " cells, found " +
@@ -222,7 +225,8 @@ void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds) {
 }
 
 std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance) {
-    const bool hasKinds = std::ranges::any_of(events, [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; });
+    const bool hasKinds = std::ranges::any_of(
+        events, [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; });
     std::string text = eventsCsvHead(provenance, field, hasKinds);
     constexpr std::size_t usualRowBytes = 160;
     text.reserve(text.size() + events.size() * usualRowBytes);

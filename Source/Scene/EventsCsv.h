@@ -38,8 +38,8 @@ Result<EventList> loadEventsCsv(const std::filesystem::path& path);
 std::string eventsCsvHead(Provenance provenance, FieldSize field, bool hasKinds);
 void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds);
 
-/// The events with every column (`kind` if there is anything but hits); readEventsCsv gives them back bit for bit if they are playable and in time
-/// order, and refuses them otherwise. Any thread.
+/// The events with every column (`kind` if there is anything but hits); readEventsCsv gives them back bit for
+/// bit if they are playable and in time order, and refuses them otherwise. Any thread.
 std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance);
 
 } // namespace physvib

@@ -10,11 +10,15 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t headBytes = 1 << 16; // long sessions have hundreds of megabytes, and say at their beginning what they are
+constexpr std::size_t headBytes = 1 << 16; // long sessions have hundreds of megabytes, and say at their
+                                           // beginning what they are
 
 constexpr std::array<std::pair<std::string_view, FileKind>, 4> fields{
     // a session's desk has a layout, and a plug-in's state a scene
-    {{"\"physvib_plugin_state\"", FileKind::pluginState}, {"\"physvib_session\"", FileKind::session}, {"\"physvib_scene\"", FileKind::scene}, {"\"extent_m\"", FileKind::layout}}};
+    {{"\"physvib_plugin_state\"", FileKind::pluginState},
+     {"\"physvib_session\"", FileKind::session},
+     {"\"physvib_scene\"", FileKind::scene},
+     {"\"extent_m\"", FileKind::layout}}};
 
 } // namespace
 

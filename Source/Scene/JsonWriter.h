@@ -56,7 +56,8 @@ private:
     template <class F>
     OrderedJson valueJson(const F& value) const {
         if constexpr (
-            requires { OrderedJson(value); } && !requires(int visitor) { visitFields(visitor, FieldsOf<F>{}); })
+            requires { OrderedJson(value); } &&
+            !requires(int visitor) { visitFields(visitor, FieldsOf<F>{}); })
             return value;
         else
             return fieldsJson(value, materials_);

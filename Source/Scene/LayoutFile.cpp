@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Every field of a layout file, checked when read and in a fixed order when written.
 #include "Scene/LayoutFile.h"
-#include "Scene/SceneFileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonLines.h"
 #include "Io/Json/JsonText.h"
-#include "Scene/LayoutJson.h"
-#include "Io/Text/NumberText.h"
 #include "Io/Json/StrictJson.h"
+#include "Io/Text/NumberText.h"
+#include "Scene/LayoutJson.h"
+#include "Scene/SceneFileLimits.h"
 #include <algorithm>
 
 namespace physvib {
@@ -37,8 +37,10 @@ void fillLabels(std::vector<EnchanterDescription>& enchanters) {
 void readExtent(const JsonField& extent, EnchanterLayout& geometry) {
     if (const std::size_t size = extent.arraySize(); size != 2)
         extent.fail("expected [width, height], found " + std::to_string(size) + " items");
-    geometry.extentWidthMetres = extent.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres);
-    geometry.extentHeightMetres = extent.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres);
+    geometry.extentWidthMetres =
+        extent.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres);
+    geometry.extentHeightMetres =
+        extent.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres);
 }
 
 std::string readLabel(const JsonField& label, const std::vector<EnchanterDescription>& before) {
@@ -53,7 +55,9 @@ EnchanterDescription readEnchanter(const JsonField& field, const std::vector<Enc
     EnchanterDescription enchanter;
     if (field.has("label")) enchanter.label = readLabel(field["label"], before);
     if (field.has("actuator")) enchanter.actuator = field["actuator"].text();
-    if (field.has("full_scale_g")) enchanter.fullScaleG = field["full_scale_g"].numberWithin(limits::leastFullScaleG, limits::mostFullScaleG);
+    if (field.has("full_scale_g"))
+        enchanter.fullScaleG =
+            field["full_scale_g"].numberWithin(limits::leastFullScaleG, limits::mostFullScaleG);
     return enchanter;
 }
 
@@ -124,7 +128,8 @@ Result<LayoutDescription> findLayout(const std::string& nameOrPath) {
 }
 
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxLayoutFileBytes, [](const Json& root) { return readLayoutFields(JsonField(root, {})); });
+    return readJson(text, name, limits::maxLayoutFileBytes,
+                    [](const Json& root) { return readLayoutFields(JsonField(root, {})); });
 }
 
 Result<LayoutDescription> loadLayout(const std::filesystem::path& path) {

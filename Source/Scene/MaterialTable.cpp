@@ -2,11 +2,11 @@
 // The outer shape of a table of materials; a material's fields are those of a scene's.
 #include "Scene/MaterialTable.h"
 #include "Io/Disk/Embedded.h"
-#include "Scene/SceneFileLimits.h"
 #include "Io/Disk/ReadFile.h"
-#include "Scene/JsonReader.h"
 #include "Io/Json/JsonText.h"
+#include "Scene/JsonReader.h"
 #include "Scene/JsonWriter.h"
+#include "Scene/SceneFileLimits.h"
 #include "Scene/SceneValidation.h"
 #include <stdexcept>
 

@@ -46,7 +46,8 @@ private:
 
 } // namespace
 
-std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const CollisionEvent> events, std::span<const RenderControl> controls, const PhantomPanner& panner,
+std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const CollisionEvent> events,
+                                    std::span<const RenderControl> controls, const PhantomPanner& panner,
                                     std::int64_t endNs, std::uint64_t* lost) {
     OfflinePad pad{law, panner};
     auto control = controls.begin();
@@ -64,7 +65,8 @@ std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const Collision
 std::string motorsCsv(const std::vector<PadCommand>& commands, const Provenance& provenance) {
     std::string text = provenanceComment(provenance) + "time_s,low,high\n";
     for (const PadCommand& command : commands)
-        text += fixedNumber(static_cast<double>(command.timeNs) * 1e-9, 9) + ',' + fixedNumber(command.low, 2) + ',' + fixedNumber(command.high, 2) + '\n';
+        text += fixedNumber(static_cast<double>(command.timeNs) * 1e-9, 9) + ',' +
+                fixedNumber(command.low, 2) + ',' + fixedNumber(command.high, 2) + '\n';
     return text;
 }
 

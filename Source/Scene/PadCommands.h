@@ -10,10 +10,11 @@
 
 namespace physvib {
 
-/// All commands that differ from the one before, from 0 to `endNs`, where motors are at rest. `events` are felt as they are, by
-/// `panner` and what `controls` change of it, in the order of their times; of the others only stopAll counts. `lost`: events for which
-/// there was no room. Any thread.
-std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const CollisionEvent> events, std::span<const RenderControl> controls, const PhantomPanner& panner,
+/// All commands that differ from the one before, from 0 to `endNs`, where motors are at rest. `events` are
+/// felt as they are, by `panner` and what `controls` change of it, in the order of their times; of the others
+/// only stopAll counts. `lost`: events for which there was no room. Any thread.
+std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const CollisionEvent> events,
+                                    std::span<const RenderControl> controls, const PhantomPanner& panner,
                                     std::int64_t endNs, std::uint64_t* lost = nullptr);
 
 /// `time_s,low,high`, a line per command; times as in event lists, commands from 0 to 1.

@@ -22,7 +22,8 @@ struct PadProfile {
 };
 
 /// The profile that `text` describes; or, of the first thing that is wrong, one line
-/// `name: low.half: expected a number from ...`. Every field must be there; unknown and repeated fields are errors. Any thread.
+/// `name: low.half: expected a number from ...`. Every field must be there; unknown and repeated fields are
+/// errors. Any thread.
 Result<PadProfile> readPad(std::string_view text, std::string_view name);
 
 /// `profile` as JSON; readPad gives it back bit for bit. Any thread.

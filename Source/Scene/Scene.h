@@ -240,27 +240,31 @@ struct TextureAction {
 
     Texture texture() const noexcept { return {grainMetres, roughness, grainPattern, rolling}; }
 };
-/// Whoever holds the device turns it counter-clockwise and makes it heavier or lighter, on top of what gravity and tilt say
-/// before and after.
+/// Whoever holds the device turns it counter-clockwise and makes it heavier or lighter, on top of what
+/// gravity and tilt say before and after.
 struct HoldAction {
     double factor = 1.0;
     double angleRadians = 0.0;
     bool operator==(const HoldAction&) const = default;
 };
-/// A hand holds a point of a body and pulls it towards `toMetres`, where it is `overSeconds` later, in a straight line from where
-/// it is now; nowhere: it lets go. See SceneGrips. A body that is not there or not dynamic does not notice.
+/// A hand holds a point of a body and pulls it towards `toMetres`, where it is `overSeconds` later, in a
+/// straight line from where it is now; nowhere: it lets go. See SceneGrips. A body that is not there or not
+/// dynamic does not notice.
 struct GripAction {
     std::string body;
     std::optional<Vector> toMetres;
-    std::optional<Vector> pointMetres; ///< on the body, from its origin; none: the centre of mass. Counts when the grip begins
+    std::optional<Vector> pointMetres; ///< on the body, from its origin; none: the centre of mass. Counts
+                                       ///< when the grip begins
     double overSeconds = 0.0;
     bool operator==(const GripAction&) const = default;
 };
-/// The body of that name is as described from now on, and there again if it was removed: what an editor does. Not in a script.
-/// Its joints keep their points on it. Its fixtures have new numbers, as of a body that is spawned.
+/// The body of that name is as described from now on, and there again if it was removed: what an editor does.
+/// Not in a script. Its joints keep their points on it. Its fixtures have new numbers, as of a body that is
+/// spawned.
 struct ChangeAction {
     BodyDescription body;
-    bool stays = false; ///< where it is now, and as it moves, if it is there; the description says where the scene starts it
+    bool stays = false; ///< where it is now, and as it moves, if it is there; the description says where the
+                        ///< scene starts it
     bool operator==(const ChangeAction&) const = default;
 };
 /// Joins two bodies; places are those of the world when it acts. Not in a script.
@@ -273,9 +277,9 @@ struct UnjoinAction {
     std::string joint;
     bool operator==(const UnjoinAction&) const = default;
 };
-using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAction, SpawnAction, RemoveAction,
-                            MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction, TextureAction, GripAction,
-                            ChangeAction, JoinAction, UnjoinAction>;
+using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAction, SpawnAction,
+                            RemoveAction, MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction,
+                            TextureAction, GripAction, ChangeAction, JoinAction, UnjoinAction>;
 
 /// What puts a body into the world as a live input, under the next number; nullptr: something else.
 inline const BodyDescription* bodyPutBy(const Action& action) noexcept {
@@ -323,7 +327,7 @@ struct Scene {
     double fieldWidthMetres = 0.0;
     double fieldHeightMetres = 0.0;
     Vector gravityMetresPerSecond2; ///< until the script says otherwise
-    double driveGain = 1.0; ///< on top of Eq. 5.7, which leaves most hits near -40 dBFS
+    double driveGain = 1.0;         ///< on top of Eq. 5.7, which leaves most hits near -40 dBFS
     Normalisation normalisation;
     std::vector<Material> materials;
     std::vector<BodyDescription> bodies; ///< those it starts with; fixture numbers: see sceneCast()

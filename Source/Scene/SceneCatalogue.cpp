@@ -7,8 +7,8 @@
 namespace physvib {
 
 const std::vector<Scene>& builtInScenes() {
-    static const std::vector<Scene> scenes =
-        readEmbedded(embeddedScenes(), [](std::string_view text, std::string_view name) { return readScene(text, name); });
+    static const std::vector<Scene> scenes = readEmbedded(
+        embeddedScenes(), [](std::string_view text, std::string_view name) { return readScene(text, name); });
     return scenes;
 }
 

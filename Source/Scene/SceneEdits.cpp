@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Edits of descriptions; what would leave a scene that is not valid is left out.
 #include "Scene/SceneEdits.h"
-#include "Scene/World/ScenePlayer.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/World/ScenePlayer.h"
 #include <algorithm>
 #include <variant>
 
@@ -12,8 +12,12 @@ namespace {
 BodyDescription* findBody(Scene& scene, const std::string& name) {
     // the last of that name is there
     for (auto input = scene.inputs.rbegin(); input != scene.inputs.rend(); ++input) {
-        if (auto* spawn = std::get_if<SpawnAction>(&input->action); spawn != nullptr && spawn->body.name == name) return &spawn->body;
-        if (auto* change = std::get_if<ChangeAction>(&input->action); change != nullptr && change->body.name == name) return &change->body;
+        if (auto* spawn = std::get_if<SpawnAction>(&input->action);
+            spawn != nullptr && spawn->body.name == name)
+            return &spawn->body;
+        if (auto* change = std::get_if<ChangeAction>(&input->action);
+            change != nullptr && change->body.name == name)
+            return &change->body;
     }
     const auto found = std::ranges::find(scene.bodies, name, &BodyDescription::name);
     return found == scene.bodies.end() ? nullptr : &*found;
@@ -31,9 +35,11 @@ void changeFixtures(Scene& scene, const std::string& body, int fixture, Change c
 
 void describeEdit(Scene& scene, const Action& action) {
     if (const auto* material = std::get_if<MaterialAction>(&action))
-        changeFixtures(scene, material->body, material->fixture, [material](FixtureDescription& f) { f.material = material->material; });
+        changeFixtures(scene, material->body, material->fixture,
+                       [material](FixtureDescription& f) { f.material = material->material; });
     if (const auto* camera = std::get_if<CameraAction>(&action))
-        changeFixtures(scene, camera->body, camera->fixture, [camera](FixtureDescription& f) { f.isCamera = camera->isOn; });
+        changeFixtures(scene, camera->body, camera->fixture,
+                       [camera](FixtureDescription& f) { f.isCamera = camera->isOn; });
     if (const auto* sound = std::get_if<SoundAction>(&action)) {
         Material& material = scene.materials[static_cast<std::size_t>(sound->material)];
         material.frequencyHz = sound->frequencyHz;
@@ -41,23 +47,30 @@ void describeEdit(Scene& scene, const Action& action) {
     }
     if (const auto* change = std::get_if<ChangeAction>(&action))
         if (BodyDescription* found = findBody(scene, change->body.name)) *found = change->body;
-    if (const auto* texture = std::get_if<TextureAction>(&action)) scene.materials[static_cast<std::size_t>(texture->material)].setTexture(texture->texture());
+    if (const auto* texture = std::get_if<TextureAction>(&action))
+        scene.materials[static_cast<std::size_t>(texture->material)].setTexture(texture->texture());
 }
 
 bool isLasting(const Action& action) {
-    return bodyPutBy(action) != nullptr || std::holds_alternative<RemoveAction>(action) || std::holds_alternative<MaterialAction>(action) || std::holds_alternative<CameraAction>(action) ||
-           std::holds_alternative<SoundAction>(action) || std::holds_alternative<TextureAction>(action) || std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
+    return bodyPutBy(action) != nullptr || std::holds_alternative<RemoveAction>(action) ||
+           std::holds_alternative<MaterialAction>(action) || std::holds_alternative<CameraAction>(action) ||
+           std::holds_alternative<SoundAction>(action) || std::holds_alternative<TextureAction>(action) ||
+           std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
 }
 
 bool editScene(Scene& scene, const Action& action) {
     if (!isLasting(action)) return false;
     Scene next = scene;
     describeEdit(next, action);
-    if (const auto* removal = std::get_if<RemoveAction>(&action)) std::erase_if(next.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
+    if (const auto* removal = std::get_if<RemoveAction>(&action))
+        std::erase_if(next.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
     if (const auto* join = std::get_if<JoinAction>(&action)) next.joints.push_back(join->joint);
-    if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) std::erase_if(next.joints, [unjoin](const JointDescription& j) { return j.name == unjoin->joint; });
+    if (const auto* unjoin = std::get_if<UnjoinAction>(&action))
+        std::erase_if(next.joints, [unjoin](const JointDescription& j) { return j.name == unjoin->joint; });
     const BodyDescription* put = bodyPutBy(action);
-    if (put != nullptr && std::ranges::find(next.bodies, put->name, &BodyDescription::name) == next.bodies.end()) next.bodies.push_back(*put);
+    if (put != nullptr &&
+        std::ranges::find(next.bodies, put->name, &BodyDescription::name) == next.bodies.end())
+        next.bodies.push_back(*put);
     if (next == scene || !validate(next).empty()) return false;
     scene = std::move(next);
     return true;
@@ -74,7 +87,8 @@ Scene sceneForHands(Scene scene) {
     std::erase_if(scene.script, [&](const ScriptInput& input) {
         const Action& a = input.action;
         if (player.isThere()) return player.isPlayedBy(a) || std::holds_alternative<TiltAction>(a);
-        return std::holds_alternative<GravityAction>(a) || std::holds_alternative<TiltAction>(a) || std::holds_alternative<ImpulseAction>(a) || std::holds_alternative<VelocityAction>(a) ||
+        return std::holds_alternative<GravityAction>(a) || std::holds_alternative<TiltAction>(a) ||
+               std::holds_alternative<ImpulseAction>(a) || std::holds_alternative<VelocityAction>(a) ||
                std::holds_alternative<HoldAction>(a) || std::holds_alternative<GripAction>(a);
     });
     return scene;

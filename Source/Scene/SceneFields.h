@@ -23,15 +23,9 @@ struct Bounds {
 };
 
 /// How many items a list of structs may have.
-constexpr Bounds items(std::size_t fewest, std::size_t most) {
-    return {{}, {}, fewest, most};
-}
-constexpr Bounds upTo(double most) {
-    return {0.0, most};
-}
-constexpr Bounds within(double reach) {
-    return {-reach, reach};
-}
+constexpr Bounds items(std::size_t fewest, std::size_t most) { return {{}, {}, fewest, most}; }
+constexpr Bounds upTo(double most) { return {0.0, most}; }
+constexpr Bounds within(double reach) { return {-reach, reach}; }
 
 /// visitFields(v, FieldsOf<T>{}) calls v once per field of T:
 ///   field(name, member, Bounds, Need)    text, truth, number, Vector, optional or list of those, struct,
@@ -119,8 +113,7 @@ void visitFields(auto& v, FieldsOf<BodyDescription>) {
             Need::optional);
     v.field("angular_damping_per_s", &B::angularDampingPerSecond, upTo(sceneLimits::maxDampingPerSecond),
             Need::optional);
-    v.field("mass_kg", &B::massKg, Bounds{sceneLimits::minMassKg, sceneLimits::maxMassKg},
-            Need::optional);
+    v.field("mass_kg", &B::massKg, Bounds{sceneLimits::minMassKg, sceneLimits::maxMassKg}, Need::optional);
     v.field("fixtures", &B::fixtures, items(1, sceneLimits::maxFixturesPerBody), Need::required);
 }
 
@@ -134,8 +127,7 @@ void visitFields(auto& v, FieldsOf<WheelJoint>) {
     v.field("anchor_m", &WheelJoint::anchorMetres, positionBounds, Need::required);
     v.field("axis", &WheelJoint::axis, within(1.0), Need::optional);
     v.field("suspension_hz", &WheelJoint::suspensionHz, upTo(sceneLimits::maxSpringHz), Need::optional);
-    v.field("damping_ratio", &WheelJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio),
-            Need::optional);
+    v.field("damping_ratio", &WheelJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio), Need::optional);
     v.field("travel_m", &WheelJoint::travelMetres, positionBounds, Need::optional);
     v.field("motor_rad_per_s", &WheelJoint::motorRadiansPerSecond, spinBounds, Need::optional);
     v.field("max_torque_nm", &WheelJoint::maxTorqueNewtonMetres, torqueBounds, Need::optional);
@@ -151,8 +143,7 @@ void visitFields(auto& v, FieldsOf<DistanceJoint>) {
 void visitFields(auto& v, FieldsOf<WeldJoint>) {
     v.field("anchor_m", &WeldJoint::anchorMetres, positionBounds, Need::required);
     v.field("spring_hz", &WeldJoint::springHz, upTo(sceneLimits::maxSpringHz), Need::optional);
-    v.field("damping_ratio", &WeldJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio),
-            Need::optional);
+    v.field("damping_ratio", &WeldJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio), Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<SliderJoint>) {
@@ -163,7 +154,8 @@ void visitFields(auto& v, FieldsOf<SliderJoint>) {
     v.field("max_force_n", &SliderJoint::maxForceNewtons, upTo(sceneLimits::maxForceNewtons), Need::optional);
 }
 
-inline constexpr std::array<std::string_view, 5> jointNames{"revolute", "wheel", "distance", "weld", "slider"};
+inline constexpr std::array<std::string_view, 5> jointNames{"revolute", "wheel", "distance", "weld",
+                                                            "slider"};
 
 void visitFields(auto& v, FieldsOf<JointDescription>) {
     v.field("name", &JointDescription::name, anyText, Need::required);
@@ -242,15 +234,14 @@ void visitFields(auto& v, FieldsOf<ChangeAction>) {
     v.field("body", &ChangeAction::body, {}, Need::required);
     v.field("stays", &ChangeAction::stays, {}, Need::optional);
 }
-void visitFields(auto& v, FieldsOf<JoinAction>) {
-    v.field("joint", &JoinAction::joint, {}, Need::required);
-}
+void visitFields(auto& v, FieldsOf<JoinAction>) { v.field("joint", &JoinAction::joint, {}, Need::required); }
 void visitFields(auto& v, FieldsOf<UnjoinAction>) {
     v.field("joint", &UnjoinAction::joint, anyText, Need::required);
 }
 
 inline constexpr std::array<std::string_view, 16> actionNames{
-    "gravity", "tilt", "impulse", "velocity", "spawn", "remove", "motor", "camera", "material", "sound", "hold", "texture", "grip", "change", "join", "unjoin"};
+    "gravity",  "tilt",  "impulse", "velocity", "spawn", "remove", "motor", "camera",
+    "material", "sound", "hold",    "texture",  "grip",  "change", "join",  "unjoin"};
 
 void visitFields(auto& v, FieldsOf<ScriptInput>) {
     v.field("time_s", &ScriptInput::timeSeconds, upTo(sceneLimits::maxScriptSeconds), Need::required);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The outer shape of a scene file and its variables; its fields are read and written after the table in SceneFields.h.
+// The outer shape of a scene file and its variables; its fields are read and written after the table in
+// SceneFields.h.
 #include "Scene/SceneFile.h"
-#include "Scene/SceneFileLimits.h"
-#include "Scene/JsonReader.h"
 #include "Io/Json/JsonText.h"
-#include "Scene/JsonWriter.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/JsonReader.h"
+#include "Scene/JsonWriter.h"
+#include "Scene/SceneFileLimits.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
 
@@ -128,7 +129,8 @@ Scene readSceneRoot(Json& root, const SceneSettings& settings) {
 } // namespace
 
 Result<Scene> readScene(std::string_view text, std::string_view name, const SceneSettings& settings) {
-    return readJson(text, name, limits::maxSceneFileBytes, [&](Json& root) { return readSceneRoot(root, settings); });
+    return readJson(text, name, limits::maxSceneFileBytes,
+                    [&](Json& root) { return readSceneRoot(root, settings); });
 }
 
 std::string sceneJson(const Scene& scene) {

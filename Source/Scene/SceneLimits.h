@@ -20,7 +20,8 @@ constexpr double maxDampingPerSecond = 1000.0;
 constexpr double maxAccelerationMetresPerSecond2 = 1000.0;
 constexpr double maxGravityFactor = 10.0;
 constexpr double maxImpulseNewtonSeconds = 1.0e9;
-constexpr double maxGripMetresPerSecond2 = 100.0; // times the mass: a hand that holds pulls by ten weights at most
+constexpr double maxGripMetresPerSecond2 = 100.0; // times the mass: a hand that holds pulls by ten weights at
+                                                  // most
 constexpr double maxTorqueNewtonMetres = 1.0e9;
 constexpr double maxForceNewtons = 1.0e9;
 constexpr double maxSpringHz = 1000.0;
@@ -41,12 +42,13 @@ constexpr std::size_t maxFixtures = 8192;     // of the whole scene
 constexpr std::size_t maxPolygonVertices = 8; // b2_maxPolygonVertices
 constexpr std::size_t maxChainVertices = 1024;
 constexpr std::size_t maxChainEdges = 16'384; // of the whole scene: each has a place in Box2D's tree
-constexpr int maxContacts = 50'000; // at once; a heap of the most bodies has five each, twenty thousand in all
+constexpr int maxContacts = 50'000; // at once; a heap of the most bodies has five each, twenty thousand in
+                                    // all
 constexpr std::size_t maxJoints = 4096;
 constexpr std::size_t maxInputs = 4096;
-constexpr std::size_t maxActions = 100'000; // inputs with their repetitions
+constexpr std::size_t maxActions = 100'000;    // inputs with their repetitions
 constexpr std::size_t maxLiveInputs = 100'000; // a quarter of an hour of dragging at 100 a second
-constexpr double minSoundHz = 1.0; // a live change of a sound leaves one that can be felt
+constexpr double minSoundHz = 1.0;             // a live change of a sound leaves one that can be felt
 constexpr double minSoundDecayPerSecond = 0.01;
 
 } // namespace physvib::sceneLimits

@@ -18,7 +18,8 @@ inline std::string shortNumber(double number) {
 }
 
 inline std::string outside(const std::string& path, double least, double most, double found) {
-    return path + ": expected " + shortNumber(least) + " to " + shortNumber(most) + ", found " + shortNumber(found);
+    return path + ": expected " + shortNumber(least) + " to " + shortNumber(most) + ", found " +
+           shortNumber(found);
 }
 
 inline std::string itemPath(const std::string& path, std::size_t index) {
@@ -33,9 +34,7 @@ inline std::string checkRange(const std::string& path, double value, const Bound
 inline std::string checkRange(const std::string& path, int value, const Bounds& bounds) {
     return checkRange(path, static_cast<double>(value), bounds);
 }
-inline std::string checkRange(const std::string&, std::same_as<bool> auto, const Bounds&) {
-    return {};
-}
+inline std::string checkRange(const std::string&, std::same_as<bool> auto, const Bounds&) { return {}; }
 inline std::string checkRange(const std::string& path, const std::string& text, const Bounds&) {
     return text.empty() ? path + ": expected text, found none" : std::string();
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Who is meant by a name.
 #include "Scene/SceneReferences.h"
-#include "Scene/World/SceneCast.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneRanges.h"
+#include "Scene/World/SceneCast.h"
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -27,7 +27,8 @@ public:
         , cast_(scriptedCast(scene)) {
         for (const JointDescription& joint : scene.joints) joints_.emplace(joint.name, &joint);
         for (const LiveInput& input : scene.inputs)
-            if (const auto* join = std::get_if<JoinAction>(&input.action)) joints_.emplace(join->joint.name, &join->joint);
+            if (const auto* join = std::get_if<JoinAction>(&input.action))
+                joints_.emplace(join->joint.name, &join->joint);
     }
 
     std::string check() {
@@ -45,12 +46,16 @@ public:
 private:
     // What an input has spawned and another has removed leaves its name to the next.
     std::string nameBodies() {
-        const auto twice = [](const std::string& name) { return "bodies: expected names of their own, found \"" + name + "\" twice"; };
+        const auto twice = [](const std::string& name) {
+            return "bodies: expected names of their own, found \"" + name + "\" twice";
+        };
         for (const BodyDescription& body : cast_)
             if (!bodies_.emplace(body.name, &body).second) return twice(body.name);
         std::set<std::string_view> there, gone;
         for (const LiveInput& input : scene_.inputs) {
-            if (const auto* removal = std::get_if<RemoveAction>(&input.action); removal != nullptr && there.erase(removal->body) > 0) gone.insert(removal->body);
+            if (const auto* removal = std::get_if<RemoveAction>(&input.action);
+                removal != nullptr && there.erase(removal->body) > 0)
+                gone.insert(removal->body);
             const BodyDescription* put = bodyPutBy(input.action);
             if (put == nullptr) continue;
             const BodyDescription& body = *put;
@@ -71,8 +76,10 @@ private:
         for (const LiveInput& input : scene_.inputs) {
             if (const auto* unjoin = std::get_if<UnjoinAction>(&input.action)) there.erase(unjoin->joint);
             const auto* join = std::get_if<JoinAction>(&input.action);
-            if (join != nullptr && !there.insert(join->joint.name).second) return "joints: expected names of their own, found \"" + join->joint.name + "\" twice";
-            if (there.size() > sceneLimits::maxJoints) return "joints: expected at most " + std::to_string(sceneLimits::maxJoints);
+            if (join != nullptr && !there.insert(join->joint.name).second)
+                return "joints: expected names of their own, found \"" + join->joint.name + "\" twice";
+            if (there.size() > sceneLimits::maxJoints)
+                return "joints: expected at most " + std::to_string(sceneLimits::maxJoints);
         }
         return {};
     }
@@ -81,8 +88,11 @@ private:
         if (!bodies_.contains(joint.bodyA)) return missing(path + ".body_a", "body", joint.bodyA);
         if (!bodies_.contains(joint.bodyB)) return missing(path + ".body_b", "body", joint.bodyB);
         if (joint.bodyA == joint.bodyB) return path + ".body_b: expected another body than body_a";
-        const auto isNoAxis = [](const auto* slides) { return slides != nullptr && std::hypot(slides->axis.x, slides->axis.y) < 1.0e-3; };
-        if (isNoAxis(std::get_if<WheelJoint>(&joint.joint)) || isNoAxis(std::get_if<SliderJoint>(&joint.joint)))
+        const auto isNoAxis = [](const auto* slides) {
+            return slides != nullptr && std::hypot(slides->axis.x, slides->axis.y) < 1.0e-3;
+        };
+        if (isNoAxis(std::get_if<WheelJoint>(&joint.joint)) ||
+            isNoAxis(std::get_if<SliderJoint>(&joint.joint)))
             return path + ".axis: expected a direction, found none";
         return {};
     }
@@ -92,7 +102,9 @@ private:
         const double period = scene_.scriptPeriodSeconds;
         const double end = period > 0.0 ? period : sceneLimits::maxScriptSeconds;
         if (!(last <= end)) return detail::outside(path + ".time_s", 0.0, end, last);
-        if (std::holds_alternative<ChangeAction>(input.action) || std::holds_alternative<JoinAction>(input.action) || std::holds_alternative<UnjoinAction>(input.action))
+        if (std::holds_alternative<ChangeAction>(input.action) ||
+            std::holds_alternative<JoinAction>(input.action) ||
+            std::holds_alternative<UnjoinAction>(input.action))
             return path + ".input: expected another: change, join and unjoin are live inputs only";
         return std::visit([&](const auto& action) { return checkAction(action, path); }, input.action);
     }
@@ -111,9 +123,12 @@ private:
                                        std::holds_alternative<WheelJoint>(joint->second->joint));
         return hasMotor ? std::string() : missing(path + ".joint", "revolute or wheel joint", action.joint);
     }
-    std::string checkAction(const JoinAction& action, const std::string& path) const { return checkJoint(action.joint, path + ".joint"); }
+    std::string checkAction(const JoinAction& action, const std::string& path) const {
+        return checkJoint(action.joint, path + ".joint");
+    }
     std::string checkAction(const UnjoinAction& action, const std::string& path) const {
-        return joints_.contains(action.joint) ? std::string() : missing(path + ".joint", "joint", action.joint);
+        return joints_.contains(action.joint) ? std::string()
+                                              : missing(path + ".joint", "joint", action.joint);
     }
     template <class One>
     std::string checkAction(const One& action, const std::string& path) const {
@@ -137,8 +152,6 @@ private:
 
 } // namespace
 
-std::string checkReferences(const Scene& scene) {
-    return References(scene).check();
-}
+std::string checkReferences(const Scene& scene) { return References(scene).check(); }
 
 } // namespace physvib

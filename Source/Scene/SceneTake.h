@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One stretch of a session: a scene from its start on, with what was done to it, and when the world stood still.
+// One stretch of a session: a scene from its start on, with what was done to it, and when the world stood
+// still.
 #pragma once
 #include "Scene/Scene.h"
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace physvib {
 
-/// From world time `worldNs` on, the world is `lengthNs` later than before; and again after each of the following
-/// `steps` - 1 steps (slow motion).
+/// From world time `worldNs` on, the world is `lengthNs` later than before; and again after each of the
+/// following `steps` - 1 steps (slow motion).
 struct WorldStall {
     std::int64_t worldNs = 0;
     std::int64_t lengthNs = 0;

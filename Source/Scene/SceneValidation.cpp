@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Ranges, then sums, outlines and masses, then what refers to what.
 #include "Scene/SceneValidation.h"
-#include "Scene/World/BodyMass.h"
-#include "Scene/World/PlacedBodies.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneRanges.h"
 #include "Scene/SceneReferences.h"
+#include "Scene/World/BodyMass.h"
+#include "Scene/World/PlacedBodies.h"
 #include "Scene/World/ShapeGeometry.h"
 #include <cmath>
 #include <map>
@@ -46,7 +46,9 @@ struct Totals {
         edges -= edgesOf(body);
     }
     std::string fault() const {
-        for (std::string fault : {atMost("bodies", maxBodies, bodies), atMost("fixtures", maxFixtures, fixtures), atMost("chain edges", maxChainEdges, edges)})
+        for (std::string fault :
+             {atMost("bodies", maxBodies, bodies), atMost("fixtures", maxFixtures, fixtures),
+              atMost("chain edges", maxChainEdges, edges)})
             if (!fault.empty()) return fault;
         return {};
     }
@@ -59,7 +61,8 @@ std::string checkTotals(const Scene& scene) {
     for (const BodyDescription& body : scene.bodies) totals.add(body);
     for (const ScriptInput& input : scene.script) {
         actions += static_cast<std::size_t>(input.times);
-        if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) totals.add(spawn->body, static_cast<std::size_t>(input.times));
+        if (const auto* spawn = std::get_if<SpawnAction>(&input.action))
+            totals.add(spawn->body, static_cast<std::size_t>(input.times));
     }
     std::string fault = totals.fault();
     if (fault.empty()) fault = atMost("script actions", maxActions, actions);
@@ -111,12 +114,8 @@ std::string checkOutline(const ChainShape& chain) {
     return checkEdges(chain.verticesMetres, chain.isLoop);
 }
 
-std::string checkOutline(const CircleShape&) {
-    return {};
-}
-std::string checkOutline(const BoxShape&) {
-    return {};
-}
+std::string checkOutline(const CircleShape&) { return {}; }
+std::string checkOutline(const BoxShape&) { return {}; }
 
 // Box2D takes the inertia about the origin and subtracts again, in single precision, what the distance of the
 // centre of mass adds to it: of a small shape far out nothing would be left.

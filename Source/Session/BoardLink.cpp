@@ -10,46 +10,59 @@ namespace physvib {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
-constexpr std::int64_t helloEvery = 250 * ms, telemetryEvery = second, gainsEvery = second, searchEvery = second / 2;
-constexpr std::int64_t firstGainsAgain = 8 * ms;        // then after twice as long each time: silence is not a second late where a line loses it
-constexpr std::int64_t givenUpAfter = 3 * second / 2;   // a silent line is opened again
-constexpr std::int64_t tooOld = 50 * ms;                // a strike this late is not worth the line
-constexpr std::int64_t lineAhead = 4 * ms;              // in the system's buffers at most: the rest can still be thinned
-constexpr double marginMs = 4.0 + 3.0 + 2.1;            // lineAhead, this thread's naps, one strike on the line
-constexpr std::int64_t longestAnswer = second;           // no line delays an answer by more
+constexpr std::int64_t helloEvery = 250 * ms, telemetryEvery = second, gainsEvery = second,
+                       searchEvery = second / 2;
+constexpr std::int64_t firstGainsAgain = 8 * ms;      // then after twice as long each time: silence is not a
+                                                      // second late where a line loses it
+constexpr std::int64_t givenUpAfter = 3 * second / 2; // a silent line is opened again
+constexpr std::int64_t tooOld = 50 * ms;              // a strike this late is not worth the line
+constexpr std::int64_t lineAhead = 4 * ms;   // in the system's buffers at most: the rest can still be thinned
+constexpr double marginMs = 4.0 + 3.0 + 2.1; // lineAhead, this thread's naps, one strike on the line
+constexpr std::int64_t longestAnswer = second; // no line delays an answer by more
 // nor does a clock that runs on differ by as much
 constexpr double restartFrames = limits::board::sampleRateHz;
-constexpr int crowded = 4;                              // from here on strikes go in the compact form
+constexpr int crowded = 4; // from here on strikes go in the compact form
 
 /// Why nothing is sent to this board; empty: it is what this program plays on.
 std::string refusal(const wire::HelloReply& board) {
     if (board.version < 1 || board.version > wire::protocolVersion)
-        return "expected a board of protocol 1 to " + std::to_string(wire::protocolVersion) + ", found " + std::to_string(board.version);
+        return "expected a board of protocol 1 to " + std::to_string(wire::protocolVersion) + ", found " +
+               std::to_string(board.version);
     if (board.channels != limits::board::channels || board.sampleRateHz != limits::board::sampleRateHz)
-        return "expected a board of " + std::to_string(limits::board::channels) + " channels at " + std::to_string(limits::board::sampleRateHz) + " Hz, found " +
-               std::to_string(board.channels) + " at " + std::to_string(board.sampleRateHz) + " Hz";
+        return "expected a board of " + std::to_string(limits::board::channels) + " channels at " +
+               std::to_string(limits::board::sampleRateHz) + " Hz, found " + std::to_string(board.channels) +
+               " at " + std::to_string(board.sampleRateHz) + " Hz";
     if (board.watchdogMs > wire::defaultWatchdogMs || board.aheadFrames > limits::board::sampleRateHz)
-        return "expected a board that is silent " + std::to_string(wire::defaultWatchdogMs) + " ms after its computer, and plays within a second";
+        return "expected a board that is silent " + std::to_string(wire::defaultWatchdogMs) +
+               " ms after its computer, and plays within a second";
     return {};
 }
 
-constexpr std::size_t compactBytes = 16;                // of a strike in the compact form on the line
-constexpr std::int64_t earlyLeg = 40 * ms;               // ahead: it can be sent later as well
-constexpr std::size_t legBytes = 36;                    // of a leg
-constexpr double besidesMs = 3.0;                       // of the line: pings, gains, the last strikes in the long form
+constexpr std::size_t compactBytes = 16;   // of a strike in the compact form on the line
+constexpr std::int64_t earlyLeg = 40 * ms; // ahead: it can be sent later as well
+constexpr std::size_t legBytes = 36;       // of a leg
+constexpr double besidesMs = 3.0;          // of the line: pings, gains, the last strikes in the long form
 
 // The board's counter at a frame, or between two.
-std::uint32_t wrapped(double frame) { return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(frame))); }
+std::uint32_t wrapped(double frame) {
+    return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(frame)));
+}
 
-constexpr std::int64_t lineNs(std::size_t bytes) { return static_cast<std::int64_t>(bytes) * 10 * second / wire::lineBitsPerSecond; }
+constexpr std::int64_t lineNs(std::size_t bytes) {
+    return static_cast<std::int64_t>(bytes) * 10 * second / wire::lineBitsPerSecond;
+}
 
 } // namespace
 
 std::int64_t BoardLink::nowNs() noexcept {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
-BoardLink::BoardLink(std::string port) : wanted_{port == anyBoard ? std::string{} : std::move(port)}, thread_{[this] { run(); }} {}
+BoardLink::BoardLink(std::string port)
+    : wanted_{port == anyBoard ? std::string{} : std::move(port)}
+    , thread_{[this] { run(); }} {}
 
 BoardLink::~BoardLink() {
     stop_ = true;
@@ -59,7 +72,8 @@ BoardLink::~BoardLink() {
 void BoardLink::setGains(const std::array<double, limits::board::channels>& gains) {
     wire::Gains message;
     for (std::size_t j = 0; j < gains.size(); ++j)
-        message.gains[j] = static_cast<std::int16_t>(std::clamp(std::nearbyint(gains[j] * limits::board::amplitudeUnit), -32768.0, 32767.0));
+        message.gains[j] = static_cast<std::int16_t>(
+            std::clamp(std::nearbyint(gains[j] * limits::board::amplitudeUnit), -32768.0, 32767.0));
     order([&](Orders& o) { o.gains = message; });
 }
 
@@ -74,7 +88,8 @@ std::string BoardLink::awaitReady(const std::function<bool()>& goesOn) const {
         const std::int64_t waited = nowNs() - start;
         if (now.state == State::ready && now.telemetry.good > 0) return {};
         const bool isNobodyThere = now.port.empty() && !now.trouble.empty() && waited > 2 * second;
-        if (isNobodyThere || waited > 20 * second || !goesOn()) return now.trouble.empty() ? "no board answers" : now.trouble;
+        if (isNobodyThere || waited > 20 * second || !goesOn())
+            return now.trouble.empty() ? "no board answers" : now.trouble;
     }
 }
 
@@ -85,9 +100,12 @@ BoardLinkStatus BoardLink::status() const {
 
 void BoardLink::run() {
     while (!stop_) {
-        if (!line_) search();
-        else receive();
-        if (line_ && now_.state == State::greeting) greet();
+        if (!line_)
+            search();
+        else
+            receive();
+        if (line_ && now_.state == State::greeting)
+            greet();
         else if (line_) {
             obey();
             if (line_) keepInTouch();
@@ -144,14 +162,16 @@ void BoardLink::receive() {
     const int n = line_->read(bytes, 1);
     if (n < 0) return disconnect(now_.port + ": the line is gone");
     for (int i = 0; i < n; ++i)
-        if (const auto payload = decoder_.feed(bytes[static_cast<std::size_t>(i)]); !payload.empty()) handle(payload);
+        if (const auto payload = decoder_.feed(bytes[static_cast<std::size_t>(i)]); !payload.empty())
+            handle(payload);
     if (nowNs() - heardNs_ > givenUpAfter) disconnect(now_.port + ": no answer");
 }
 
 void BoardLink::handle(std::span<const std::uint8_t> payload) {
     heardNs_ = nowNs();
     // the first of several
-    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting) return meet(hello);
+    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting)
+        return meet(hello);
     if (wire::Pong pong; wire::decode(payload, pong) && now_.state >= State::synchronising) return take(pong);
     if (wire::Telemetry telemetry; wire::decode(payload, telemetry)) now_.telemetry = telemetry;
     if (wire::SelfTestReply reply; wire::decode(payload, reply)) now_.selfTest = reply;
@@ -161,7 +181,8 @@ void BoardLink::meet(const wire::HelloReply& board) {
     if (auto fault = refusal(board); !fault.empty()) return disconnect(now_.port + ": " + fault);
     now_.board = board;
     now_.trouble.clear();
-    nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // it may have been without power, and plays at its own again
+    nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // it may have been without power, and plays at its own
+                                                       // again
     now_.state = State::synchronising;
     sequence_ = 0xFF;
     legEnds_.clear();
@@ -174,7 +195,8 @@ void BoardLink::take(const wire::Pong& pong) {
     const std::int64_t sentNs = std::exchange(pingSentNs_[pong.id], 0);
     if (sentNs == 0 || heardNs_ - sentNs > longestAnswer) return;
     const double frames = clock_.unwrapped(pong.frame, pong.fraction);
-    if (!clock_.isEmpty() && std::abs(frames - clock_.frameAt(heardNs_)) > restartFrames) return disconnect(now_.port + ": the board has started anew");
+    if (!clock_.isEmpty() && std::abs(frames - clock_.frameAt(heardNs_)) > restartFrames)
+        return disconnect(now_.port + ": the board has started anew");
     clock_.add(sentNs, frames, heardNs_);
     if (clock_.isReady()) now_.state = State::ready;
 }
@@ -212,7 +234,8 @@ void BoardLink::obey() {
     }
     if (orders.stopAll) {
         backlog_.clear();
-        for (BoardStrike waiting; strikes_.pop(waiting);) {}
+        for (BoardStrike waiting; strikes_.pop(waiting);) {
+        }
         legEnds_.clear();
         if (line_) send(wire::StopAll{});
     }
@@ -251,8 +274,10 @@ void BoardLink::sendLeg(const BoardLeg& leg, bool isCoarse) {
 
 void BoardLink::sendStrikes() {
     for (BoardStrike strike; strikes_.pop(strike);) {
-        if (isPlayable(strike.event)) backlog_.push(strike);
-        else ++now_.refused;
+        if (isPlayable(strike.event))
+            backlog_.push(strike);
+        else
+            ++now_.refused;
     }
     const std::int64_t now = nowNs();
     while (!backlog_.empty() && backlog_.first().onsetNs < now - tooOld) {
@@ -260,18 +285,25 @@ void BoardLink::sendStrikes() {
         ++now_.refused;
     }
     const bool isReady = line_ && now_.state == State::ready;
-    if (isReady) backlog_.keepTo({std::max(now, lineFreeNs_), lineNs(compactBytes), static_cast<std::int64_t>(1e6 * (transitMs() + besidesMs))});
-    while (line_ && isReady && !backlog_.empty() && isLineFree(now) && backlog_.first().onsetNs < now + sendAheadMs * ms) {
+    if (isReady)
+        backlog_.keepTo({std::max(now, lineFreeNs_), lineNs(compactBytes),
+                         static_cast<std::int64_t>(1e6 * (transitMs() + besidesMs))});
+    while (line_ && isReady && !backlog_.empty() && isLineFree(now) &&
+           backlog_.first().onsetNs < now + sendAheadMs * ms) {
         wire::Strike strike{++sequence_, backlog_.first().event};
         strike.event.frame = wrapped(clock_.frameAt(backlog_.first().onsetNs));
-        if (backlog_.size() > crowded && wire::fitsCompact(strike.event)) send(wire::compact(strike));
-        else send(strike);
+        if (backlog_.size() > crowded && wire::fitsCompact(strike.event))
+            send(wire::compact(strike));
+        else
+            send(strike);
         backlog_.pop();
         ++now_.sent;
     }
 }
 
-double BoardLink::transitMs() const { return 1e3 * clock_.worstDelaySeconds() + now_.board.aheadFrames * 1e3 / limits::board::sampleRateHz; }
+double BoardLink::transitMs() const {
+    return 1e3 * clock_.worstDelaySeconds() + now_.board.aheadFrames * 1e3 / limits::board::sampleRateHz;
+}
 
 double BoardLink::playOutMs() const { return transitMs() + marginMs; }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t secondNs = 1'000'000'000;
 constexpr std::int64_t mostLateNs = 40'000'000; // a whole leg: nothing of it can be felt
-constexpr std::int64_t spareNs = 2'000'000;     // with less to spare a leg is long, so that the next is not late
+constexpr std::int64_t spareNs = 2'000'000; // with less to spare a leg is long, so that the next is not late
 
 } // namespace
 
@@ -47,7 +47,9 @@ SinkState BoardOutput::state() const {
     return state;
 }
 
-std::string BoardOutput::summary(const std::function<bool()>& goesOn) const { return boardSummary(link_, before_, goesOn); }
+std::string BoardOutput::summary(const std::function<bool()>& goesOn) const {
+    return boardSummary(link_, before_, goesOn);
+}
 
 void BoardOutput::feed() {
     if (const FeltMoment felt = device_->felt(); felt.steadyNs != 0) {
@@ -57,8 +59,10 @@ void BoardOutput::feed() {
     if (clock_.isReady()) {
         takeControls();
         for (CollisionEvent event; events_.pop(event);) {
-            if (event.course.travelNs > 0 && isPlayable(event)) move(event);
-            else strike(event);
+            if (event.course.travelNs > 0 && isPlayable(event))
+                move(event);
+            else
+                strike(event);
         }
         takeSteps();
         takeLegs();
@@ -71,7 +75,8 @@ void BoardOutput::takeControls() {
     for (RenderControl control; controls_.pop(control);)
         (control.kind == RenderControl::Kind::panner ? layouts_ : others_).push_back(control);
     const std::int64_t now = BoardLink::nowNs();
-    const auto waits = std::find_if(others_.begin(), others_.end(), [&](const auto& c) { return clock_.steadyAt(c.timeNs) > now; });
+    const auto waits = std::find_if(others_.begin(), others_.end(),
+                                    [&](const auto& c) { return clock_.steadyAt(c.timeNs) > now; });
     std::for_each(others_.begin(), waits, [this](const auto& c) { apply(c); });
     others_.erase(others_.begin(), waits);
 }
@@ -97,35 +102,47 @@ void BoardOutput::takeSteps() {
 }
 
 void BoardOutput::move(const CollisionEvent& event) {
-    const auto atOnce = std::count_if(paths_.begin(), paths_.end(), [&](const BoardPath& path) { return path.endNs() > event.timeNs; });
-    const bool hasLegs = link_.playsLegs() && atOnce < mostPaths && 2 * event.frequencyHz < limits::board::sampleRateHz;
-    if (hasLegs) paths_.emplace_back(event, rateHz_);
-    else steps_.emplace_back(event);
+    const auto atOnce = std::count_if(paths_.begin(), paths_.end(),
+                                      [&](const BoardPath& path) { return path.endNs() > event.timeNs; });
+    const bool hasLegs =
+        link_.playsLegs() && atOnce < mostPaths && 2 * event.frequencyHz < limits::board::sampleRateHz;
+    if (hasLegs)
+        paths_.emplace_back(event, rateHz_);
+    else
+        steps_.emplace_back(event);
 }
 
-// Of all, the leg that is due first; as many as there is room for, and not before the link would send strikes of that time.
+// Of all, the leg that is due first; as many as there is room for, and not before the link would send strikes
+// of that time.
 void BoardOutput::takeLegs() {
     const std::int64_t now = BoardLink::nowNs();
-    std::erase_if(paths_, [&](const BoardPath& path) { return path.isOver() && clock_.steadyAt(path.endNs()) < now; });
+    std::erase_if(
+        paths_, [&](const BoardPath& path) { return path.isOver() && clock_.steadyAt(path.endNs()) < now; });
     const auto dueNs = [](const BoardPath& path) { return path.isOver() ? INT64_MAX : path.nextNs(); };
     for (;;) {
-        const auto first = std::min_element(paths_.begin(), paths_.end(), [&](const auto& a, const auto& b) { return dueNs(a) < dueNs(b); });
+        const auto first = std::min_element(
+            paths_.begin(), paths_.end(), [&](const auto& a, const auto& b) { return dueNs(a) < dueNs(b); });
         if (first == paths_.end() || first->isOver()) return;
         const std::int64_t due = clock_.steadyAt(first->nextNs());
         if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.takesLeg(due)) sendLeg(*first);
         // the line is gone, or others take it
-        else if (due < now - mostLateNs) first->skip(), link_.refuseLeg();
-        else return;
+        else if (due < now - mostLateNs)
+            first->skip(), link_.refuseLeg();
+        else
+            return;
     }
 }
 
 void BoardOutput::sendLeg(BoardPath& path) {
     takeLayouts(path.nextNs());
     for (const BoardPath& before : paths_) path.joinTo(before);
-    const auto frameAt = [&](std::int64_t sinceNs) { return link_.frameAt(clock_.steadyAt(path.onsetNs() + sinceNs)); };
+    const auto frameAt = [&](std::int64_t sinceNs) {
+        return link_.frameAt(clock_.steadyAt(path.onsetNs() + sinceNs));
+    };
     const BoardTime time{frameAt(0), frameAt(secondNs) - frameAt(0)};
     const bool isHurried = clock_.steadyAt(path.nextNs()) < link_.legReadyNs() + spareNs;
-    const auto leg = path.next(time, [this](const auto&... at) { return gainsAt(at...); }, isHurried);
+    const auto leg = path.next(
+        time, [this](const auto&... at) { return gainsAt(at...); }, isHurried);
     if (!leg) return;
     link_.sendLeg(*leg, path.isCoarse());
     path.take();
@@ -147,7 +164,8 @@ void BoardOutput::strike(const CollisionEvent& event) {
 }
 
 void BoardOutput::takeLayouts(std::int64_t timeNs) {
-    for (; !layouts_.empty() && layouts_.front().timeNs <= timeNs; layouts_.erase(layouts_.begin())) panner_ = layouts_.front().panner;
+    for (; !layouts_.empty() && layouts_.front().timeNs <= timeNs; layouts_.erase(layouts_.begin()))
+        panner_ = layouts_.front().panner;
 }
 
 PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event, double x, double y) const noexcept {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A session on a board beside its device: each collision is felt on both at the same moment.
 //
-// The device's blocks say when a moment of the session is felt (FeltClock); the link knows which frame of the board that
-// is. Both play the same events from the same panner; the device's master level and silence are the board's as well.
-// Controls act when they are felt on the device, but for strikes on their way to the board: a stop forgets those.
+// The device's blocks say when a moment of the session is felt (FeltClock); the link knows which frame of the
+// board that is. Both play the same events from the same panner; the device's master level and silence are
+// the board's as well. Controls act when they are felt on the device, but for strikes on their way to the
+// board: a stop forgets those.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/PhantomPanner.h"
@@ -22,8 +23,8 @@ namespace physvib {
 /// Works on L while it follows a device.
 class BoardOutput final : public Sink, private BoardSource {
 public:
-    /// The board at `port`, or anyBoard; `panner`: the session's, of at most four. It has to know what it plays
-    /// `latencySeconds` before, or as long as the link says when it is ready. M.
+    /// The board at `port`, or anyBoard; `panner`: the session's, of at most four. It has to know what it
+    /// plays `latencySeconds` before, or as long as the link says when it is ready. M.
     BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds = 0.0);
     ~BoardOutput() override { follow(nullptr); }
 
@@ -58,18 +59,18 @@ private:
 
     BoardLink link_;
     double latencySeconds_;
-    wire::Telemetry before_;                   // when it became ready: a board counts on from call to call
-    EventQueue<CollisionEvent, 1024> events_;  // in session time, as the renderer gets them; L reads
+    wire::Telemetry before_;                  // when it became ready: a board counts on from call to call
+    EventQueue<CollisionEvent, 1024> events_; // in session time, as the renderer gets them; L reads
     EventQueue<RenderControl, 256> controls_;
-    FeltOutput* device_ = nullptr;             // M, while L is not in feed()
+    FeltOutput* device_ = nullptr; // M, while L is not in feed()
 
     // L
     int rateHz_ = 0; // of the session
     FeltClock clock_;
     PhantomPanner panner_;
     std::vector<RenderControl> layouts_, others_; // that wait for their time
-    std::vector<BoardPath> paths_;    // what moves, until its end is felt: another may go on where it is over
-    std::vector<BoardSteps> steps_;   // what moves, beyond those, or on a board that has no legs
+    std::vector<BoardPath> paths_;  // what moves, until its end is felt: another may go on where it is over
+    std::vector<BoardSteps> steps_; // what moves, beyond those, or on a board that has no legs
     std::array<double, limits::board::channels> gains_{1.0, 1.0, 1.0, 1.0};
     std::optional<std::array<double, limits::board::channels>> sent_; // to the link
     std::array<bool, limits::board::channels> muted_{};

@@ -10,9 +10,7 @@ namespace {
 using State = BoardLinkStatus::State;
 constexpr std::int64_t newsWithinNs = 1'500'000'000; // telemetry comes once a second
 
-std::string count(std::uint64_t n) {
-    return std::to_string(n);
-}
+std::string count(std::uint64_t n) { return std::to_string(n); }
 
 std::string whereItPlays(const BoardLinkStatus& s) {
     if (s.state == State::ready)
@@ -37,8 +35,7 @@ std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
         {"On board",
          count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost",
          t.late + t.dropped + t.lost > 0});
-    if (t.guarded > 0)
-        facts.push_back({"Guard of the board", "acted " + count(t.guarded) + " times", true});
+    if (t.guarded > 0) facts.push_back({"Guard of the board", "acted " + count(t.guarded) + " times", true});
     return facts;
 }
 

@@ -12,6 +12,7 @@ namespace physvib {
 SinkState sinkStateOf(const BoardLinkStatus& board);
 
 /// Lines on what was sent and played since `before`, as soon as the board has told it, or a moment later.
-std::string boardSummary(const BoardLink& link, const wire::Telemetry& before, const std::function<bool()>& goesOn);
+std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
+                         const std::function<bool()>& goesOn);
 
 } // namespace physvib

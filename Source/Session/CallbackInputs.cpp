@@ -33,9 +33,12 @@ bool CallbackInputs::perform(RenderInput input, int frame) noexcept {
 }
 
 void CallbackInputs::forget() noexcept {
-    for (CollisionEvent unplayed; strikes_.pop(unplayed);) {}
-    for (RenderControl undone; controls_.pop(undone);) {}
-    for (RenderInput undone; inputs_.pop(undone);) {}
+    for (CollisionEvent unplayed; strikes_.pop(unplayed);) {
+    }
+    for (RenderControl undone; controls_.pop(undone);) {
+    }
+    for (RenderInput undone; inputs_.pop(undone);) {
+    }
     spawns_ = 0;
     names_.fill({});
 }

@@ -4,8 +4,8 @@
 #include "Core/EventQueue.h"
 #include "Core/RenderControl.h"
 #include "Session/AddedSamples.h"
-#include "Session/Timeline.h"
 #include "Session/SessionWorld.h"
+#include "Session/Timeline.h"
 #include <array>
 #include <cstdint>
 #include <string>
@@ -16,17 +16,17 @@ namespace physvib {
 /// Part of a session.
 class CallbackInputs {
 public:
-    /// Each `frame` frames into the block that is rendered next: it is felt L later like everything else, or the renderer's latency later where
-    /// the session is direct, at an exact frame.
-    /// False, and counted, if it found no room. R, wait-free.
+    /// Each `frame` frames into the block that is rendered next: it is felt L later like everything else, or
+    /// the renderer's latency later where the session is direct, at an exact frame. False, and counted, if it
+    /// found no room. R, wait-free.
     bool strike(CollisionEvent event, int frame) noexcept { return strike(event, frame, 0); }
     /// so long after that frame, which may be past
     bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept;
     bool control(RenderControl control, int frame) noexcept;
     bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step
 
-    /// Not L later but as soon as it can be: what rings fades, and what happened before is not felt any more. As the
-    /// others. R, wait-free.
+    /// Not L later but as soon as it can be: what rings fades, and what happened before is not felt any more.
+    /// As the others. R, wait-free.
     bool silence(int frame) noexcept;
 
     /// These samples are played as well, from now on; they outlive the session. M, while nobody renders.
@@ -53,7 +53,9 @@ private:
     void handTo(SessionWorld& world);
 
     /// All that found no room. Any thread, wait-free.
-    std::uint64_t refused() const noexcept { return strikes_.overflows() + controls_.overflows() + inputs_.overflows(); }
+    std::uint64_t refused() const noexcept {
+        return strikes_.overflows() + controls_.overflows() + inputs_.overflows();
+    }
 
     void addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action);
 
@@ -64,8 +66,9 @@ private:
     EventQueue<RenderControl, 128> controls_;  // whoever sends them keeps to a pace
     EventQueue<RenderInput, 1024> inputs_;     // from R to whoever steps the world
     AddedSamples* added_ = nullptr;
-    std::uint64_t spawns_ = 0;                 // the world's, as what follows
-    std::array<std::string, 64> names_;        // of bodies that R spawned, the newest; no world here needs more at once
+    std::uint64_t spawns_ = 0;          // the world's, as what follows
+    std::array<std::string, 64> names_; // of bodies that R spawned, the newest; no world here needs more at
+                                        // once
 };
 
 } // namespace physvib

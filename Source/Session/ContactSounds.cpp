@@ -13,7 +13,8 @@ std::vector<float> converted(const std::vector<float>& in, double ratio) {
     constexpr double most = 256.0; // of the converter at a time: a recording may have 100 Hz
     if (ratio > most) return converted(converted(in, most), ratio / most);
     if (1.0 / ratio > most) return converted(converted(in, 1.0 / most), ratio * most);
-    std::vector<float> out(std::max<std::size_t>(1, static_cast<std::size_t>(ratio * static_cast<double>(in.size()))));
+    std::vector<float> out(
+        std::max<std::size_t>(1, static_cast<std::size_t>(ratio * static_cast<double>(in.size()))));
     SRC_DATA data{};
     data.data_in = in.data();
     data.input_frames = static_cast<long>(in.size());
@@ -43,13 +44,16 @@ std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordin
 std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings) {
     std::vector<std::string> notes;
     for (const ContactRecording& recording : recordings)
-        if (!recording.note.empty() && std::ranges::find(notes, recording.note) == notes.end()) notes.push_back(recording.note);
+        if (!recording.note.empty() && std::ranges::find(notes, recording.note) == notes.end())
+            notes.push_back(recording.note);
     return notes;
 }
 
 ContactSounds::ContactSounds(const std::vector<ContactRecording>& recordings, int sampleRateHz) {
-    for (const ContactRecording& recording : recordings) samples_.push_back(resampled(recording, sampleRateHz));
-    for (std::size_t i = 0; i < recordings.size(); ++i) contacts_.push_back({recordings[i].frequencyHz, samples_[i]});
+    for (const ContactRecording& recording : recordings)
+        samples_.push_back(resampled(recording, sampleRateHz));
+    for (std::size_t i = 0; i < recordings.size(); ++i)
+        contacts_.push_back({recordings[i].frequencyHz, samples_[i]});
 }
 
 } // namespace physvib

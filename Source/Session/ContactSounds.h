@@ -25,8 +25,8 @@ std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordin
 /// Their notes, each once. Any thread.
 std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings);
 
-/// Recordings at one rate, and the list of them that a renderer takes; both live as long as this object, which stays where
-/// it is. Any thread but R.
+/// Recordings at one rate, and the list of them that a renderer takes; both live as long as this object,
+/// which stays where it is. Any thread but R.
 class ContactSounds {
 public:
     ContactSounds() = default;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// When hands feel a moment of the session, on the computer's steady clock: from the times at which a device asks for blocks.
+// When hands feel a moment of the session, on the computer's steady clock: from the times at which a device
+// asks for blocks.
 //
-// A driver asks for a block when there is room for it, never earlier, and often a little later. So the earliest of the
-// last calls, for the time that it asked for, is the device's clock; a mean would lag by how busy the computer is. A
-// quarter to half a second of calls is looked at: 300 ppm of drift are then 0.15 ms at most.
+// A driver asks for a block when there is room for it, never earlier, and often a little later. So the
+// earliest of the last calls, for the time that it asked for, is the device's clock; a mean would lag by how
+// busy the computer is. A quarter to half a second of calls is looked at: 300 ppm of drift are then 0.15 ms
+// at most.
 #pragma once
 #include "Session/FeltOutput.h"
 #include <algorithm>
@@ -33,7 +35,9 @@ public:
     bool isReady() const noexcept { return isReady_; }
 
     /// When `sessionNs` is felt; only if ready.
-    std::int64_t steadyAt(std::int64_t sessionNs) const noexcept { return sessionNs + std::min(before_, now_); }
+    std::int64_t steadyAt(std::int64_t sessionNs) const noexcept {
+        return sessionNs + std::min(before_, now_);
+    }
 
 private:
     std::int64_t before_ = 0, now_ = 0; // least lag of the last half window and of the one that runs

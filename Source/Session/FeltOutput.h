@@ -25,10 +25,9 @@ public:
     FeltMoment felt() const noexcept {
         for (;;) {
             const auto before = writes_.load(std::memory_order_acquire);
-            const FeltMoment moment{sessionNs_.load(std::memory_order_acquire),
-                                    steadyNs_.load(std::memory_order_acquire),
-                                    behindNs_.load(std::memory_order_acquire),
-                                    sampleRateHz_.load(std::memory_order_acquire)};
+            const FeltMoment moment{
+                sessionNs_.load(std::memory_order_acquire), steadyNs_.load(std::memory_order_acquire),
+                behindNs_.load(std::memory_order_acquire), sampleRateHz_.load(std::memory_order_acquire)};
             if (before % 2 == 0 && writes_.load(std::memory_order_relaxed) == before) return moment;
         }
     }

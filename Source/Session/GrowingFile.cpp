@@ -7,8 +7,10 @@ namespace physvib {
 void GrowingFile::open(const std::filesystem::path& path) {
     path_ = path;
     file_ = SystemFile::grow(path);
-    if (file_.error() != 0) fail(file_.reason());
-    else if (file_.lock() == SystemFile::Lock::others) fail("it is being written already");
+    if (file_.error() != 0)
+        fail(file_.reason());
+    else if (file_.lock() == SystemFile::Lock::others)
+        fail("it is being written already");
 }
 
 void GrowingFile::append(std::string_view lines) {

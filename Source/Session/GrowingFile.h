@@ -9,7 +9,8 @@
 
 namespace physvib {
 
-/// What cannot be written waits, so that the file never ends inside a line; the next call tries again. One thread at a time.
+/// What cannot be written waits, so that the file never ends inside a line; the next call tries again. One
+/// thread at a time.
 class GrowingFile {
 public:
     /// Goes on at the end of the file, and nobody else does meanwhile.
@@ -23,7 +24,8 @@ public:
         if (error_.empty() && !file_.sync()) fail(file_.reason());
     }
 
-    /// Empty, or one line: why something waits, or that more than maxWaitingBytes would have to; then it grows no more.
+    /// Empty, or one line: why something waits, or that more than maxWaitingBytes would have to; then it
+    /// grows no more.
     const std::string& error() const noexcept { return error_; }
 
     static constexpr std::size_t maxWaitingBytes = 32'000'000; // twenty minutes of a lively session

@@ -21,8 +21,10 @@ struct HeardContacts::Source {
         Change change;
         if (!heard.changes_.pop(change)) return false;
         control.timeNs = change.timeNs;
-        control.kind = change.fieldWidthMetres > 0.0 ? RenderControl::Kind::panner : RenderControl::Kind::stopAll;
-        if (control.kind == RenderControl::Kind::panner) control.panner = betweenEars(change.fieldWidthMetres, change.fieldHeightMetres);
+        control.kind =
+            change.fieldWidthMetres > 0.0 ? RenderControl::Kind::panner : RenderControl::Kind::stopAll;
+        if (control.kind == RenderControl::Kind::panner)
+            control.panner = betweenEars(change.fieldWidthMetres, change.fieldHeightMetres);
         return true;
     }
 };
@@ -37,8 +39,10 @@ void HeardContacts::prepare(int sampleRateHz) {
     if (ears_ > 1) settings.panner = betweenEars(field_.fieldWidthMetres(), field_.fieldHeightMetres());
     renderer_->prepare(settings);
     setContacts(sampleRateHz);
-    for (CollisionEvent unplayed; events_.pop(unplayed);) {}
-    for (Change undone; changes_.pop(undone);) {}
+    for (CollisionEvent unplayed; events_.pop(unplayed);) {
+    }
+    for (Change undone; changes_.pop(undone);) {
+    }
 }
 
 void HeardContacts::moveTo(int sampleRateHz, std::int64_t frame) {
@@ -54,7 +58,8 @@ void HeardContacts::setContacts(int sampleRateHz) {
 void HeardContacts::render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
     Source source{*this};
     renderer_->render(source, out, frames);
-    for (PlayedEvent told; renderer_->played().pop(told);) {} // the enchanters' renderer has told of them
+    for (PlayedEvent told; renderer_->played().pop(told);) {
+    } // the enchanters' renderer has told of them
 }
 
 } // namespace physvib

@@ -46,12 +46,13 @@ RenderStatus renderOffline(std::span<const CollisionEvent> events, const Offline
     std::vector<float> pulses(settings.marks != nullptr ? block : 0);
     std::vector<const float*> withMarks(channels + 1, pulses.data());
     if (settings.marks != nullptr) settings.marks->prepare(settings.renderer.sampleRateHz, 0);
-    renderFromStart(*renderer, source, out.data(), static_cast<int>(channels), settings.frames, settings.blockFrames, [&](const float* const* at, int n) {
-        if (settings.marks == nullptr) return consume(at, n);
-        settings.marks->render(pulses.data(), n);
-        std::copy_n(at, channels, withMarks.begin());
-        return consume(withMarks.data(), n);
-    });
+    renderFromStart(*renderer, source, out.data(), static_cast<int>(channels), settings.frames,
+                    settings.blockFrames, [&](const float* const* at, int n) {
+                        if (settings.marks == nullptr) return consume(at, n);
+                        settings.marks->render(pulses.data(), n);
+                        std::copy_n(at, channels, withMarks.begin());
+                        return consume(withMarks.data(), n);
+                    });
     return renderer->status();
 }
 

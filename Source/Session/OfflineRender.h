@@ -15,10 +15,10 @@ namespace physvib {
 struct OfflineSettings {
     RendererSettings renderer;
     std::int64_t frames = 0;
-    int blockFrames = 256; ///< 1 to limits::maxBlockFrames
+    int blockFrames = 256;                     ///< 1 to limits::maxBlockFrames
     std::span<const RenderControl> controls{}; ///< in time order
-    RecordedContacts contacts{}; ///< from the start
-    OnsetMarks* marks = nullptr; ///< write one channel more
+    RecordedContacts contacts{};               ///< from the start
+    OnsetMarks* marks = nullptr;               ///< write one channel more
 };
 
 /// Takes channels[channel][0..frames), the next frames in order; false stops the render.

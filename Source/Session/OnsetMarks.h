@@ -18,10 +18,13 @@ enum class MarkedOnsets {
     messages ///< what is struck apart from a world
 };
 inline constexpr std::array<std::string_view, 3> markedOnsetsNames{"all", "hits", "messages"};
-constexpr std::string_view nameOf(MarkedOnsets which) noexcept { return markedOnsetsNames[static_cast<std::size_t>(which)]; }
+constexpr std::string_view nameOf(MarkedOnsets which) noexcept {
+    return markedOnsetsNames[static_cast<std::size_t>(which)];
+}
 
-/// Full scale from the first frame at or after the onset on, else 0. Each onset has an edge of its own: a pulse ends early, so that it has rested
-/// before the next. Only those that come leastApartSeconds or less after an edge share its pulse.
+/// Full scale from the first frame at or after the onset on, else 0. Each onset has an edge of its own: a
+/// pulse ends early, so that it has rested before the next. Only those that come leastApartSeconds or less
+/// after an edge share its pulse.
 class OnsetMarks {
 public:
     static constexpr double pulseSeconds = 0.002, restSeconds = 0.00025, leastApartSeconds = 0.0005;
@@ -29,9 +32,12 @@ public:
     explicit OnsetMarks(MarkedOnsets which) noexcept
         : which_{which} {}
 
-    /// The next sample is that of `firstFrame`, which may be below 0; nothing is marked yet. M, not while rendering.
+    /// The next sample is that of `firstFrame`, which may be below 0; nothing is marked yet. M, not while
+    /// rendering.
     void prepare(int sampleRateHz, std::int64_t firstFrame) noexcept {
-        const auto framesOf = [=](double seconds) { return static_cast<std::int64_t>(std::ceil(seconds * sampleRateHz)); };
+        const auto framesOf = [=](double seconds) {
+            return static_cast<std::int64_t>(std::ceil(seconds * sampleRateHz));
+        };
         pulse_ = framesOf(pulseSeconds);
         rest_ = framesOf(restSeconds);
         apart_ = framesOf(leastApartSeconds);
@@ -40,7 +46,8 @@ public:
         lastEdge_ = offFrame_ = INT64_MIN / 2;
     }
 
-    /// It is played from that frame on, of which no sample has been rendered yet: restSeconds ahead at least, for the pulse before it. R, wait-free.
+    /// It is played from that frame on, of which no sample has been rendered yet: restSeconds ahead at least,
+    /// for the pulse before it. R, wait-free.
     void strike(const CollisionEvent& event, std::int64_t frame) noexcept {
         if (!isMarked(event)) return;
         if (frame <= lastEdge_ + apart_) return count(shared_);
@@ -69,10 +76,16 @@ private:
     bool isMarked(const CollisionEvent& event) const noexcept {
         const bool isOfWorld = event.source.fixture >= 0;
         if (event.course.sinceNs > 0) return false;
-        return which_ == MarkedOnsets::all || (which_ == MarkedOnsets::hits ? isOfWorld && event.source.kind == ContactKind::hit : !isOfWorld);
+        return which_ == MarkedOnsets::all ||
+               (which_ == MarkedOnsets::hits ? isOfWorld && event.source.kind == ContactKind::hit
+                                             : !isOfWorld);
     }
-    std::int64_t nextEdge() const noexcept { return first_ == last_ ? INT64_MAX : edges_[first_ % edges_.size()]; }
-    static void count(std::atomic<std::uint64_t>& counter) noexcept { counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }
+    std::int64_t nextEdge() const noexcept {
+        return first_ == last_ ? INT64_MAX : edges_[first_ % edges_.size()];
+    }
+    static void count(std::atomic<std::uint64_t>& counter) noexcept {
+        counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    }
 
     const MarkedOnsets which_;
     std::int64_t pulse_ = 0, rest_ = 0, apart_ = 0, position_ = 0;

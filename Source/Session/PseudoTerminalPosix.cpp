@@ -15,7 +15,8 @@ namespace {
 
 class TerminalLine final : public SerialLine {
 public:
-    explicit TerminalLine(int file) : file_{file} {}
+    explicit TerminalLine(int file)
+        : file_{file} {}
     ~TerminalLine() override { close(file_); }
     int read(std::span<std::uint8_t> bytes, int milliseconds) override {
         pollfd wait{file_, POLLIN, 0};
@@ -24,7 +25,9 @@ public:
         if (n < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
         return n > 0 ? static_cast<int>(n) : -1;
     }
-    bool write(std::span<const std::uint8_t> bytes) override { return ::write(file_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()); }
+    bool write(std::span<const std::uint8_t> bytes) override {
+        return ::write(file_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
+    }
 
 private:
     int file_;

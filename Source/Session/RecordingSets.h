@@ -14,14 +14,18 @@ namespace physvib {
 /// A clip, at each rate that was asked for.
 class ClipSound {
 public:
-    ClipSound(ContactRecording clip) : clip_{std::move(clip)} {}
+    ClipSound(ContactRecording clip)
+        : clip_{std::move(clip)} {}
 
-    bool isAt(int sampleRateHz) const { return std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz) != sounds_.end(); }
+    bool isAt(int sampleRateHz) const {
+        return std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz) != sounds_.end();
+    }
 
     /// Takes long at first. Lives as long as this object, wherever it is moved.
     std::span<const float> at(int sampleRateHz) {
         auto known = std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz);
-        if (known == sounds_.end()) known = sounds_.insert(sounds_.end(), AtRate{sampleRateHz, {{clip_}, sampleRateHz}});
+        if (known == sounds_.end())
+            known = sounds_.insert(sounds_.end(), AtRate{sampleRateHz, {{clip_}, sampleRateHz}});
         return known->sounds.contacts().front().samples;
     }
 
@@ -43,10 +47,12 @@ private:
 /// All there were: R may still know any. One thread at a time; Session guards it by its input mutex.
 class RecordingSets {
 public:
-    /// What a renderer takes of them at that rate, and of the clips, also of those that are added later; it lives as long as
-    /// this object. Where there are no recordings, events that are no clips play their mode.
+    /// What a renderer takes of them at that rate, and of the clips, also of those that are added later; it
+    /// lives as long as this object. Where there are no recordings, events that are no clips play their mode.
     RecordedContacts at(int sampleRateHz, const std::vector<ContactRecording>& recordings) {
-        const auto known = std::ranges::find_if(sets_, [&](const Set& set) { return set.sampleRateHz == sampleRateHz && set.recordings == recordings; });
+        const auto known = std::ranges::find_if(sets_, [&](const Set& set) {
+            return set.sampleRateHz == sampleRateHz && set.recordings == recordings;
+        });
         if (known != sets_.end()) return known->played();
         Set& set = sets_.emplace_back(Set{recordings, sampleRateHz, {recordings, sampleRateHz}, {}});
         const auto sounds = set.sounds.contacts();
@@ -65,8 +71,9 @@ public:
 
     const std::deque<ClipSound>& clips() const noexcept { return clips_; }
 
-    /// One more, as clip clips().size(), less than mostClips; quickly, if it is at all rates(). R may be looking through any list: it reads
-    /// the names of the places for clips, which stay, and the samples of this one only for a strike that is told to it after this call.
+    /// One more, as clip clips().size(), less than mostClips; quickly, if it is at all rates(). R may be
+    /// looking through any list: it reads the names of the places for clips, which stay, and the samples of
+    /// this one only for a strike that is told to it after this call.
     void add(ClipSound clip) {
         clips_.push_back(std::move(clip));
         for (Set& set : sets_) fill(set, clips_.size() - 1);
@@ -81,7 +88,9 @@ private:
         RecordedContacts played() const noexcept { return {contacts, recordings.empty()}; }
     };
 
-    void fill(Set& set, std::size_t number) { set.contacts[set.recordings.size() + number].samples = clips_[number].at(set.sampleRateHz); }
+    void fill(Set& set, std::size_t number) {
+        set.contacts[set.recordings.size() + number].samples = clips_[number].at(set.sampleRateHz);
+    }
 
     std::deque<Set> sets_;
     std::deque<ClipSound> clips_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The channels that a session renders: the actuators', behind them what is heard of each hit, and last the marks of onsets.
+// The channels that a session renders: the actuators', behind them what is heard of each hit, and last the
+// marks of onsets.
 #pragma once
 #include "Core/ClipNumber.h"
 #include "Session/HeardContacts.h"
@@ -18,13 +19,17 @@ public:
     /// How many tell what is heard of each hit, in sync with the actuators: 0, 1, or left and right.
     int heard() const noexcept { return heard_ ? heard_->ears() : 0; }
 
-    /// Of the last one: a pulse at each onset. Neither gains nor ceilings nor delays act on it. Null: there is none.
+    /// Of the last one: a pulse at each onset. Neither gains nor ceilings nor delays act on it. Null: there
+    /// is none.
     const OnsetMarks* marks() const noexcept { return marks_.get(); }
 
     int count() const noexcept { return actuators_ + heard() + (marks_ ? 1 : 0); }
 
-    /// The largest that a sample of an actuator's channel has been allowed to be while the limiter is on. Any thread.
-    float ceiling(int channel) const noexcept { return ceilings_[static_cast<std::size_t>(channel)].load(std::memory_order_relaxed); }
+    /// The largest that a sample of an actuator's channel has been allowed to be while the limiter is on. Any
+    /// thread.
+    float ceiling(int channel) const noexcept {
+        return ceilings_[static_cast<std::size_t>(channel)].load(std::memory_order_relaxed);
+    }
 
 private:
     friend class Session;
@@ -32,7 +37,9 @@ private:
 
     explicit RenderedChannels(const SessionSetup& setup)
         : actuators_{setup.channels}
-        , heard_{setup.contactSound ? std::make_unique<HeardContacts>(*setup.contactSound, setup.ears, setup.panner) : nullptr}
+        , heard_{setup.contactSound
+                     ? std::make_unique<HeardContacts>(*setup.contactSound, setup.ears, setup.panner)
+                     : nullptr}
         , marks_{setup.marks ? std::make_unique<OnsetMarks>(*setup.marks) : nullptr} {
         std::ranges::copy(setup.ceilings, ceilings_.begin());
     }
@@ -44,7 +51,8 @@ private:
         most = std::max(most.load(), to);
     }
 
-    /// The first sample, silence; the same at another rate, where the actuators' renderer is at `rendered`. M, not while rendering.
+    /// The first sample, silence; the same at another rate, where the actuators' renderer is at `rendered`.
+    /// M, not while rendering.
     void prepare(int sampleRateHz, std::int64_t firstFrame) {
         if (heard_) heard_->prepare(sampleRateHz);
         if (marks_) marks_->prepare(sampleRateHz, firstFrame);

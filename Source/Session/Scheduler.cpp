@@ -23,7 +23,8 @@ Scheduler::Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunne
     , played_{setup.recordings} {}
 
 void Scheduler::prepare() {
-    for (RenderControl undone; controls_.pop(undone);) {}
+    for (RenderControl undone; controls_.pop(undone);) {
+    }
     check_.reset();
     log_ = {};
     panner_ = setup_.panner;
@@ -50,7 +51,9 @@ Result<std::int64_t> Scheduler::take(Action& action, std::int64_t) {
     for (;;) { // again if a new take began since the check
         std::size_t number = 0;
         const auto scene = world_.scene(number);
-        if (!check_ || checkedTake_ != number) check_.emplace(*scene, setup_.log == LogUse::document ? sceneLimits::maxLiveInputs : InputCheck::endless);
+        if (!check_ || checkedTake_ != number)
+            check_.emplace(*scene,
+                           setup_.log == LogUse::document ? sceneLimits::maxLiveInputs : InputCheck::endless);
         checkedTake_ = number;
         if (std::string fault = check_->take(action); !fault.empty()) return Failure{std::move(fault)};
         if (world_.addInput(number, action)) return time_.nowNs();
@@ -96,13 +99,16 @@ Result<std::int64_t> Scheduler::take(PlayedRecordings& wanted, std::int64_t) {
 }
 
 Result<std::int64_t> Scheduler::take(const Strikes& strikes, std::int64_t timeNs) {
-    const auto isFit = [&](const CollisionEvent& e) { return isPlayable(e) && (strikes.canBeStopped || e.timeNs < limits::maxTimeNs / 2); };
+    const auto isFit = [&](const CollisionEvent& e) {
+        return isPlayable(e) && (strikes.canBeStopped || e.timeNs < limits::maxTimeNs / 2);
+    };
     if (!std::ranges::all_of(strikes.events, isFit)) return Failure{"expected strikes that can be played"};
     const std::int64_t start = timeNs == Input::now ? toldNs() : timeNs;
     std::vector<CollisionEvent> events{strikes.events.begin(), strikes.events.end()};
     for (CollisionEvent& event : events) event.timeNs += start;
     if (strikes.canBeStopped) {
-        if (!world_.schedule(events)) return Failure{"too many strikes wait: at most " + std::to_string(WaitingStrikes::most)};
+        if (!world_.schedule(events))
+            return Failure{"too many strikes wait: at most " + std::to_string(WaitingStrikes::most)};
         return start;
     }
     world_.strike(events);
@@ -189,7 +195,10 @@ std::optional<int> Scheduler::keepClip(std::span<const ContactRecording> channel
     for (std::vector<int> rates;;) {
         for (ClipSound& sound : sounds) std::ranges::for_each(rates, [&](int rate) { sound.at(rate); });
         const std::lock_guard lock{mutex_};
-        const auto isFirst = [&](const ClipFile& kept) { return kept.channel == 0 && kept.file.path == channels[0].file.path && kept.file.hash == channels[0].file.hash; };
+        const auto isFirst = [&](const ClipFile& kept) {
+            return kept.channel == 0 && kept.file.path == channels[0].file.path &&
+                   kept.file.hash == channels[0].file.hash;
+        };
         const auto known = std::ranges::find_if(clips_, isFirst);
         if (known != clips_.end()) return static_cast<int>(known - clips_.begin());
         if (!hasRoomFor(sounds)) return std::nullopt;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one way of all inputs from outside: checked, given a time, logged, and handed to the world or to the renderer.
+// The one way of all inputs from outside: checked, given a time, logged, and handed to the world or to the
+// renderer.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Io/Result.h"
@@ -21,7 +22,8 @@ namespace physvib {
 class Scheduler {
 public:
     /// All outlive it.
-    Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world, RenderedChannels& channels, SinkSet& sinks);
+    Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world, RenderedChannels& channels,
+              SinkSet& sinks);
 
     Result<std::int64_t> take(Input input);
     std::optional<int> keepClip(std::span<const ContactRecording> channels);

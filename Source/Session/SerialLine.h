@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A serial port at the board's speed, by libserialport; or a pseudo-terminal, which that library does not open.
+// A serial port at the board's speed, by libserialport; or a pseudo-terminal, which that library does not
+// open.
 #pragma once
 #include <cstdint>
 #include <memory>

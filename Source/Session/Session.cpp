@@ -20,7 +20,8 @@ struct Session::Source {
     bool popOfWorld(CollisionEvent& event) noexcept {
         if (mode == RenderMode::offline) return session.world_.popOrStep(event, endNs);
         if (!session.world_.pop(event)) return false;
-        session.leastMarginFrames_ = std::min(session.leastMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
+        session.leastMarginFrames_ =
+            std::min(session.leastMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
         return true;
     }
     bool pop(RenderControl& control) noexcept {
@@ -28,8 +29,12 @@ struct Session::Source {
         session.channels_.tell(control);
         return true;
     }
-    void struck(const CollisionEvent& event, std::int64_t frame) noexcept { session.channels_.struck(event, frame); }
-    const float* const* added(std::int64_t frame, int frames) noexcept { return session.callback_.added_ ? session.callback_.added_->at(frame, frames) : nullptr; }
+    void struck(const CollisionEvent& event, std::int64_t frame) noexcept {
+        session.channels_.struck(event, frame);
+    }
+    const float* const* added(std::int64_t frame, int frames) noexcept {
+        return session.callback_.added_ ? session.callback_.added_->at(frame, frames) : nullptr;
+    }
 };
 
 Session::Session(const SessionSetup& setup)
@@ -61,7 +66,11 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
 }
 
 ClockLaw Session::lawAt(int sampleRateHz, int maxBlockFrames) const {
-    return {sampleRateHz, maxBlockFrames, setup_.stepsPerSecond, setup_.longestGapSeconds, HapticRenderer::latencyFramesAt(sampleRateHz),
+    return {sampleRateHz,
+            maxBlockFrames,
+            setup_.stepsPerSecond,
+            setup_.longestGapSeconds,
+            HapticRenderer::latencyFramesAt(sampleRateHz),
             sinks_.latencySeconds()};
 }
 
@@ -70,7 +79,8 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     const FrameClock clock{sampleRateHz};
     world_.resume(clock);
     setTime(lawAt(sampleRateHz, maxBlockFrames), clock.at(time_.nowNs()).frame);
-    const auto rendered = std::max<std::int64_t>(0, time_.framesRendered() - time_.playOutFrames() + time_.law().limiterFrames);
+    const auto rendered =
+        std::max<std::int64_t>(0, time_.framesRendered() - time_.playOutFrames() + time_.law().limiterFrames);
     renderer_->moveTo(sampleRateHz, rendered);
     channels_.moveTo(sampleRateHz, rendered, rendered - renderer_->latencyFrames());
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz)); // recordings that sound stop
@@ -98,7 +108,8 @@ void Session::wait(int frames) noexcept {
 }
 
 void Session::wait(float* const* unfelt, int frames) noexcept {
-    const std::int64_t start = time_.playOutFrames() - renderer_->latencyFrames(), next = time_.framesRendered() - start;
+    const std::int64_t start = time_.playOutFrames() - renderer_->latencyFrames(),
+                       next = time_.framesRendered() - start;
     if (next >= 0) { // else it has not begun
         Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, next, time_.nowNs()};
         renderer_->render(source, unfelt, frames);
@@ -110,7 +121,8 @@ void Session::wait(float* const* unfelt, int frames) noexcept {
 // The renderer's own output lags by the limiter's frames, which are part of L: it starts that much earlier.
 void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     const bool begins = world_.beginBlock(mode);
-    const std::int64_t done = begins ? time_.tellFrames(frames) : 0, start = time_.playOutFrames() - renderer_->latencyFrames();
+    const std::int64_t done = begins ? time_.tellFrames(frames) : 0,
+                       start = time_.playOutFrames() - renderer_->latencyFrames();
     const int silent = begins ? static_cast<int>(std::clamp<std::int64_t>(start - done, 0, frames)) : frames;
     std::array<float*, limits::maxEnchanters + 3> rest{};
     for (int j = 0; j < channels_.count(); ++j) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Two files that grow, and what becomes of the first.
 #include "Session/SessionJournal.h"
-#include "Scene/SceneFileLimits.h"
 #include "Io/Disk/ReadFile.h"
+#include "Scene/SceneFileLimits.h"
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -14,12 +14,14 @@ namespace {
 constexpr std::chrono::milliseconds period{500}; // half of what a kill may cost
 
 SavedSession headOf(const SessionSetup& setup) {
-    return {setup.run(), setup.panner, setup.channels, setup.limiterEnabled, setup.ceilings, 0, {}, {}, setup.equalised, setup.shaping};
+    return {setup.run(), setup.panner, setup.channels,  setup.limiterEnabled, setup.ceilings, 0,
+            {},          {},           setup.equalised, setup.shaping};
 }
 
 } // namespace
 
-SessionJournal::SessionJournal(std::filesystem::path path, Session& session, const SessionSetup& setup, const Provenance& provenance)
+SessionJournal::SessionJournal(std::filesystem::path path, Session& session, const SessionSetup& setup,
+                               const Provenance& provenance)
     : path_{std::move(path)}
     , eventsPath_{std::filesystem::path{path_}.replace_extension(".events.csv")}
     , session_{session}
@@ -100,8 +102,11 @@ void SessionJournal::tell() {
     if (news.empty() && wasHeldUp_) news = path_.string() + ": can be written again, and nothing is missing";
     wasHeldUp_ = isHeldUp;
     if (news.empty() && !lines_.full().empty())
-        news = path_.string() + ": is full (" + lines_.full() + "): the session is kept up to " + std::to_string(lines_.toldNs() / 1'000'000'000) + " s, and plays on";
-    if (news.empty() && rows_ > limits::maxEventRows) news = eventsPath_.string() + ": is full (" + std::to_string(limits::maxEventRows) + " rows), and the session plays on";
+        news = path_.string() + ": is full (" + lines_.full() + "): the session is kept up to " +
+               std::to_string(lines_.toldNs() / 1'000'000'000) + " s, and plays on";
+    if (news.empty() && rows_ > limits::maxEventRows)
+        news = eventsPath_.string() + ": is full (" + std::to_string(limits::maxEventRows) +
+               " rows), and the session plays on";
     if (news.empty()) return;
     const std::lock_guard lock{mutex_};
     news_ = std::move(news);
@@ -128,7 +133,8 @@ std::string SessionJournal::finish(std::size_t mostBytes) {
     const auto session = readSession(text.value, path_.string());
     if (!session) return session.error;
     whole_->write(sessionJson(session.value));
-    if (const std::string& error = whole_->commit(); !error.empty()) return error + "; the session is there as it was kept while it played, and renders";
+    if (const std::string& error = whole_->commit(); !error.empty())
+        return error + "; the session is there as it was kept while it played, and renders";
     return fault();
 }
 

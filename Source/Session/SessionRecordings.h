@@ -28,7 +28,9 @@ public:
     std::vector<RenderControl> with(std::vector<RenderControl> controls) const;
 
     /// The clips beside these recordings: what is played from the start.
-    RecordedContacts beside(const std::vector<ContactRecording>& recordings) { return sets_.at(sampleRateHz_, recordings); }
+    RecordedContacts beside(const std::vector<ContactRecording>& recordings) {
+        return sets_.at(sampleRateHz_, recordings);
+    }
 
 private:
     int sampleRateHz_;

@@ -14,14 +14,16 @@ SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const
     return all;
 }
 
-bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, const SessionExtent& extent, const BlockConsumer& consume) {
+bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, const SessionExtent& extent,
+                   const BlockConsumer& consume) {
     SessionRecordings recordings{session.log, loaded, extent.sampleRateHz};
     const std::int64_t endNs = std::llround(extent.seconds * 1e9);
     bool goesOn = extent.progress(0.0);
     if (!goesOn) return false;
-    auto events = sessionEvents(session, endNs, [&](std::int64_t timeNs) {
-                      return goesOn = extent.progress(0.5 * static_cast<double>(timeNs) / static_cast<double>(endNs));
-                  }).events;
+    auto events =
+        sessionEvents(session, endNs, [&](std::int64_t timeNs) {
+            return goesOn = extent.progress(0.5 * static_cast<double>(timeNs) / static_cast<double>(endNs));
+        }).events;
     if (!goesOn) return false;
     std::ranges::transform(events, events.begin(), EventShaper{session.shaping});
     const auto controls = recordings.with(controlsOf(session.log, true, session.channels));
@@ -36,7 +38,9 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
     renderOffline(events, {renderer, frames, 1024, controls, recordings.beside({})},
                   [&](const float* const* block, int n) {
                       done += n;
-                      return goesOn = consume(block, n) && extent.progress(0.5 + 0.5 * static_cast<double>(done) / static_cast<double>(frames));
+                      return goesOn =
+                                 consume(block, n) && extent.progress(0.5 + 0.5 * static_cast<double>(done) /
+                                                                                static_cast<double>(frames));
                   });
     return goesOn;
 }

@@ -4,9 +4,9 @@
 #include "Core/ClockLaw.h"
 #include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"
+#include "Scene/World/SceneRun.h"
 #include "Session/ContactSounds.h"
 #include "Session/OnsetMarks.h"
-#include "Scene/World/SceneRun.h"
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -16,7 +16,8 @@
 
 namespace physvib {
 
-/// What the render call may do to the world: hold the device another way, or perform a group of actions that was prepared.
+/// What the render call may do to the world: hold the device another way, or perform a group of actions that
+/// was prepared.
 struct RenderInput {
     static constexpr int device = -1;
     int group = device;      ///< index into SessionSetup::groups
@@ -25,11 +26,13 @@ struct RenderInput {
     std::int64_t timeNs = 0; ///< given by the session
 };
 
-/// How soon that is felt which needs no world: strikes apart from it, and controls. Its own collisions are felt L later in any case.
+/// How soon that is felt which needs no world: strikes apart from it, and controls. Its own collisions are
+/// felt L later in any case.
 enum class Direct {
     no,   ///< L later as well
     told, ///< ClockLaw::directFrames() after it was told
-    born  ///< so is what is told, and what is born in the render call the renderer's latency after its frame, from the first one on; of a session without a log
+    born  ///< so is what is told, and what is born in the render call the renderer's latency after its frame,
+          ///< from the first one on; of a session without a log
 };
 
 /// Who reads the log of a session; it keeps what has not been read.
@@ -47,15 +50,16 @@ struct SessionSetup {
     ImpactTiming timing = ImpactTiming::onset;
     ImpactLocation location = ImpactLocation::contact;
     int channels = 4;
-    int modes = 0; ///< of RendererSettings
+    int modes = 0;        ///< of RendererSettings
     PhantomPanner panner; ///< at most `channels` enchanters
     bool limiterEnabled = true;
     /// drive ceiling per channel, > 0
     std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale();
     EqualisedActuators equalised{};
-    EventShaping shaping; ///< of all collisions, and of what is struck in the render call
+    EventShaping shaping;                     ///< of all collisions, and of what is struck in the render call
     std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
-    /// Heard on a channel behind the enchanters' ones: by these recordings where there is one, else by modes; nullopt: not made.
+    /// Heard on a channel behind the enchanters' ones: by these recordings where there is one, else by modes;
+    /// nullopt: not made.
     std::optional<std::vector<ContactRecording>> contactSound{};
     int ears = 1; ///< of the contact sound: 1, at one place; 2, left and right
     Direct direct = Direct::no;
@@ -69,8 +73,8 @@ struct SessionSetup {
 
 /// What a session holds, beside its scene.
 struct SessionSize {
-    std::size_t bodies = 0; ///< in Box2D's world
-    std::size_t inputs = 0; ///< waiting, or of the log and not read
+    std::size_t bodies = 0;  ///< in Box2D's world
+    std::size_t inputs = 0;  ///< waiting, or of the log and not read
     std::size_t strikes = 0; ///< scheduled, and not begun
 };
 
@@ -92,8 +96,10 @@ constexpr std::int64_t noMargin = std::numeric_limits<std::int64_t>::max();
 struct SessionStatus {
     RenderStatus render;
     std::int64_t sessionNs = 0;
-    std::int64_t leastMarginFrames = noMargin; ///< by how much the tightest event of realtime blocks came in time; < 0: late
-    std::uint64_t refused = 0; ///< strikes, controls and inputs of the render call, and contact sounds, that found no room
+    std::int64_t leastMarginFrames = noMargin; ///< by how much the tightest event of realtime blocks came in
+                                               ///< time; < 0: late
+    std::uint64_t refused = 0; ///< strikes, controls and inputs of the render call, and contact sounds, that
+                               ///< found no room
 };
 
 } // namespace physvib

@@ -14,8 +14,10 @@ void moveTo(SceneTake& to, SceneTake& from) {
     std::ranges::move(from.inputs, std::back_inserter(to.inputs));
     from.inputs.clear();
     for (const WorldStall& stall : from.stalls) {
-        if (!to.stalls.empty() && to.stalls.back().worldNs == stall.worldNs) to.stalls.back() = stall;
-        else to.stalls.push_back(stall);
+        if (!to.stalls.empty() && to.stalls.back().worldNs == stall.worldNs)
+            to.stalls.back() = stall;
+        else
+            to.stalls.push_back(stall);
     }
     to.worldEndNs = from.worldEndNs;
 }
@@ -64,15 +66,20 @@ void SessionWorld::standStill(std::int64_t lengthNs) {
     if (!isLogged_) return;
     auto& stalls = take_.stalls;
     const bool isSameMoment = stalledStep_ == steps_ && stalls.back().steps == 1;
-    const bool isSlowMotion = stalledStep_ == steps_ - 1 && !stalls.empty() && stalls.back().lengthNs == lengthNs;
-    if (isSameMoment) stalls.back().lengthNs += lengthNs;
-    else if (isSlowMotion) ++stalls.back().steps;
-    else stalls.push_back({world_->timeNs(), lengthNs});
+    const bool isSlowMotion =
+        stalledStep_ == steps_ - 1 && !stalls.empty() && stalls.back().lengthNs == lengthNs;
+    if (isSameMoment)
+        stalls.back().lengthNs += lengthNs;
+    else if (isSlowMotion)
+        ++stalls.back().steps;
+    else
+        stalls.push_back({world_->timeNs(), lengthNs});
     stalledStep_ = steps_;
 }
 
 void SessionWorld::addInput(std::int64_t sessionNs, Action action) {
-    world_->addInput(static_cast<double>(std::max<std::int64_t>(0, sessionNs - originNs_)) * 1e-9, std::move(action));
+    world_->addInput(static_cast<double>(std::max<std::int64_t>(0, sessionNs - originNs_)) * 1e-9,
+                     std::move(action));
     if (isLogged_) take_.inputs.push_back(world_->scene().inputs.back());
 }
 

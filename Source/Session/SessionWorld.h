@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The world of a session, in session time: one take after the other, with stalls and live inputs, and the log of them.
+// The world of a session, in session time: one take after the other, with stalls and live inputs, and the log
+// of them.
 #pragma once
 #include "Core/EventShaping.h"
-#include "Session/SessionSetup.h"
-#include "Scene/World/SceneRun.h"
 #include "Scene/SceneTake.h"
+#include "Scene/World/SceneRun.h"
 #include "Scene/World/Simulation.h"
+#include "Session/SessionSetup.h"
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace physvib {
 
-/// Keeps of the past what nobody has read yet, and nothing if it is not logged. One thread at a time: Session guards it by
-/// its mutex.
+/// Keeps of the past what nobody has read yet, and nothing if it is not logged. One thread at a time: Session
+/// guards it by its mutex.
 class SessionWorld {
 public:
     /// `run` gives step rate, timing and location; the seed is each take's own.
@@ -63,7 +64,7 @@ private:
     bool isBegun_ = false;         // the reader has the beginning of the oldest of them
     std::size_t takeCount_ = 0;
     std::unique_ptr<Simulation> world_;
-    std::int64_t originNs_ = 0; // session time - world time
+    std::int64_t originNs_ = 0;                 // session time - world time
     std::int64_t steps_ = 0, stalledStep_ = -1; // of the take; the last one after which it stood still
     std::uint64_t dropsBefore_ = 0;
 };

@@ -13,15 +13,19 @@ class SinkSet {
 public:
     static constexpr std::size_t most = 16; ///< at once; one more is not attached
 
-    /// It outlives the set, or is taken off before. One whose latency counts comes before the session is prepared. M, as what follows.
+    /// It outlives the set, or is taken off before. One whose latency counts comes before the session is
+    /// prepared. M, as what follows.
     void attach(Sink& sink) {
         const std::lock_guard lock{mutex_};
-        if (const auto place = std::ranges::find(sinks_, nullptr, at); place != sinks_.end()) place->store(&sink, std::memory_order_release);
+        if (const auto place = std::ranges::find(sinks_, nullptr, at); place != sinks_.end())
+            place->store(&sink, std::memory_order_release);
     }
-    /// Only R may still be in it when this returns: until a further block has come, or the output does not run.
+    /// Only R may still be in it when this returns: until a further block has come, or the output does not
+    /// run.
     void detach(Sink& sink) {
         const std::lock_guard lock{mutex_};
-        if (const auto place = std::ranges::find(sinks_, &sink, at); place != sinks_.end()) place->store(nullptr, std::memory_order_release);
+        if (const auto place = std::ranges::find(sinks_, &sink, at); place != sinks_.end())
+            place->store(nullptr, std::memory_order_release);
     }
     double latencySeconds() const noexcept {
         double largest = 0.0;
@@ -60,7 +64,9 @@ public:
     }
 
 private:
-    static Sink* at(const std::atomic<Sink*>& place) noexcept { return place.load(std::memory_order_acquire); }
+    static Sink* at(const std::atomic<Sink*>& place) noexcept {
+        return place.load(std::memory_order_acquire);
+    }
     template <class Use>
     void each(Use use) const {
         for (const auto& place : sinks_)

@@ -19,7 +19,9 @@ public:
     /// False, and nothing has changed, if they would be too many.
     bool add(std::span<const CollisionEvent> strikes) {
         if (waiting_.size() + strikes.size() > most) return false;
-        for (const CollisionEvent& strike : strikes) waiting_.insert(std::ranges::upper_bound(waiting_, strike.timeNs, {}, &CollisionEvent::timeNs), strike);
+        for (const CollisionEvent& strike : strikes)
+            waiting_.insert(std::ranges::upper_bound(waiting_, strike.timeNs, {}, &CollisionEvent::timeNs),
+                            strike);
         return true;
     }
 
@@ -32,7 +34,10 @@ public:
     }
 
     /// Those from `fromNs` on are not wanted any more.
-    void forget(std::int64_t fromNs) { waiting_.erase(std::ranges::lower_bound(waiting_, fromNs, {}, &CollisionEvent::timeNs), waiting_.end()); }
+    void forget(std::int64_t fromNs) {
+        waiting_.erase(std::ranges::lower_bound(waiting_, fromNs, {}, &CollisionEvent::timeNs),
+                       waiting_.end());
+    }
 
     std::size_t size() const noexcept { return waiting_.size(); }
 

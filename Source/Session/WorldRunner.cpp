@@ -15,7 +15,8 @@ constexpr int posesTries = 8; // a millisecond apart: most steps are shorter, an
 
 } // namespace
 
-WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, CallbackInputs& callback, SinkSet& sinks)
+WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, CallbackInputs& callback,
+                         SinkSet& sinks)
     : setup_{setup}
     , time_{time}
     , callback_{callback}
@@ -49,7 +50,8 @@ void WorldRunner::prepare() {
     handed_ = 0;
     waiting_ = {};
     begun_.clear();
-    for (CollisionEvent unplayed; queue_.pop(unplayed);) {}
+    for (CollisionEvent unplayed; queue_.pop(unplayed);) {
+    }
     steppedNs_ = time_.nowNs();
     tellScene();
     slippedNs_ = 0;
@@ -140,8 +142,10 @@ void WorldRunner::takeDue(std::int64_t untilNs) {
 }
 
 bool WorldRunner::beginBlock(RenderMode mode) noexcept {
-    if (mode == RenderMode::realtime) offline_.store(false, std::memory_order_release);
-    else isDriven_.store(true, std::memory_order_release);
+    if (mode == RenderMode::realtime)
+        offline_.store(false, std::memory_order_release);
+    else
+        isDriven_.store(true, std::memory_order_release);
     return isDriven_.load(std::memory_order_acquire);
 }
 

@@ -22,19 +22,24 @@ namespace physvib {
 /// Part of a session. Its mutex is the world's.
 class WorldRunner {
 public:
-    /// Plays another scene, as a new take, from the next step on; a state equal to state() changes nothing. Empty, or
-    /// what is wrong with the scene, and nothing is done. Any thread but R.
+    /// Plays another scene, as a new take, from the next step on; a state equal to state() changes nothing.
+    /// Empty, or what is wrong with the scene, and nothing is done. Any thread but R.
     std::string setState(SessionState state);
 
     /// What is played, or will be from the next step on. Any thread but R.
     SessionState state() const;
 
-    /// The scene starts anew when frame `offset` of the next block is the present, as a new take. R, wait-free, or M.
-    void restart(std::int64_t offset = 0) noexcept { restartFrame_.store(time_.framesRendered() + offset, std::memory_order_release); }
+    /// The scene starts anew when frame `offset` of the next block is the present, as a new take. R,
+    /// wait-free, or M.
+    void restart(std::int64_t offset = 0) noexcept {
+        restartFrame_.store(time_.framesRendered() + offset, std::memory_order_release);
+    }
 
-    /// How fast the world goes from its next step on: each step takes `slowness` times its time; 0: it stands still. What has been struck
-    /// rings on; a slower world is logged as stalls. Any thread, wait-free.
-    void setSlowness(int slowness) noexcept { slowness_.store(std::max(0, slowness), std::memory_order_relaxed); }
+    /// How fast the world goes from its next step on: each step takes `slowness` times its time; 0: it stands
+    /// still. What has been struck rings on; a slower world is logged as stalls. Any thread, wait-free.
+    void setSlowness(int slowness) noexcept {
+        slowness_.store(std::max(0, slowness), std::memory_order_relaxed);
+    }
     int slowness() const noexcept { return slowness_.load(std::memory_order_relaxed); }
 
     /// One step of a world that stands still. Any thread, wait-free.
@@ -47,7 +52,8 @@ public:
     std::int64_t sceneNs() const noexcept { return sceneNs_.load(std::memory_order_relaxed); }
     std::size_t take() const noexcept { return take_.load(std::memory_order_relaxed); }
 
-    /// Live inputs and bodies that the world holds now: for those who watch that neither grows without end. Any thread but R.
+    /// Live inputs and bodies that the world holds now: for those who watch that neither grows without end.
+    /// Any thread but R.
     SessionSize size() const;
 
     /// Where the bodies of sceneCast() are, as far as the world has been stepped: the session time of that, L
@@ -66,14 +72,15 @@ private:
     WorldRunner(const SessionSetup& setup, const Timeline& time, CallbackInputs& callback, SinkSet& sinks);
 
     // For the session.
-    void prepare();                             // the scene is at its start; the world mutex is held, as by the next
-    void resume(const FrameClock& clock);       // session time goes on by that clock
-    int advance(const StepWatch& goesOn);       // D
-    bool beginBlock(RenderMode mode) noexcept;  // R; false: nobody has stepped the world yet
+    void prepare(); // the scene is at its start; the world mutex is held, as by the next
+    void resume(const FrameClock& clock);      // session time goes on by that clock
+    int advance(const StepWatch& goesOn);      // D
+    bool beginBlock(RenderMode mode) noexcept; // R; false: nobody has stepped the world yet
     bool pop(CollisionEvent& event) noexcept { return queue_.pop(event); } // R
     bool popOrStep(CollisionEvent& event, std::int64_t endNs);             // R, in runOffline
     template <class Render>
-    void runOffline(std::int64_t endNs, Render render) { // R in a non-realtime block: steps the world to `endNs`, in `render` and after it
+    void runOffline(std::int64_t endNs, Render render) { // R in a non-realtime block: steps the world to
+                                                         // `endNs`, in `render` and after it
         const std::lock_guard lock{mutex_};
         beginOffline(endNs);
         render();
@@ -83,7 +90,7 @@ private:
 
     // For the scheduler, who holds the inputs' mutex.
     std::shared_ptr<const Scene> scene(std::size_t& take); // of the take that runs, with its number
-    bool addInput(std::size_t take, Action& action);             // false: another one runs
+    bool addInput(std::size_t take, Action& action);       // false: another one runs
     void strike(std::span<const CollisionEvent> events);
     bool schedule(std::span<const CollisionEvent> events); // false: too many
     void forgetScheduled(std::int64_t fromNs, std::int64_t nowNs);
@@ -105,7 +112,7 @@ private:
     SinkSet& sinks_;
     EventQueue<CollisionEvent, 4096> queue_; // from whoever holds the world, who keeps what finds no room
     std::atomic<std::int64_t> steppedNs_{0}; // session time of the world up to which all is in the queue
-    std::atomic<std::int64_t> sceneNs_{0}; // of the take that runs
+    std::atomic<std::int64_t> sceneNs_{0};   // of the take that runs
     std::atomic<std::size_t> take_{0};
     std::atomic<std::int64_t> slippedNs_{0}, restartFrame_{-1}; // the latter: -1, not wanted
     std::atomic<int> slowness_{1}, stepsWanted_{0};
@@ -123,8 +130,8 @@ private:
     SessionState state_;
     bool isNew_ = false;
 
-    mutable std::atomic<bool> isShown_{
-        false}; // a reader has not got the world's mutex: after each step, poses are copied
+    mutable std::atomic<bool> isShown_{false}; // a reader has not got the world's mutex: after each step,
+                                               // poses are copied
     mutable std::mutex shownMutex_;            // held for a copy; guards what follows
     mutable std::vector<BodyPose> shown_;
     mutable std::int64_t shownNs_ = 0;

@@ -11,10 +11,15 @@ namespace physvib {
 class QuestTrials {
 public:
     QuestTrials(const QuestMethod& method, double guess)
-        : quest_{questPlan(method, guess)}, trials_{method.trials}, deviationDb_{method.deviationDb} {}
+        : quest_{questPlan(method, guess)}
+        , trials_{method.trials}
+        , deviationDb_{method.deviationDb} {}
 
     double levelDb() const noexcept { return quest_.level(); }
-    bool isDone() const { return quest_.trials() >= trials_ || (deviationDb_ > 0.0 && quest_.thresholdDeviation() <= deviationDb_); }
+    bool isDone() const {
+        return quest_.trials() >= trials_ ||
+               (deviationDb_ > 0.0 && quest_.thresholdDeviation() <= deviationDb_);
+    }
     void answer(bool isCorrect) { quest_.answer(isCorrect); }
     int trials() const noexcept { return deviationDb_ > 0.0 ? 0 : trials_; }
 
@@ -29,11 +34,18 @@ class AdaptiveLevel {
 public:
     /// `session` has a staircase or QUEST+.
     explicit AdaptiveLevel(const SessionPlan& session)
-        : method_{session.staircase ? Method{Staircase{*session.staircase}} : Method{QuestTrials{*session.quest, session.guessRate()}}} {}
+        : method_{session.staircase ? Method{Staircase{*session.staircase}}
+                                    : Method{QuestTrials{*session.quest, session.guessRate()}}} {}
 
-    double levelDb() const { return std::visit([](const auto& m) { return m.levelDb(); }, method_); }
-    bool isDone() const { return std::visit([](const auto& m) { return m.isDone(); }, method_); }
-    void answer(bool isCorrect) { std::visit([=](auto& m) { m.answer(isCorrect); }, method_); }
+    double levelDb() const {
+        return std::visit([](const auto& m) { return m.levelDb(); }, method_);
+    }
+    bool isDone() const {
+        return std::visit([](const auto& m) { return m.isDone(); }, method_);
+    }
+    void answer(bool isCorrect) {
+        std::visit([=](auto& m) { m.answer(isCorrect); }, method_);
+    }
     /// All of them; 0 where the answers decide.
     int trials() const noexcept {
         const auto* const quest = std::get_if<QuestTrials>(&method_);

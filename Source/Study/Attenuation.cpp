@@ -29,7 +29,8 @@ std::map<Drive, Sums> referencesIn(const std::vector<IsolationMeasurement>& meas
         Sums& sums = references[driveOf(m.condition)];
         if (sums.count++ == 0) sums.levels.assign(m.levels.size(), 0.0);
         sums.areAlike &= sums.levels.size() == m.levels.size();
-        for (std::size_t i = 0; i < std::min(sums.levels.size(), m.levels.size()); ++i) sums.levels[i] += m.levels[i];
+        for (std::size_t i = 0; i < std::min(sums.levels.size(), m.levels.size()); ++i)
+            sums.levels[i] += m.levels[i];
     }
     for (auto& [drive, sums] : references)
         for (double& level : sums.levels) level /= static_cast<double>(sums.count);
@@ -44,10 +45,16 @@ IsolationStudy summariseIsolation(const std::vector<IsolationMeasurement>& measu
     for (const IsolationMeasurement& m : measurements) {
         if (m.isReference) continue;
         const auto reference = references.find(driveOf(m.condition));
-        if (reference == references.end() || !reference->second.areAlike || reference->second.levels.size() != m.levels.size())
-            return {m.source + ": expected a reference of the same frequency, voltage and axis, with as many channels", {}};
-        if (std::ranges::any_of(reference->second.levels, [](double level) { return !(level > 0.0); })) return {m.source + ": expected a reference that vibrates on every channel", {}};
-        IsolationResult& result = results[{m.condition.material, m.condition.thickness, driveOf(m.condition)}];
+        if (reference == references.end() || !reference->second.areAlike ||
+            reference->second.levels.size() != m.levels.size())
+            return {
+                m.source +
+                    ": expected a reference of the same frequency, voltage and axis, with as many channels",
+                {}};
+        if (std::ranges::any_of(reference->second.levels, [](double level) { return !(level > 0.0); }))
+            return {m.source + ": expected a reference that vibrates on every channel", {}};
+        IsolationResult& result =
+            results[{m.condition.material, m.condition.thickness, driveOf(m.condition)}];
         result.condition = m.condition;
         result.gammas.push_back(combinedAttenuation(attenuationRatios(m.levels, reference->second.levels)));
     }

@@ -6,7 +6,8 @@
 
 namespace physvib {
 
-/// What a layer is and how it was shaken. Words but for the frequency: they are compared, not calculated with.
+/// What a layer is and how it was shaken. Words but for the frequency: they are compared, not calculated
+/// with.
 struct IsolationCondition {
     std::string material, thickness; ///< of the layer; a reference has none
     std::string voltage, axis;       ///< of the drive
@@ -23,12 +24,13 @@ struct IsolationMeasurement {
 
 struct IsolationResult {
     IsolationCondition condition;
-    std::vector<double> gammas; ///< Eq. 3.2 of each repetition against the mean of the references of its drive
+    std::vector<double> gammas; ///< Eq. 3.2 of each repetition against the mean of the references of its
+                                ///< drive
     double mean = 0.0, deviation = 0.0; ///< of them; sample standard deviation, 0 of one
 };
 
 struct IsolationStudy {
-    std::string fault; ///< one line; then nothing else holds
+    std::string fault;                    ///< one line; then nothing else holds
     std::vector<IsolationResult> results; ///< by material, thickness, axis, voltage and frequency
 };
 

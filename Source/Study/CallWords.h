@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What may stand in the calls of a protocol. A protocol comes from anywhere; its calls are rendered, and stand in every row of the
-// trial file for somebody to copy into a shell: they render, read what is below their folder, and do nothing else. Which options
-// write a file, the program's parser knows (Standalone/Calls/CallFiles.h).
+// What may stand in the calls of a protocol. A protocol comes from anywhere; its calls are rendered, and
+// stand in every row of the trial file for somebody to copy into a shell: they render, read what is below
+// their folder, and do nothing else. Which options write a file, the program's parser knows
+// (Standalone/Calls/CallFiles.h).
 #pragma once
 #include <algorithm>
 #include <string>
@@ -9,17 +10,23 @@
 
 namespace physvib {
 
-constexpr std::size_t mostCallBytes = 2000; // with its recordings: those of all parts of a trial stand in its row
+constexpr std::size_t mostCallBytes = 2000; // with its recordings: those of all parts of a trial stand in its
+                                            // row
 
 /// Letters (also those beyond ASCII), digits, and signs that a shell takes as they are.
 constexpr bool isPlainCharacter(char c) noexcept {
-    const bool isLetter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
-    return isLetter || (c >= '0' && c <= '9') || std::string_view{"_-+.,:=/%"}.find(c) != std::string_view::npos;
+    const bool isLetter =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+    return isLetter || (c >= '0' && c <= '9') ||
+           std::string_view{"_-+.,:=/%"}.find(c) != std::string_view::npos;
 }
 
-/// A path that stays below the folder it begins in, in plain characters and spaces; also any name that is no path. Any thread.
+/// A path that stays below the folder it begins in, in plain characters and spaces; also any name that is no
+/// path. Any thread.
 constexpr bool isPlainPath(std::string_view path) noexcept {
-    if (path.starts_with('/') || !std::ranges::all_of(path, [](char c) { return c == ' ' || isPlainCharacter(c); })) return false;
+    if (path.starts_with('/') ||
+        !std::ranges::all_of(path, [](char c) { return c == ' ' || isPlainCharacter(c); }))
+        return false;
     for (;;) {
         const std::size_t end = path.find('/');
         if (path.substr(0, end) == "..") return false;
@@ -28,19 +35,24 @@ constexpr bool isPlainPath(std::string_view path) noexcept {
     }
 }
 
-/// Empty, or why a call with all its names filled in is none that a protocol may make, by its characters and paths. Any thread (allocates).
+/// Empty, or why a call with all its names filled in is none that a protocol may make, by its characters and
+/// paths. Any thread (allocates).
 inline std::string callFault(std::string_view call) {
-    if (!call.starts_with("render ") && !call.starts_with("stimulus ")) return "expected render or stimulus, and what they take";
+    if (!call.starts_with("render ") && !call.starts_with("stimulus "))
+        return "expected render or stimulus, and what they take";
     if (const auto unknown = call.find('{'); unknown != std::string_view::npos)
-        return "expected names of factors in braces, or alternative, object, level_db; found " + std::string(call.substr(unknown, call.find('}', unknown) - unknown)) + "}";
-    if (!std::ranges::all_of(call, [](char c) { return c == ' ' || isPlainCharacter(c); })) return "expected letters, digits, spaces and _-+.,:=/%";
+        return "expected names of factors in braces, or alternative, object, level_db; found " +
+               std::string(call.substr(unknown, call.find('}', unknown) - unknown)) + "}";
+    if (!std::ranges::all_of(call, [](char c) { return c == ' ' || isPlainCharacter(c); }))
+        return "expected letters, digits, spaces and _-+.,:=/%";
     while (!call.empty()) {
         const std::string_view word = call.substr(0, call.find(' '));
         call.remove_prefix(std::min(word.size() + 1, call.size()));
         for (std::string_view rest = word; !rest.empty();) { // 80=ball.wav
             const std::string_view piece = rest.substr(0, rest.find_first_of("=,:"));
             rest.remove_prefix(std::min(piece.size() + 1, rest.size()));
-            if (!isPlainPath(piece)) return "expected files in the folder or below, found " + std::string(word);
+            if (!isPlainPath(piece))
+                return "expected files in the folder or below, found " + std::string(word);
         }
     }
     return {};

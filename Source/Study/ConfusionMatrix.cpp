@@ -39,12 +39,15 @@ std::optional<GridCell> parseGridCell(std::string_view label) noexcept {
     const std::size_t comma = label.find(',');
     GridCell cell;
     if (comma == std::string_view::npos) return std::nullopt;
-    if (!takeNumber(trimmed(label.substr(0, comma)), cell.row) || !takeNumber(trimmed(label.substr(comma + 1)), cell.column))
+    if (!takeNumber(trimmed(label.substr(0, comma)), cell.row) ||
+        !takeNumber(trimmed(label.substr(comma + 1)), cell.column))
         return std::nullopt;
     return cell;
 }
 
-std::string gridLabel(const GridCell& cell) { return std::to_string(cell.row) + "," + std::to_string(cell.column); }
+std::string gridLabel(const GridCell& cell) {
+    return std::to_string(cell.row) + "," + std::to_string(cell.column);
+}
 
 int manhattanDistance(const GridCell& a, const GridCell& b) noexcept {
     return std::abs(a.row - b.row) + std::abs(a.column - b.column);
@@ -60,13 +63,15 @@ ConfusionMatrix::ConfusionMatrix(const std::vector<IdentificationTrial>& trials)
     labels_.assign(stimuli.begin(), stimuli.end());
     labels_.insert(labels_.end(), others.begin(), others.end());
     counts_.assign(stimuli_ * labels_.size(), 0);
-    for (const auto& trial : trials) ++counts_[indexOf(trial.stimulus) * labels_.size() + indexOf(trial.response)];
+    for (const auto& trial : trials)
+        ++counts_[indexOf(trial.stimulus) * labels_.size() + indexOf(trial.response)];
 }
 
 std::size_t ConfusionMatrix::indexOf(const std::string& label) const {
     const auto middle = labels_.begin() + static_cast<std::ptrdiff_t>(stimuli_);
     auto found = std::lower_bound(labels_.begin(), middle, label, LabelOrder{});
-    if (found == middle || *found != label) found = std::lower_bound(middle, labels_.end(), label, LabelOrder{});
+    if (found == middle || *found != label)
+        found = std::lower_bound(middle, labels_.end(), label, LabelOrder{});
     return static_cast<std::size_t>(found - labels_.begin());
 }
 
@@ -93,7 +98,8 @@ std::vector<std::uint64_t> ConfusionMatrix::responseTotals() const {
 std::vector<IdentificationTrial> withTolerance(std::vector<IdentificationTrial> trials, int tolerance) {
     for (auto& trial : trials) {
         const auto target = parseGridCell(trial.stimulus), answer = parseGridCell(trial.response);
-        if (target && answer && manhattanDistance(*target, *answer) <= tolerance) trial.response = trial.stimulus;
+        if (target && answer && manhattanDistance(*target, *answer) <= tolerance)
+            trial.response = trial.stimulus;
     }
     return trials;
 }

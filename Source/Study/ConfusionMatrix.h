@@ -31,8 +31,9 @@ std::string gridLabel(const GridCell& cell);
 /// |rows apart| + |columns apart|. Any thread.
 int manhattanDistance(const GridCell& a, const GridCell& b) noexcept;
 
-/// Counts of trials. Rows are the stimuli that were presented; columns the same labels in the same order, then the
-/// labels that were only ever responded. Grid labels are ordered by row and column, others by their bytes.
+/// Counts of trials. Rows are the stimuli that were presented; columns the same labels in the same order,
+/// then the labels that were only ever responded. Grid labels are ordered by row and column, others by their
+/// bytes.
 class ConfusionMatrix {
 public:
     explicit ConfusionMatrix(const std::vector<IdentificationTrial>& trials);
@@ -40,7 +41,9 @@ public:
     std::size_t stimuli() const noexcept { return stimuli_; }
     std::size_t responses() const noexcept { return labels_.size(); }
     const std::string& label(std::size_t response) const { return labels_[response]; }
-    std::uint32_t count(std::size_t stimulus, std::size_t response) const { return counts_[stimulus * labels_.size() + response]; }
+    std::uint32_t count(std::size_t stimulus, std::size_t response) const {
+        return counts_[stimulus * labels_.size() + response];
+    }
     std::uint64_t trials() const noexcept { return trials_; }
     std::uint64_t correct() const noexcept;
     std::vector<std::uint64_t> stimulusTotals() const;
@@ -55,8 +58,9 @@ private:
     std::uint64_t trials_ = 0;
 };
 
-/// The trials with every response that lies within `tolerance` of its stimulus (Manhattan distance of the grid cells)
-/// replaced by the stimulus: what tolerance-IT is made of (thesis 4.1). Responses that are no cells stay. Any thread.
+/// The trials with every response that lies within `tolerance` of its stimulus (Manhattan distance of the
+/// grid cells) replaced by the stimulus: what tolerance-IT is made of (thesis 4.1). Responses that are no
+/// cells stay. Any thread.
 std::vector<IdentificationTrial> withTolerance(std::vector<IdentificationTrial> trials, int tolerance);
 
 } // namespace physvib

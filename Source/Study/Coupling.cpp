@@ -11,10 +11,12 @@ namespace {
 
 using ComplexNumber = std::complex<double>;
 
-constexpr double leastLambda = 1e-9, mostLambda = 1e3; // of full scale squared: nothing, and a drive that is nearly none
+constexpr double leastLambda = 1e-9, mostLambda = 1e3; // of full scale squared: nothing, and a drive that is
+                                                       // nearly none
 constexpr double mismatchDb = 2.0, mismatchDegrees = 20.0;
 
-/// (C^H C + lambda)^-1 C^H, by elimination of all right sides at once: the matrix is positive definite for lambda > 0.
+/// (C^H C + lambda)^-1 C^H, by elimination of all right sides at once: the matrix is positive definite for
+/// lambda > 0.
 CouplingMatrix drivesAt(const CouplingMatrix& c, double lambda) {
     const std::size_t n = c.size, width = 2 * n;
     std::vector<ComplexNumber> m(n * width);
@@ -62,7 +64,8 @@ CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDec
     return drivesAt(coupling, std::exp(high));
 }
 
-// Seen from any direction, those gains drive most there that are 1 wherever they drive that way at all, and else 0.
+// Seen from any direction, those gains drive most there that are 1 wherever they drive that way at all, and
+// else 0.
 double strongestDrive(const CouplingMatrix& drives) {
     constexpr int directions = 360;
     double most = 0.0;
@@ -70,7 +73,8 @@ double strongestDrive(const CouplingMatrix& drives) {
         const ComplexNumber towards = std::polar(1.0, -2.0 * std::numbers::pi * k / directions);
         for (std::size_t i = 0; i < drives.size; ++i) {
             double sum = 0.0;
-            for (std::size_t j = 0; j < drives.size; ++j) sum += std::max(0.0, (drives.at(i, j) * towards).real());
+            for (std::size_t j = 0; j < drives.size; ++j)
+                sum += std::max(0.0, (drives.at(i, j) * towards).real());
             most = std::max(most, sum);
         }
     }
@@ -101,7 +105,8 @@ CouplingDrives::CouplingDrives(const MeasuredCoupling& measured)
     : frequenciesHz_{measured.frequenciesHz}
     , channels_{measured.enchanters()} {
     for (const CouplingMatrix& coupling : measured.matrices)
-        for (const ComplexNumber& entry : compensationMatrix(coupling).entries) entries_.push_back({entry.real(), entry.imag()});
+        for (const ComplexNumber& entry : compensationMatrix(coupling).entries)
+            entries_.push_back({entry.real(), entry.imag()});
 }
 
 CouplingResidual residualOf(const MeasuredCoupling& measured) {
@@ -128,7 +133,8 @@ CouplingResidual residualOf(const MeasuredCoupling& measured) {
 
 std::vector<double> attenuationRatios(std::span<const double> isolated, std::span<const double> reference) {
     std::vector<double> ratios;
-    for (std::size_t i = 0; i < std::min(isolated.size(), reference.size()); ++i) ratios.push_back(1.0 - isolated[i] / reference[i]);
+    for (std::size_t i = 0; i < std::min(isolated.size(), reference.size()); ++i)
+        ratios.push_back(1.0 - isolated[i] / reference[i]);
     return ratios;
 }
 

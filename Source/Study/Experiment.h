@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A study of one participant as a state machine: it says what to present, takes the answer, and says what is next.
-// A user interface or a simulated observer drives it; what was answered before can be done again, so a study that was
-// cut off goes on where it was.
+// A study of one participant as a state machine: it says what to present, takes the answer, and says what is
+// next. A user interface or a simulated observer drives it; what was answered before can be done again, so a
+// study that was cut off goes on where it was.
 #pragma once
 #include "Study/AdaptiveLevel.h"
 #include "Study/SeededRandom.h"
@@ -16,7 +16,8 @@
 
 namespace physvib {
 
-/// The trial at hand while it is being felt: what unlocks the answer. Times come from the caller: there is no clock here.
+/// The trial at hand while it is being felt: what unlocks the answer. Times come from the caller: there is no
+/// clock here.
 class TrialProgress {
 public:
     TrialProgress(const SessionPlan& session, const Trial& trial);
@@ -44,7 +45,8 @@ private:
 /// M only. `protocol` is valid and outlives the experiment.
 class Experiment {
 public:
-    /// `explorersEnd`: whoever asks for what they feel says when that training ends; else it ends as soon as it may.
+    /// `explorersEnd`: whoever asks for what they feel says when that training ends; else it ends as soon as
+    /// it may.
     Experiment(const Protocol& protocol, Participant participant, bool explorersEnd = false);
 
     bool isDone() const noexcept { return !trial_; }
@@ -60,7 +62,8 @@ public:
     /// Takes an answer that is not refused, and goes on to the next trial.
     TrialRecord take(Answer answer);
 
-    /// take(), if the record is what this experiment would have asked; else what differs, and nothing happens.
+    /// take(), if the record is what this experiment would have asked; else what differs, and nothing
+    /// happens.
     std::string redo(const TrialRecord& record);
 
     /// Whether the training at hand may end: enough was felt.
@@ -70,17 +73,22 @@ public:
 
     int trialsTaken() const noexcept { return taken_; }
 
-    /// Trials of the session at hand; 0 where its length depends on the answers (a staircase, a training that goes on for as long as wanted).
+    /// Trials of the session at hand; 0 where its length depends on the answers (a staircase, a training that
+    /// goes on for as long as wanted).
     int sessionTrials() const noexcept;
 
-    /// Which of all sessions (those of the first condition, of the second ...) it is, from 1, in this participant's order.
-    int sessionNumber() const noexcept { return static_cast<int>(conditionAt_ * protocol_.sessions.size() + sessionAt_) + 1; }
+    /// Which of all sessions (those of the first condition, of the second ...) it is, from 1, in this
+    /// participant's order.
+    int sessionNumber() const noexcept {
+        return static_cast<int>(conditionAt_ * protocol_.sessions.size() + sessionAt_) + 1;
+    }
 
     /// The stimuli that were asked for in the training at hand.
     const std::set<std::string>& explored() const noexcept { return explored_; }
 
     /// The level that a session's adjustments gave for a stimulus: their mean; none if there was none. dB.
-    std::optional<double> adjustedDb(std::size_t condition, const std::string& session, const std::string& stimulus) const;
+    std::optional<double> adjustedDb(std::size_t condition, const std::string& session,
+                                     const std::string& stimulus) const;
 
 private:
     void beginSession();
@@ -101,12 +109,12 @@ private:
     std::vector<std::size_t> conditions_; // in this participant's order
     std::size_t conditionAt_ = 0, sessionAt_ = 0;
 
-    std::vector<StimulusItem> items_;     // of the condition at hand
-    std::vector<PlannedTrial> order_;     // of the session at hand
+    std::vector<StimulusItem> items_; // of the condition at hand
+    std::vector<PlannedTrial> order_; // of the session at hand
     std::set<std::string> explored_;
-    bool isEnded_ = false;                // by whoever explores
+    bool isEnded_ = false; // by whoever explores
     std::optional<AdaptiveLevel> adaptive_;
-    int inSession_ = 0;                   // trials answered
+    int inSession_ = 0; // trials answered
 
     // (condition, session), stimulus
     std::map<std::pair<std::size_t, std::string>, std::map<std::string, std::vector<double>>> adjusted_;

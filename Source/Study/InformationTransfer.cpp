@@ -41,12 +41,16 @@ InformationTransfer informationTransfer(const ConfusionMatrix& matrix) {
             const double count = matrix.count(i, j);
             if (count == 0.0) continue;
             ++cells;
-            it.bits += count / n * std::log2(count * n / (static_cast<double>(rows[i]) * static_cast<double>(columns[j])));
+            it.bits +=
+                count / n *
+                std::log2(count * n / (static_cast<double>(rows[i]) * static_cast<double>(columns[j])));
         }
     it.bits = std::max(0.0, it.bits); // a rounding error below zero
     const auto parameters = cells - static_cast<std::ptrdiff_t>(occupied(rows) + occupied(columns)) + 1;
-    it.biasBits = static_cast<double>(std::max<std::ptrdiff_t>(0, parameters)) / (2.0 * n * std::numbers::ln2);
-    it.leastBits = fanoBits(entropyBits(rows, n), static_cast<double>(matrix.correct()) / n, matrix.stimuli());
+    it.biasBits =
+        static_cast<double>(std::max<std::ptrdiff_t>(0, parameters)) / (2.0 * n * std::numbers::ln2);
+    it.leastBits =
+        fanoBits(entropyBits(rows, n), static_cast<double>(matrix.correct()) / n, matrix.stimuli());
     it.mostBits = std::log2(static_cast<double>(matrix.stimuli()));
     it.trialsPerCell = n / static_cast<double>(matrix.stimuli() * matrix.responses());
     return it;

@@ -5,15 +5,16 @@
 
 namespace physvib {
 
-/// Trials per cell of the matrix from which the corrected estimate is reported (Docs/studies.md has the measurements).
+/// Trials per cell of the matrix from which the corrected estimate is reported (Docs/studies.md has the
+/// measurements).
 constexpr double trialsPerCellForCorrection = 5.0;
 
 struct InformationTransfer {
-    double bits = 0.0;            ///< maximum-likelihood estimate; biased upward with few trials
-    double biasBits = 0.0;        ///< its expected excess; 0 where every stimulus has one response only
-    double leastBits = 0.0;       ///< Fano's lower bound from the percent correct
-    double mostBits = 0.0;        ///< log2 of the number of stimuli
-    double trialsPerCell = 0.0;   ///< trials / (stimuli x responses)
+    double bits = 0.0;          ///< maximum-likelihood estimate; biased upward with few trials
+    double biasBits = 0.0;      ///< its expected excess; 0 where every stimulus has one response only
+    double leastBits = 0.0;     ///< Fano's lower bound from the percent correct
+    double mostBits = 0.0;      ///< log2 of the number of stimuli
+    double trialsPerCell = 0.0; ///< trials / (stimuli x responses)
 
     bool canBeCorrected() const noexcept { return trialsPerCell >= trialsPerCellForCorrection; }
     double correctedBits() const noexcept { return bits > biasBits ? bits - biasBits : 0.0; }
@@ -23,7 +24,8 @@ struct InformationTransfer {
 
 /// All zero without a trial. Any thread.
 ///   bits = sum_ij n_ij/n log2(n_ij n / (n_i. n_.j))
-///   biasBits = max(0, cells - rows - columns + 1) / (2 n ln 2), counted over what was seen: a cell that can never
+///   biasBits = max(0, cells - rows - columns + 1) / (2 n ln 2), counted over what was seen: a cell that can
+///   never
 ///     occur adds no bias, so this is Miller's correction without its overshoot for sparse matrices
 ///   leastBits = H(stimuli) - h(P_e) - P_e log2(M - 1), M = number of stimuli (Fano)
 InformationTransfer informationTransfer(const ConfusionMatrix& matrix);

@@ -32,10 +32,13 @@ double meanOf(const std::vector<double>& values, std::size_t from = 0) {
     return sum / static_cast<double>(values.size() - from);
 }
 
-bool isThreshold(LevelTrial::Kind kind) { return kind == LevelTrial::Kind::staircase || kind == LevelTrial::Kind::quest; }
+bool isThreshold(LevelTrial::Kind kind) {
+    return kind == LevelTrial::Kind::staircase || kind == LevelTrial::Kind::quest;
+}
 
 bool isSame(const LevelSummary& s, const LevelTrial& t) {
-    return s.kind == t.kind && s.condition == t.condition && (isThreshold(t.kind) || s.stimulus == t.stimulus);
+    return s.kind == t.kind && s.condition == t.condition &&
+           (isThreshold(t.kind) || s.stimulus == t.stimulus);
 }
 
 /// Numbers by their value, before all other labels by their bytes.
@@ -72,7 +75,8 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
         for (const LevelTrial* trial : trials) sessions[{trial->session, trial->quest}].push_back(trial);
         std::vector<double> own;
         for (const auto& [session, run] : sessions)
-            own.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary) : staircaseThreshold(run, summary));
+            own.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary)
+                                                                  : staircaseThreshold(run, summary));
         thresholds.push_back(meanOf(own));
         summary.halfInterval /= static_cast<double>(own.size());
     }
@@ -89,14 +93,17 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
     for (const LevelTrial& trial : trials)
         if (std::ranges::none_of(summaries, [&](const auto& s) { return isSame(s, trial); }))
             summaries.push_back({trial.kind, trial.condition, isThreshold(trial.kind) ? "" : trial.stimulus});
-    std::ranges::stable_sort(summaries, {}, [](const LevelSummary& s) { return std::tuple{s.kind, std::string_view{s.condition}, labelKey(s.stimulus)}; });
+    std::ranges::stable_sort(summaries, {}, [](const LevelSummary& s) {
+        return std::tuple{s.kind, std::string_view{s.condition}, labelKey(s.stimulus)};
+    });
     for (LevelSummary& summary : summaries) {
         std::map<std::string, Run> byParticipant;
         std::vector<double> values;
         for (const LevelTrial& trial : trials) {
             if (!isSame(summary, trial)) continue;
             byParticipant[trial.participant].push_back(&trial);
-            values.push_back(trial.kind == LevelTrial::Kind::magnitude ? std::log10(trial.value) : trial.value);
+            values.push_back(trial.kind == LevelTrial::Kind::magnitude ? std::log10(trial.value)
+                                                                       : trial.value);
         }
         summary.trials = values.size();
         summary.participants = byParticipant.size();
@@ -110,9 +117,11 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
             for (const LevelTrial* trial : own) adjusted.push_back(trial->value);
             means.push_back(meanOf(adjusted));
         }
-        if (summary.kind == LevelTrial::Kind::adjustment) summary.halfInterval = Moments(means).halfInterval();
+        if (summary.kind == LevelTrial::Kind::adjustment)
+            summary.halfInterval = Moments(means).halfInterval();
         summary.deviation = Moments(values).deviation;
-        summary.estimate = summary.kind == LevelTrial::Kind::magnitude ? std::pow(10.0, meanOf(values)) : meanOf(values);
+        summary.estimate =
+            summary.kind == LevelTrial::Kind::magnitude ? std::pow(10.0, meanOf(values)) : meanOf(values);
     }
     return summaries;
 }

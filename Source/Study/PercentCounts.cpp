@@ -17,8 +17,10 @@ using Sizes = std::vector<std::size_t>;
 Sizes groupsOf(std::size_t count, std::uint32_t ends) {
     Sizes sizes{1};
     for (std::size_t i = 0; i + 1 < count; ++i) {
-        if (ends >> i & 1u) sizes.push_back(1);
-        else ++sizes.back();
+        if (ends >> i & 1u)
+            sizes.push_back(1);
+        else
+            ++sizes.back();
     }
     return sizes;
 }
@@ -39,7 +41,10 @@ std::vector<std::vector<double>> mergedRows(const PercentCounts& counts, const S
 class ColumnDivisions {
 public:
     ColumnDivisions(const std::vector<std::vector<double>>& strips, double least)
-        : strips_{strips}, least_{least}, columns_{strips.front().size()}, most_(columns_ + 1, 0) {
+        : strips_{strips}
+        , least_{least}
+        , columns_{strips.front().size()}
+        , most_(columns_ + 1, 0) {
         for (std::size_t from = columns_; from-- > 0;)
             if (const std::size_t size = fewestFrom(from); size > 0)
                 most_[from] = from + size == columns_ ? 1 : std::max<std::size_t>(most_[from + size] + 1, 1);
@@ -84,7 +89,8 @@ private:
     std::vector<Sizes> found_;
 };
 
-void addMerges(const PercentCounts& counts, const Sizes& rowGroups, double least, std::size_t& best, std::vector<GridMerge>& ties) {
+void addMerges(const PercentCounts& counts, const Sizes& rowGroups, double least, std::size_t& best,
+               std::vector<GridMerge>& ties) {
     const auto strips = mergedRows(counts, rowGroups);
     ColumnDivisions columns{strips, least};
     const std::size_t cells = columns.most() * rowGroups.size();
@@ -113,7 +119,8 @@ PerceptualResolution perceptualResolution(const PercentCounts& counts, double th
     const auto divisions = std::uint32_t{1} << (counts.rows - 1);
     for (std::uint32_t ends = 0; ends < divisions; ++ends)
         addMerges(counts, groupsOf(counts.rows, ends), thresholdPercent - roundingSlack, best, result.ties);
-    std::ranges::stable_sort(result.ties, std::ranges::greater{}, [](const GridMerge& m) { return m.columnGroups.size(); });
+    std::ranges::stable_sort(result.ties, std::ranges::greater{},
+                             [](const GridMerge& m) { return m.columnGroups.size(); });
     if (result.ties.empty()) return result;
     result.columns = result.ties.front().columnGroups.size();
     result.rows = result.ties.front().rowGroups.size();

@@ -36,12 +36,14 @@ struct GridMerge {
 
 /// The largest grids whose cells all reach the threshold.
 struct PerceptualResolution {
-    std::size_t columns = 0, rows = 0; ///< of the first of `ties`; both 0 if even the whole field does not reach it
-    std::vector<GridMerge> ties;       ///< every merge of that many cells, wider grids first; the first counts
+    std::size_t columns = 0, rows = 0; ///< of the first of `ties`; both 0 if even the whole field does not
+                                       ///< reach it
+    std::vector<GridMerge> ties; ///< every merge of that many cells, wider grids first; the first counts
 };
 
 /// `counts` with 1 to mostGridLines rows and columns, `thresholdPercent` inclusive. Any thread (allocates).
-PerceptualResolution perceptualResolution(const PercentCounts& counts, double thresholdPercent = defaultPercentThreshold);
+PerceptualResolution perceptualResolution(const PercentCounts& counts,
+                                          double thresholdPercent = defaultPercentThreshold);
 
 /// The percent counts of the merged cells. Any thread (allocates).
 PercentCounts merged(const PercentCounts& counts, const GridMerge& merge);

@@ -22,10 +22,14 @@ struct PhantomGrid {
     Points points = Points::corners;
     bool operator==(const PhantomGrid&) const = default;
 
-    FieldPlace place(const GridCell& cell) const noexcept { return {along(cell.column, columns), along(cell.row, rows)}; }
+    FieldPlace place(const GridCell& cell) const noexcept {
+        return {along(cell.column, columns), along(cell.row, rows)};
+    }
 
     /// The cell whose point is nearest; of equals the first.
-    GridCell nearest(const FieldPlace& place) const noexcept { return {nearestLine(place.y, rows), nearestLine(place.x, columns)}; }
+    GridCell nearest(const FieldPlace& place) const noexcept {
+        return {nearestLine(place.y, rows), nearestLine(place.x, columns)};
+    }
 
     /// All cells, row by row. M only (allocates).
     std::vector<GridCell> cells() const {

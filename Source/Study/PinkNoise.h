@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pink noise for headphones, so that actuators are felt and not heard (thesis 3.2.1). On another output than the stimuli.
+// Pink noise for headphones, so that actuators are felt and not heard (thesis 3.2.1). On another output than
+// the stimuli.
 #pragma once
 #include <array>
 #include <bit>
@@ -8,14 +9,16 @@
 
 namespace physvib {
 
-/// -3 dB per octave over sixteen octaves below half the sample rate (Voss and McCartney: rows of random numbers, row k
-/// renewed every 2^(k+1) samples). Within -1 to 1, the same samples for the same seed. One thread at a time; next() is wait-free.
+/// -3 dB per octave over sixteen octaves below half the sample rate (Voss and McCartney: rows of random
+/// numbers, row k renewed every 2^(k+1) samples). Within -1 to 1, the same samples for the same seed. One
+/// thread at a time; next() is wait-free.
 class PinkNoise {
 public:
     /// Of all samples: the mean of seventeen independent numbers that are uniform from -1 to 1.
     static constexpr double rootMeanSquare = 0.14002800840280097; // 1 / sqrt(3 * 17)
 
-    // Of that, in dB of full scale, on headphones. At the most its largest samples, 17.1 dB above, stay below full scale.
+    // Of that, in dB of full scale, on headphones. At the most its largest samples, 17.1 dB above, stay below
+    // full scale.
     static constexpr double leastDb = -90.0, safeDb = -40.0, mostDb = -18.0;
 
     explicit PinkNoise(std::uint32_t seed = 1) noexcept

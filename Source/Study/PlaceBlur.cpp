@@ -32,7 +32,8 @@ double transfer(const Shares& axis, int tolerance) {
     std::vector<double> answers(cells, 0.0);
     for (std::size_t i = 0; i < cells; ++i)
         for (std::size_t j = 0; j < cells; ++j) {
-            const GridCell target{static_cast<int>(i / n), static_cast<int>(i % n)}, answer{static_cast<int>(j / n), static_cast<int>(j % n)};
+            const GridCell target{static_cast<int>(i / n), static_cast<int>(i % n)},
+                answer{static_cast<int>(j / n), static_cast<int>(j % n)};
             const double share = axis[i / n][j / n] * axis[i % n][j % n] / static_cast<double>(cells);
             const std::size_t counted = manhattanDistance(target, answer) <= tolerance ? i : j;
             joint[i][counted] += share;
@@ -41,7 +42,8 @@ double transfer(const Shares& axis, int tolerance) {
     double bits = 0.0;
     for (std::size_t i = 0; i < cells; ++i)
         for (std::size_t j = 0; j < cells; ++j)
-            if (joint[i][j] > 0.0) bits += joint[i][j] * std::log2(joint[i][j] * static_cast<double>(cells) / answers[j]);
+            if (joint[i][j] > 0.0)
+                bits += joint[i][j] * std::log2(joint[i][j] * static_cast<double>(cells) / answers[j]);
     return bits;
 }
 

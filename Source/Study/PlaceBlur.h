@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A model of where phantoms are felt: the place, blurred by a normal distribution, answered with the nearest point.
+// A model of where phantoms are felt: the place, blurred by a normal distribution, answered with the nearest
+// point.
 #pragma once
 #include "Study/PhantomGrid.h"
 #include <span>
@@ -14,7 +15,8 @@ struct BlurredGrid {
     double bitsTolerance1 = 0.0;  ///< the same with an answer at most one step off counted as right
 };
 
-/// `blur`: standard deviation in x and y, as a share of the field's width and height, > 0. Any thread (allocates).
+/// `blur`: standard deviation in x and y, as a share of the field's width and height, > 0. Any thread
+/// (allocates).
 BlurredGrid blurredGrid(int lines, double blur);
 
 /// A measured share of exact answers on a grid of lines x lines.
@@ -23,8 +25,8 @@ struct ExactShare {
     double share = 0.0;
 };
 
-/// The blur whose exact shares come nearest to the measured ones (least squares), within a ten-thousandth of the field.
-/// Any thread (allocates).
+/// The blur whose exact shares come nearest to the measured ones (least squares), within a ten-thousandth of
+/// the field. Any thread (allocates).
 double fitPlaceBlur(std::span<const ExactShare> measured);
 
 } // namespace physvib

@@ -24,7 +24,8 @@ constexpr double pulseGapSeconds = 0.1;
 /// The two pulse durations of the thesis' study.
 constexpr std::array<double, 2> pulseDurationsSeconds{0.1, 0.25};
 
-/// All D (E + E^2 + E^3) patterns for E enchanters, by duration, then count, then enchanters. M only (allocates).
+/// All D (E + E^2 + E^3) patterns for E enchanters, by duration, then count, then enchanters. M only
+/// (allocates).
 inline std::vector<PulsePattern> allPulsePatterns(int enchanterCount) {
     std::vector<PulsePattern> patterns;
     for (const double seconds : pulseDurationsSeconds) {
@@ -47,10 +48,12 @@ constexpr double patternSeconds(const PulsePattern& p) noexcept {
     return p.count * p.pulseSeconds + (p.count - 1) * pulseGapSeconds;
 }
 
-/// "ABA-250": the enchanters' letters in the order of the pulses, then a pulse's milliseconds. Enchanters 0 to 25. M only.
+/// "ABA-250": the enchanters' letters in the order of the pulses, then a pulse's milliseconds. Enchanters 0
+/// to 25. M only.
 inline std::string patternLabel(const PulsePattern& p) {
     std::string label;
-    for (int k = 0; k < p.count; ++k) label += static_cast<char>('A' + p.enchanters[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < p.count; ++k)
+        label += static_cast<char>('A' + p.enchanters[static_cast<std::size_t>(k)]);
     return label.append("-").append(std::to_string(std::lround(p.pulseSeconds * 1e3)));
 }
 
@@ -65,7 +68,9 @@ inline std::optional<PulsePattern> parsePatternLabel(std::string_view label) noe
     int milliseconds = 0;
     if (p.count == 0 || !label.starts_with('-')) return std::nullopt;
     const auto [end, error] = std::from_chars(label.data() + 1, label.data() + label.size(), milliseconds);
-    if (error != std::errc{} || end != label.data() + label.size() || milliseconds < 1 || milliseconds > 10000) return std::nullopt;
+    if (error != std::errc{} || end != label.data() + label.size() || milliseconds < 1 ||
+        milliseconds > 10000)
+        return std::nullopt;
     p.pulseSeconds = milliseconds * 1e-3;
     return p;
 }

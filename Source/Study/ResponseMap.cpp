@@ -11,8 +11,8 @@
 namespace physvib {
 namespace {
 
-// Below this share of the product of the variances a determinant is rounding; below this variance (a thousandth of
-// the field's width, squared) a cloud is finer than a pixel and no measure of anything.
+// Below this share of the product of the variances a determinant is rounding; below this variance (a
+// thousandth of the field's width, squared) a cloud is finer than a pixel and no measure of anything.
 constexpr double leastDeterminantShare = 1e-9, leastVariance = 1e-6;
 
 bool canBeInverted(const PlaceNormal& n) noexcept {
@@ -39,7 +39,8 @@ std::string nameOf(std::size_t index, std::size_t columns) {
 }
 
 std::size_t indexOf(const LocationTrial& trial, std::size_t columns) noexcept {
-    return static_cast<std::size_t>(trial.targetRow - 1) * columns + static_cast<std::size_t>(trial.targetColumn - 1);
+    return static_cast<std::size_t>(trial.targetRow - 1) * columns +
+           static_cast<std::size_t>(trial.targetColumn - 1);
 }
 
 void findMeans(const std::vector<LocationTrial>& trials, ResponseNormals& made) {
@@ -95,10 +96,12 @@ void mend(ResponseNormals& made, const PlaceNormal& pooled) {
             continue;
         } else if (canBorrow) {
             made.warnings.push_back(name + ": " + std::to_string(normal.responses) + " responses" +
-                                    (normal.responses < 3 ? "" : " on one line") + ", the condition's pooled covariance is taken");
+                                    (normal.responses < 3 ? "" : " on one line") +
+                                    ", the condition's pooled covariance is taken");
             borrow(normal, pooled);
         } else {
-            made.fault = name + ": expected three or more responses that are not on one line, and the condition has no pooled covariance to take instead";
+            made.fault = name + ": expected three or more responses that are not on one line, and the "
+                                "condition has no pooled covariance to take instead";
         }
     }
 }
@@ -106,7 +109,8 @@ void mend(ResponseNormals& made, const PlaceNormal& pooled) {
 /// Eq. 4.4 without its constant, with the costly parts done once.
 struct LogLikelihood {
     explicit LogLikelihood(const PlaceNormal& n) noexcept
-        : meanX{n.meanX}, meanY{n.meanY} {
+        : meanX{n.meanX}
+        , meanY{n.meanY} {
         if (n.responses == 0) return;
         const double d = n.determinant();
         constant = -0.5 * std::log(d);
@@ -141,7 +145,8 @@ ResponseNormals responseNormals(const std::vector<LocationTrial>& trials) {
     return made;
 }
 
-std::vector<std::uint16_t> likelihoodMap(const ResponseNormals& normals, std::size_t width, std::size_t height) {
+std::vector<std::uint16_t> likelihoodMap(const ResponseNormals& normals, std::size_t width,
+                                         std::size_t height) {
     const std::vector<LogLikelihood> targets(normals.normals.begin(), normals.normals.end());
     std::vector<std::uint16_t> map;
     map.reserve(width * height);
@@ -149,21 +154,25 @@ std::vector<std::uint16_t> likelihoodMap(const ResponseNormals& normals, std::si
         for (std::size_t column = 0; column < width; ++column) {
             const double x = (static_cast<double>(column) + 0.5) / static_cast<double>(width);
             const double y = (static_cast<double>(row) + 0.5) / static_cast<double>(height);
-            const auto likeliest = std::ranges::max_element(targets, {}, [=](const LogLikelihood& t) { return t.at(x, y); });
+            const auto likeliest =
+                std::ranges::max_element(targets, {}, [=](const LogLikelihood& t) { return t.at(x, y); });
             map.push_back(static_cast<std::uint16_t>(likeliest - targets.begin()));
         }
     return map;
 }
 
-PercentCounts percentCounts(const ResponseNormals& normals, const std::vector<std::uint16_t>& map, std::string condition) {
+PercentCounts percentCounts(const ResponseNormals& normals, const std::vector<std::uint16_t>& map,
+                            std::string condition) {
     std::vector<std::size_t> pixels(normals.normals.size());
     for (const auto target : map) ++pixels[target];
     PercentCounts counts{std::move(condition), normals.rows, normals.columns, {}};
-    for (const std::size_t count : pixels) counts.percent.push_back(100.0 * static_cast<double>(count) / static_cast<double>(map.size()));
+    for (const std::size_t count : pixels)
+        counts.percent.push_back(100.0 * static_cast<double>(count) / static_cast<double>(map.size()));
     return counts;
 }
 
-ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials, double thresholdPercent) {
+ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
+                                     double thresholdPercent) {
     ConditionResolution made{std::move(condition), responseNormals(trials), {}, {}, {}};
     if (!made.normals.fault.empty()) return made;
     made.map = likelihoodMap(made.normals);
@@ -172,20 +181,25 @@ ConditionResolution resolveCondition(std::string condition, const std::vector<Lo
     return made;
 }
 
-CellSpread cellSpread(const std::vector<LocationTrial>& trials, double thresholdPercent, int draws, std::uint64_t seed) {
-    constexpr std::size_t shrunk = 10; // a hundredth of the pixels: their number rounds a share of 1.42 % by less than 0.02 %
+CellSpread cellSpread(const std::vector<LocationTrial>& trials, double thresholdPercent, int draws,
+                      std::uint64_t seed) {
+    constexpr std::size_t shrunk = 10; // a hundredth of the pixels: their number rounds a share of 1.42 % by
+                                       // less than 0.02 %
     std::map<std::pair<int, int>, std::vector<std::size_t>> ofTarget;
-    for (std::size_t i = 0; i < trials.size(); ++i) ofTarget[{trials[i].targetRow, trials[i].targetColumn}].push_back(i);
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        ofTarget[{trials[i].targetRow, trials[i].targetColumn}].push_back(i);
     SeededRandom random{seed, "cells of responses drawn again"};
     double sum = 0.0, squares = 0.0;
     for (int draw = 0; draw < draws; ++draw) {
         std::vector<LocationTrial> drawn;
         for (const auto& [target, own] : ofTarget)
-            for (std::size_t i = 0; i < own.size(); ++i) drawn.push_back(trials[own[random.below(own.size())]]);
+            for (std::size_t i = 0; i < own.size(); ++i)
+                drawn.push_back(trials[own[random.below(own.size())]]);
         const ResponseNormals normals = responseNormals(drawn);
         double cells = 0.0;
         if (normals.fault.empty()) {
-            const auto counts = percentCounts(normals, likelihoodMap(normals, mapColumns / shrunk, mapRows / shrunk), {});
+            const auto counts =
+                percentCounts(normals, likelihoodMap(normals, mapColumns / shrunk, mapRows / shrunk), {});
             const auto resolution = perceptualResolution(counts, thresholdPercent);
             cells = static_cast<double>(resolution.columns * resolution.rows);
         }

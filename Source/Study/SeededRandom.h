@@ -53,7 +53,8 @@ public:
     /// Fisher and Yates.
     template <class T>
     void shuffle(std::vector<T>& items) noexcept {
-        for (std::size_t left = items.size(); left > 1; --left) std::swap(items[left - 1], items[below(left)]);
+        for (std::size_t left = items.size(); left > 1; --left)
+            std::swap(items[left - 1], items[below(left)]);
     }
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Transformed up-down staircase: the level where so many correct answers in a row are as likely as not (Levitt 1971).
+// Transformed up-down staircase: the level where so many correct answers in a row are as likely as not
+// (Levitt 1971).
 #pragma once
 #include "Study/Protocol.h"
 #include <algorithm>
@@ -10,10 +11,14 @@ namespace physvib {
 class Staircase {
 public:
     explicit Staircase(const StaircasePlan& plan)
-        : plan_{plan}, levelDb_{plan.startDb}, stepDb_{plan.stepDb} {}
+        : plan_{plan}
+        , levelDb_{plan.startDb}
+        , stepDb_{plan.stepDb} {}
 
     double levelDb() const noexcept { return levelDb_; }
-    bool isDone() const noexcept { return trials_ >= plan_.mostTrials || static_cast<int>(reversals_.size()) >= plan_.reversals; }
+    bool isDone() const noexcept {
+        return trials_ >= plan_.mostTrials || static_cast<int>(reversals_.size()) >= plan_.reversals;
+    }
 
     void answer(bool isCorrect) {
         ++trials_;

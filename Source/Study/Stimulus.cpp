@@ -9,7 +9,8 @@ namespace {
 
 std::int64_t nanoseconds(double seconds) noexcept { return std::llround(seconds * 1e9); }
 
-CollisionEvent burst(double fromSeconds, double seconds, const EnchanterPlace& at, const Carrier& carrier) noexcept {
+CollisionEvent burst(double fromSeconds, double seconds, const EnchanterPlace& at,
+                     const Carrier& carrier) noexcept {
     CollisionEvent event;
     event.timeNs = nanoseconds(fromSeconds);
     event.durationNs = nanoseconds(seconds);
@@ -37,23 +38,28 @@ EnchanterLayout isolatingLayout(int count) noexcept {
     layout.count = count;
     for (int j = 0; j < count; ++j) { // on a circle: five and more are scattered to the panner
         const double angle = 2.0 * std::numbers::pi * j / count;
-        layout.places[static_cast<std::size_t>(j)] = {0.5 + 0.5 * std::cos(angle), 0.5 + 0.5 * std::sin(angle)};
+        layout.places[static_cast<std::size_t>(j)] = {0.5 + 0.5 * std::cos(angle),
+                                                      0.5 + 0.5 * std::sin(angle)};
     }
     return layout;
 }
 
-Stimulus patternStimulus(const PulsePattern& pattern, int enchanters, const Carrier& carrier, double gapSeconds) {
+Stimulus patternStimulus(const PulsePattern& pattern, int enchanters, const Carrier& carrier,
+                         double gapSeconds) {
     const EnchanterLayout layout = isolatingLayout(enchanters);
     Stimulus stimulus{{}, pannerOver(layout, PanningLaw::linear, 1.0), 0.0};
     for (int k = 0; k < pattern.count; ++k) {
-        const auto& place = layout.places[static_cast<std::size_t>(pattern.enchanters[static_cast<std::size_t>(k)])];
-        stimulus.events.push_back(burst(k * (pattern.pulseSeconds + gapSeconds), pattern.pulseSeconds, place, carrier));
+        const auto& place =
+            layout.places[static_cast<std::size_t>(pattern.enchanters[static_cast<std::size_t>(k)])];
+        stimulus.events.push_back(
+            burst(k * (pattern.pulseSeconds + gapSeconds), pattern.pulseSeconds, place, carrier));
     }
     stimulus.seconds = pattern.count * pattern.pulseSeconds + (pattern.count - 1) * gapSeconds;
     return stimulus;
 }
 
-Stimulus phantomStimulus(const FieldPlace& place, const EnchanterLayout& layout, PanningLaw law, double exponent, const Carrier& carrier, double seconds) {
+Stimulus phantomStimulus(const FieldPlace& place, const EnchanterLayout& layout, PanningLaw law,
+                         double exponent, const Carrier& carrier, double seconds) {
     const EnchanterPlace at{place.x * layout.extentWidthMetres, (1.0 - place.y) * layout.extentHeightMetres};
     return {{burst(0.0, seconds, at, carrier)}, pannerOver(layout, law, exponent), seconds};
 }

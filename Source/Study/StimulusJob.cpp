@@ -23,18 +23,22 @@ JobFault placeFault(const FieldPlace& place) {
 JobFault placeFault(const GridPlace& place) {
     const auto isLine = [](int line, int lines) { return line >= 1 && line <= lines; };
     constexpr int most = static_cast<int>(mostGridLines);
-    if (!isLine(place.grid.columns, most) || !isLine(place.grid.rows, most)) return {words::grid, "COLUMNSxROWS like 7x5"};
-    if (!isLine(place.cell.column, place.grid.columns) || !isLine(place.cell.row, place.grid.rows)) return {words::cell, "r,c of the grid (row 1 is the upper one)"};
+    if (!isLine(place.grid.columns, most) || !isLine(place.grid.rows, most))
+        return {words::grid, "COLUMNSxROWS like 7x5"};
+    if (!isLine(place.cell.column, place.grid.columns) || !isLine(place.cell.row, place.grid.rows))
+        return {words::cell, "r,c of the grid (row 1 is the upper one)"};
     return {};
 }
 
 JobFault faultOfKind(const PatternJob& pattern) {
-    if (!parsePatternLabel(pattern.label)) return {{}, "a pattern like ABA-250 (one to three enchanters, then milliseconds)"};
+    if (!parsePatternLabel(pattern.label))
+        return {{}, "a pattern like ABA-250 (one to three enchanters, then milliseconds)"};
     return rangeFault(words::gap, pattern.gapSeconds, ranges::gapSeconds);
 }
 
 JobFault faultOfKind(const PhantomJob& phantom) {
-    if (auto fault = std::visit([](const auto& place) { return placeFault(place); }, phantom.at)) return fault;
+    if (auto fault = std::visit([](const auto& place) { return placeFault(place); }, phantom.at))
+        return fault;
     if (auto fault = rangeFault(words::exponent, phantom.exponent, ranges::exponent)) return fault;
     return rangeFault(words::seconds, phantom.seconds, ranges::seconds);
 }
@@ -49,7 +53,8 @@ FieldPlace PhantomJob::place() const noexcept {
 JobFault faultOf(const StimulusJob& job) {
     if (auto fault = std::visit([](const auto& kind) { return faultOfKind(kind); }, job.what)) return fault;
     if (job.frequencyHz)
-        if (auto fault = rangeFault(words::frequency, *job.frequencyHz, ranges::frequencyHz)) return {fault.word, fault.expected + " Hz, or " + words::resonance};
+        if (auto fault = rangeFault(words::frequency, *job.frequencyHz, ranges::frequencyHz))
+            return {fault.word, fault.expected + " Hz, or " + words::resonance};
     return rangeFault(words::levelG, job.levelG, ranges::levelG);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Levels that others have set: one for each stimulus, means over those who set it (thesis 5.2.1: three experts).
+// Levels that others have set: one for each stimulus, means over those who set it (thesis 5.2.1: three
+// experts).
 #pragma once
 #include "Study/LevelTrials.h"
 #include <optional>
@@ -16,10 +17,13 @@ struct StimulusLevel {
     bool operator==(const StimulusLevel&) const = default;
 };
 
-/// Means of the adjustments: of each participant's repetitions, then over participants. Any thread (allocates).
-std::vector<StimulusLevel> averageLevels(const std::vector<LevelTrial>& trials, const std::string& alternative);
+/// Means of the adjustments: of each participant's repetitions, then over participants. Any thread
+/// (allocates).
+std::vector<StimulusLevel> averageLevels(const std::vector<LevelTrial>& trials,
+                                         const std::string& alternative);
 
 /// The level of a stimulus; none if nobody set it. Any thread.
-const StimulusLevel* levelOf(const std::vector<StimulusLevel>& levels, const std::string& condition, const std::string& stimulus);
+const StimulusLevel* levelOf(const std::vector<StimulusLevel>& levels, const std::string& condition,
+                             const std::string& stimulus);
 
 } // namespace physvib

@@ -22,15 +22,20 @@ public:
     }
     CallWriter& add(std::string_view word, double value) { return add(word, numberWord(value)); }
     CallWriter& addCarrier(const StimulusJob& job) {
-        return add(words::layout, job.layout).add(words::frequency, job.frequencyHz ? numberWord(*job.frequencyHz) : words::resonance).add(words::levelG, job.levelG);
+        return add(words::layout, job.layout)
+            .add(words::frequency, job.frequencyHz ? numberWord(*job.frequencyHz) : words::resonance)
+            .add(words::levelG, job.levelG);
     }
     std::string text;
 };
 
-void addPlace(CallWriter& call, const FieldPlace& place) { call.add(words::at, numberWord(place.x) + "," + numberWord(place.y)); }
+void addPlace(CallWriter& call, const FieldPlace& place) {
+    call.add(words::at, numberWord(place.x) + "," + numberWord(place.y));
+}
 
 void addPlace(CallWriter& call, const GridPlace& place) {
-    call.add(words::grid, std::to_string(place.grid.columns) + "x" + std::to_string(place.grid.rows)).add(words::cell, gridLabel(place.cell));
+    call.add(words::grid, std::to_string(place.grid.columns) + "x" + std::to_string(place.grid.rows))
+        .add(words::cell, gridLabel(place.cell));
     if (place.grid.points == PhantomGrid::Points::middles) call.add(words::points, middles);
 }
 
@@ -45,7 +50,12 @@ std::string_view valueOf(std::string_view call, std::string_view word) noexcept 
     return {};
 }
 
-std::string textOf(const PatternJob& pattern, const StimulusJob& job) { return CallWriter{"stimulus pattern " + pattern.label}.addCarrier(job).add(words::gap, pattern.gapSeconds).text; }
+std::string textOf(const PatternJob& pattern, const StimulusJob& job) {
+    return CallWriter{"stimulus pattern " + pattern.label}
+        .addCarrier(job)
+        .add(words::gap, pattern.gapSeconds)
+        .text;
+}
 
 std::string textOf(const PhantomJob& phantom, const StimulusJob& job) {
     CallWriter call{"stimulus phantom"};
@@ -88,7 +98,8 @@ std::string callsOf(const Protocol& protocol, const TrialRecord& record) {
     const auto add = [&](const std::string& call) { text.append(text.empty() ? "" : " ; ").append(call); };
     for (const std::string& session : record.answer.sessions) add("render " + session);
     if (!text.empty()) return text;
-    for (const TrialJob& job : jobsOf(protocol, record)) add(std::visit([](const auto& one) { return textOf(one); }, job));
+    for (const TrialJob& job : jobsOf(protocol, record))
+        add(std::visit([](const auto& one) { return textOf(one); }, job));
     return text;
 }
 

@@ -7,14 +7,19 @@
 namespace physvib {
 namespace {
 
-/// Indices of the conditions of each group, groups in the order of their first condition; no group: one of its own.
+/// Indices of the conditions of each group, groups in the order of their first condition; no group: one of
+/// its own.
 std::vector<std::vector<std::size_t>> groupsOf(const Protocol& protocol) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < protocol.conditions.size(); ++i) {
         const std::string& name = protocol.conditions[i].group;
-        const auto found = std::ranges::find_if(groups, [&](const auto& g) { return !name.empty() && protocol.conditions[g.front()].group == name; });
-        if (found == groups.end()) groups.push_back({i});
-        else found->push_back(i);
+        const auto found = std::ranges::find_if(groups, [&](const auto& g) {
+            return !name.empty() && protocol.conditions[g.front()].group == name;
+        });
+        if (found == groups.end())
+            groups.push_back({i});
+        else
+            found->push_back(i);
     }
     return groups;
 }
@@ -40,7 +45,9 @@ std::vector<std::size_t> conditionOrder(const Protocol& protocol, int number) {
     if (protocol.conditionOrder == Protocol::ConditionOrder::latinSquare) {
         // Participants that share an order of groups take turns with the orders inside them.
         for (const std::size_t g : latinSquareRow(groups.size(), row))
-            for (const std::size_t c : latinSquareRow(groups[g].size(), groups.size() > 1 ? row / groups.size() : row)) order.push_back(groups[g][c]);
+            for (const std::size_t c :
+                 latinSquareRow(groups[g].size(), groups.size() > 1 ? row / groups.size() : row))
+                order.push_back(groups[g][c]);
         return order;
     }
     order.resize(protocol.conditions.size());
@@ -50,12 +57,14 @@ std::vector<std::size_t> conditionOrder(const Protocol& protocol, int number) {
     return order;
 }
 
-std::vector<PlannedTrial> sessionOrder(const SessionPlan& session, std::size_t stimuli, SeededRandom& random) {
+std::vector<PlannedTrial> sessionOrder(const SessionPlan& session, std::size_t stimuli,
+                                       SeededRandom& random) {
     std::vector<PlannedTrial> all;
     for (int repetition = 0; repetition < session.repetitions; ++repetition) {
         std::vector<PlannedTrial> block;
         for (std::size_t s = 0; s < stimuli; ++s) {
-            block.push_back({s, !session.bothOrders && session.alternatives.size() == 2 && session.answer() == AnswerKind::choice && random.chance(0.5)});
+            block.push_back({s, !session.bothOrders && session.alternatives.size() == 2 &&
+                                    session.answer() == AnswerKind::choice && random.chance(0.5)});
             if (session.bothOrders) block.push_back({s, true});
         }
         if (session.order == SessionPlan::Order::blocks) random.shuffle(block);

@@ -8,12 +8,13 @@
 
 namespace physvib {
 
-/// Row `row` of a balanced Latin square (Williams 1949) over 0 to count - 1. Over `count` rows (twice as many if it is
-/// odd) every item is in every position, and follows every other one, equally often. Any thread (allocates).
+/// Row `row` of a balanced Latin square (Williams 1949) over 0 to count - 1. Over `count` rows (twice as many
+/// if it is odd) every item is in every position, and follows every other one, equally often. Any thread
+/// (allocates).
 std::vector<std::size_t> latinSquareRow(std::size_t count, std::size_t row);
 
-/// The conditions in the order of participant `number` (from 1): groups by one square, conditions within a group by
-/// another. Any thread (allocates).
+/// The conditions in the order of participant `number` (from 1): groups by one square, conditions within a
+/// group by another. Any thread (allocates).
 std::vector<std::size_t> conditionOrder(const Protocol& protocol, int number);
 
 /// A trial before it is one: which stimulus, and whether two alternatives are swapped.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every task of a study once: its name, what its answer consists of, what a participant reads, and which analysis takes its trials.
-// Protocols, trial files, simulated observers, screens, analyses and reports read this table; Docs/protocols.md is held against it.
+// Every task of a study once: its name, what its answer consists of, what a participant reads, and which
+// analysis takes its trials. Protocols, trial files, simulated observers, screens, analyses and reports read
+// this table; Docs/protocols.md is held against it.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -14,11 +15,13 @@ namespace physvib {
 /// What a participant does in a trial: the tasks in the order of the table.
 enum class StudyTask { explore, identify, locate, choose, rate, adjust, estimate };
 
-/// What an answer consists of: the fields of Answer, the columns of its row, and what its session and condition have to have.
+/// What an answer consists of: the fields of Answer, the columns of its row, and what its session and
+/// condition have to have.
 enum class AnswerKind {
-    wish,   ///< what shall be felt: a stimulus, or a place where a session counts touches; trainings only, not analysed
-    label,  ///< of a stimulus
-    place,  ///< on the field of a grid
+    wish,  ///< what shall be felt: a stimulus, or a place where a session counts touches; trainings only, not
+           ///< analysed
+    label, ///< of a stimulus
+    place, ///< on the field of a grid
     choice, ///< one of the session's alternatives
     scores, ///< one for each of the session's scales
     level,  ///< of the alternative that the session's adjustment moves, in dB
@@ -32,29 +35,66 @@ struct TaskText {
 
 /// One task.
 struct StudyTaskDescription {
-    StudyTask task;            ///< its number, which is its place in the table
-    std::string_view name;     ///< in protocols and trial files: never changes
+    StudyTask task;        ///< its number, which is its place in the table
+    std::string_view name; ///< in protocols and trial files: never changes
     AnswerKind answer;
     std::string_view analysis; ///< of `physvib analyse` and the report; empty: none
     TaskText question;
-    TaskText instruction;      ///< how a session goes, after the line on how often something may be felt
+    TaskText instruction; ///< how a session goes, after the line on how often something may be felt
 };
 
 /// All of them.
 inline constexpr std::array studyTasks{
-    StudyTaskDescription{StudyTask::explore, "explore", AnswerKind::wish, "", {"What do you want to feel?", "Where do you want to feel it?"},
-                         {"Choose what you want to feel, as often as you like.\nWhen everything was felt once, Next ends the training."}},
-    StudyTaskDescription{StudyTask::identify, "identify", AnswerKind::label, "confusion", {"What did you feel?", "Where did you feel it?"},
-                         {"Then say which one it was.", "Then choose the point where you felt it.", "Then choose the place of its first pulse, and the whole pattern."}},
-    StudyTaskDescription{StudyTask::locate, "locate", AnswerKind::place, "resolution", {"Where did you feel it?"}, {"Then mark where you felt it, anywhere on the field."}},
-    StudyTaskDescription{StudyTask::choose, "choose", AnswerKind::choice, "choices", {"Which one do you choose?"}, {"Feel them alternately, as often as you like, then choose one."}},
-    StudyTaskDescription{StudyTask::rate, "rate", AnswerKind::scores, "ratings", {"Rate what you felt."}, {"Then set every scale, and go on."}},
-    StudyTaskDescription{StudyTask::adjust, "adjust", AnswerKind::level, "levels", {"Make both equal."},
-                         {"Feel both alternately, as often as you like.\nMake the marked one softer or stronger until both are equal, and go on."}},
-    StudyTaskDescription{StudyTask::estimate, "estimate", AnswerKind::number, "levels", {"How much is it?"}, {"Then type a number, and go on."}}};
+    StudyTaskDescription{StudyTask::explore,
+                         "explore",
+                         AnswerKind::wish,
+                         "",
+                         {"What do you want to feel?", "Where do you want to feel it?"},
+                         {"Choose what you want to feel, as often as you like.\nWhen everything was felt "
+                          "once, Next ends the training."}},
+    StudyTaskDescription{StudyTask::identify,
+                         "identify",
+                         AnswerKind::label,
+                         "confusion",
+                         {"What did you feel?", "Where did you feel it?"},
+                         {"Then say which one it was.", "Then choose the point where you felt it.",
+                          "Then choose the place of its first pulse, and the whole pattern."}},
+    StudyTaskDescription{StudyTask::locate,
+                         "locate",
+                         AnswerKind::place,
+                         "resolution",
+                         {"Where did you feel it?"},
+                         {"Then mark where you felt it, anywhere on the field."}},
+    StudyTaskDescription{StudyTask::choose,
+                         "choose",
+                         AnswerKind::choice,
+                         "choices",
+                         {"Which one do you choose?"},
+                         {"Feel them alternately, as often as you like, then choose one."}},
+    StudyTaskDescription{StudyTask::rate,
+                         "rate",
+                         AnswerKind::scores,
+                         "ratings",
+                         {"Rate what you felt."},
+                         {"Then set every scale, and go on."}},
+    StudyTaskDescription{StudyTask::adjust,
+                         "adjust",
+                         AnswerKind::level,
+                         "levels",
+                         {"Make both equal."},
+                         {"Feel both alternately, as often as you like.\nMake the marked one softer or "
+                          "stronger until both are equal, and go on."}},
+    StudyTaskDescription{StudyTask::estimate,
+                         "estimate",
+                         AnswerKind::number,
+                         "levels",
+                         {"How much is it?"},
+                         {"Then type a number, and go on."}}};
 
 /// The task's row. Any thread.
-constexpr const StudyTaskDescription& describe(StudyTask task) noexcept { return studyTasks[static_cast<std::size_t>(task)]; }
+constexpr const StudyTaskDescription& describe(StudyTask task) noexcept {
+    return studyTasks[static_cast<std::size_t>(task)];
+}
 
 /// The row of that name; null if there is none. Any thread.
 constexpr const StudyTaskDescription* studyTaskNamed(std::string_view name) noexcept {
@@ -76,13 +116,16 @@ inline constexpr auto studyTaskNames = [] {
     return names;
 }();
 
-static_assert([] {
-    for (std::size_t i = 0; i < studyTasks.size(); ++i)
-        if (static_cast<std::size_t>(studyTasks[i].task) != i) return false;
-    return true;
-}(), "each task at the place of its number");
+static_assert(
+    [] {
+        for (std::size_t i = 0; i < studyTasks.size(); ++i)
+            if (static_cast<std::size_t>(studyTasks[i].task) != i) return false;
+        return true;
+    }(),
+    "each task at the place of its number");
 
-/// "the task rate", "the tasks choose and adjust": those with an answer of one of these kinds. Any thread (allocates).
+/// "the task rate", "the tasks choose and adjust": those with an answer of one of these kinds. Any thread
+/// (allocates).
 inline std::string tasksThatAnswer(std::initializer_list<AnswerKind> kinds) {
     std::string names;
     std::size_t count = 0;

@@ -7,18 +7,22 @@
 
 namespace physvib {
 
-double bitsFor(std::size_t meanings) noexcept { return meanings > 1 ? std::log2(static_cast<double>(meanings)) : 0.0; }
+double bitsFor(std::size_t meanings) noexcept {
+    return meanings > 1 ? std::log2(static_cast<double>(meanings)) : 0.0;
+}
 
 double shareCorrect(const ConfusionMatrix& matrix, std::size_t stimulus) {
     std::uint64_t total = 0;
     for (std::size_t j = 0; j < matrix.responses(); ++j) total += matrix.count(stimulus, j);
-    return total > 0 ? static_cast<double>(matrix.count(stimulus, stimulus)) / static_cast<double>(total) : 0.0;
+    return total > 0 ? static_cast<double>(matrix.count(stimulus, stimulus)) / static_cast<double>(total)
+                     : 0.0;
 }
 
 std::vector<std::size_t> leastConfused(const ConfusionMatrix& matrix, std::size_t count) {
     const auto totals = matrix.stimulusTotals();
     const auto confusion = [&](std::size_t a, std::size_t b) {
-        return matrix.count(a, b) / static_cast<double>(totals[a]) + matrix.count(b, a) / static_cast<double>(totals[b]);
+        return matrix.count(a, b) / static_cast<double>(totals[a]) +
+               matrix.count(b, a) / static_cast<double>(totals[b]);
     };
     std::vector<std::size_t> left(matrix.stimuli());
     std::iota(left.begin(), left.end(), 0u);

@@ -25,13 +25,15 @@ std::vector<std::string> factorsOf(const std::string& condition) {
     std::vector<std::string> parts;
     for (std::size_t from = 0; from < condition.size();) {
         const std::size_t to = std::min(condition.find(' ', from), condition.size());
-        if (std::string part = condition.substr(from, to - from); part.find('=') != std::string::npos) parts.push_back(std::move(part));
+        if (std::string part = condition.substr(from, to - from); part.find('=') != std::string::npos)
+            parts.push_back(std::move(part));
         from = to + 1;
     }
     return parts;
 }
 
-ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uint64_t trials, const std::vector<double>& shares) {
+ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uint64_t trials,
+                    const std::vector<double>& shares) {
     const Moments moments{shares};
     const Proportion pooled = proportion(hits, trials);
     ChoiceShare share{alternative, hits, moments.mean, pooled.least, pooled.most, median(shares)};
@@ -41,7 +43,8 @@ ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uin
     return share;
 }
 
-ChoiceSummary summarise(const std::string& condition, const std::vector<const ChoiceTrial*>& trials, const std::set<std::string>& alternatives) {
+ChoiceSummary summarise(const std::string& condition, const std::vector<const ChoiceTrial*>& trials,
+                        const std::set<std::string>& alternatives) {
     std::map<std::string, std::map<std::string, std::uint64_t>> votes; // by participant and alternative
     std::map<std::string, std::uint64_t> totals, trialsOf;
     for (const auto* trial : trials) {
@@ -53,7 +56,8 @@ ChoiceSummary summarise(const std::string& condition, const std::vector<const Ch
     for (const auto& alternative : alternatives) {
         std::vector<double> shares, leads; // leads are as exact one way as the other, so that equal ones tie
         for (auto& [participant, own] : votes) {
-            const auto hits = static_cast<double>(own[alternative]), all = static_cast<double>(trialsOf[participant]);
+            const auto hits = static_cast<double>(own[alternative]),
+                       all = static_cast<double>(trialsOf[participant]);
             shares.push_back(hits / all);
             leads.push_back((2.0 * hits - all) / all);
         }
@@ -96,7 +100,8 @@ bool hasPart(const std::string& name, std::string part) {
 }
 
 bool isMethod(const std::string& name) {
-    return std::ranges::all_of(methodParts, [&](const auto& parts) { return hasPart(name, parts[0]) != hasPart(name, parts[1]); });
+    return std::ranges::all_of(
+        methodParts, [&](const auto& parts) { return hasPart(name, parts[0]) != hasPart(name, parts[1]); });
 }
 
 } // namespace
@@ -119,7 +124,8 @@ std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& tria
         for (const auto& factor : factorsOf(trial->condition)) factors[factor].push_back(trial);
     for (const auto& [factor, own] : factors)
         if (!conditions.contains(factor)) summaries.push_back(summarise(factor, own, alternatives));
-    for (const auto& [condition, own] : conditions) summaries.push_back(summarise(condition, own, alternatives));
+    for (const auto& [condition, own] : conditions)
+        summaries.push_back(summarise(condition, own, alternatives));
     return summaries;
 }
 
@@ -128,7 +134,9 @@ std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& tria
     for (const auto& trial : trials) conditions[trial.condition].push_back(&trial);
     std::vector<RatingSummary> summaries;
     for (const auto& [condition, own] : conditions) summaries.push_back(summarise(condition, own));
-    if (conditions.size() < 2 || !std::ranges::all_of(conditions, isMethod, [](const auto& c) { return c.first; })) return summaries;
+    if (conditions.size() < 2 ||
+        !std::ranges::all_of(conditions, isMethod, [](const auto& c) { return c.first; }))
+        return summaries;
     for (const auto& parts : methodParts)
         for (const char* part : parts) {
             Chosen chosen;

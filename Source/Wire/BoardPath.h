@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What moves, as a board of protocol 2 plays it: a row of legs, each a chord of the gains that the computer's own renderer has.
+// What moves, as a board of protocol 2 plays it: a row of legs, each a chord of the gains that the computer's
+// own renderer has.
 //
-// A leg goes as far as its chord keeps to those gains within half a step of the converters: next to a corner of the layout,
-// where a root is steepest, for a millisecond, else for as long as a leg may be. It begins in the phase in which the one
-// before ends, whatever has been learnt of the board's clock meanwhile, and catches up in its frequency.
+// A leg goes as far as its chord keeps to those gains within half a step of the converters: next to a corner
+// of the layout, where a root is steepest, for a millisecond, else for as long as a leg may be. It begins in
+// the phase in which the one before ends, whatever has been learnt of the board's clock meanwhile, and
+// catches up in its frequency.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Wire/BoardStrike.h"
@@ -17,20 +19,25 @@ struct BoardTime {
     double onset = 0.0; ///< its frame, whole or not
     double framesPerSecond = limits::board::sampleRateHz;
 
-    double secondsAt(std::int64_t frame) const noexcept { return (static_cast<double>(frame) - onset) / framesPerSecond; }
+    double secondsAt(std::int64_t frame) const noexcept {
+        return (static_cast<double>(frame) - onset) / framesPerSecond;
+    }
     /// The first frame that is not earlier.
-    std::int64_t frameAt(double seconds) const noexcept { return static_cast<std::int64_t>(std::ceil(onset + seconds * framesPerSecond)); }
+    std::int64_t frameAt(double seconds) const noexcept {
+        return static_cast<std::int64_t>(std::ceil(onset + seconds * framesPerSecond));
+    }
 };
 
 /// One strike that moves. One thread.
 class BoardPath {
 public:
     using Gains = PathGains::Gains;
-    static constexpr int mostFrames = 320;           ///< 40 ms: what a lost leg costs
-    static constexpr int hurriedFrames = 160;        ///< 20 ms: four tones of these take two thirds of the line
+    static constexpr int mostFrames = 320;    ///< 40 ms: what a lost leg costs
+    static constexpr int hurriedFrames = 160; ///< 20 ms: four tones of these take two thirds of the line
     static constexpr double tolerance = 0.5 / 127.0; ///< of full scale
     static constexpr double mostSlip = 1.0 / 64;     ///< turns that a leg catches up: more would be felt
-    static constexpr double mostJumpSeconds = 0.02;  ///< of the clock: by more, a leg begins where it is to be, not where the one before ends
+    static constexpr double mostJumpSeconds = 0.02;  ///< of the clock: by more, a leg begins where it is to
+                                                     ///< be, not where the one before ends
 
     /// On a session rendered at this rate.
     BoardPath(const CollisionEvent& moving, int sampleRateHz) noexcept
@@ -44,28 +51,34 @@ public:
     /// Session time at which the next leg begins.
     std::int64_t nextNs() const noexcept { return moving_.timeNs + nextNs_; }
 
-    /// The next leg; none if nothing is left. `gainsAt(event, x, y)`: Gains, of the panner. Hurried: as long as the line needs,
-    /// however far from the law that takes it.
+    /// The next leg; none if nothing is left. `gainsAt(event, x, y)`: Gains, of the panner. Hurried: as long
+    /// as the line needs, however far from the law that takes it.
     template <class GainsAt>
     std::optional<BoardLeg> next(const BoardTime& time, GainsAt gainsAt, bool isHurried = false) noexcept {
-        isJoined_ = isJoined_ && std::abs(time.secondsAt(after_.frame) - static_cast<double>(nextNs_) * 1e-9) < mostJumpSeconds;
-        const std::int64_t begin = isJoined_ ? after_.frame : time.frameAt(static_cast<double>(nextNs_) * 1e-9);
+        isJoined_ = isJoined_ && std::abs(time.secondsAt(after_.frame) -
+                                          static_cast<double>(nextNs_) * 1e-9) < mostJumpSeconds;
+        const std::int64_t begin =
+            isJoined_ ? after_.frame : time.frameAt(static_cast<double>(nextNs_) * 1e-9);
         const std::int64_t left = time.frameAt(static_cast<double>(lifeNs_) * 1e-9) - begin;
         if (left <= 0) return nextNs_ = lifeNs_, std::nullopt;
         const int most = static_cast<int>(std::min<std::int64_t>(left, mostFrames));
         for (int k = 0; k < most; ++k) samples_[at(k)] = gains_.at(time.secondsAt(begin + k), gainsAt);
         const double toneSeconds = time.secondsAt(begin) + static_cast<double>(moving_.course.sinceNs) * 1e-9;
         const double level = amplitudeAfter(moving_, toneSeconds);
-        const int exact = longestChord(most, std::abs(level)), frames = isHurried ? std::max(exact, std::min(most, hurriedFrames)) : exact;
+        const int exact = longestChord(most, std::abs(level)),
+                  frames = isHurried ? std::max(exact, std::min(most, hurriedFrames)) : exact;
         isCoarse_ = frames > exact;
         const double turns = moving_.frequencyHz * toneSeconds;
-        const std::uint32_t phase = isJoined_ ? after_.phase : static_cast<std::uint32_t>(phaseAfter(turns) >> 32);
+        const std::uint32_t phase =
+            isJoined_ ? after_.phase : static_cast<std::uint32_t>(phaseAfter(turns) >> 32);
         const double behind = std::clamp(std::remainder(turns - phase * turnUnit, 1.0), -mostSlip, mostSlip);
         BoardLeg leg = chord(frames, level);
         leg.frame = static_cast<std::uint32_t>(begin);
         leg.phase16 = static_cast<std::uint16_t>((phase + 0x8000u) >> 16);
-        leg.turn = static_cast<std::uint32_t>(std::llround((moving_.frequencyHz / time.framesPerSecond + behind / frames) / turnUnit));
-        following_ = {begin + frames, phase + leg.turn * leg.frames, static_cast<std::int64_t>(time.secondsAt(begin + frames) * 1e9)};
+        leg.turn = static_cast<std::uint32_t>(
+            std::llround((moving_.frequencyHz / time.framesPerSecond + behind / frames) / turnUnit));
+        following_ = {begin + frames, phase + leg.turn * leg.frames,
+                      static_cast<std::int64_t>(time.secondsAt(begin + frames) * 1e9)};
         return leg;
     }
 
@@ -81,14 +94,16 @@ public:
 
     /// If nothing of it has been taken: begins where `before` has ended, if it is the rest of the same tone.
     void joinTo(const BoardPath& before) noexcept {
-        const bool isRest = before.endNs() == onsetNs() && before.moving_.frequencyHz == moving_.frequencyHz &&
+        const bool isRest = before.endNs() == onsetNs() &&
+                            before.moving_.frequencyHz == moving_.frequencyHz &&
                             before.moving_.course.sinceNs + before.lifeNs_ == moving_.course.sinceNs;
         if (hasBegun_ || !isRest || !before.isOver() || !before.isJoined_) return;
         after_ = {before.after_.frame, before.after_.phase, 0};
         isJoined_ = true;
     }
 
-    /// A leg's time goes by and nothing is played; what comes begins anew, on a board whose clock may be another.
+    /// A leg's time goes by and nothing is played; what comes begins anew, on a board whose clock may be
+    /// another.
     void skip() noexcept {
         nextNs_ += mostFrames * (1'000'000'000LL / limits::board::sampleRateHz);
         hasBegun_ = true;
@@ -118,7 +133,8 @@ private:
     /// Frames that one chord keeps to, `most` at most.
     int longestChord(int most, double level) const noexcept {
         int fits = 1, fails = most + 1;
-        for (int tried = most; fails - fits > 1; tried = (fits + fails) / 2) (isChord(tried, level) ? fits : fails) = tried;
+        for (int tried = most; fails - fits > 1; tried = (fits + fails) / 2)
+            (isChord(tried, level) ? fits : fails) = tried;
         return fits;
     }
 
@@ -126,7 +142,10 @@ private:
         const Gains &first = samples_[0], &last = samples_[at(frames - 1)];
         for (int k = 1; k + 1 < frames; ++k)
             for (std::size_t j = 0; j < first.size(); ++j)
-                if (std::abs(first[j] + (last[j] - first[j]) * k / (frames - 1) - samples_[at(k)][j]) * level > tolerance) return false;
+                if (std::abs(first[j] + (last[j] - first[j]) * k / (frames - 1) - samples_[at(k)][j]) *
+                        level >
+                    tolerance)
+                    return false;
         return true;
     }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What moves, as a board of protocol 1 can play it: a row of short still strikes, since a strike of the link has one amplitude
-// per channel. Newer ones play legs (BoardPath).
+// What moves, as a board of protocol 1 can play it: a row of short still strikes, since a strike of the link
+// has one amplitude per channel. Newer ones play legs (BoardPath).
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Wire/BoardStrike.h"
@@ -10,11 +10,12 @@
 
 namespace physvib {
 
-/// One after the other, in time order. Each lasts whole milliseconds, as the link counts them, and nearly whole periods, since each
-/// begins at phase 0 on the board. Any thread.
+/// One after the other, in time order. Each lasts whole milliseconds, as the link counts them, and nearly
+/// whole periods, since each begins at phase 0 on the board. Any thread.
 class BoardSteps {
 public:
-    static constexpr int leastMs = 20, mostMs = 60; ///< fewer than 50 a second, of the 720 that the line brings
+    static constexpr int leastMs = 20, mostMs = 60; ///< fewer than 50 a second, of the 720 that the line
+                                                    ///< brings
 
     explicit BoardSteps(const CollisionEvent& moving) noexcept
         : moving_{moving}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From collisions to what the board plays, and the policy when the line cannot carry all of them: the weakest go first.
+// From collisions to what the board plays, and the policy when the line cannot carry all of them: the weakest
+// go first.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Core/CollisionEvent.h"
@@ -25,29 +26,42 @@ struct BoardStrike {
 
 /// On the link's grid. A decay stays one. Any thread, as all of these.
 inline std::uint16_t boardDecay16(double decayPerSecond) noexcept {
-    return static_cast<std::uint16_t>(std::clamp(std::nearbyint(decayPerSecond * limits::board::gridPerHz), decayPerSecond > 0.0 ? 1.0 : 0.0, 65535.0));
+    return static_cast<std::uint16_t>(std::clamp(std::nearbyint(decayPerSecond * limits::board::gridPerHz),
+                                                 decayPerSecond > 0.0 ? 1.0 : 0.0, 65535.0));
 }
 inline std::int16_t boardAmplitude(double amplitude) noexcept {
-    return static_cast<std::int16_t>(std::clamp(std::nearbyint(amplitude * limits::board::amplitudeUnit), -32768.0, 32767.0));
+    return static_cast<std::int16_t>(
+        std::clamp(std::nearbyint(amplitude * limits::board::amplitudeUnit), -32768.0, 32767.0));
 }
 
 /// How loud the rest of a longer tone begins.
-inline double amplitudeAfter(const CollisionEvent& e, double seconds) noexcept { return seconds > 0.0 ? e.amplitude * shareLeft(e.decayPerSecond, seconds) : e.amplitude; }
+inline double amplitudeAfter(const CollisionEvent& e, double seconds) noexcept {
+    return seconds > 0.0 ? e.amplitude * shareLeft(e.decayPerSecond, seconds) : e.amplitude;
+}
 
 /// How long it lasts: to its end, or until it has decayed.
 inline std::int64_t boardLifeNs(const CollisionEvent& e) noexcept {
-    return e.durationNs > 0 ? e.durationNs : static_cast<std::int64_t>(limits::retireDecibels / (20.0 * std::numbers::log10e) / e.decayPerSecond * 1e9);
+    return e.durationNs > 0
+               ? e.durationNs
+               : static_cast<std::int64_t>(limits::retireDecibels / (20.0 * std::numbers::log10e) /
+                                           e.decayPerSecond * 1e9);
 }
 
-/// Rounded to the numbers of the link; amplitudes beyond 8 times full scale stay there. `gains`: one per board channel,
-/// of the panner. A frequency that the board cannot play gives an event that isPlayable refuses. The rest of a longer tone is as
-/// strong as that, from phase 0. Any thread.
-inline BoardEvent boardEventOf(const CollisionEvent& e, const std::array<double, limits::board::channels>& gains) noexcept {
-    const auto rounded = [](double value, double low, double high) { return std::clamp(std::nearbyint(value), low, high); };
+/// Rounded to the numbers of the link; amplitudes beyond 8 times full scale stay there. `gains`: one per
+/// board channel, of the panner. A frequency that the board cannot play gives an event that isPlayable
+/// refuses. The rest of a longer tone is as strong as that, from phase 0. Any thread.
+inline BoardEvent boardEventOf(const CollisionEvent& e,
+                               const std::array<double, limits::board::channels>& gains) noexcept {
+    const auto rounded = [](double value, double low, double high) {
+        return std::clamp(std::nearbyint(value), low, high);
+    };
     BoardEvent b;
-    b.frequency16 = static_cast<std::uint16_t>(rounded(e.frequencyHz * limits::board::gridPerHz, 0.0, 65535.0));
+    b.frequency16 =
+        static_cast<std::uint16_t>(rounded(e.frequencyHz * limits::board::gridPerHz, 0.0, 65535.0));
     b.decay16 = boardDecay16(e.decayPerSecond);
-    if (e.durationNs > 0) b.durationMs = static_cast<std::uint16_t>(rounded(static_cast<double>(e.durationNs) * 1e-6, 1.0, 65535.0));
+    if (e.durationNs > 0)
+        b.durationMs =
+            static_cast<std::uint16_t>(rounded(static_cast<double>(e.durationNs) * 1e-6, 1.0, 65535.0));
     const double amplitude = amplitudeAfter(e, static_cast<double>(e.course.sinceNs) * 1e-9);
     for (std::size_t j = 0; j < gains.size(); ++j) b.amplitudes[j] = boardAmplitude(amplitude * gains[j]);
     return b;
@@ -60,7 +74,8 @@ struct LineRoom {
     std::int64_t transitNs = 0; ///< from there until the board can play it
 };
 
-/// Strikes that wait for the line, by onset. When it is full, the weakest of all goes, and is counted. One thread.
+/// Strikes that wait for the line, by onset. When it is full, the weakest of all goes, and is counted. One
+/// thread.
 class StrikeBacklog {
 public:
     static constexpr int capacity = 32; // 44 ms of the line in the compact form: more would come too late
@@ -78,7 +93,9 @@ public:
             thin(weakest);
         }
         const auto filled = strikes_.begin() + size_;
-        const auto after = std::upper_bound(strikes_.begin(), filled, strike, [](const auto& a, const auto& b) { return a.onsetNs < b.onsetNs; });
+        const auto after =
+            std::upper_bound(strikes_.begin(), filled, strike,
+                             [](const auto& a, const auto& b) { return a.onsetNs < b.onsetNs; });
         std::copy_backward(after, filled, filled + 1);
         *after = strike;
         ++size_;
@@ -89,8 +106,8 @@ public:
         --size_;
     }
 
-    /// Where a strike would come too late for those before it, the weakest of them all goes, and is counted. What is late even as
-    /// the first stays: it is not the line's fault.
+    /// Where a strike would come too late for those before it, the weakest of them all goes, and is counted.
+    /// What is late even as the first stays: it is not the line's fault.
     void keepTo(const LineRoom& line) noexcept {
         for (int i = 1; i < size_;) {
             if (isInTime(line, i, i + 1) || !isInTime(line, i, 1)) {
@@ -108,7 +125,8 @@ private:
     using Strikes = std::array<BoardStrike, static_cast<std::size_t>(capacity) + 1>;
 
     Strikes::iterator weakestBefore(Strikes::iterator end) noexcept {
-        return std::min_element(strikes_.begin(), end, [](const auto& a, const auto& b) { return a.peak() < b.peak(); });
+        return std::min_element(strikes_.begin(), end,
+                                [](const auto& a, const auto& b) { return a.peak() < b.peak(); });
     }
     void thin(Strikes::iterator strike) noexcept {
         std::copy(strike + 1, strikes_.begin() + size_, strike);
@@ -117,7 +135,8 @@ private:
     }
     /// Whether that one is, after so many on the line, itself among them.
     bool isInTime(const LineRoom& line, int strike, int onTheLine) const noexcept {
-        return line.freeNs + onTheLine * line.strikeNs + line.transitNs <= strikes_[static_cast<std::size_t>(strike)].onsetNs;
+        return line.freeNs + onTheLine * line.strikeNs + line.transitNs <=
+               strikes_[static_cast<std::size_t>(strike)].onsetNs;
     }
 
     Strikes strikes_{};

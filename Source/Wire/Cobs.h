@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Consistent overhead byte stuffing (Cheshire and Baker, 1999): frames without zeros, so that a zero ends a frame.
+// Consistent overhead byte stuffing (Cheshire and Baker, 1999): frames without zeros, so that a zero ends a
+// frame.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +12,8 @@ namespace physvib {
 constexpr std::size_t cobsMaxEncoded(std::size_t payload) noexcept { return payload + payload / 254 + 1; }
 
 /// Writes the stuffed payload to `out` (at least cobsMaxEncoded bytes); its length. Any thread.
-constexpr std::size_t cobsEncode(std::span<const std::uint8_t> payload, std::span<std::uint8_t> out) noexcept {
+constexpr std::size_t cobsEncode(std::span<const std::uint8_t> payload,
+                                 std::span<std::uint8_t> out) noexcept {
     std::size_t code = 0, end = 1; // `code`: where the length of the running group goes
     out[0] = 1;
     for (const std::uint8_t byte : payload) {

@@ -6,8 +6,8 @@
 
 namespace physvib {
 
-/// A byte at a time without a table: the eight division steps by x^16 + x^12 + x^5 + 1 fold into a few shifts, as no
-/// term but the first reaches into the byte that is divided out. Any thread.
+/// A byte at a time without a table: the eight division steps by x^16 + x^12 + x^5 + 1 fold into a few
+/// shifts, as no term but the first reaches into the byte that is divided out. Any thread.
 constexpr std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept {
     unsigned crc = 0xFFFF;
     for (const std::uint8_t byte : bytes) {

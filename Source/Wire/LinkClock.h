@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The board's clock as the computer sees it: offset and drift from pings, by the two envelopes of what is possible.
+// The board's clock as the computer sees it: offset and drift from pings, by the two envelopes of what is
+// possible.
 //
-// A ping leaves at a, the board reads its clock b, the answer is here at c. So the board's time at a is at most b, and at
-// c at least b: as lines over the computer's time, all points (a, b) lie above the clock, all (c, b) below it. For a
-// drift d, the room between the envelopes is what the fastest way there and back took; a wrong drift tilts the points
-// and leaves less. The room is a concave function of d: its maximum is the drift, its middle the offset. A mean or a
-// least-squares line is led astray by the random part of the delays; the envelopes see only the fastest pings.
+// A ping leaves at a, the board reads its clock b, the answer is here at c. So the board's time at a is at
+// most b, and at c at least b: as lines over the computer's time, all points (a, b) lie above the clock, all
+// (c, b) below it. For a drift d, the room between the envelopes is what the fastest way there and back took;
+// a wrong drift tilts the points and leaves less. The room is a concave function of d: its maximum is the
+// drift, its middle the offset. A mean or a least-squares line is led astray by the random part of the
+// delays; the envelopes see only the fastest pings.
 #pragma once
 #include "Core/Limits.h"
 #include <algorithm>
@@ -18,9 +20,11 @@ namespace physvib {
 /// One thread.
 class LinkClock {
 public:
-    static constexpr int window = 256;        // 26 s at 10 pings a second: the drift of a warming crystal stays constant
-    static constexpr int needed = 100;      // pings until the estimate is used: two seconds of them; 64 were once 3 ms off
-    static constexpr double maxDrift = 0.02;  // the board's internal oscillator: 1 % and its temperature
+    static constexpr int window = 256; // 26 s at 10 pings a second: the drift of a warming crystal stays
+                                       // constant
+    static constexpr int needed = 100; // pings until the estimate is used: two seconds of them; 64 were once
+                                       // 3 ms off
+    static constexpr double maxDrift = 0.02; // the board's internal oscillator: 1 % and its temperature
 
     void clear() noexcept { count_ = next_ = 0; }
     bool isEmpty() const noexcept { return count_ == 0; }
@@ -34,7 +38,8 @@ public:
     /// A ping sent at `sentNs`, answered with the board's clock `boardFrames`, received at `receivedNs`.
     void add(std::int64_t sentNs, double boardFrames, std::int64_t receivedNs) noexcept {
         if (count_ == 0) origin_ = {sentNs, boardFrames};
-        points_[static_cast<std::size_t>(next_)] = {seconds(sentNs), (boardFrames - origin_.frames) / rate, seconds(receivedNs)};
+        points_[static_cast<std::size_t>(next_)] = {seconds(sentNs), (boardFrames - origin_.frames) / rate,
+                                                    seconds(receivedNs)};
         last_ = static_cast<std::int64_t>(boardFrames);
         next_ = (next_ + 1) % window;
         count_ = std::min(count_ + 1, window);
@@ -44,7 +49,9 @@ public:
     bool isReady() const noexcept { return count_ >= needed; }
 
     /// The board's frame (between two, as a rule) at the computer's time `ns`.
-    double frameAt(std::int64_t ns) const noexcept { return origin_.frames + (offset_ + seconds(ns) * (1.0 + drift_)) * rate; }
+    double frameAt(std::int64_t ns) const noexcept {
+        return origin_.frames + (offset_ + seconds(ns) * (1.0 + drift_)) * rate;
+    }
 
     /// Relative to the computer's clock: 1e-6 is one ppm.
     double drift() const noexcept { return drift_; }
@@ -52,7 +59,8 @@ public:
     /// The longest way there of the pings remembered: what a play-out delay has to cover.
     double worstDelaySeconds() const noexcept {
         double worst = 0.0;
-        for (int i = 0; i < count_; ++i) worst = std::max(worst, point(i).board - (offset_ + point(i).sent * (1.0 + drift_)));
+        for (int i = 0; i < count_; ++i)
+            worst = std::max(worst, point(i).board - (offset_ + point(i).sent * (1.0 + drift_)));
         return worst;
     }
 
@@ -84,8 +92,10 @@ private:
         double low = -maxDrift, high = maxDrift;
         for (int i = 0; i < 40 && isReady(); ++i) { // thirds: 0.02 becomes 2e-9
             const double third = (high - low) / 3.0;
-            if (room(low + third).width() < room(high - third).width()) low += third;
-            else high -= third;
+            if (room(low + third).width() < room(high - third).width())
+                low += third;
+            else
+                high -= third;
         }
         drift_ = isReady() ? (low + high) / 2.0 : 0.0;
         const Room r = room(drift_);

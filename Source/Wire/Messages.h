@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The messages between a computer and the four-channel board: the one place that says which bytes they are.
 //
-// On the line: COBS( type, fields, CRC-16 of both ), then a zero. All numbers are little-endian. The format is append-only: later
-// versions add fields at the end and new types; a reader skips what it does not know.
+// On the line: COBS( type, fields, CRC-16 of both ), then a zero. All numbers are little-endian. The format
+// is append-only: later versions add fields at the end and new types; a reader skips what it does not know.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Wire/Cobs.h"
@@ -15,25 +15,38 @@
 
 namespace physvib::wire {
 
-constexpr std::uint8_t protocolVersion = 2;    // 2: legs
+constexpr std::uint8_t protocolVersion = 2; // 2: legs
 constexpr std::uint8_t legsSince = 2;
-constexpr int lineBitsPerSecond = 115200;      // 8N1: 11,520 bytes a second, what the thesis' Bluetooth module does
-constexpr std::size_t maxPayload = 64;         // type, fields, CRC: room for telemetry to grow
+constexpr int lineBitsPerSecond = 115200; // 8N1: 11,520 bytes a second, what the thesis' Bluetooth module
+                                          // does
+constexpr std::size_t maxPayload = 64;    // type, fields, CRC: room for telemetry to grow
 constexpr std::size_t maxFrame = cobsMaxEncoded(maxPayload) + 1;
-constexpr int defaultWatchdogMs = 500;         // five pings missed: the computer is gone. No hello can make it longer
-constexpr int pingsPerSecond = 10;             // also what keeps the board from falling silent
-constexpr int firstPingsPerSecond = 50;        // until the clock is known
+constexpr int defaultWatchdogMs = 500; // five pings missed: the computer is gone. No hello can make it longer
+constexpr int pingsPerSecond = 10;     // also what keeps the board from falling silent
+constexpr int firstPingsPerSecond = 50; // until the clock is known
 
 enum class Type : std::uint8_t {
-    hello = 0x01, strike, compactStrike, gains, ping, telemetryRequest, stopAll, selfTest, leg,
-    helloReply = 0x81, pong = 0x85, telemetry = 0x86, selfTestReply = 0x88
+    hello = 0x01,
+    strike,
+    compactStrike,
+    gains,
+    ping,
+    telemetryRequest,
+    stopAll,
+    selfTest,
+    leg,
+    helloReply = 0x81,
+    pong = 0x85,
+    telemetry = 0x86,
+    selfTestReply = 0x88
 };
 
 /// First message of a connection: sequence numbers begin anew, the board stops what it plays.
 struct Hello {
     static constexpr Type type = Type::hello;
     std::uint8_t version = protocolVersion;
-    std::uint16_t watchdogMs = defaultWatchdogMs; ///< without a message for so long, the board falls silent; defaultWatchdogMs at most
+    std::uint16_t watchdogMs = defaultWatchdogMs; ///< without a message for so long, the board falls silent;
+                                                  ///< defaultWatchdogMs at most
     void visit(auto&& field) { field(version), field(watchdogMs); }
 };
 
@@ -45,26 +58,29 @@ struct HelloReply {
     std::uint16_t sampleRateHz = 0, maxModes = 0, maxPending = 0;
     std::uint16_t aheadFrames = 0; ///< an event has to arrive so many frames before its onset
     std::uint16_t watchdogMs = 0;  ///< as set by Hello
-    std::uint8_t crystal = 0;      ///< 1: clocked by the ST-Link's crystal, 0: by the internal oscillator (1 %)
-    std::uint8_t resets = 0;       ///< restarts that the hardware watchdog forced since power came
+    std::uint8_t crystal = 0; ///< 1: clocked by the ST-Link's crystal, 0: by the internal oscillator (1 %)
+    std::uint8_t resets = 0;  ///< restarts that the hardware watchdog forced since power came
     void visit(auto&& field) {
-        field(version), field(channels), field(sampleRateHz), field(maxModes), field(maxPending), field(aheadFrames), field(watchdogMs),
-            field(crystal), field(resets);
+        field(version), field(channels), field(sampleRateHz), field(maxModes), field(maxPending),
+            field(aheadFrames), field(watchdogMs), field(crystal), field(resets);
     }
 };
 
-/// A collision. `sequence` counts strikes of either form, and legs; one that comes again (see StrikeOrder), or before a hello, is not played.
+/// A collision. `sequence` counts strikes of either form, and legs; one that comes again (see StrikeOrder),
+/// or before a hello, is not played.
 struct Strike {
     static constexpr Type type = Type::strike;
     std::uint8_t sequence = 0;
     BoardEvent event;
     void visit(auto&& field) {
-        field(sequence), field(event.frame), field(event.frequency16), field(event.decay16), field(event.durationMs);
+        field(sequence), field(event.frame), field(event.frequency16), field(event.decay16),
+            field(event.durationMs);
         for (auto& a : event.amplitudes) field(a);
     }
 };
 
-/// The same in 16 bytes instead of 24 on the line, for a crowded link: no duration, coarse amplitudes, short time.
+/// The same in 16 bytes instead of 24 on the line, for a crowded link: no duration, coarse amplitudes, short
+/// time.
 struct CompactStrike {
     static constexpr Type type = Type::compactStrike;
     std::uint8_t sequence = 0;
@@ -83,7 +99,8 @@ struct Leg {
     std::uint8_t sequence = 0;
     BoardLeg leg;
     void visit(auto&& field) {
-        field(sequence), field(leg.frame), field(leg.turn), field(leg.frames), field(leg.phase16), field(leg.decay16);
+        field(sequence), field(leg.frame), field(leg.turn), field(leg.frames), field(leg.phase16),
+            field(leg.decay16);
         for (auto& a : leg.start) field(a);
         for (auto& a : leg.end) field(a);
     }
@@ -122,20 +139,22 @@ struct TelemetryRequest {
 struct Telemetry {
     static constexpr Type type = Type::telemetry;
     std::uint32_t frame = 0;
-    std::uint32_t good = 0, bad = 0;   ///< frames of the link
-    std::uint32_t lost = 0;            ///< gaps in the sequence of strikes and legs
-    std::uint32_t overruns = 0;        ///< bytes that came faster than they were taken
+    std::uint32_t good = 0, bad = 0; ///< frames of the link
+    std::uint32_t lost = 0;          ///< gaps in the sequence of strikes and legs
+    std::uint32_t overruns = 0;      ///< bytes that came faster than they were taken
     std::uint32_t played = 0, late = 0, dropped = 0, stolen = 0;
-    std::uint32_t missedFrames = 0;    ///< the converters had to repeat a frame
+    std::uint32_t missedFrames = 0;     ///< the converters had to repeat a frame
     std::uint32_t worstBlockCycles = 0; ///< of the processor, for one block, since the last telemetry
-    std::uint16_t stackFree = 0;       ///< bytes never used
+    std::uint16_t stackFree = 0;        ///< bytes never used
     std::uint8_t modes = 0, pending = 0;
-    std::uint8_t silenced = 0;         ///< 1: fell silent for want of messages
-    std::uint16_t guarded = 0;         ///< how often the guard began to act; wraps. 0 of an image without one
+    std::uint8_t silenced = 0; ///< 1: fell silent for want of messages
+    std::uint16_t guarded = 0; ///< how often the guard began to act; wraps. 0 of an image without one
     static constexpr std::size_t addedLater = 2; ///< bytes at the end, which an older image does not send
     void visit(auto&& field) {
-        field(frame), field(good), field(bad), field(lost), field(overruns), field(played), field(late), field(dropped), field(stolen);
-        field(missedFrames), field(worstBlockCycles), field(stackFree), field(modes), field(pending), field(silenced);
+        field(frame), field(good), field(bad), field(lost), field(overruns), field(played), field(late),
+            field(dropped), field(stolen);
+        field(missedFrames), field(worstBlockCycles), field(stackFree), field(modes), field(pending),
+            field(silenced);
         field(guarded);
     }
 };
@@ -155,19 +174,21 @@ struct SelfTest {
 struct SelfTestReply {
     static constexpr Type type = Type::selfTestReply;
     std::uint16_t modes = 0;
-    std::uint32_t blockCycles = 0;   ///< one block of that many modes, by the processor's cycle counter
+    std::uint32_t blockCycles = 0;    ///< one block of that many modes, by the processor's cycle counter
     std::uint32_t cyclesPerBlock = 0; ///< what there is
-    std::uint32_t hash = 0;          ///< CRC-16 of the bits of the block: the same on every machine
+    std::uint32_t hash = 0;           ///< CRC-16 of the bits of the block: the same on every machine
     void visit(auto&& field) { field(modes), field(blockCycles), field(cyclesPerBlock), field(hash); }
 };
 
 /// Puts numbers into bytes, least significant first.
 class Writer {
 public:
-    explicit constexpr Writer(std::span<std::uint8_t> out) : out_{out} {}
+    explicit constexpr Writer(std::span<std::uint8_t> out)
+        : out_{out} {}
     template <std::integral T>
     constexpr void operator()(T value) {
-        for (std::size_t i = 0; i < sizeof(T); ++i) out_[size_++] = static_cast<std::uint8_t>(static_cast<std::make_unsigned_t<T>>(value) >> (8 * i));
+        for (std::size_t i = 0; i < sizeof(T); ++i)
+            out_[size_++] = static_cast<std::uint8_t>(static_cast<std::make_unsigned_t<T>>(value) >> (8 * i));
     }
     constexpr std::size_t size() const { return size_; }
 
@@ -179,12 +200,15 @@ private:
 /// Takes them back; past the end it gives zeros and says so.
 class Reader {
 public:
-    explicit constexpr Reader(std::span<const std::uint8_t> in) : in_{in} {}
+    explicit constexpr Reader(std::span<const std::uint8_t> in)
+        : in_{in} {}
     template <std::integral T>
     constexpr void operator()(T& value) {
         std::make_unsigned_t<T> bits = 0;
         for (std::size_t i = 0; i < sizeof(T); ++i, ++at_)
-            if (at_ < in_.size()) bits = static_cast<std::make_unsigned_t<T>>(bits | static_cast<std::make_unsigned_t<T>>(in_[at_]) << (8 * i));
+            if (at_ < in_.size())
+                bits = static_cast<std::make_unsigned_t<T>>(
+                    bits | static_cast<std::make_unsigned_t<T>>(in_[at_]) << (8 * i));
         value = static_cast<T>(bits);
     }
     constexpr bool isComplete(std::size_t mayLack = 0) const { return at_ <= in_.size() + mayLack; }
@@ -194,7 +218,8 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Writes the message as it goes on the line, with its final zero; the length. `out`: maxFrame bytes. Any thread.
+/// Writes the message as it goes on the line, with its final zero; the length. `out`: maxFrame bytes. Any
+/// thread.
 template <class Message>
 constexpr std::size_t encode(Message message, std::span<std::uint8_t> out) noexcept {
     std::array<std::uint8_t, maxPayload> payload{};
@@ -224,16 +249,20 @@ constexpr bool decode(std::span<const std::uint8_t> payload, Message& message) n
 /// How much finer the amplitudes of a Strike are than those of a CompactStrike.
 constexpr int compactStep = limits::board::amplitudeUnit / 128;
 
-/// True if only the amplitudes lose by the compact form, by at most half a step of the converters. Any thread.
+/// True if only the amplitudes lose by the compact form, by at most half a step of the converters. Any
+/// thread.
 constexpr bool fitsCompact(const BoardEvent& e) noexcept {
-    return e.durationMs == 0 && std::ranges::all_of(e.amplitudes, [](int a) { return a >= -128 * compactStep && a < 127 * compactStep + compactStep / 2; });
+    return e.durationMs == 0 && std::ranges::all_of(e.amplitudes, [](int a) {
+               return a >= -128 * compactStep && a < 127 * compactStep + compactStep / 2;
+           });
 }
 
 constexpr CompactStrike compact(const Strike& strike) noexcept {
     const BoardEvent& e = strike.event;
     CompactStrike c{strike.sequence, static_cast<std::uint16_t>(e.frame), e.frequency16, e.decay16, {}};
     for (std::size_t j = 0; j < e.amplitudes.size(); ++j)
-        c.amplitudes[j] = static_cast<std::int8_t>(std::clamp((e.amplitudes[j] + compactStep / 2) >> 5, -128, 127));
+        c.amplitudes[j] =
+            static_cast<std::int8_t>(std::clamp((e.amplitudes[j] + compactStep / 2) >> 5, -128, 127));
     return c;
 }
 
@@ -244,7 +273,8 @@ constexpr Strike expand(const CompactStrike& c, std::uint32_t now) noexcept {
     s.event.frame = now + static_cast<std::uint32_t>(ahead);
     s.event.frequency16 = c.frequency16;
     s.event.decay16 = c.decay16;
-    for (std::size_t j = 0; j < c.amplitudes.size(); ++j) s.event.amplitudes[j] = static_cast<std::int16_t>(c.amplitudes[j] * compactStep);
+    for (std::size_t j = 0; j < c.amplitudes.size(); ++j)
+        s.event.amplitudes[j] = static_cast<std::int16_t>(c.amplitudes[j] * compactStep);
     return s;
 }
 static_assert(compactStep == 1 << 5);

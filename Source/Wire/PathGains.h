@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The gains that the computer's own renderer has for a strike that moves, at any time, so that a board can have the same.
+// The gains that the computer's own renderer has for a strike that moves, at any time, so that a board can
+// have the same.
 //
-// That renderer takes the law's gains at the ends of each tile of its frames, with a line between (Core/MovingTones.h).
+// That renderer takes the law's gains at the ends of each tile of its frames, with a line between
+// (Core/MovingTones.h).
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/FrameClock.h"
@@ -32,9 +34,11 @@ public:
         const std::int64_t before = onset_.frame % tile;
         const std::int64_t first = (static_cast<std::int64_t>(frame) + before) / tile * tile - before;
         enter(std::max<std::int64_t>(first, 0), std::min(first + tile, endFrame_), gainsAt);
-        const double share = to_ > from_ ? (frame - static_cast<double>(from_)) / static_cast<double>(to_ - from_) : 0.0;
+        const double share =
+            to_ > from_ ? (frame - static_cast<double>(from_)) / static_cast<double>(to_ - from_) : 0.0;
         Gains gains;
-        for (std::size_t j = 0; j < gains.size(); ++j) gains[j] = std::lerp(fromGains_[j], toGains_[j], share);
+        for (std::size_t j = 0; j < gains.size(); ++j)
+            gains[j] = std::lerp(fromGains_[j], toGains_[j], share);
         return gains;
     }
 
@@ -51,7 +55,8 @@ private:
     Gains gainsThen(std::int64_t frame, GainsAt& gainsAt) const noexcept {
         const double ageNs = (static_cast<double>(frame) + onset_.leadFrames) / rate_ * 1e9;
         const double share = std::min(1.0, ageNs / static_cast<double>(moving_.course.travelNs));
-        return gainsAt(moving_, moving_.x + share * (moving_.course.toX - moving_.x), moving_.y + share * (moving_.course.toY - moving_.y));
+        return gainsAt(moving_, moving_.x + share * (moving_.course.toX - moving_.x),
+                       moving_.y + share * (moving_.course.toY - moving_.y));
     }
 
     CollisionEvent moving_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The self-test, on the board and on a computer: a full bank of known notes, struck over the next blocks and not let out;
-// then one block of it is counted in cycles, and its bits are hashed.
+// The self-test, on the board and on a computer: a full bank of known notes, struck over the next blocks and
+// not let out; then one block of it is counted in cycles, and its bits are hashed.
 #pragma once
 #include "Core/BoardRenderer.h"
 #include "Wire/Crc16.h"
@@ -21,13 +21,17 @@ public:
         for (int i = 0; i < notesPerBlock && step_ <= blocks; ++i) {
             const int note = (step_ - 1) * notesPerBlock + i;
             const auto amplitude = static_cast<std::int16_t>(20 + note);
-            renderer.schedule({renderer.frame(), static_cast<std::uint16_t>(16 * 40 + 41 * note), static_cast<std::uint16_t>(16 + note), 0,
+            renderer.schedule({renderer.frame(),
+                               static_cast<std::uint16_t>(16 * 40 + 41 * note),
+                               static_cast<std::uint16_t>(16 + note),
+                               0,
                                {amplitude, static_cast<std::int16_t>(-amplitude), 30, 7}});
         }
     }
 
     /// After a block that took `cycles`: true once, when the result is there.
-    bool take(const BoardRenderer::Codes& block, std::uint32_t cycles, const BoardRenderer& renderer, SelfTestReply& reply) noexcept {
+    bool take(const BoardRenderer::Codes& block, std::uint32_t cycles, const BoardRenderer& renderer,
+              SelfTestReply& reply) noexcept {
         if (step_++ <= blocks) return false;
         step_ = 0;
         reply.modes = static_cast<std::uint16_t>(renderer.status().modes);

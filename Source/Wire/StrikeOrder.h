@@ -16,7 +16,8 @@ public:
     bool isNew(std::uint8_t sequence, std::uint32_t frame, std::uint32_t now) noexcept {
         if (after(frame, now) < -mostLateFrames) return false; // the numbers have gone round since
         const auto gap = static_cast<std::uint8_t>(sequence - last_);
-        const bool isBehind = gap == 0 || gap >= 128;              // or so many were lost, but then it is later than all so far
+        const bool isBehind = gap == 0 || gap >= 128; // or so many were lost, but then it is later than all
+                                                      // so far
         if (isBehind && hasNewest_ && after(frame, newest_) <= 0) return false;
         lost_ += static_cast<std::uint8_t>(gap - 1);
         last_ = sequence;
@@ -28,7 +29,9 @@ public:
     std::uint32_t lost() const noexcept { return lost_; } ///< gaps in the sequence
 
 private:
-    static constexpr std::int32_t after(std::uint32_t a, std::uint32_t b) noexcept { return static_cast<std::int32_t>(a - b); }
+    static constexpr std::int32_t after(std::uint32_t a, std::uint32_t b) noexcept {
+        return static_cast<std::int32_t>(a - b);
+    }
     std::uint32_t lost_ = 0, newest_ = 0;
     std::uint8_t last_ = 0xFF;
     bool hasNewest_ = false;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Profiles looked up, checked and weighed.
 #include "Calls/ActuatorChoice.h"
-#include "System/ExitCode.h"
 #include "Core/Decibels.h"
-#include "Scene/ActuatorFile.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/ActuatorFile.h"
+#include "System/ExitCode.h"
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -23,7 +23,9 @@ Result<std::vector<ActuatorProfile>> profilesOf(const RenderJob& o, const Layout
         const bool isNamedThere = o.actuator == "layout";
         const std::string& name = isNamedThere ? enchanter.actuator : o.actuator;
         auto profile = name == "none" ? Result<ActuatorProfile>{ActuatorProfile{}} : findActuator(name);
-        if (!profile) return Failure{(isNamedThere ? o.layout + ": actuator " + enchanter.label : "--actuator") + ": " + profile.error};
+        if (!profile)
+            return Failure{(isNamedThere ? o.layout + ": actuator " + enchanter.label : "--actuator") + ": " +
+                           profile.error};
         profiles.push_back(std::move(profile.value));
     }
     return profiles;
@@ -37,19 +39,26 @@ Result<FrequencyBand> commonBand(const std::vector<ActuatorProfile>& profiles) {
     for (const ActuatorProfile& p : profiles) {
         if (p.name.empty()) continue; // none
         if (!p.band) return Failure{p.name + ": band_hz is not known: nothing to remap into"};
-        common = common.isKnown() ? FrequencyBand{std::max(common.lowHz, p.band->lowHz), std::min(common.highHz, p.band->highHz)} : *p.band;
+        common = common.isKnown() ? FrequencyBand{std::max(common.lowHz, p.band->lowHz),
+                                                  std::min(common.highHz, p.band->highHz)}
+                                  : *p.band;
         if (!common.isKnown()) return Failure{"--remap: the layout's actuators have no band in common"};
     }
     return common;
 }
 
-/// A sample of 1 is to become the actuator's drive limit, on an interface that gives `interfaceVolts` at its full scale.
-std::string scaleVoltages(const std::vector<ActuatorProfile>& profiles, double interfaceVolts, ActuatorChoice& choice) {
+/// A sample of 1 is to become the actuator's drive limit, on an interface that gives `interfaceVolts` at its
+/// full scale.
+std::string scaleVoltages(const std::vector<ActuatorProfile>& profiles, double interfaceVolts,
+                          ActuatorChoice& choice) {
     for (std::size_t j = 0; j < profiles.size(); ++j) {
         const ActuatorProfile& p = profiles[j];
-        if (!p.driveLimitVolts) return (p.name.empty() ? "a place without an actuator profile" : p.name) + ": drive_limit_v is not known: no voltage to scale to";
+        if (!p.driveLimitVolts)
+            return (p.name.empty() ? "a place without an actuator profile" : p.name) +
+                   ": drive_limit_v is not known: no voltage to scale to";
         if (*p.driveLimitVolts > interfaceVolts)
-            return p.name + ": expected an interface of at least " + numberText(*p.driveLimitVolts) + " V, found --interface-volts " + numberText(interfaceVolts);
+            return p.name + ": expected an interface of at least " + numberText(*p.driveLimitVolts) +
+                   " V, found --interface-volts " + numberText(interfaceVolts);
         choice.voltageScale[j] = *p.driveLimitVolts / interfaceVolts;
     }
     return {};
@@ -65,7 +74,8 @@ Result<LayoutDescription> calibratedLayout(const RenderJob& o, LayoutDescription
     const auto profile = findActuator(o.actuator);
     if (!profile) return Failure{"--actuator: " + profile.error};
     if (!profile.value.fullScaleG) return layout;
-    for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = *profile.value.fullScaleG;
+    for (EnchanterDescription& enchanter : layout.enchanters)
+        enchanter.fullScaleG = *profile.value.fullScaleG;
     return layout;
 }
 
@@ -77,7 +87,9 @@ std::vector<std::string> calibrationWarnings(const RenderJob& o, const LayoutDes
         const auto& measured = profiles.value[j].fullScaleG;
         const EnchanterDescription& enchanter = layout.enchanters[j];
         if (measured && !isAlmost(*measured, enchanter.fullScaleG))
-            warnings.push_back(o.layout + ": actuator " + enchanter.label + ": levels are printed with full_scale_g " + numberText(enchanter.fullScaleG) + " of the layout; " + enchanter.actuator + " was measured as " +
+            warnings.push_back(o.layout + ": actuator " + enchanter.label +
+                               ": levels are printed with full_scale_g " + numberText(enchanter.fullScaleG) +
+                               " of the layout; " + enchanter.actuator + " was measured as " +
                                numberText(*measured));
     }
     return warnings;
@@ -90,12 +102,16 @@ Result<ActuatorChoice> chooseActuators(const RenderJob& o, const LayoutDescripti
     for (std::size_t j = 0; j < profiles.value.size() && o.isEqualised; ++j) {
         const ActuatorProfile& p = profiles.value[j];
         if (p.name.empty()) continue;
-        if (const std::string fault = equaliserFault(p); !fault.empty()) return Failure{"--actuator " + o.actuator + ": " + p.name + ": " + fault};
+        if (const std::string fault = equaliserFault(p); !fault.empty())
+            return Failure{"--actuator " + o.actuator + ": " + p.name + ": " + fault};
         choice.equalised[j] = {p.resonator(), *p.band};
-        if (p.band->highHz >= 0.5 * o.sampleRateHz) return Failure{"--actuator " + o.actuator + ": " + p.name + ": expected a band below half of the sample rate"};
+        if (p.band->highHz >= 0.5 * o.sampleRateHz)
+            return Failure{"--actuator " + o.actuator + ": " + p.name +
+                           ": expected a band below half of the sample rate"};
     }
     if (o.interfaceVolts > 0.0)
-        if (auto fault = scaleVoltages(profiles.value, o.interfaceVolts, choice); !fault.empty()) return Failure{fault};
+        if (auto fault = scaleVoltages(profiles.value, o.interfaceVolts, choice); !fault.empty())
+            return Failure{fault};
     if (!o.isRemapped) return choice;
     const auto band = commonBand(profiles.value);
     if (!band) return Failure{band.error};
@@ -108,13 +124,15 @@ std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRate
     for (auto at = choice.equalised.begin(); at != choice.equalised.end(); ++at) {
         if (!at->isKnown() || std::find(choice.equalised.begin(), at, *at) != at) continue;
         const double level = ActuatorEqualiser{*at, sampleRateHz}.flatLevel();
-        notes.push_back("equalised from " + hertz(at->band.lowHz) + " to " + hertz(at->band.highHz) + ": flat up to " + fixedNumber(toDecibels(level), 1) +
-                        " dB of the level at " + hertz(at->resonator.resonanceHz) + "; above it the limiter holds the drive");
+        notes.push_back("equalised from " + hertz(at->band.lowHz) + " to " + hertz(at->band.highHz) +
+                        ": flat up to " + fixedNumber(toDecibels(level), 1) + " dB of the level at " +
+                        hertz(at->resonator.resonanceHz) + "; above it the limiter holds the drive");
     }
     return notes;
 }
 
-std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<const CollisionEvent> before, const LayoutDescription& layout, const RenderJob& o) {
+std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<const CollisionEvent> before,
+                                       const LayoutDescription& layout, const RenderJob& o) {
     std::vector<std::string> warnings;
     if (!remap.band.isKnown()) return warnings;
     std::set<double> frequencies, decays;
@@ -123,14 +141,17 @@ std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<co
         if (++high == frequencies.end()) break;
         const double ratio = remap(*high) / remap(*low);
         if (ratio < 1.0 + frequencyJnd)
-            warnings.push_back("--remap: " + hertz(*low) + " and " + hertz(*high) + " end at " + hertz(remap(*low)) + " and " + hertz(remap(*high)) + ", nearer than one JND of " +
-                               fixedNumber(100.0 * frequencyJnd, 0) + " % (Pongrac 2008)");
+            warnings.push_back("--remap: " + hertz(*low) + " and " + hertz(*high) + " end at " +
+                               hertz(remap(*low)) + " and " + hertz(remap(*high)) +
+                               ", nearer than one JND of " + fixedNumber(100.0 * frequencyJnd, 0) +
+                               " % (Pongrac 2008)");
     }
     const auto profiles = profilesOf(o, layout);
     for (std::size_t j = 0; !o.isEqualised && profiles && j < profiles.value.size(); ++j) {
         const Resonator r = profiles.value[j].resonator();
         if (!r.isKnown() || decays.empty() || *decays.rbegin() <= r.ringDownPerSecond()) continue;
-        warnings.push_back("--remap: " + profiles.value[j].name + " rings down with " + fixedNumber(r.ringDownPerSecond(), 1) + " /s; a decay of up to " +
+        warnings.push_back("--remap: " + profiles.value[j].name + " rings down with " +
+                           fixedNumber(r.ringDownPerSecond(), 1) + " /s; a decay of up to " +
                            fixedNumber(*decays.rbegin(), 1) + " /s is felt as that");
         break;
     }

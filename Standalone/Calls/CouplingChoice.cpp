@@ -2,8 +2,8 @@
 // A coupling looked up, checked and weighed.
 #include "Calls/CouplingChoice.h"
 #include "Core/Decibels.h"
-#include "Study/Files/CouplingFile.h"
 #include "Io/Text/NumberText.h"
+#include "Study/Files/CouplingFile.h"
 #include <cmath>
 
 namespace physvib {
@@ -13,8 +13,10 @@ std::string percent(double share) { return fixedNumber(100.0 * share, 1) + " %";
 
 std::string noteOf(const MeasuredCoupling& measured) {
     const CouplingResidual r = residualOf(measured);
-    return "coupling: what is felt differs from what is wanted by " + percent(r.compensated) + ", without compensation by " + percent(r.plain) +
-           "; by " + percent(r.mismatchedCompensated) + " and " + percent(r.mismatchedPlain) + " where it is off by up to 2 dB and 20 degrees; strongest drive " +
+    return "coupling: what is felt differs from what is wanted by " + percent(r.compensated) +
+           ", without compensation by " + percent(r.plain) + "; by " + percent(r.mismatchedCompensated) +
+           " and " + percent(r.mismatchedPlain) +
+           " where it is off by up to 2 dB and 20 degrees; strongest drive " +
            fixedNumber(toDecibels(r.strongestDrive), 1) + " dB";
 }
 
@@ -23,8 +25,10 @@ std::string noteOf(const MeasuredCoupling& measured) {
 Result<CouplingChoice> chooseCoupling(const std::string& path, const LayoutDescription& layout) {
     const auto measured = loadCoupling(path);
     if (!measured) return Failure{measured.error};
-    if (const std::size_t found = measured.value.enchanters(), wanted = layout.enchanters.size(); found != wanted)
-        return Failure{path + ": expected as many actuators as the layout has, " + std::to_string(wanted) + ", found " + std::to_string(found)};
+    if (const std::size_t found = measured.value.enchanters(), wanted = layout.enchanters.size();
+        found != wanted)
+        return Failure{path + ": expected as many actuators as the layout has, " + std::to_string(wanted) +
+                       ", found " + std::to_string(found)};
     return CouplingChoice{CouplingDrives{measured.value}, noteOf(measured.value)};
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What --coupling means for a layout.
 #pragma once
-#include "Scene/LayoutFile.h"
 #include "Io/Result.h"
+#include "Scene/LayoutFile.h"
 #include "Study/Coupling.h"
 #include <string>
 

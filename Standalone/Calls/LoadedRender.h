@@ -3,21 +3,21 @@
 #pragma once
 #include "Calls/ActuatorChoice.h"
 #include "Calls/CouplingChoice.h"
-#include "System/ExitCode.h"
-#include "Core/Decibels.h"
-#include "Jobs/LayoutNamed.h"
 #include "Calls/RenderOptions.h"
+#include "Core/ClipNumber.h"
+#include "Core/Decibels.h"
+#include "Formats/ClipFile.h"
 #include "Host/Recordings/LoadContact.h"
 #include "Host/Recordings/LoadRecordings.h"
-#include "Core/ClipNumber.h"
 #include "Io/Disk/Embedded.h"
-#include "Scene/LayoutFile.h"
 #include "Io/Text/NumberText.h"
+#include "Jobs/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include "Scene/SceneCatalogue.h"
-#include "Scene/Sessions/SessionFile.h"
-#include "Formats/ClipFile.h"
-#include "Scene/World/SceneRun.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/Sessions/SessionFile.h"
+#include "Scene/World/SceneRun.h"
+#include "System/ExitCode.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -30,20 +30,25 @@ struct LoadedRender {
     const RenderJob& options;
     std::optional<Scene> scene; ///< none: events come from a list
     LayoutDescription layout;
-    std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
+    std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first
+                                           ///< take's
     SceneEvents made;
     FieldSize listField{};                      ///< of the list; not known: it says none, or there is no list
     std::vector<ContactRecording> recordings{}; ///< of --sound
-    LoadedRecordings sessionRecordings{}; ///< of a session
-    ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
-    CouplingChoice coupling{};  ///< by the options
-    std::optional<Clip> clip{}; ///< what is rendered, if it is no strikes
+    LoadedRecordings sessionRecordings{};       ///< of a session
+    ActuatorChoice actuators{};                 ///< by the options; see equalised() and shaping()
+    CouplingChoice coupling{};                  ///< by the options
+    std::optional<Clip> clip{};                 ///< what is rendered, if it is no strikes
 
     /// For messages about events.
-    const std::string& source() const { return scene ? scene->name : clip ? options.scene : options.fromEvents; }
+    const std::string& source() const {
+        return scene ? scene->name : clip ? options.scene : options.fromEvents;
+    }
 
     /// Those that are played instead of modes.
-    std::vector<ContactRecording> feltRecordings() const { return options.playsRecordings ? recordings : std::vector<ContactRecording>{}; }
+    std::vector<ContactRecording> feltRecordings() const {
+        return options.playsRecordings ? recordings : std::vector<ContactRecording>{};
+    }
 
     SceneRun run() const {
         if (session) return session->run;
@@ -52,7 +57,8 @@ struct LoadedRender {
     /// Whether the session's layouts are kept, or replaced by one of the options.
     bool keepsLayouts() const {
         constexpr const char* panning[] = {"--layout", "--law", "--exponent", "--field"};
-        return session && std::ranges::none_of(panning, [&](const char* name) { return options.given.contains(name); });
+        return session &&
+               std::ranges::none_of(panning, [&](const char* name) { return options.given.contains(name); });
     }
     /// Files that are read because others name them: a session its recordings, a layout its actuators.
     std::vector<std::string> namedInputs() const {
@@ -74,23 +80,35 @@ struct LoadedRender {
     /// Whether a session's actuators are kept, as its layouts.
     bool keepsActuators() const {
         constexpr const char* own[] = {"--actuator", "--equalise", "--remap", "--layout"};
-        return session && std::ranges::none_of(own, [&](const char* name) { return options.given.contains(name); });
+        return session &&
+               std::ranges::none_of(own, [&](const char* name) { return options.given.contains(name); });
     }
-    EqualisedActuators equalised() const { return keepsActuators() ? session->equalised : actuators.equalised; }
-    EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain(), perceived(), truncation()}; }
+    EqualisedActuators equalised() const {
+        return keepsActuators() ? session->equalised : actuators.equalised;
+    }
+    EventShaping shaping() const {
+        return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain(), perceived(),
+                truncation()};
+    }
     /// Recordings are played whole, so that one call of a study renders the model and the recording.
     double truncation() const {
         if (session && !options.given.contains("--gamma")) return session->shaping.truncation;
         return options.playsRecordings ? 0.0 : options.gamma;
     }
-    double gain() const { return session && !options.given.contains("--level-db") ? session->shaping.gain : fromDecibels(options.levelDb); }
+    double gain() const {
+        return session && !options.given.contains("--level-db") ? session->shaping.gain
+                                                                : fromDecibels(options.levelDb);
+    }
     PerceivedLevel perceived() const {
-        return session && !options.given.contains("--perceived-level") ? session->shaping.perceived : PerceivedLevel{options.isWeighted};
+        return session && !options.given.contains("--perceived-level") ? session->shaping.perceived
+                                                                       : PerceivedLevel{options.isWeighted};
     }
     /// Whether what a session played of recordings is kept: its own method.
     bool keepsRecordings() const { return session && !options.given.contains("--method"); }
     bool isLimited() const { return session ? session->limiterEnabled : options.isLimited; }
-    std::int64_t frames() const { return std::max<std::int64_t>(1, std::llround(seconds() * options.sampleRateHz)); }
+    std::int64_t frames() const {
+        return std::max<std::int64_t>(1, std::llround(seconds() * options.sampleRateHz));
+    }
     std::int64_t endNs() const { return std::llround(seconds() * 1e9); }
     /// As it is told, else as what is rendered says it; not known: a list that says none.
     FieldSize saidField() const {
@@ -117,46 +135,56 @@ struct LoadedRender {
     double fullScaleG() const { return layout.enchanters.front().fullScaleG; }
     PhantomPanner panner() const {
         if (keepsLayouts()) return session->panner;
-        PhantomPanner made{layout.geometry, options.law, options.exponent, fieldWidthMetres(), fieldHeightMetres()};
-        if (!options.given.contains("--law") && !options.given.contains("--exponent")) made.setGrains(grainSpread);
+        PhantomPanner made{layout.geometry, options.law, options.exponent, fieldWidthMetres(),
+                           fieldHeightMetres()};
+        if (!options.given.contains("--law") && !options.given.contains("--exponent"))
+            made.setGrains(grainSpread);
         return made;
     }
 };
 
-/// Why the method's fixed level cannot be had, or empty; a warning where it is high. An event has one amplitude: 1.5 g on every
-/// enchanter is one only if their full scales are one.
+/// Why the method's fixed level cannot be had, or empty; a warning where it is high. An event has one
+/// amplitude: 1.5 g on every enchanter is one only if their full scales are one.
 inline std::string fixedLevelFault(const LoadedRender& job) {
     if (!job.method().fixesAmplitude) return {};
     for (const auto& enchanter : job.layout.enchanters)
         if (enchanter.fullScaleG != job.fullScaleG())
-            return job.options.layout + ": --method " + job.options.methodName() + ": expected one full_scale_g for all actuators, found " +
-                   numberText(job.fullScaleG()) + " and " + numberText(enchanter.fullScaleG);
+            return job.options.layout + ": --method " + job.options.methodName() +
+                   ": expected one full_scale_g for all actuators, found " + numberText(job.fullScaleG()) +
+                   " and " + numberText(enchanter.fullScaleG);
     if (job.method().fixedAmplitude > 1.0)
-        std::cerr << "physvib: warning: --method " << job.options.methodName() << ": the fixed level of " << numberText(RenderingMethod::fixedLevelG)
-                  << " g is above the actuators' full scale of " << numberText(job.fullScaleG()) << " g"
+        std::cerr << "physvib: warning: --method " << job.options.methodName() << ": the fixed level of "
+                  << numberText(RenderingMethod::fixedLevelG) << " g is above the actuators' full scale of "
+                  << numberText(job.fullScaleG()) << " g"
                   << (job.isLimited() ? "; the limiter lowers it\n" : "\n");
     return {};
 }
 
-/// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty, or one line. Their notes are the
-/// caller's to tell.
-inline std::string takeRecordings(LoadedRender& job, const std::vector<CollisionEvent>& events, const std::string& source) {
+/// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty,
+/// or one line. Their notes are the caller's to tell.
+inline std::string takeRecordings(LoadedRender& job, const std::vector<CollisionEvent>& events,
+                                  const std::string& source) {
     for (const auto& [hz, path] : job.options.sounds) {
         const auto struck = std::ranges::find(events, hz, &CollisionEvent::frequencyHz);
-        auto contact = loadContact({hz, path, struck != events.end() ? struck->decayPerSecond : 0.0, job.options.matchesStrength});
+        auto contact = loadContact(
+            {hz, path, struck != events.end() ? struck->decayPerSecond : 0.0, job.options.matchesStrength});
         if (!contact) return contact.error;
         job.recordings.push_back(std::move(contact.value));
     }
     for (const CollisionEvent& e : events)
-        if (job.options.playsRecordings && !isClip(e.frequencyHz) && std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) == job.recordings.end())
+        if (job.options.playsRecordings && !isClip(e.frequencyHz) &&
+            std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) ==
+                job.recordings.end())
             return source + ": expected a --sound for " + numberText(e.frequencyHz) + " Hz, found none";
     return {};
 }
 
-/// Takes the saved session that the options name into `job`: exitDone, or the code to leave with after a line on stderr.
+/// Takes the saved session that the options name into `job`: exitDone, or the code to leave with after a line
+/// on stderr.
 inline int takeSession(LoadedRender& job) {
     for (const char* own : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--limiter"})
-        if (job.options.given.contains(own)) return leave(exitUsage, std::string{own} + ": a saved session brings its own");
+        if (job.options.given.contains(own))
+            return leave(exitUsage, std::string{own} + ": a saved session brings its own");
     auto session = loadSession(job.options.scene);
     if (!session) return leave(exitFailed, session.error);
     job.session = std::move(session.value);
@@ -164,8 +192,10 @@ inline int takeSession(LoadedRender& job) {
     SessionLog& log = job.session->log;
     if (!job.keepsRecordings()) log.recordings.clear();
     if (log.recordings.empty() && log.clips.empty()) return exitDone;
-    if (!log.recordings.empty() && job.options.isRemapped) return leave(exitUsage, std::string{recordingsHaveNoFrequency});
-    if (!log.recordings.empty() && job.perceived().isWeighted) return leave(exitUsage, std::string{recordingsHaveNoWeight});
+    if (!log.recordings.empty() && job.options.isRemapped)
+        return leave(exitUsage, std::string{recordingsHaveNoFrequency});
+    if (!log.recordings.empty() && job.perceived().isWeighted)
+        return leave(exitUsage, std::string{recordingsHaveNoWeight});
     auto recordings = loadRecordings(log);
     if (!recordings) return leave(exitFailed, job.options.scene + ": " + recordings.error);
     job.sessionRecordings = std::move(recordings.value);
@@ -180,8 +210,7 @@ inline int takeScene(LoadedRender& job) {
     auto scene = findScene(name, job.options.settings);
     if (!scene) return leave(isJsonPath(name) ? exitFailed : exitUsage, scene.error);
     job.scene = std::move(scene.value);
-    for (const std::string& warning : sceneWarnings(*job.scene))
-        tell("warning: " + name + ": " + warning);
+    for (const std::string& warning : sceneWarnings(*job.scene)) tell("warning: " + name + ": " + warning);
     return exitDone;
 }
 

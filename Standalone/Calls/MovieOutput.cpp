@@ -15,7 +15,8 @@ MovieOutput::MovieOutput(const std::string& path, int sampleRateHz)
 }
 
 bool MovieOutput::takeSound(const float* samples, int frames) {
-    const std::string_view bytes{reinterpret_cast<const char*>(samples), sizeof(float) * static_cast<std::size_t>(frames)};
+    const std::string_view bytes{reinterpret_cast<const char*>(samples),
+                                 sizeof(float) * static_cast<std::size_t>(frames)};
     if (!sound_->writeAt(soundBytes_, bytes)) return false;
     soundBytes_ += static_cast<std::int64_t>(bytes.size());
     return true;
@@ -52,7 +53,8 @@ std::string MovieOutput::drawWebp(const RenderMovie& movie, const Pictures& all)
     return movie_.write(webp.bytes(RenderMovie::timeNs(movie.count()) / 1'000'000));
 }
 
-// ffmpeg reads files that are there, one PNG behind the other and 32-bit samples, and writes into ours, which is renamed at the end.
+// ffmpeg reads files that are there, one PNG behind the other and 32-bit samples, and writes into ours, which
+// is renamed at the end.
 std::string MovieOutput::drawByFfmpeg(const Pictures& all) {
     all([&](std::int64_t, const picture::Image& image) {
         const std::string png = image.png();
@@ -62,19 +64,26 @@ std::string MovieOutput::drawByFfmpeg(const Pictures& all) {
     });
     if (!pictures_->error().empty()) return pictures_->error();
     if (sound_ && !sound_->error().empty()) return sound_->error();
-    std::vector<std::string> words{"-v", "error", "-nostdin", "-y", "-f", "image2pipe", "-framerate", std::to_string(RenderMovie::picturesPerSecond), "-c:v", "png",
-                                   "-i", pictures_->temporaryPath().string()};
-    const auto add = [&words](std::initializer_list<const char*> more) { words.insert(words.end(), more.begin(), more.end()); };
+    std::vector<std::string> words{
+        "-v",   "error",      "-nostdin",   "-y",
+        "-f",   "image2pipe", "-framerate", std::to_string(RenderMovie::picturesPerSecond),
+        "-c:v", "png",        "-i",         pictures_->temporaryPath().string()};
+    const auto add = [&words](std::initializer_list<const char*> more) {
+        words.insert(words.end(), more.begin(), more.end());
+    };
     if (sound_) {
         add({"-f", "f32le", "-ac", "1", "-ar"});
         words.push_back(std::to_string(sampleRateHz_));
         words.insert(words.end(), {"-i", sound_->temporaryPath().string()});
-        add({"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-c:a", "aac", "-movflags", "+faststart", "-f", "mp4"});
+        add({"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-c:a", "aac", "-movflags", "+faststart",
+             "-f", "mp4"});
     } else
         add({"-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none", "-f", "gif"});
     words.push_back(movie_.temporaryPath().string());
     const auto ran = runProgram("ffmpeg", words);
-    if (!ran) return path_ + ": .gif and .mp4 need the program ffmpeg, which did not start (" + ran.error + "); expected it on the path, or a name that ends in .webp";
+    if (!ran)
+        return path_ + ": .gif and .mp4 need the program ffmpeg, which did not start (" + ran.error +
+               "); expected it on the path, or a name that ends in .webp";
     return ran.value ? std::string{} : path_ + ": ffmpeg failed, for the reason above";
 }
 

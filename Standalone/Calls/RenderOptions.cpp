@@ -3,8 +3,8 @@
 #include "Calls/RenderOptions.h"
 #include "Calls/RenderWords.h"
 #include "Core/EventShaping.h"
-#include "Io/Text/NameList.h"
 #include "Host/Devices/AudioOutput.h"
+#include "Io/Text/NameList.h"
 #include "Scene/World/Simulation.h"
 
 namespace physvib {
@@ -12,61 +12,107 @@ namespace physvib {
 static_assert(usualContactDb == safeContactDb, "as on a device");
 
 void declareSceneOptions(OptionTable& command, RenderJob& o) {
-    command.add("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or a CLIP.hjif, .hmpg, .haptic, .ahap, or (render, export) a saved SESSION.json, or (play) a SOUND.wav, .flac, .ogg");
+    command.add("scene", o.scene,
+                "a built-in scene (see `physvib scenes`), SCENE.json, or a CLIP.hjif, .hmpg, .haptic, .ahap, "
+                "or (render, export) a saved SESSION.json, or (play) a SOUND.wav, .flac, .ogg");
     addSettings(command, o.settings);
     command.add("--seconds", o.seconds, "length of the render").in(0.001, 86400.0, " s");
     command.add("--seed", o.seed, "seed of the scene").in(0u, 4294967295u);
-    command.add("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1, dualsense or a layout file");
+    command.add("--layout", o.layout,
+                listedByNumber(layoutPresetNames) + ", study1, dualsense or a layout file");
     addField(command, o.field);
     addLaw(command, o.law);
     command.add("--exponent", o.exponent, "exponent of the law").in(0.01, 100.0);
     command.addSwitch("--limiter", o.isLimited, "on or off");
     command.add("--steps-per-second", o.stepsPerSecond, "physics steps per second")
         .in(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s");
-    command.addOneOf<ImpactLocation>("--location", o.location, {{"contact", ImpactLocation::contact}, {"fixture", ImpactLocation::fixture}}, "place of a hit: contact, or centre of the fixture");
-    command.addOneOf<ImpactTiming>("--timing", o.timing, {{"onset", ImpactTiming::onset}, {"release", ImpactTiming::release}}, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)");
+    command.addOneOf<ImpactLocation>(
+        "--location", o.location,
+        {{"contact", ImpactLocation::contact}, {"fixture", ImpactLocation::fixture}},
+        "place of a hit: contact, or centre of the fixture");
+    command.addOneOf<ImpactTiming>(
+        "--timing", o.timing, {{"onset", ImpactTiming::onset}, {"release", ImpactTiming::release}},
+        "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)");
     addMethod(command, o);
-    addSounds(command, o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency, or synthetic-SEED; may be repeated");
-    command.addOneOf<bool>("--sound-match", o.matchesStrength, {{"peak", false}, {"rms", true}}, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)");
-    command.add("--level-db", o.levelDb, "all hits so much stronger or weaker").in(-limits::maxLevelDb, limits::maxLevelDb, " dB");
+    addSounds(command, o.sounds,
+              "for SV and --contact-sound: the recorded contact of the material of that frequency, or "
+              "synthetic-SEED; may be repeated");
+    command.addOneOf<bool>(
+        "--sound-match", o.matchesStrength, {{"peak", false}, {"rms", true}},
+        "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)");
+    command.add("--level-db", o.levelDb, "all hits so much stronger or weaker")
+        .in(-limits::maxLevelDb, limits::maxLevelDb, " dB");
     command
         .add("--gamma", o.gamma,
              "cut each decay where its envelope falls to this share, as Eq. 5.5 does with 0.1 (0: it rings "
              "out, without a click); recordings (SV) are played whole")
         .in(0.0, EventShaping::mostTruncation);
-    command.addSwitch("--perceived-level", o.isWeighted, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)");
-    command.add("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
+    command.addSwitch("--perceived-level", o.isWeighted,
+                      "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)");
+    command
+        .add("--contact-sound-db", o.contactSoundDb,
+             "its level: that of a hit at full scale, in dB of full scale")
         .in(leastContactDb, mostContactDb, " dB");
-    command.addOneOf<MarkedOnsets>("--marker-of", o.marked, {{"all", MarkedOnsets::all}, {"hits", MarkedOnsets::hits}, {"messages", MarkedOnsets::messages}},
-                                   "what --marker marks: all onsets, hits (no grains, no messages), or messages");
-    command.add("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file");
-    command.addSwitch("--equalise", o.isEqualised, "with an actuator: make it flat within its band (on or off)");
-    command.addSwitch("--remap", o.isRemapped, "with an actuator: move all frequencies into its band, in their order (on or off)");
-    command.add("--coupling", o.coupling, "measured coupling of the layout's actuators, made up for with at most 3 dB more drive (render)").as("FILE.json");
+    command.addOneOf<MarkedOnsets>(
+        "--marker-of", o.marked,
+        {{"all", MarkedOnsets::all}, {"hits", MarkedOnsets::hits}, {"messages", MarkedOnsets::messages}},
+        "what --marker marks: all onsets, hits (no grains, no messages), or messages");
+    command.add(
+        "--actuator", o.actuator,
+        "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file");
+    command.addSwitch("--equalise", o.isEqualised,
+                      "with an actuator: make it flat within its band (on or off)");
+    command.addSwitch("--remap", o.isRemapped,
+                      "with an actuator: move all frequencies into its band, in their order (on or off)");
+    command
+        .add("--coupling", o.coupling,
+             "measured coupling of the layout's actuators, made up for with at most 3 dB more drive (render)")
+        .as("FILE.json");
 }
 
 void declareRenderOptions(OptionTable& command, RenderJob& o) {
     declareSceneOptions(command, o);
     command.add("--from-events", o.fromEvents, "render this event list instead of a scene").as("EVENTS.csv");
     command.add("--out", o.wavPath, "32-bit float WAV, one channel per actuator").written("FILE.wav");
-    command.add("--pad", o.pad, "with --out MOTORS.csv: what the motors of that game controller would get instead of samples; a profile (pad-generic, pad-xbox, pad-dualshock) or its file").as("PROFILE");
+    command
+        .add("--pad", o.pad,
+             "with --out MOTORS.csv: what the motors of that game controller would get instead of samples; a "
+             "profile (pad-generic, pad-xbox, pad-dualshock) or its file")
+        .as("PROFILE");
     command.add("--events", o.eventsPath, "the collisions as an event list").written("FILE.csv");
     command.add("--picture", o.picturePath, "world, waveforms and event marks").writtenAs("FILE.png");
-    command.add("--movie", o.moviePath, "world, impacts and channels in time: .webp; with the program ffmpeg also .gif, and .mp4 with audio").written("FILE.webp");
-    command.add("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel").written("FILE.csv");
-    command.add("--explain", o.explains, "count the scene's contacts, and say why nothing or not everything is felt");
+    command
+        .add("--movie", o.moviePath,
+             "world, impacts and channels in time: .webp; with the program ffmpeg also .gif, and .mp4 with "
+             "audio")
+        .written("FILE.webp");
+    command.add("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel")
+        .written("FILE.csv");
+    command.add("--explain", o.explains,
+                "count the scene's contacts, and say why nothing or not everything is felt");
     command.add("--threshold", o.threshold, "of the pattern, in full scale").in(0.0, 1.0);
-    command.add("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
+    command
+        .add("--interface-volts", o.interfaceVolts,
+             "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of "
+             "this peak voltage")
         .in(0.001, 1000.0, " V");
-    command.add("--contact-sound", o.contactSound, "what is heard of each hit, for headphones: one channel, in sync with --out").written("FILE.wav");
-    command.add("--marker", o.marker, "a pulse at the sample of each onset: one channel, in sync with --out").written("FILE.wav");
+    command
+        .add("--contact-sound", o.contactSound,
+             "what is heard of each hit, for headphones: one channel, in sync with --out")
+        .written("FILE.wav");
+    command.add("--marker", o.marker, "a pulse at the sample of each onset: one channel, in sync with --out")
+        .written("FILE.wav");
     command.add("--rate", o.sampleRateHz, "sample rate")
         .in(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz");
     command.add("--block", o.blockFrames, "frames per block; does not change the result")
         .in(1, limits::maxBlockFrames, " frames");
-    command.addOneOf<InstructionSet>("--instructions", o.instructions, {{"best", InstructionSet::best}, {"scalar", InstructionSet::scalar}},
-                                     "best: the fastest here; scalar: the same bytes of the same hits on every machine");
-    command.add("--patience", o.patienceSeconds, "time-out: processor time, beyond its own length, that a world may take to simulate")
+    command.addOneOf<InstructionSet>(
+        "--instructions", o.instructions,
+        {{"best", InstructionSet::best}, {"scalar", InstructionSet::scalar}},
+        "best: the fastest here; scalar: the same bytes of the same hits on every machine");
+    command
+        .add("--patience", o.patienceSeconds,
+             "time-out: processor time, beyond its own length, that a world may take to simulate")
         .in(0.0, 1e7, " s");
 }
 

@@ -7,7 +7,8 @@ namespace physvib {
 
 class OptionTable;
 
-/// Declares what says which scene is spread how (shared with `play`); `command` fills `options` while it parses.
+/// Declares what says which scene is spread how (shared with `play`); `command` fills `options` while it
+/// parses.
 void declareSceneOptions(OptionTable& command, RenderJob& options);
 
 /// Declares all options of `render`.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The words of `physvib stimulus`, and the value that they say: the words with which rows of studies say it (stimulusWords).
+// The words of `physvib stimulus`, and the value that they say: the words with which rows of studies say it
+// (stimulusWords).
 #pragma once
 #include "Io/Result.h"
 #include "Study/StimulusJob.h"
@@ -13,11 +14,11 @@ class OptionTable;
 struct StimulusOptions {
     PatternJob pattern;
     PhantomJob phantom;
-    StimulusJob job;               ///< what both have
-    std::string grid, cell, at;    ///< "5x5", "2,3"; or "0.25,0.5"
+    StimulusJob job;            ///< what both have
+    std::string grid, cell, at; ///< "5x5", "2,3"; or "0.25,0.5"
     std::string points = "corners", frequency = "205";
     int sampleRateHz = 48000;
-    int enchanters = 4;            ///< of `stimulus list`
+    int enchanters = 4; ///< of `stimulus list`
     std::string wavPath, picturePath;
 };
 

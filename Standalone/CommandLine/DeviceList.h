@@ -17,10 +17,12 @@ inline std::vector<AudioDeviceName> devicesOfThisMachine() {
 
 /// A line each: the name that --device takes, and its outputs.
 inline void printDevices(std::ostream& out, const std::vector<AudioDeviceName>& devices) {
-    for (const auto& device : devices) out << device.type << ':' << device.name << "  " << device.channels << " outputs\n";
+    for (const auto& device : devices)
+        out << device.type << ':' << device.name << "  " << device.channels << " outputs\n";
 }
 
-/// A call of `play` that can be typed: the first device with four outputs, else the one with most of them, with a layout that it has room for.
+/// A call of `play` that can be typed: the first device with four outputs, else the one with most of them,
+/// with a layout that it has room for.
 inline std::string proposedCall(const std::string& scene, const std::vector<AudioDeviceName>& devices) {
     const AudioDeviceName* best = nullptr;
     for (const auto& device : devices)
@@ -31,7 +33,8 @@ inline std::string proposedCall(const std::string& scene, const std::vector<Audi
     const int count = best->channels < 4 ? best->channels : 4;
     std::string map = "1";
     for (int output = 2; output <= count; ++output) map += ',' + std::to_string(output);
-    return call + name + (count < 4 ? " --layout phone" + std::to_string(count) : std::string{}) + " --map " + map;
+    return call + name + (count < 4 ? " --layout phone" + std::to_string(count) : std::string{}) + " --map " +
+           map;
 }
 
 } // namespace physvib

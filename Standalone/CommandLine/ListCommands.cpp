@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib scenes`, `actuators` and `devices`: what there is, a line each.
 #include "CommandLine/Command.h"
+#include "CommandLine/DeviceList.h"
+#include "Io/Text/NumberText.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/SceneCatalogue.h"
-#include "Io/Text/NumberText.h"
-#include "CommandLine/DeviceList.h"
 #include "Session/SerialLine.h"
 
 namespace physvib {
@@ -24,11 +24,16 @@ int listScenes() {
 }
 
 int listActuators() {
-    const auto orUnknown = [](const std::optional<double>& figure) { return figure ? numberText(*figure) : std::string{}; };
-    std::string text = "actuator,resonance_hz,q,band_low_hz,band_high_hz,drive_limit_v,rise_time_s,full_scale_g,source\n";
+    const auto orUnknown = [](const std::optional<double>& figure) {
+        return figure ? numberText(*figure) : std::string{};
+    };
+    std::string text =
+        "actuator,resonance_hz,q,band_low_hz,band_high_hz,drive_limit_v,rise_time_s,full_scale_g,source\n";
     for (const ActuatorProfile& p : builtInActuators()) {
-        text += p.name + ',' + orUnknown(p.resonanceHz) + ',' + orUnknown(p.q) + ',' + (p.band ? numberText(p.band->lowHz) + ',' + numberText(p.band->highHz) : ",") + ',';
-        text += orUnknown(p.driveLimitVolts) + ',' + orUnknown(p.riseSeconds) + ',' + orUnknown(p.fullScaleG) + ",\"" + p.source + "\"\n";
+        text += p.name + ',' + orUnknown(p.resonanceHz) + ',' + orUnknown(p.q) + ',' +
+                (p.band ? numberText(p.band->lowHz) + ',' + numberText(p.band->highHz) : ",") + ',';
+        text += orUnknown(p.driveLimitVolts) + ',' + orUnknown(p.riseSeconds) + ',' +
+                orUnknown(p.fullScaleG) + ",\"" + p.source + "\"\n";
     }
     std::cout << text;
     return exitDone;
@@ -47,7 +52,10 @@ Command listOf(const char* name, const char* meaning, int (*list)()) {
 } // namespace
 
 Command scenesCommand() { return listOf("scenes", "list the built-in scenes", listScenes); }
-Command actuatorsCommand() { return listOf("actuators", "list the built-in actuator profiles; what is not known is empty", listActuators); }
+Command actuatorsCommand() {
+    return listOf("actuators", "list the built-in actuator profiles; what is not known is empty",
+                  listActuators);
+}
 Command devicesCommand() { return listOf("devices", "list the audio devices", listDevices); }
 
 } // namespace physvib

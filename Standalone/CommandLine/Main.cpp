@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The `physvib` program: its commands, and how a wrong call is told.
-#include "CommandLine/Command.h"
-#include "System/Process.h"
-#include "System/StandardStreams.h"
 #include "Calls/CallFiles.h"
+#include "CommandLine/Command.h"
 #include "Host/Devices/DeviceThread.h"
 #include "Options/Parser.h"
 #include "Options/Reference.h"
+#include "System/Process.h"
+#include "System/StandardStreams.h"
 #include <exception>
 #include <iostream>
 #include <map>
 
 namespace physvib {
 
-Command scenesCommand(), renderCommand(), sweepCommand(), exportCommand(), beatsCommand(), playCommand(), analyseCommand(), reportCommand(), stimulusCommand(), boardCommand(), studyCommand(),
-    materialCommand(), attenuationCommand(), couplingCommand(), actuatorsCommand(), devicesCommand(), padsCommand(), calibrateCommand();
+Command scenesCommand(), renderCommand(), sweepCommand(), exportCommand(), beatsCommand(), playCommand(),
+    analyseCommand(), reportCommand(), stimulusCommand(), boardCommand(), studyCommand(), materialCommand(),
+    attenuationCommand(), couplingCommand(), actuatorsCommand(), devicesCommand(), padsCommand(),
+    calibrateCommand();
 
 namespace {
 
 /// In the order of --help; each is in a file of its own.
-constexpr Command (*commands[])() = {scenesCommand,   renderCommand, sweepCommand, exportCommand,   beatsCommand,       playCommand,     analyseCommand,   reportCommand,  stimulusCommand,
-                                     boardCommand,    studyCommand,  materialCommand, attenuationCommand, couplingCommand, actuatorsCommand, devicesCommand, padsCommand, calibrateCommand};
+constexpr Command (*commands[])() = {
+    scenesCommand,      renderCommand,   sweepCommand,     exportCommand,  beatsCommand, playCommand,
+    analyseCommand,     reportCommand,   stimulusCommand,  boardCommand,   studyCommand, materialCommand,
+    attenuationCommand, couplingCommand, actuatorsCommand, devicesCommand, padsCommand,  calibrateCommand};
 
 int writeOwnReference(const OptionTable& app, const char* folder) {
     const std::string error = writeReference(app, folder);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The application `physvib-mixer`: its window, or pictures of it.
-#include "System/Interrupt.h"
-#include "System/Process.h"
 #include "Host/Devices/DeviceThread.h"
 #include "Host/Devices/NoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/Window/Shots.h"
 #include "Options/Reference.h"
+#include "System/Interrupt.h"
+#include "System/Process.h"
 #include <iostream>
 
 namespace physvib {
@@ -31,7 +31,8 @@ juce::String valueOf(const juce::ArgumentList& arguments, juce::StringRef option
 }
 
 StudyCall studyCallOf(const juce::ArgumentList& arguments) {
-    return {valueOf(arguments, "--study"), valueOf(arguments, "--participant"), valueOf(arguments, "--number").getIntValue(), valueOf(arguments, "--out")};
+    return {valueOf(arguments, "--study"), valueOf(arguments, "--participant"),
+            valueOf(arguments, "--number").getIntValue(), valueOf(arguments, "--out")};
 }
 
 /// The word that is neither an option nor an option's value.
@@ -112,9 +113,7 @@ private:
     bool hasSummary_ = false;
 };
 
-juce::JUCEApplicationBase* makeApplication() {
-    return new MixerApplication;
-}
+juce::JUCEApplicationBase* makeApplication() { return new MixerApplication; }
 
 } // namespace
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Completions for bash, zsh and fish. The first two find out which command is meant by going over the words that stand already.
+// Completions for bash, zsh and fish. The first two find out which command is meant by going over the words
+// that stand already.
 #include "Options/Completions.h"
 #include <functional>
 #include <sstream>
@@ -59,7 +60,9 @@ std::string allCalls(const OptionTable& program) {
     return calls.empty() ? "''" : calls;
 }
 
-void heading(std::ostream& out, const OptionTable& program) { out << "# SPDX-License-Identifier: GPL-3.0-or-later\n# Completions of " << program.words << ".\n"; }
+void heading(std::ostream& out, const OptionTable& program) {
+    out << "# SPDX-License-Identifier: GPL-3.0-or-later\n# Completions of " << program.words << ".\n";
+}
 
 /// Of one option of zsh: '--law[panning law]:TEXT:(linear log)'.
 std::string zshOption(const Option& option, const std::string& spelling) {
@@ -70,14 +73,18 @@ std::string zshOption(const Option& option, const std::string& spelling) {
         text += c;
     }
     text += ']';
-    if (!option.value().empty()) (text += ": :") += option.choices.empty() ? "_files" : bracketed(option.choices);
+    if (!option.value().empty())
+        (text += ": :") += option.choices.empty() ? "_files" : bracketed(option.choices);
     return shellWord(text);
 }
 
 std::string zshPlace(const OptionTable& command) {
-    if (!command.commands.empty()) return shellWord(std::string{"*: :"}.append(bracketed(namesWithin(command))));
+    if (!command.commands.empty())
+        return shellWord(std::string{"*: :"}.append(bracketed(namesWithin(command))));
     for (const Option& option : command.options)
-        if (option.isPlace && !option.choices.empty()) return shellWord(std::string{"*: :{_alternative \"n: :"}.append(bracketed(option.choices)) + "\" \"f: :_files\"}");
+        if (option.isPlace && !option.choices.empty())
+            return shellWord(std::string{"*: :{_alternative \"n: :"}.append(bracketed(option.choices)) +
+                             "\" \"f: :_files\"}");
     return "'*: :_files'";
 }
 
@@ -86,17 +93,26 @@ std::string fishCondition(const OptionTable& program, const OptionTable& command
     if (&command == &program) return " -n __fish_use_subcommand";
     std::string condition;
     std::istringstream words{command.words.substr(program.words.size())};
-    for (std::string word; words >> word;) condition += (condition.empty() ? "__fish_seen_subcommand_from " : "; and __fish_seen_subcommand_from ") + word;
-    if (!command.commands.empty()) (condition += "; and not __fish_seen_subcommand_from ") += joinedWords(namesWithin(command));
+    for (std::string word; words >> word;)
+        condition +=
+            (condition.empty() ? "__fish_seen_subcommand_from " : "; and __fish_seen_subcommand_from ") +
+            word;
+    if (!command.commands.empty())
+        (condition += "; and not __fish_seen_subcommand_from ") += joinedWords(namesWithin(command));
     return std::string{" -n "}.append(shellWord(condition));
 }
 
 std::string fishOption(const Option& option) {
     std::string words;
     if (!option.isPlace)
-        for (const std::string& name : option.spellings) words += name.starts_with("--") ? std::string{" -l "}.append(name, 2) : std::string{" -s "}.append(name, 1);
-    if (!option.choices.empty()) words += std::string{option.isPlace ? " -a " : " -x -a "}.append(shellWord(joinedWords(option.choices)));
-    else if (!option.isPlace && !option.value().empty()) words += " -r";
+        for (const std::string& name : option.spellings)
+            words += name.starts_with("--") ? std::string{" -l "}.append(name, 2)
+                                            : std::string{" -s "}.append(name, 1);
+    if (!option.choices.empty())
+        words +=
+            std::string{option.isPlace ? " -a " : " -x -a "}.append(shellWord(joinedWords(option.choices)));
+    else if (!option.isPlace && !option.value().empty())
+        words += " -r";
     if (!option.meaning.empty()) (words += " -d ") += shellWord(option.meaning);
     return words;
 }
@@ -108,13 +124,18 @@ std::string bashCompletion(const OptionTable& program) {
     heading(out, program);
     out << functionOf(program) << "() {\n    local word call=" << program.words << " choices=\n"
         << "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
-        << "    for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n        case \"$call $word\" in " << allCalls(program) << ") call=\"$call $word\" ;; esac\n    done\n"
+        << "    for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n        case \"$call $word\" in "
+        << allCalls(program) << ") call=\"$call $word\" ;; esac\n    done\n"
         << "    case \"$call $previous\" in\n";
     each(program, [&](const OptionTable& command) {
         for (const Option& option : command.options)
             for (const std::string& name : option.spellings)
                 if (!option.isPlace && !option.value().empty())
-                    out << "        " << shellWord(command.words + ' ' + name) << ") " << (option.choices.empty() ? "return" : std::string{"choices="}.append(shellWord(joinedWords(option.choices)))) << " ;;\n";
+                    out << "        " << shellWord(command.words + ' ' + name) << ") "
+                        << (option.choices.empty()
+                                ? "return"
+                                : std::string{"choices="}.append(shellWord(joinedWords(option.choices))))
+                        << " ;;\n";
     });
     out << "    esac\n    [ -n \"$choices\" ] || case $call in\n";
     each(program, [&](const OptionTable& command) {
@@ -123,9 +144,11 @@ std::string bashCompletion(const OptionTable& program) {
             const auto& more = option.isPlace ? option.choices : option.spellings;
             words.insert(words.end(), more.begin(), more.end());
         }
-        out << "        " << shellWord(command.words) << ") choices=" << shellWord(joinedWords(words)) << " ;;\n";
+        out << "        " << shellWord(command.words) << ") choices=" << shellWord(joinedWords(words))
+            << " ;;\n";
     });
-    out << "    esac\n    COMPREPLY=($(compgen -W \"$choices\" -- \"$current\"))\n}\ncomplete -o default -F " << functionOf(program) << ' ' << program.words << '\n';
+    out << "    esac\n    COMPREPLY=($(compgen -W \"$choices\" -- \"$current\"))\n}\ncomplete -o default -F "
+        << functionOf(program) << ' ' << program.words << '\n';
     return out.str();
 }
 
@@ -133,7 +156,8 @@ std::string zshCompletion(const OptionTable& program) {
     std::ostringstream out;
     out << "#compdef " << program.words << '\n';
     heading(out, program);
-    out << "local word call=" << program.words << "\nfor word in ${words[2,CURRENT-1]}; do\n    case \"$call $word\" in (" << allCalls(program)
+    out << "local word call=" << program.words
+        << "\nfor word in ${words[2,CURRENT-1]}; do\n    case \"$call $word\" in (" << allCalls(program)
         << ") call=\"$call $word\" ;; esac\ndone\ncase $call in\n";
     each(program, [&](const OptionTable& command) {
         out << "    (" << shellWord(command.words) << ") _arguments";
@@ -146,13 +170,15 @@ std::string zshCompletion(const OptionTable& program) {
     return out.str();
 }
 
-// Fish asks for each proposal whether it holds here: a command's hold after its words, until one of a command within it follows.
+// Fish asks for each proposal whether it holds here: a command's hold after its words, until one of a command
+// within it follows.
 std::string fishCompletion(const OptionTable& program) {
     std::ostringstream out;
     heading(out, program);
     each(program, [&](const OptionTable& command) {
         const std::string begin = "complete -c " + program.words + fishCondition(program, command);
-        for (const OptionTable& inner : command.commands) out << begin << " -f -a " << inner.name() << " -d " << shellWord(inner.meaning) << '\n';
+        for (const OptionTable& inner : command.commands)
+            out << begin << " -f -a " << inner.name() << " -d " << shellWord(inner.meaning) << '\n';
         for (const Option& option : command.options) out << begin << fishOption(option) << '\n';
     });
     return out.str();

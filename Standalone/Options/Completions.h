@@ -6,7 +6,8 @@
 
 namespace physvib {
 
-/// A script for that shell, which is put where the shell looks for the program's name. Where nothing is listed, files are proposed. M.
+/// A script for that shell, which is put where the shell looks for the program's name. Where nothing is
+/// listed, files are proposed. M.
 std::string bashCompletion(const OptionTable& program);
 std::string zshCompletion(const OptionTable& program);
 std::string fishCompletion(const OptionTable& program);

@@ -6,7 +6,8 @@
 
 namespace physvib {
 
-/// Its page in man's own language: its options, and those of the commands within it. `pages` are named at the end. M.
+/// Its page in man's own language: its options, and those of the commands within it. `pages` are named at the
+/// end. M.
 std::string manPage(const OptionTable& command, const std::vector<std::string>& pages);
 
 /// "physvib render" as "physvib-render", which is its page's name. M.

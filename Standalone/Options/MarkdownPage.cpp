@@ -11,7 +11,8 @@ namespace {
 /// A cell of a table: a bar would end it.
 std::string tableCell(std::string_view text) {
     std::string out;
-    for (const char c : text) out += c == '|' ? std::string{"\\|"} : c == '\n' ? std::string{" "} : std::string{c};
+    for (const char c : text)
+        out += c == '|' ? std::string{"\\|"} : c == '\n' ? std::string{" "} : std::string{c};
     return out;
 }
 
@@ -32,7 +33,8 @@ void writeOptionTable(std::ostream& out, const OptionTable& command) {
     out << "\n| option | value | default | meaning |\n| --- | --- | --- | --- |\n";
     for (const Option& option : command.options)
         if (isListed(option))
-            out << "| " << spelt(option) << " | " << asCode(option.isPlace ? option.range : option.value()) << " | " << asCode(option.initial) << " | " << tableCell(option.meaning)
+            out << "| " << spelt(option) << " | " << asCode(option.isPlace ? option.range : option.value())
+                << " | " << asCode(option.initial) << " | " << tableCell(option.meaning)
                 << (option.isRequired ? " (required) |\n" : " |\n");
 }
 
@@ -48,8 +50,11 @@ void writeSection(std::ostream& out, const OptionTable& command, const std::stri
 
 std::string markdownPage(const OptionTable& program) {
     std::ostringstream out;
-    out << "<!-- SPDX-License-Identifier: MIT -->\n<!-- Generated: " << program.words << " --reference FOLDER, and FOLDER/md/" << program.words << ".md -->\n# Commands and options\n\n"
-        << "Every command of `" << program.words << "` with its options. `" << program.words << " COMMAND --help` and `man " << program.words << "-COMMAND` print the same. Options of ranges refuse other values.\n";
+    out << "<!-- SPDX-License-Identifier: MIT -->\n<!-- Generated: " << program.words
+        << " --reference FOLDER, and FOLDER/md/" << program.words << ".md -->\n# Commands and options\n\n"
+        << "Every command of `" << program.words << "` with its options. `" << program.words
+        << " COMMAND --help` and `man " << program.words
+        << "-COMMAND` print the same. Options of ranges refuse other values.\n";
     writeOptionTable(out, program);
     for (const OptionTable& command : program.commands) writeSection(out, command, "##");
     return out.str();

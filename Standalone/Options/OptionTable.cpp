@@ -11,17 +11,23 @@ namespace {
 
 template <class T>
 std::string typeOf(const T*) {
-    if constexpr (std::is_same_v<T, bool>) return {};
-    else if constexpr (std::is_floating_point_v<T>) return "FLOAT";
-    else if constexpr (std::is_integral_v<T>) return std::is_signed_v<T> ? "INT" : "UINT";
-    else return "TEXT";
+    if constexpr (std::is_same_v<T, bool>)
+        return {};
+    else if constexpr (std::is_floating_point_v<T>)
+        return "FLOAT";
+    else if constexpr (std::is_integral_v<T>)
+        return std::is_signed_v<T> ? "INT" : "UINT";
+    else
+        return "TEXT";
 }
 
 template <class T>
 std::string initialOf(const T* target) {
     if constexpr (std::is_same_v<T, std::string>) return *target;
-    if constexpr (!std::is_arithmetic_v<T> || std::is_same_v<T, bool>) return {};
-    else return (std::ostringstream{} << *target).str();
+    if constexpr (!std::is_arithmetic_v<T> || std::is_same_v<T, bool>)
+        return {};
+    else
+        return (std::ostringstream{} << *target).str();
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -73,7 +79,8 @@ Option& Option::inRange(double least, double most, std::string words) {
     check = Check::range;
     const auto isOutside = [&](auto into) {
         if constexpr (std::is_pointer_v<decltype(into)>)
-            if constexpr (std::is_arithmetic_v<std::remove_pointer_t<decltype(into)>>) return static_cast<double>(*into) < least;
+            if constexpr (std::is_arithmetic_v<std::remove_pointer_t<decltype(into)>>)
+                return static_cast<double>(*into) < least;
         return false;
     };
     return std::visit(isOutside, target) ? unshown() : *this;
@@ -102,13 +109,16 @@ Option& OptionTable::addRow(const std::string& names, OptionTarget target, std::
     return made;
 }
 
-Option& OptionTable::addRead(const std::string& names, std::string initial, WordReader reader, std::string says) {
+Option& OptionTable::addRead(const std::string& names, std::string initial, WordReader reader,
+                             std::string says) {
     Option& made = addRow(names, std::move(reader), std::move(says)).as("TEXT");
     made.initial = std::move(initial);
     return made;
 }
 
-OptionTable& OptionTable::addCommand(const std::string& name, std::string says) { return commands.emplace_back(words + ' ' + name, std::move(says)); }
+OptionTable& OptionTable::addCommand(const std::string& name, std::string says) {
+    return commands.emplace_back(words + ' ' + name, std::move(says));
+}
 
 void OptionTable::addVersion(std::string answer) {
     version = std::move(answer);
@@ -121,10 +131,12 @@ void addUsage(OptionTable& program, std::string_view usage) {
     program.usage = usage;
     program.options.clear();
     const std::regex shown{"(--[a-z][a-z-]*)( [A-Z][A-Z.:]*)?"};
-    for (auto found = std::sregex_iterator{program.usage.begin(), program.usage.end(), shown}; found != std::sregex_iterator{}; ++found) {
+    for (auto found = std::sregex_iterator{program.usage.begin(), program.usage.end(), shown};
+         found != std::sregex_iterator{}; ++found) {
         const std::string name = found->str(1), value = found->str(2);
         const auto isSame = [&](const Option& option) { return option.spellings.front() == name; };
-        if (std::ranges::none_of(program.options, isSame)) program.addRow(name, {}, {}).as(value.empty() ? value : value.substr(1));
+        if (std::ranges::none_of(program.options, isSame))
+            program.addRow(name, {}, {}).as(value.empty() ? value : value.substr(1));
     }
 }
 

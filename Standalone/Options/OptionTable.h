@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a program can be told, as a table: a row per option says its name, its words, what it takes and where the value goes. The parser,
+// What a program can be told, as a table: a row per option says its name, its words, what it takes and where
+// the value goes. The parser,
 // --help, manual pages and completions are made from it.
 #pragma once
 #include <cstddef>
@@ -20,19 +21,22 @@ namespace physvib {
 using WordReader = std::function<std::string(const std::string&)>;
 using WordsReader = std::function<std::string(const std::vector<std::string>&)>;
 
-/// Where a value goes. A bool: the option takes none. A function of a number: of one of several words, each with a number.
-using OptionTarget = std::variant<std::monostate, bool*, int*, std::uint32_t*, std::size_t*, double*, std::string*, std::vector<std::string>*, std::optional<int>*,
-                                  std::optional<double>*, std::optional<std::string>*, std::function<void(int)>, WordReader, WordsReader>;
+/// Where a value goes. A bool: the option takes none. A function of a number: of one of several words, each
+/// with a number.
+using OptionTarget =
+    std::variant<std::monostate, bool*, int*, std::uint32_t*, std::size_t*, double*, std::string*,
+                 std::vector<std::string>*, std::optional<int>*, std::optional<double>*,
+                 std::optional<std::string>*, std::function<void(int)>, WordReader, WordsReader>;
 
 /// One row. What is said of it returns the row. M only.
 struct Option {
     std::vector<std::string> spellings; ///< "-h", "--help"; of a word that has only a place: its name
     OptionTarget target;
     std::string meaning;
-    std::string type;    ///< what follows it: "FLOAT"; empty: nothing does
-    std::string initial; ///< what it is if nobody says it; empty: nothing that is shown
-    std::string group;   ///< its heading in --help; empty: the usual one
-    std::string range;   ///< what its values have to be: "0 to 1", "{on,off}"; empty: anything
+    std::string type;                 ///< what follows it: "FLOAT"; empty: nothing does
+    std::string initial;              ///< what it is if nobody says it; empty: nothing that is shown
+    std::string group;                ///< its heading in --help; empty: the usual one
+    std::string range;                ///< what its values have to be: "0 to 1", "{on,off}"; empty: anything
     std::vector<std::string> choices; ///< all that it may be, or some that are built in
     std::vector<std::pair<std::string, int>> numbers; ///< of a function: its words
     double low = 0.0, high = 0.0;
@@ -58,7 +62,8 @@ struct Option {
     Option& oneOf(std::vector<std::string> words);
     Option& numbered(std::vector<std::pair<std::string, int>> words); ///< of a function
 
-    /// Both inclusive; `unit` with the space before it. A value from outside, which nobody can say, is not shown.
+    /// Both inclusive; `unit` with the space before it. A value from outside, which nobody can say, is not
+    /// shown.
     template <class T>
     Option& in(T least, T most, const std::string& unit = {}) {
         std::ostringstream words;
@@ -80,8 +85,8 @@ public:
     OptionTable(const OptionTable&) = delete;
     OptionTable& operator=(const OptionTable&) = delete;
 
-    /// `names`: "--seed", "--plan,--dry-run", or "scene" for a word that has only a place. `value` outlives the table's parsing, and holds
-    /// what it is if nobody says it.
+    /// `names`: "--seed", "--plan,--dry-run", or "scene" for a word that has only a place. `value` outlives
+    /// the table's parsing, and holds what it is if nobody says it.
     template <class T>
     Option& add(const std::string& names, T& value, std::string says) {
         return addRow(names, &value, std::move(says));
@@ -90,7 +95,8 @@ public:
     Option& addRead(const std::string& names, std::string initial, WordReader reader, std::string says);
     /// One of several values, each with its word.
     template <class T>
-    Option& addOneOf(const std::string& names, T& value, std::vector<std::pair<std::string, T>> all, std::string says) {
+    Option& addOneOf(const std::string& names, T& value, std::vector<std::pair<std::string, T>> all,
+                     std::string says) {
         std::vector<std::string> choices;
         std::string initial;
         for (const auto& [word, of] : all) {
@@ -104,7 +110,9 @@ public:
         };
         return addRead(names, initial, read, std::move(says)).oneOf(std::move(choices));
     }
-    Option& addSwitch(const std::string& names, bool& value, std::string says) { return addOneOf<bool>(names, value, {{"on", true}, {"off", false}}, std::move(says)); }
+    Option& addSwitch(const std::string& names, bool& value, std::string says) {
+        return addOneOf<bool>(names, value, {{"on", true}, {"off", false}}, std::move(says));
+    }
     Option& addRow(const std::string& names, OptionTarget target, std::string says);
     OptionTable& addCommand(const std::string& name, std::string meaning);
     void addVersion(std::string answer); ///< --version, with what it says

@@ -16,20 +16,28 @@ template <class T, class Fits>
 CLI::Validator numberThat(Fits fits, const std::string& expected, const std::string& shown) {
     return {[=](std::string& text) {
                 T value{};
-                return CLI::detail::lexical_cast(text, value) && fits(value) ? std::string{} : "expected " + expected + ", found \"" + text + "\"";
+                return CLI::detail::lexical_cast(text, value) && fits(value)
+                           ? std::string{}
+                           : "expected " + expected + ", found \"" + text + "\"";
             },
             shown};
 }
 
 template <class T>
 CLI::Validator rangeOf(const Option& row) {
-    return numberThat<T>([low = row.low, high = row.high](T value) { return static_cast<double>(value) >= low && static_cast<double>(value) <= high; }, row.range, row.range);
+    return numberThat<T>(
+        [low = row.low, high = row.high](T value) {
+            return static_cast<double>(value) >= low && static_cast<double>(value) <= high;
+        },
+        row.range, row.range);
 }
 
 CLI::Validator rangeOf(const Option& row) {
-    if (std::holds_alternative<int*>(row.target) || std::holds_alternative<std::optional<int>*>(row.target)) return rangeOf<int>(row);
+    if (std::holds_alternative<int*>(row.target) || std::holds_alternative<std::optional<int>*>(row.target))
+        return rangeOf<int>(row);
     if (std::holds_alternative<std::uint32_t*>(row.target)) return rangeOf<std::uint32_t>(row);
-    return std::holds_alternative<std::size_t*>(row.target) ? rangeOf<std::size_t>(row) : rangeOf<double>(row);
+    return std::holds_alternative<std::size_t*>(row.target) ? rangeOf<std::size_t>(row)
+                                                            : rangeOf<double>(row);
 }
 
 std::function<std::string(const std::string&)> endingOf(const Option& row) {
@@ -42,9 +50,15 @@ void check(CLI::Option& option, const Option& row) {
     switch (row.check) {
     case Option::Check::none: return;
     case Option::Check::range: option.check(rangeOf(row)); return;
-    case Option::Check::positive: option.check(numberThat<double>([](double value) { return value > 0.0 && std::isfinite(value); }, "more than 0", row.range)); return;
+    case Option::Check::positive:
+        option.check(numberThat<double>([](double value) { return value > 0.0 && std::isfinite(value); },
+                                        "more than 0", row.range));
+        return;
     case Option::Check::choice: option.check(CLI::IsMember(row.choices)); return;
-    case Option::Check::number: option.transform(CLI::CheckedTransformer(std::map<std::string, int>(row.numbers.begin(), row.numbers.end()))); return;
+    case Option::Check::number:
+        option.transform(
+            CLI::CheckedTransformer(std::map<std::string, int>(row.numbers.begin(), row.numbers.end())));
+        return;
     case Option::Check::folder: option.check(CLI::ExistingDirectory); return;
     case Option::Check::ending: option.check(endingOf(row), ""); return;
     }
@@ -68,12 +82,18 @@ CLI::Option* readBy(CLI::App& app, const Option& row, const Reader& read) {
 CLI::Option* declare(CLI::App& app, const Option& row) {
     const auto make = [&](const auto& target) -> CLI::Option* {
         using Target = std::decay_t<decltype(target)>;
-        if constexpr (std::is_same_v<Target, std::monostate>) return nullptr;
-        else if constexpr (std::is_same_v<Target, bool*>) return app.add_flag(namesOf(row), *target, row.meaning);
-        else if constexpr (std::is_same_v<Target, std::function<void(int)>>) return app.add_option_function<int>(namesOf(row), target, row.meaning);
-        else if constexpr (std::is_same_v<Target, WordReader>) return readBy<std::string>(app, row, target);
-        else if constexpr (std::is_same_v<Target, WordsReader>) return readBy<std::vector<std::string>>(app, row, target);
-        else return app.add_option(namesOf(row), *target, row.meaning);
+        if constexpr (std::is_same_v<Target, std::monostate>)
+            return nullptr;
+        else if constexpr (std::is_same_v<Target, bool*>)
+            return app.add_flag(namesOf(row), *target, row.meaning);
+        else if constexpr (std::is_same_v<Target, std::function<void(int)>>)
+            return app.add_option_function<int>(namesOf(row), target, row.meaning);
+        else if constexpr (std::is_same_v<Target, WordReader>)
+            return readBy<std::string>(app, row, target);
+        else if constexpr (std::is_same_v<Target, WordsReader>)
+            return readBy<std::vector<std::string>>(app, row, target);
+        else
+            return app.add_option(namesOf(row), *target, row.meaning);
     };
     CLI::Option* const option = std::visit(make, row.target);
     if (!option) return nullptr;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers that an option takes. CLI11's own checks let "nan" pass, which is not less than the least; these say what they expect.
+// Numbers that an option takes. CLI11's own checks let "nan" pass, which is not less than the least; these
+// say what they expect.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
@@ -13,7 +14,9 @@ CLI::Validator inRange(T low, T high, const std::string& unit = "") {
     return {[=](std::string& text) {
                 T value{};
                 const bool isNumber = CLI::detail::lexical_cast(text, value);
-                return isNumber && value >= low && value <= high ? std::string{} : "expected " + range + ", found \"" + text + "\"";
+                return isNumber && value >= low && value <= high
+                           ? std::string{}
+                           : "expected " + range + ", found \"" + text + "\"";
             },
             range};
 }

@@ -53,8 +53,8 @@ int leave(int code, std::string_view reason) {
 struct Source {
     std::optional<Scene> scene; ///< none: a list
     std::vector<CollisionEvent> events;
-    std::uint64_t drops = 0;                      ///< collisions that the world had no room for
-    FieldSize field;                              ///< not known: the layout's extent
+    std::uint64_t drops = 0; ///< collisions that the world had no room for
+    FieldSize field;         ///< not known: the layout's extent
     Provenance provenance{PHYSVIB_VERSION, {}};
 };
 
@@ -135,7 +135,9 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
     const RendererSettings settings = settingsOf(o, layout.geometry, source);
     std::optional<WavSink> wav;
     if (!o.wavPath.empty() &&
-        !wav.emplace(o.wavPath, settings.outputs(), o.sampleRateHz, provenanceLine(source.provenance)).error().empty())
+        !wav.emplace(o.wavPath, settings.outputs(), o.sampleRateHz, provenanceLine(source.provenance))
+             .error()
+             .empty())
         return wav->error();
 #if PHYSVIB_PICTURES
     std::optional<RenderedPicture> picture;

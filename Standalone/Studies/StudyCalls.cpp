@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Values are made as they are; text goes through the program's own tables first.
 #include "Studies/StudyCalls.h"
-#include "Calls/JobSession.h"
 #include "Calls/CallFiles.h"
+#include "Calls/JobSession.h"
 #include "Calls/StimulusOptions.h"
 #include "Core/Decibels.h"
-#include "Study/Files/ProtocolFile.h"
 #include "Jobs/LayoutNamed.h"
 #include "Jobs/MakeStimulus.h"
 #include "Jobs/StudyRun.h"
 #include "Options/Parser.h"
 #include "Session/StimulusRender.h"
+#include "Study/Files/ProtocolFile.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -41,14 +41,18 @@ Result<FeltStimulus> ofScene(const RenderJob& o) {
     if (auto fault = patience.fault(); !fault.empty()) return Failure{fault};
     std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
     if (auto fault = takeRecordings(job, job.made.events, o.scene); !fault.empty()) return Failure{fault};
-    return FeltStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f), job.feltRecordings()};
+    return FeltStimulus{{job.made.events, job.panner(), job.seconds()},
+                        job.layout,
+                        std::vector<float>(job.layout.enchanters.size(), 1.0f),
+                        job.feltRecordings()};
 }
 
 Result<FeltWorld> asWorld(const RenderJob& o) {
     LoadedRender job{o, {}, {}, {}, {}};
     if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
     if (auto fault = fixedLevelFault(job); !fault.empty()) return Failure{fault};
-    if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene); !fault.empty()) return Failure{fault};
+    if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene); !fault.empty())
+        return Failure{fault};
     return FeltWorld{sessionSetup(job), job.layout, job.seconds()};
 }
 
@@ -56,12 +60,16 @@ Result<FeltStimulus> ofStimulus(const StimulusJob& job, int sampleRateHz) {
     const auto layout = layoutNamed(job.layout);
     if (!layout) return Failure{layout.error};
     if (auto fault = layoutFault(job, layout.value); !fault.empty()) return Failure{fault};
-    if (const auto* const phantom = std::get_if<PhantomJob>(&job.what); phantom != nullptr && !phantom->recording.empty()) return Failure{"a recording is rendered to a file; a live session plays events"};
+    if (const auto* const phantom = std::get_if<PhantomJob>(&job.what);
+        phantom != nullptr && !phantom->recording.empty())
+        return Failure{"a recording is rendered to a file; a live session plays events"};
     auto stimulus = makeStimulus(job, layout.value);
     if (!stimulus) return Failure{stimulus.error};
-    if (const auto sound = renderStimulus(stimulus.value, layout.value, sampleRateHz); !sound) return Failure{sound.error};
+    if (const auto sound = renderStimulus(stimulus.value, layout.value, sampleRateHz); !sound)
+        return Failure{sound.error};
     FeltStimulus felt{std::move(stimulus.value), layout.value, {}, {}};
-    for (const auto& enchanter : layout.value.enchanters) felt.gains.push_back(static_cast<float>(1.0 / enchanter.fullScaleG));
+    for (const auto& enchanter : layout.value.enchanters)
+        felt.gains.push_back(static_cast<float>(1.0 / enchanter.fullScaleG));
     return felt;
 }
 
@@ -84,7 +92,8 @@ struct ParsedCall {
     }
     /// Those in `folder`, where they are there.
     void findFiles(const std::string& folder) {
-        for (std::string* path : {&renderOptions.layout, &renderOptions.scene, &stimulusOptions.job.layout}) *path = besideProtocol(folder, *path);
+        for (std::string* path : {&renderOptions.layout, &renderOptions.scene, &stimulusOptions.job.layout})
+            *path = besideProtocol(folder, *path);
         for (auto& [hz, sound] : renderOptions.sounds) sound = besideProtocol(folder, sound);
     }
     OptionTable words{"physvib", {}};
@@ -130,18 +139,21 @@ std::string studyCallFault(const std::string& call, const ConditionPlan& conditi
     const double leastG = leastStudyFullScaleG * fromDecibels(o.levelDb);
     for (const EnchanterDescription& enchanter : layout.value.enchanters)
         if (enchanter.fullScaleG < leastG)
-            return "--method " + o.methodName() + ": expected enchanters of at least " + fixedNumber(leastG, 2) + " g (full_scale_g), as 1.5 g and 1 dB of headroom are felt, found " +
+            return "--method " + o.methodName() + ": expected enchanters of at least " +
+                   fixedNumber(leastG, 2) +
+                   " g (full_scale_g), as 1.5 g and 1 dB of headroom are felt, found " +
                    fixedNumber(enchanter.fullScaleG, 2) + " g";
     return {};
 }
 
-/// The words of a condition's calls: each value of each factor once, with the first of the others. The reader has looked at all of them for
-/// what no call may do.
+/// The words of a condition's calls: each value of each factor once, with the first of the others. The reader
+/// has looked at all of them for what no call may do.
 std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condition) {
     const CallSet* const calls = callSetOf(condition.stimuli);
     if (calls == nullptr) return {};
     StimulusItem first;
-    for (const StudyFactor& factor : calls->factors) first.values.emplace_back(factor.name, factor.values.front());
+    for (const StudyFactor& factor : calls->factors)
+        first.values.emplace_back(factor.name, factor.values.front());
     for (std::size_t f = 0; f < calls->factors.size(); ++f)
         for (const std::string& value : calls->factors[f].values) {
             StimulusItem item = first;
@@ -159,20 +171,25 @@ std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condi
 Result<Protocol> protocolNamed(const std::string& nameOrPath) {
     auto protocol = findProtocol(nameOrPath);
     for (std::size_t i = 0; i < protocol.value.conditions.size(); ++i)
-        if (const auto fault = firstCallFault(protocol.value, protocol.value.conditions[i], writtenWordFault); !fault.empty())
+        if (const auto fault = firstCallFault(protocol.value, protocol.value.conditions[i], writtenWordFault);
+            !fault.empty())
             return Failure{nameOrPath + ": conditions[" + std::to_string(i) + "].call: " + fault};
     return protocol;
 }
 
 std::string protocolFault(const Protocol& protocol, const std::string& name) {
-    if (!isStudyCode(protocol.name)) return name + ": name: expected letters, digits, - and _, as files are called after it";
+    if (!isStudyCode(protocol.name))
+        return name + ": name: expected letters, digits, - and _, as files are called after it";
     for (const ConditionPlan& condition : protocol.conditions) {
         const auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
         if (!layout) return name + ": condition " + printable(condition.name) + ": " + layout.error;
-        if (auto fault = firstCallsFault(protocol, condition); !fault.empty()) return name + ": condition " + condition.name + ": call: " + fault;
+        if (auto fault = firstCallsFault(protocol, condition); !fault.empty())
+            return name + ": condition " + condition.name + ": call: " + fault;
         const auto* patterns = std::get_if<PatternSet>(&condition.stimuli);
         if (patterns && patterns->enchanters != layout.value.geometry.count)
-            return name + ": condition " + printable(condition.name) + ": expected as many enchanters as the layout has (" + std::to_string(layout.value.geometry.count) + "), found " +
+            return name + ": condition " + printable(condition.name) +
+                   ": expected as many enchanters as the layout has (" +
+                   std::to_string(layout.value.geometry.count) + "), found " +
                    std::to_string(patterns->enchanters);
     }
     return {};

@@ -27,7 +27,7 @@ namespace {
 
 constexpr int checkRateHz = 48000;
 constexpr double longestWithoutBreakSeconds = 30.0 * 60.0;
-constexpr double weakDb = 6.0;          // above the threshold of detection: what most people feel at once
+constexpr double weakDb = 6.0; // above the threshold of detection: what most people feel at once
 
 /// The least gain that the guard has for what it is shown.
 class GuardTrial {
@@ -64,11 +64,14 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
     std::vector<ChannelSums> sums(channels);
     GuardTrial guard{static_cast<int>(channels)};
     const ContactSounds sounds{felt.recordings, checkRateHz};
-    const OfflineSettings settings{.renderer = {checkRateHz, 0, felt.stimulus.panner, false}, .frames = std::llround(felt.stimulus.seconds * checkRateHz), .contacts = {sounds.contacts()}};
+    const OfflineSettings settings{.renderer = {checkRateHz, 0, felt.stimulus.panner, false},
+                                   .frames = std::llround(felt.stimulus.seconds * checkRateHz),
+                                   .contacts = {sounds.contacts()}};
     renderOffline(felt.stimulus.events, settings, [&](const float* const* blocks, int frames) {
         for (std::size_t j = 0; j < channels; ++j)
             for (int n = 0; n < frames; ++n) {
-                const double sample = static_cast<double>(blocks[j][n]) * felt.gains[j], weighted = sums[j].weighting.process(sample);
+                const double sample = static_cast<double>(blocks[j][n]) * felt.gains[j],
+                             weighted = sums[j].weighting.process(sample);
                 sums[j].peak = std::max(sums[j].peak, std::abs(sample));
                 sums[j].squares += sample * sample;
                 sums[j].weightedSquares += weighted * weighted;
@@ -80,9 +83,13 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
     checked.guardGain = guard.leastGain();
     for (std::size_t j = 0; j < channels; ++j) {
         const double fullScaleG = felt.layout.enchanters[j].fullScaleG;
-        if (sums[j].peak > checked.peakShare) checked.peakShare = sums[j].peak, checked.neededG = sums[j].peak * fullScaleG;
+        if (sums[j].peak > checked.peakShare)
+            checked.peakShare = sums[j].peak, checked.neededG = sums[j].peak * fullScaleG;
         checked.peakG = std::max(checked.peakG, sums[j].peak * fullScaleG);
-        checked.rmsG = std::max(checked.rmsG, std::sqrt(sums[j].squares / static_cast<double>(std::max<std::int64_t>(1, settings.frames))) * fullScaleG);
+        checked.rmsG = std::max(
+            checked.rmsG,
+            std::sqrt(sums[j].squares / static_cast<double>(std::max<std::int64_t>(1, settings.frames))) *
+                fullScaleG);
         checked.squareGSeconds += sums[j].weightedSquares / checkRateHz * fullScaleG * fullScaleG;
     }
     const auto strongest = std::ranges::max_element(felt.stimulus.events, {}, &CollisionEvent::amplitude);
@@ -90,19 +97,29 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
 }
 
 CheckedStimulus checkStimulus(const Protocol& protocol, const PlannedStimulus& planned) {
-    CheckedStimulus checked{.condition = planned.condition, .label = planned.label, .part = planned.part, .levelDb = planned.highestDb, .error = {}};
+    CheckedStimulus checked{.condition = planned.condition,
+                            .label = planned.label,
+                            .part = planned.part,
+                            .levelDb = planned.highestDb,
+                            .error = {}};
     const auto* const world = std::get_if<WorldSet>(&protocol.conditions[planned.condition].stimuli);
     checked.isOpenEnded = world != nullptr && world->hasHands;
     const auto felt = feltStimulus(planned.job(protocol), checkRateHz, protocol.folder);
-    if (!felt) checked.error = felt.error;
-    else measure(felt.value, checked);
+    if (!felt)
+        checked.error = felt.error;
+    else
+        measure(felt.value, checked);
     return checked;
 }
 
-std::string signedNumber(double number, int decimals) { return number < 0.0 ? fixedNumber(number, decimals) : std::string{"+"}.append(fixedNumber(number, decimals)); }
+std::string signedNumber(double number, int decimals) {
+    return number < 0.0 ? fixedNumber(number, decimals)
+                        : std::string{"+"}.append(fixedNumber(number, decimals));
+}
 
 std::string nameOf(const Protocol& protocol, const CheckedStimulus& s) {
-    std::string name = "condition " + printable(protocol.conditions[s.condition].name) + ", " + (s.label.empty() ? std::string{"any place"} : cleanLine(s.label));
+    std::string name = "condition " + printable(protocol.conditions[s.condition].name) + ", " +
+                       (s.label.empty() ? std::string{"any place"} : cleanLine(s.label));
     if (!s.part.empty()) name += ", " + printable(s.part);
     return s.levelDb == 0.0 ? name : name + " at " + signedNumber(s.levelDb, 1) + " dB";
 }
@@ -110,38 +127,53 @@ std::string nameOf(const Protocol& protocol, const CheckedStimulus& s) {
 double inDb(double share) { return toDecibels(std::max(share, 1e-6)); }
 
 std::string limiterWords(const Protocol& protocol, const CheckedStimulus& s) {
-    return nameOf(protocol, s) + ": peaks " + fixedNumber(inDb(s.peakShare), 1) + " dB above full scale, which the limiter would lower: expected a layout of at least " +
+    return nameOf(protocol, s) + ": peaks " + fixedNumber(inDb(s.peakShare), 1) +
+           " dB above full scale, which the limiter would lower: expected a layout of at least " +
            fixedNumber(s.neededG, 2) + " g (full_scale_g), or a level that is as much lower";
 }
 
 bool needsLimiter(const CheckedStimulus& s) { return s.error.empty() && s.peakShare > 1.0 + fullScaleSlack; }
 
-double aboveThresholdDb(const CheckedStimulus& s) { return inDb(s.peakG / detectionThresholdG(s.frequencyHz)); }
+double aboveThresholdDb(const CheckedStimulus& s) {
+    return inDb(s.peakG / detectionThresholdG(s.frequencyHz));
+}
 
 void judge(const Protocol& protocol, const CheckedStimulus& s, StudyCheck& check) {
     if (!s.error.empty()) return void(check.errors.push_back(nameOf(protocol, s) + ": " + s.error));
     if (needsLimiter(s)) (s.isOpenEnded ? check.warnings : check.errors).push_back(limiterWords(protocol, s));
     if (s.guardGain < 1.0)
-        check.warnings.push_back(nameOf(protocol, s) +
-                                 ": turned down to " + fixedNumber(100.0 * s.guardGain, 0) +
-                                 " % where it is slowest, as its actuator would get nearly direct current: what is "
-                                 "felt differs from what is asked for");
-    if (s.peakG <= 0.0) check.warnings.push_back(nameOf(protocol, s) + ": nothing is felt");
+        check.warnings.push_back(
+            nameOf(protocol, s) + ": turned down to " + fixedNumber(100.0 * s.guardGain, 0) +
+            " % where it is slowest, as its actuator would get nearly direct current: what is "
+            "felt differs from what is asked for");
+    if (s.peakG <= 0.0)
+        check.warnings.push_back(nameOf(protocol, s) + ": nothing is felt");
     else if (const double db = aboveThresholdDb(s); db < weakDb && !s.isOpenEnded)
-        check.warnings.push_back(nameOf(protocol, s) + ": weak at its highest level: " + fixedNumber(1e3 * s.peakG, 1) + " mg, " + fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +
-                                 " the threshold of detection at " + fixedNumber(s.frequencyHz, 0) + " Hz (assumed: " + fixedNumber(1e3 * detectionThresholdG(s.frequencyHz), 0) + " mg)");
+        check.warnings.push_back(
+            nameOf(protocol, s) + ": weak at its highest level: " + fixedNumber(1e3 * s.peakG, 1) + " mg, " +
+            fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +
+            " the threshold of detection at " + fixedNumber(s.frequencyHz, 0) +
+            " Hz (assumed: " + fixedNumber(1e3 * detectionThresholdG(s.frequencyHz), 0) + " mg)");
 }
 
 using Cells = std::vector<std::string>;
 
 /// The columns of the table, and a row per stimulus.
 std::vector<Cells> rowsOf(const Protocol& protocol, const std::vector<CheckedStimulus>& stimuli) {
-    std::vector<Cells> rows{{"condition", "stimulus", "part", "level_db", "peak_g", "rms_g", "below_full_scale_db", "above_threshold_db", "seconds"}};
+    std::vector<Cells> rows{{"condition", "stimulus", "part", "level_db", "peak_g", "rms_g",
+                             "below_full_scale_db", "above_threshold_db", "seconds"}};
     for (const CheckedStimulus& s : stimuli) {
-        Cells& row = rows.emplace_back(Cells{printable(protocol.conditions[s.condition].name), cleanLine(s.label), cleanLine(s.part), numberText(s.levelDb)});
-        if (!s.error.empty()) row.emplace_back("cannot be played");
+        Cells& row = rows.emplace_back(Cells{printable(protocol.conditions[s.condition].name),
+                                             cleanLine(s.label), cleanLine(s.part), numberText(s.levelDb)});
+        if (!s.error.empty())
+            row.emplace_back("cannot be played");
         else
-            for (const auto& [figure, decimals] : {std::pair{s.peakG, 4}, {s.rmsG, 4}, {-inDb(s.peakShare), 1}, {aboveThresholdDb(s), 1}, {s.seconds, 2}}) row.push_back(fixedNumber(figure, decimals));
+            for (const auto& [figure, decimals] : {std::pair{s.peakG, 4},
+                                                   {s.rmsG, 4},
+                                                   {-inDb(s.peakShare), 1},
+                                                   {aboveThresholdDb(s), 1},
+                                                   {s.seconds, 2}})
+                row.push_back(fixedNumber(figure, decimals));
     }
     return rows;
 }
@@ -172,28 +204,48 @@ std::string listOf(const char* what, const std::vector<std::string>& lines) {
 std::string minutes(double seconds) { return fixedNumber(seconds / 60.0, 0) + " min"; }
 
 /// Of one participant: what is felt of a stimulus once.
-const CheckedStimulus* checkedOf(const std::vector<CheckedStimulus>& all, std::size_t condition, const std::string& label, const std::string& part) {
-    const auto found = std::ranges::find_if(all, [&](const CheckedStimulus& s) { return s.condition == condition && s.label == label && (s.part == part || part.empty()); });
+const CheckedStimulus* checkedOf(const std::vector<CheckedStimulus>& all, std::size_t condition,
+                                 const std::string& label, const std::string& part) {
+    const auto found = std::ranges::find_if(all, [&](const CheckedStimulus& s) {
+        return s.condition == condition && s.label == label && (s.part == part || part.empty());
+    });
     return found != all.end() ? &*found : nullptr;
 }
 
 void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
     double squareGSeconds = 0.0; // of every trial at one play
-    const PlannedTime time = plannedTime(protocol, [&](std::size_t condition, const std::string& label, const std::string& part) {
-        const CheckedStimulus* const one = checkedOf(check.stimuli, condition, label, part);
-        return one != nullptr ? one->seconds : 0.0;
-    });
+    const PlannedTime time =
+        plannedTime(protocol, [&](std::size_t condition, const std::string& label, const std::string& part) {
+            const CheckedStimulus* const one = checkedOf(check.stimuli, condition, label, part);
+            return one != nullptr ? one->seconds : 0.0;
+        });
     for (const PlannedTrials& trials : plannedTrials(protocol))
-        if (const CheckedStimulus* const one = checkedOf(check.stimuli, trials.condition, trials.label, trials.part)) squareGSeconds += trials.count * one->squareGSeconds;
+        if (const CheckedStimulus* const one =
+                checkedOf(check.stimuli, trials.condition, trials.label, trials.part))
+            squareGSeconds += trials.count * one->squareGSeconds;
     const double exposure = dailyExposure(squareGSeconds);
-    check.facts.push_back("trials: " + std::to_string(time.trials) + ", at most " + minutes(time.seconds) + " with breaks, at one play of each part and " + fixedNumber(PlannedTime::answerSeconds, 0) + " s per answer");
-    check.facts.push_back("exposure: A(8) " + fixedNumber(exposure, 3) + " m/s2 of one participant on one day, at one play of each part and the highest levels (action value " + fixedNumber(exposureActionValue, 1) + ")");
-    if (exposure > protocol.exposureLimit) check.warnings.push_back("exposure: A(8) of " + fixedNumber(exposure, 2) + " m/s2 is above the protocol's limit of " + numberText(protocol.exposureLimit) + ", at which the study pauses");
-    if (time.longestStretchSeconds > longestWithoutBreakSeconds) check.warnings.push_back("breaks: expected one at least every " + minutes(longestWithoutBreakSeconds) + ", found " + minutes(time.longestStretchSeconds) + " without");
+    check.facts.push_back("trials: " + std::to_string(time.trials) + ", at most " + minutes(time.seconds) +
+                          " with breaks, at one play of each part and " +
+                          fixedNumber(PlannedTime::answerSeconds, 0) + " s per answer");
+    check.facts.push_back("exposure: A(8) " + fixedNumber(exposure, 3) +
+                          " m/s2 of one participant on one day, at one play of each part and the highest "
+                          "levels (action value " +
+                          fixedNumber(exposureActionValue, 1) + ")");
+    if (exposure > protocol.exposureLimit)
+        check.warnings.push_back("exposure: A(8) of " + fixedNumber(exposure, 2) +
+                                 " m/s2 is above the protocol's limit of " +
+                                 numberText(protocol.exposureLimit) + ", at which the study pauses");
+    if (time.longestStretchSeconds > longestWithoutBreakSeconds)
+        check.warnings.push_back("breaks: expected one at least every " +
+                                 minutes(longestWithoutBreakSeconds) + ", found " +
+                                 minutes(time.longestStretchSeconds) + " without");
     if (protocol.conditions.size() < 2) return;
     const OrderBalance balance = orderBalance(protocol, participants);
-    const std::string words = std::to_string(participants) + " participants: a condition is at one place " + std::to_string(balance.fewestAtPlace) + " to " + std::to_string(balance.mostAtPlace) + " times; " +
-                              std::to_string(balance.successions) + " of " + std::to_string(balance.possibleSuccessions) + " successions occur";
+    const std::string words = std::to_string(participants) + " participants: a condition is at one place " +
+                              std::to_string(balance.fewestAtPlace) + " to " +
+                              std::to_string(balance.mostAtPlace) + " times; " +
+                              std::to_string(balance.successions) + " of " +
+                              std::to_string(balance.possibleSuccessions) + " successions occur";
     check.facts.push_back("orders: " + words);
     if (!balance.isBalanced()) check.warnings.push_back("orders are not balanced: " + words);
 }
@@ -202,12 +254,17 @@ void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
 void judgeBreaks(const Protocol& protocol, StudyCheck& check) {
     for (const SessionPlan& session : protocol.sessions) {
         const std::string at = "breaks of session " + printable(session.name) + ": ";
-        if (session.breakEvery > 0 && session.breakSeconds <= 0.0) check.warnings.push_back(at + "expected break_s above 0 s beside break_every " + std::to_string(session.breakEvery) + ", found none");
-        if (session.breakEvery == 0 && session.breakSeconds > 0.0) check.warnings.push_back(at + "expected break_every beside break_s " + numberText(session.breakSeconds) + ", found none: there is no break");
+        if (session.breakEvery > 0 && session.breakSeconds <= 0.0)
+            check.warnings.push_back(at + "expected break_s above 0 s beside break_every " +
+                                     std::to_string(session.breakEvery) + ", found none");
+        if (session.breakEvery == 0 && session.breakSeconds > 0.0)
+            check.warnings.push_back(at + "expected break_every beside break_s " +
+                                     numberText(session.breakSeconds) + ", found none: there is no break");
     }
 }
 
-/// The largest share of an actuator's full scale that one pulse or phantom asks for, by the layout's gains alone; 0 if it cannot be made.
+/// The largest share of an actuator's full scale that one pulse or phantom asks for, by the layout's gains
+/// alone; 0 if it cannot be made.
 double askedShare(StimulusJob job, const std::string& folder) {
     job.layout = besideProtocol(folder, job.layout);
     const auto layout = layoutNamed(job.layout);
@@ -217,12 +274,15 @@ double askedShare(StimulusJob job, const std::string& folder) {
     PhantomPanner::Gains gains{};
     for (const CollisionEvent& event : stimulus.value.events) {
         stimulus.value.panner.gainsAt(event.x, event.y, gains);
-        for (std::size_t j = 0; j < layout.value.enchanters.size(); ++j) share = std::max(share, std::abs(event.amplitude * gains[j]) / layout.value.enchanters[j].fullScaleG);
+        for (std::size_t j = 0; j < layout.value.enchanters.size(); ++j)
+            share =
+                std::max(share, std::abs(event.amplitude * gains[j]) / layout.value.enchanters[j].fullScaleG);
     }
     return share;
 }
 
-/// Of a stimulus that no call makes: rendered only if it asks for too much, as a study has hundreds of them. One line, or empty.
+/// Of a stimulus that no call makes: rendered only if it asks for too much, as a study has hundreds of them.
+/// One line, or empty.
 std::string levelFault(const Protocol& protocol, const PlannedStimulus& planned) {
     const TrialJob job = planned.job(protocol);
     const auto* const stimulus = std::get_if<StimulusJob>(&job);
@@ -235,17 +295,26 @@ std::string levelFault(const Protocol& protocol, const PlannedStimulus& planned)
 
 StudyCheck checkStudy(const Protocol& protocol, int participants) {
     StudyCheck check;
-    for (const PlannedStimulus& planned : plannedStimuli(protocol)) check.stimuli.push_back(checkStimulus(protocol, planned));
+    for (const PlannedStimulus& planned : plannedStimuli(protocol))
+        check.stimuli.push_back(checkStimulus(protocol, planned));
     for (const CheckedStimulus& s : check.stimuli) judge(protocol, s, check);
     judgePlan(protocol, participants, check);
     judgeBreaks(protocol, check);
     for (const ThesisDeviation& one : deviationsOf(protocol))
-        check.deviations.push_back(std::string{one.section}.append(": ").append(one.thesis).append("; here: ").append(one.here).append(one.change.empty() ? "" : "; as published: ").append(one.change));
+        check.deviations.push_back(std::string{one.section}
+                                       .append(": ")
+                                       .append(one.thesis)
+                                       .append("; here: ")
+                                       .append(one.here)
+                                       .append(one.change.empty() ? "" : "; as published: ")
+                                       .append(one.change));
     return check;
 }
 
 std::string textOf(const StudyCheck& check, const Protocol& protocol) {
-    return tabbed(rowsOf(protocol, check.stimuli)) + "\n" + listOf("", check.facts) + listOf("deviation from the thesis, ", check.deviations) + listOf("error: ", check.errors) + listOf("warning: ", check.warnings);
+    return tabbed(rowsOf(protocol, check.stimuli)) + "\n" + listOf("", check.facts) +
+           listOf("deviation from the thesis, ", check.deviations) + listOf("error: ", check.errors) +
+           listOf("warning: ", check.warnings);
 }
 
 std::string htmlOf(const StudyCheck& check, const Protocol& protocol) {
@@ -253,7 +322,8 @@ std::string htmlOf(const StudyCheck& check, const Protocol& protocol) {
     page.paragraph(cleanLine(protocol.title));
     page.heading("Errors and warnings");
     if (check.errors.empty() && check.warnings.empty()) page.paragraph("None was found.");
-    for (const auto& [what, lines] : {std::pair{"Errors: the study is refused", &check.errors}, {"Warnings: for a person to decide", &check.warnings}}) {
+    for (const auto& [what, lines] : {std::pair{"Errors: the study is refused", &check.errors},
+                                      {"Warnings: for a person to decide", &check.warnings}}) {
         if (lines->empty()) continue;
         page.subheading(what);
         page.list(*lines);
@@ -265,7 +335,9 @@ std::string htmlOf(const StudyCheck& check, const Protocol& protocol) {
         page.list(check.deviations);
     }
     page.heading("Stimuli");
-    page.paragraph("Of the strongest actuator, at the highest level that a session can set, without the limiter. peak_g and rms_g are accelerations in g; above_threshold_db is the peak over an assumed threshold of detection.");
+    page.paragraph("Of the strongest actuator, at the highest level that a session can set, without the "
+                   "limiter. peak_g and rms_g are accelerations in g; above_threshold_db is the peak over an "
+                   "assumed threshold of detection.");
     page.table(csvOf(rowsOf(protocol, check.stimuli)), "physvib study check", check.stimuli.size());
     return page.html();
 }

@@ -6,8 +6,8 @@
 
 namespace physvib {
 
-inline std::atomic<bool> interrupted{
-    false}; // what plays on a device reads it in every block: silence comes before all else ends
+inline std::atomic<bool> interrupted{false}; // what plays on a device reads it in every block: silence comes
+                                             // before all else ends
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal may set it");
 
 /// From now on these signals set `interrupted` and end nothing by themselves. A program that has not ended

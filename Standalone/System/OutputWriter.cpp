@@ -15,9 +15,7 @@ namespace {
 constexpr std::chrono::milliseconds retryTime{20}; // a reader without room is looked at so often
 constexpr std::array bothStandards{Standard::output, Standard::error};
 
-std::size_t index(Standard standard) {
-    return static_cast<std::size_t>(standard);
-}
+std::size_t index(Standard standard) { return static_cast<std::size_t>(standard); }
 
 std::string lineCount(std::uint64_t lines) {
     return std::to_string(lines) + (lines == 1 ? " line was" : " lines were") + " not read";

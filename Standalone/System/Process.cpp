@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The end of a program: by a signal, or with all that it wrote.
 #include "System/Process.h"
-#include "System/StandardStreams.h"
 #include "Io/Disk/SystemFile.h"
+#include "System/StandardStreams.h"
 #include <cerrno>
 #include <csignal>
 #include <cstdio>

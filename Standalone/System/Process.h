@@ -18,8 +18,8 @@ void beginProcess();
 
 enum class Standard { output, error };
 
-/// Writes some of `bytes` there: how many; 0: it has no room now; nothing: it cannot be written, and `errno` says why. On Windows it may wait
-/// for who reads. One thread, not R.
+/// Writes some of `bytes` there: how many; 0: it has no room now; nothing: it cannot be written, and `errno`
+/// says why. On Windows it may wait for who reads. One thread, not R.
 std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept;
 
 /// Last of all: empty if all that was written to standard output arrived, or one line with the reason. M.

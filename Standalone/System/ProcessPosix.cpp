@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // POSIX: descriptors 0 to 2, signals, other processes.
 #if !defined(_WIN32)
-#include "System/Process.h"
 #include "Io/Disk/SystemFile.h"
+#include "System/Process.h"
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -24,11 +24,13 @@ extern char** environ;
 namespace physvib {
 namespace {
 
-// A file that is opened while one of them is closed gets its number, and is taken for it. Opened the wrong way round, reading
-// standard input and writing the others stay the errors that they are.
+// A file that is opened while one of them is closed gets its number, and is taken for it. Opened the wrong
+// way round, reading standard input and writing the others stay the errors that they are.
 void openStandardDescriptors() {
     for (int standard = STDIN_FILENO; standard <= STDERR_FILENO; ++standard)
-        if (fcntl(standard, F_GETFD) < 0 && open("/dev/null", standard == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) std::_Exit(1);
+        if (fcntl(standard, F_GETFD) < 0 &&
+            open("/dev/null", standard == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+            std::_Exit(1);
 }
 
 } // namespace
@@ -75,9 +77,11 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     words.push_back(nullptr);
     pid_t child = 0;
     std::cout.flush();
-    if (const int fault = posix_spawnp(&child, name.c_str(), nullptr, nullptr, words.data(), environ)) return Failure{name + ": " + std::generic_category().message(fault)};
+    if (const int fault = posix_spawnp(&child, name.c_str(), nullptr, nullptr, words.data(), environ))
+        return Failure{name + ": " + std::generic_category().message(fault)};
     int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Windows: handles, the console's signals, other processes.
 #if defined(_WIN32)
-#include "System/Process.h"
 #include "Io/Disk/SystemFile.h"
 #include "Io/Disk/SystemWindows.h"
+#include "System/Process.h"
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -49,7 +49,8 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
     if (GetFileType(input) == FILE_TYPE_PIPE) {
         const auto waiting = waitingInPipe(input, milliseconds);
         if (!waiting || *waiting == 0) return waiting;
-    } else if (GetFileType(input) == FILE_TYPE_CHAR && WaitForSingleObject(input, static_cast<DWORD>(milliseconds)) == WAIT_TIMEOUT) {
+    } else if (GetFileType(input) == FILE_TYPE_CHAR &&
+               WaitForSingleObject(input, static_cast<DWORD>(milliseconds)) == WAIT_TIMEOUT) {
         return std::nullopt;
     }
     DWORD count = 0;
@@ -57,7 +58,8 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
 }
 
 std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept {
-    const int count = _write(_fileno(standard == Standard::output ? stdout : stderr), bytes.data(), static_cast<unsigned>(bytes.size()));
+    const int count = _write(_fileno(standard == Standard::output ? stdout : stderr), bytes.data(),
+                             static_cast<unsigned>(bytes.size()));
     return count < 0 ? std::nullopt : std::optional{static_cast<std::size_t>(count)};
 }
 
@@ -66,7 +68,8 @@ int processNumber() noexcept { return static_cast<int>(GetCurrentProcessId()); }
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     const std::wstring program = std::filesystem::path{name}.wstring();
     std::vector<std::wstring> quoted;
-    for (const std::string& argument : arguments) quoted.push_back(L'"' + std::filesystem::path{argument}.wstring() + L'"');
+    for (const std::string& argument : arguments)
+        quoted.push_back(L'"' + std::filesystem::path{argument}.wstring() + L'"');
     std::vector<const wchar_t*> words{program.c_str()};
     for (const std::wstring& word : quoted) words.push_back(word.c_str());
     words.push_back(nullptr);

@@ -79,16 +79,12 @@ void sayWithoutWaiting() {
     if (!voice) voice = std::make_unique<ErrorVoice>();
 }
 
-std::uint64_t droppedLines(Standard standard) {
-    return voice ? voice->writer.dropped(standard) : 0;
-}
+std::uint64_t droppedLines(Standard standard) { return voice ? voice->writer.dropped(standard) : 0; }
 
 std::optional<std::string> finishOutput() {
     return voice ? std::optional{voice->writer.finish(Standard::output)} : std::nullopt;
 }
 
-void endOutput() {
-    voice.reset();
-}
+void endOutput() { voice.reset(); }
 
 } // namespace physvib

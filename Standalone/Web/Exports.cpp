@@ -48,9 +48,7 @@ const char* PHYSVIB_PAGE(lawList)() {
 }
 
 /// A value of a variable of the scene that is opened next.
-void PHYSVIB_PAGE(choose)(const char* name, const char* value) {
-    chosen.emplace_back(name, value);
-}
+void PHYSVIB_PAGE(choose)(const char* name, const char* value) { chosen.emplace_back(name, value); }
 
 /// Begins with a file (PageFile.h), or, if it has less than 0 bytes, with the scene of that name. `byHand`:
 /// without what its script does of what hands do. A list is felt on a field of that size, m.
@@ -87,21 +85,11 @@ const char* PHYSVIB_PAGE(variables)() {
     return tell(std::move(lines));
 }
 
-const char* PHYSVIB_PAGE(fault)() {
-    return world->fault().c_str();
-}
-const float* PHYSVIB_PAGE(render)(int frames) {
-    return world->render(frames);
-}
-int PHYSVIB_PAGE(playOutFrames)() {
-    return static_cast<int>(world->playOutFrames());
-}
-const float* PHYSVIB_PAGE(poses)() {
-    return world->poses().data();
-}
-int PHYSVIB_PAGE(bodyCount)() {
-    return static_cast<int>(world->cast().size());
-}
+const char* PHYSVIB_PAGE(fault)() { return world->fault().c_str(); }
+const float* PHYSVIB_PAGE(render)(int frames) { return world->render(frames); }
+int PHYSVIB_PAGE(playOutFrames)() { return static_cast<int>(world->playOutFrames()); }
+const float* PHYSVIB_PAGE(poses)() { return world->poses().data(); }
+int PHYSVIB_PAGE(bodyCount)() { return static_cast<int>(world->cast().size()); }
 
 /// The next hit that has been played since: x, y, frequency, decay, amplitude, duration (s; 0: rings out),
 /// the time of its first sample (s), and its kind, as physvib.h has it; null: none.
@@ -119,35 +107,23 @@ const double* PHYSVIB_PAGE(hit)() {
 void PHYSVIB_PAGE(grip)(int finger, int body, double xMetres, double yMetres) {
     world->grip(finger, static_cast<std::size_t>(body), {xMetres, yMetres});
 }
-void PHYSVIB_PAGE(letGo)(int finger) {
-    world->letGo(finger);
-}
-void PHYSVIB_PAGE(hold)(double angleRadians, double factor) {
-    world->act(HoldAction{factor, angleRadians});
-}
-void PHYSVIB_PAGE(steer)(int way) {
-    world->steer(way);
-}
-bool PHYSVIB_PAGE(isPlayed)() {
-    return world->isPlayed();
-}
+void PHYSVIB_PAGE(letGo)(int finger) { world->letGo(finger); }
+void PHYSVIB_PAGE(hold)(double angleRadians, double factor) { world->act(HoldAction{factor, angleRadians}); }
+void PHYSVIB_PAGE(steer)(int way) { world->steer(way); }
+bool PHYSVIB_PAGE(isPlayed)() { return world->isPlayed(); }
 void PHYSVIB_PAGE(sound)(int material, double frequencyHz, double decayPerSecond) {
     world->act(SoundAction{material, frequencyHz, decayPerSecond});
 }
 
 /// Actuators: first how many, then each one's place in shares of the layout's extent, then placed().
-void PHYSVIB_PAGE(enchanters)(int count) {
-    world->layout().count = count;
-}
+void PHYSVIB_PAGE(enchanters)(int count) { world->layout().count = count; }
 void PHYSVIB_PAGE(place)(int enchanter, double x, double y) {
     EnchanterLayout& layout = world->layout();
     layout.places[static_cast<std::size_t>(enchanter)] = {x * layout.extentWidthMetres,
                                                           y * layout.extentHeightMetres};
 }
 /// By that law of lawList(); -1: as `physvib render` does if it is asked for none.
-void PHYSVIB_PAGE(placed)(int law) {
-    world->placed(law);
-}
+void PHYSVIB_PAGE(placed)(int law) { world->placed(law); }
 
 /// A QR code of `text`: how many modules a side has, and qrModule() of each; 0: it is too long for one.
 int PHYSVIB_PAGE(qrSide)(const char* text) {

@@ -25,7 +25,10 @@ PageWorld::PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int ou
     , law_{.sampleRateHz = sampleRateHz, .blockFrames = 0, .stepsPerSecond = stepsPerSecond}
     , outputs_{static_cast<std::size_t>(outputs)} {
     layoutPreset("phone4", layout_);
-    if (!renderer_->prepare({.sampleRateHz = sampleRateHz, .channels = outputs, .panner = panner(), .instructions = InstructionSet::scalar}))
+    if (!renderer_->prepare({.sampleRateHz = sampleRateHz,
+                             .channels = outputs,
+                             .panner = panner(),
+                             .instructions = InstructionSet::scalar}))
         throw std::invalid_argument("sound: expected 5000 to 192000 Hz and 4 to 64 outputs");
     law_.limiterFrames = renderer_->latencyFrames();
     if (file_.samples.empty()) return;
@@ -39,10 +42,13 @@ PhantomPanner PageWorld::panner() const noexcept {
     return made;
 }
 
-std::int64_t PageWorld::nsOf(std::int64_t frame) const noexcept { return static_cast<std::int64_t>(static_cast<double>(frame) * 1e9 / law_.sampleRateHz); }
+std::int64_t PageWorld::nsOf(std::int64_t frame) const noexcept {
+    return static_cast<std::int64_t>(static_cast<double>(frame) * 1e9 / law_.sampleRateHz);
+}
 
 void PageWorld::act(const Action& action) {
-    if (fault_ = check_.take(action); fault_.empty()) simulation_.addInput(static_cast<double>(simulation_.timeNs()) * 1e-9, action);
+    if (fault_ = check_.take(action); fault_.empty())
+        simulation_.addInput(static_cast<double>(simulation_.timeNs()) * 1e-9, action);
 }
 
 void PageWorld::steer(int way) {
@@ -58,7 +64,8 @@ void PageWorld::grip(int finger, std::size_t body, Vector toMetres) {
 void PageWorld::letGo(int finger) {
     if (finger < 0 || finger >= fingers) return;
     const auto held = std::exchange(hands_[static_cast<std::size_t>(finger)], {});
-    if (held && cast_[held->body].type == BodyType::kinematicBody) act(VelocityAction{cast_[held->body].name, {}});
+    if (held && cast_[held->body].type == BodyType::kinematicBody)
+        act(VelocityAction{cast_[held->body].name, {}});
 }
 
 void PageWorld::pull(const Hand& hand) {
@@ -95,7 +102,8 @@ const float* PageWorld::render(int frames) {
     samples_.resize(outputs_ * static_cast<std::size_t>(frames));
     const int silent = static_cast<int>(std::clamp<std::int64_t>(firstFrame() - done_, 0, frames));
     std::array<float*, limits::maxEnchanters> out{};
-    for (std::size_t j = 0; j < outputs_; ++j) out[j] = std::fill_n(samples_.data() + j * static_cast<std::size_t>(frames), silent, 0.0f);
+    for (std::size_t j = 0; j < outputs_; ++j)
+        out[j] = std::fill_n(samples_.data() + j * static_cast<std::size_t>(frames), silent, 0.0f);
     if (silent < frames) renderer_->render(*this, out.data(), frames - silent);
     done_ += frames;
     return samples_.data();
@@ -105,7 +113,8 @@ const std::vector<float>& PageWorld::poses() {
     poses_.clear();
     for (std::size_t i = 0; i < cast_.size(); ++i) {
         const BodyPose at = simulation_.pose(i);
-        for (const double value : {at.xMetres, at.yMetres, at.angleRadians, at.isPresent ? 1.0 : 0.0}) poses_.push_back(static_cast<float>(value));
+        for (const double value : {at.xMetres, at.yMetres, at.angleRadians, at.isPresent ? 1.0 : 0.0})
+            poses_.push_back(static_cast<float>(value));
     }
     return poses_;
 }

@@ -17,14 +17,15 @@
 
 namespace physvib {
 
-/// The live output is the rendered file, playOutFrames() later: Docs/threads.md, where one thread holds every role. The world is stepped
-/// in the block that needs it.
+/// The live output is the rendered file, playOutFrames() later: Docs/threads.md, where one thread holds every
+/// role. The world is stepped in the block that needs it.
 class PageWorld {
 public:
     static constexpr int stepsPerSecond = 100;
     static constexpr int fingers = 10; ///< that hold bodies at once
 
-    /// Throws what Simulation throws, or std::invalid_argument at a rate or number of outputs that cannot be rendered.
+    /// Throws what Simulation throws, or std::invalid_argument at a rate or number of outputs that cannot be
+    /// rendered.
     PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int outputs);
 
     /// The next frames, channel by channel.
@@ -76,7 +77,7 @@ private:
     void stepTo(std::int64_t frame);
 
     const PageFile file_;
-    RecordedContact clip_; // its samples, by the frequency of its strike
+    RecordedContact clip_;   // its samples, by the frequency of its strike
     std::size_t struck_ = 0; // of the file's strikes
     Simulation simulation_;
     InputCheck check_;

@@ -75,12 +75,15 @@ int land(physvib_world world, double impulse) {
     return result;
 }
 
-std::string temporary(const char* name) { return (std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + name)).string(); }
+std::string temporary(const char* name) {
+    return (std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + name)).string();
+}
 
 TEST(Calls, AHandleThatIsNoneOfOursIsAnErrorAndTellsOne) {
     const physvib_renderer one = renderer();
     EXPECT_EQ(physvib_renderer_free(one), PHYSVIB_OK);
-    for (const physvib_renderer none : {one, physvib_renderer{nullptr}, reinterpret_cast<physvib_renderer>(std::uintptr_t{12345})}) {
+    for (const physvib_renderer none :
+         {one, physvib_renderer{nullptr}, reinterpret_cast<physvib_renderer>(std::uintptr_t{12345})}) {
         EXPECT_EQ(physvib_renderer_free(none), PHYSVIB_ERROR_HANDLE);
         EXPECT_EQ(physvib_renderer_latency_frames(none), PHYSVIB_ERROR_HANDLE);
         EXPECT_STREQ(physvib_error(), "handle: expected one of this kind that has not been freed");
@@ -104,7 +107,8 @@ TEST(Calls, WhatIsPulledIsWhatIsRendered) {
         ASSERT_EQ(physvib_renderer_strike(one, &event), PHYSVIB_OK);
         ASSERT_EQ(physvib_renderer_strike(two, &event), PHYSVIB_OK);
     }
-    std::array<float*, 4> channels{pulled.data(), pulled.data() + frames, pulled.data() + 2 * frames, pulled.data() + 3 * frames};
+    std::array<float*, 4> channels{pulled.data(), pulled.data() + frames, pulled.data() + 2 * frames,
+                                   pulled.data() + 3 * frames};
     ASSERT_EQ(physvib_renderer_pull(one, channels.data(), 4, frames), PHYSVIB_OK);
     ASSERT_EQ(physvib_renderer_pull_interleaved(two, interleaved.data(), 4, frames), PHYSVIB_OK);
     double sum = 0.0;
@@ -196,7 +200,8 @@ TEST(Calls, AnOlderProgramsStructureIsTakenAndANewerOneRefused) {
     }
 }
 
-/// Struck by nothing but its program's older structure, which ended at is_soft and what fills it up to a whole number of doubles.
+/// Struck by nothing but its program's older structure, which ended at is_soft and what fills it up to a
+/// whole number of doubles.
 TEST(Calls, AnOlderProgramsContactHasNoPointOfItsOwn) {
     constexpr std::size_t older = offsetof(physvib_contact, point_id);
     static_assert(older == offsetof(physvib_contact, is_soft) + 2 * sizeof(int));
@@ -307,13 +312,18 @@ TEST(Calls, ValuesThatCanNeverBeFeltAreRefusedWithTheWordThatIsMissing) {
 TEST(Calls, LayoutsAndListsAreReadFromTextAsFromFiles) {
     physvib_layout layout, again;
     ASSERT_EQ(physvib_layout_preset("phone4", &layout), PHYSVIB_OK);
-    ASSERT_EQ(physvib_layout_parse(R"({"name": "two", "extent_m": [0.2, 0.1], "enchanters": [{"label": "A", "x_m": 0, "y_m": 0}, {"label": "B", "x_m": 0.2, "y_m": 0}]})", &again), PHYSVIB_OK)
+    ASSERT_EQ(
+        physvib_layout_parse(
+            R"({"name": "two", "extent_m": [0.2, 0.1], "enchanters": [{"label": "A", "x_m": 0, "y_m": 0}, {"label": "B", "x_m": 0.2, "y_m": 0}]})",
+            &again),
+        PHYSVIB_OK)
         << physvib_error();
     EXPECT_EQ(again.count, 2);
     EXPECT_EQ(again.x_m[1], 0.2);
     EXPECT_EQ(physvib_layout_parse("{", &again), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_EQ(physvib_layout_parse(nullptr, &again), PHYSVIB_ERROR_ARGUMENT);
-    const char* const list = "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,200,30,0.5,0,0\n0.2,200,30,0.25,0,0\n";
+    const char* const list =
+        "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,200,30,0.5,0,0\n0.2,200,30,0.25,0,0\n";
     physvib_event events[4];
     ASSERT_EQ(physvib_events_parse(list, events, 4), 2) << physvib_error();
     EXPECT_EQ(events[1].time_ns, 200'000'000);
@@ -398,7 +408,8 @@ TEST(Calls, AListSaysItsField) {
 }
 
 TEST(Calls, ListsLayoutsAndSoundsComeBack) {
-    const std::string list = temporary("list.csv"), layoutPath = temporary("layout.json"), sound = temporary("sound.wav");
+    const std::string list = temporary("list.csv"), layoutPath = temporary("layout.json"),
+                      sound = temporary("sound.wav");
     const std::vector<physvib_event> events{strikeAt(1), strikeAt(1'000'000'007)};
     ASSERT_EQ(physvib_events_save(list.c_str(), events.data(), 2), PHYSVIB_OK) << physvib_error();
     std::array<physvib_event, 2> read{};
@@ -420,14 +431,16 @@ TEST(Calls, ListsLayoutsAndSoundsComeBack) {
     for (const int channels : {1, 2, 3, 64}) {
         std::vector<float> samples(static_cast<std::size_t>(channels) * 100);
         for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i) / 10000.0F;
-        ASSERT_EQ(physvib_wav_save(sound.c_str(), samples.data(), channels, 100, 48000), PHYSVIB_OK) << physvib_error();
+        ASSERT_EQ(physvib_wav_save(sound.c_str(), samples.data(), channels, 100, 48000), PHYSVIB_OK)
+            << physvib_error();
         std::FILE* const file = std::fopen(sound.c_str(), "rb");
         const auto wav = readWav(*file);
         std::fclose(file);
         ASSERT_TRUE(wav) << wav.error;
         ASSERT_EQ(wav.value.channels.size(), static_cast<std::size_t>(channels));
         for (std::size_t j = 0; j < wav.value.channels.size(); ++j)
-            EXPECT_TRUE(std::equal(wav.value.channels[j].begin(), wav.value.channels[j].end(), samples.begin() + static_cast<std::ptrdiff_t>(100 * j)));
+            EXPECT_TRUE(std::equal(wav.value.channels[j].begin(), wav.value.channels[j].end(),
+                                   samples.begin() + static_cast<std::ptrdiff_t>(100 * j)));
     }
     for (const std::string& path : {list, layoutPath, sound}) std::filesystem::remove(path);
 }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* A ball of 0.2 kg falls from 0.8 m onto a floor, bounces and comes to rest: drop.wav, three seconds, four channels. Any C since 1989. */
+/* A ball of 0.2 kg falls from 0.8 m onto a floor, bounces and comes to rest: drop.wav, three seconds, four
+ * channels. Any C since 1989. */
 #include <physvib/physvib.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-static int failed(const char *what) {
+static int failed(const char* what) {
     fprintf(stderr, "%s: %s\n", what, physvib_error());
     return 1;
 }
@@ -13,7 +14,7 @@ int main(void) {
     const double g = 9.81, dt = 0.01, e = 0.6;
     const int frames = 3 * 48000;
     double height = 0.8, speed = -0.5 * g * dt; /* between two steps */
-    float *samples = (float *)malloc(4 * frames * sizeof(float));
+    float* samples = (float*)malloc(4 * frames * sizeof(float));
     physvib_event events[100];
     physvib_int64 count;
     physvib_renderer_settings settings;
@@ -46,8 +47,10 @@ int main(void) {
             contact.approach_m_per_s = speed;
             contact.gap_m = height;
             if (physvib_world_touch(world, &contact) != PHYSVIB_OK) return failed("touch");
-            if (speed > 0.3) speed = -e * speed;
-            else speed = height = 0.0; /* it rests */
+            if (speed > 0.3)
+                speed = -e * speed;
+            else
+                speed = height = 0.0; /* it rests */
         }
         physvib_world_end_step(world);
         height -= speed * dt;
@@ -55,10 +58,13 @@ int main(void) {
     count = physvib_world_take(world, events, 100, 1);
     physvib_world_free(world);
 
-    physvib_renderer_settings_init(&settings, sizeof settings); /* 48 kHz, four enchanters on the corners of a phone */
+    physvib_renderer_settings_init(&settings, sizeof settings); /* 48 kHz, four enchanters on the corners of a
+                                                                   phone */
     settings.field_width_m = settings.field_height_m = 1.0;
-    if (samples == NULL || physvib_render(&settings, events, count, frames, samples) != PHYSVIB_OK) return failed("render");
-    if (physvib_wav_save("drop.wav", samples, 4, frames, settings.rate_hz) != PHYSVIB_OK) return failed("drop.wav");
+    if (samples == NULL || physvib_render(&settings, events, count, frames, samples) != PHYSVIB_OK)
+        return failed("render");
+    if (physvib_wav_save("drop.wav", samples, 4, frames, settings.rate_hz) != PHYSVIB_OK)
+        return failed("drop.wav");
     printf("%d hits, the first at %.4f s: drop.wav\n", (int)count, (double)events[0].time_ns * 1e-9);
     free(samples);
     return 0;

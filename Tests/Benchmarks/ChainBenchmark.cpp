@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole chain: one 64-frame block, warm and cold; what a strike costs; how far from real time many modes are.
+// The whole chain: one 64-frame block, warm and cold; what a strike costs; how far from real time many modes
+// are.
 #include "Rain.h"
 #include "Timing.h"
 #include <benchmark/benchmark.h>
@@ -19,8 +20,8 @@ void coolDown() {
     benchmark::ClobberMemory();
 }
 
-/// Arguments: channels, modes (each struck about 15 times a second), cold. Wall clock: a block that another program
-/// interrupts is late, and counts.
+/// Arguments: channels, modes (each struck about 15 times a second), cold. Wall clock: a block that another
+/// program interrupts is late, and counts.
 void block(benchmark::State& state) {
     const int channels = static_cast<int>(state.range(0)), modes = static_cast<int>(state.range(1));
     const bool isCold = state.range(2) != 0;
@@ -45,8 +46,20 @@ void block(benchmark::State& state) {
     state.counters["cpu_worst_%"] = *std::max_element(processor.begin(), processor.end());
     state.counters["live"] = chain.status().liveModes;
 }
-BENCHMARK(block)->ArgNames({"channels", "modes", "cold"})->Args({8, 64, 0})->Args({4, 64, 0})->Args({8, 1024, 0})->Iterations(200'000)->UseManualTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(block)->ArgNames({"channels", "modes", "cold"})->Args({8, 64, 1})->Iterations(1000)->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(block)
+    ->ArgNames({"channels", "modes", "cold"})
+    ->Args({8, 64, 0})
+    ->Args({4, 64, 0})
+    ->Args({8, 1024, 0})
+    ->Iterations(200'000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(block)
+    ->ArgNames({"channels", "modes", "cold"})
+    ->Args({8, 64, 1})
+    ->Iterations(1000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
 
 /// Nothing sounds: what an idle renderer costs.
 void silence(benchmark::State& state) {
@@ -56,8 +69,9 @@ void silence(benchmark::State& state) {
 }
 BENCHMARK(silence);
 
-/// Argument: strikes a second on 16 materials, 8 channels. By turns with the same chain at 10 strikes a second, all of whose
-/// modes sound as well: the flat part. `flat_%`: it measured in the same way, at 20 a second.
+/// Argument: strikes a second on 16 materials, 8 channels. By turns with the same chain at 10 strikes a
+/// second, all of whose modes sound as well: the flat part. `flat_%`: it measured in the same way, at 20 a
+/// second.
 void strikes(benchmark::State& state) {
     const int rate = static_cast<int>(state.range(0));
     RainedOn flat{8, 16, 16}, rained{8, rate, 16};
@@ -77,7 +91,13 @@ void strikes(benchmark::State& state) {
     state.counters["ns_per_strike"] = bench::median(costs);
     state.counters["live"] = rained.status().liveModes;
 }
-BENCHMARK(strikes)->ArgName("per_second")->RangeMultiplier(10)->Range(10, 100'000)->Iterations(40)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(strikes)
+    ->ArgName("per_second")
+    ->RangeMultiplier(10)
+    ->Range(10, 100'000)
+    ->Iterations(40)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// Arguments: channels, modes that all sound: seconds rendered per second.
 void headroom(benchmark::State& state) {
@@ -93,6 +113,15 @@ void headroom(benchmark::State& state) {
     state.counters["x_real_time"] = bench::median(speeds);
     state.counters["live"] = chain.status().liveModes;
 }
-BENCHMARK(headroom)->ArgNames({"channels", "modes"})->Args({4, 64})->Args({8, 64})->Args({8, 1024})->Args({8, 4096})->Args({64, 1024})->Iterations(40)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(headroom)
+    ->ArgNames({"channels", "modes"})
+    ->Args({4, 64})
+    ->Args({8, 64})
+    ->Args({8, 1024})
+    ->Args({8, 4096})
+    ->Args({64, 1024})
+    ->Iterations(40)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What compare.sh times of two commits: figures of one instruction set, a line each: name, tab, value. Compiles against both.
+// What compare.sh times of two commits: figures of one instruction set, a line each: name, tab, value.
+// Compiles against both.
 #include "Core/DenormalGuard.h"
 #include "Rain.h"
 #include "Timing.h"
@@ -26,8 +27,12 @@ InstructionSet setNamed(std::string_view name) {
 
 RendererSettings settingsFor(int channels, InstructionSet set) {
     EnchanterLayout layout{1, 1, channels, {}};
-    for (int j = 0; j < channels; ++j) layout.places[static_cast<std::size_t>(j)] = {static_cast<double>(j / 2), static_cast<double>(j % 2)};
-    return {.sampleRateHz = rate, .channels = channels, .panner = {layout, PanningLaw::linear, 1, 1, 1}, .instructions = set};
+    for (int j = 0; j < channels; ++j)
+        layout.places[static_cast<std::size_t>(j)] = {static_cast<double>(j / 2), static_cast<double>(j % 2)};
+    return {.sampleRateHz = rate,
+            .channels = channels,
+            .panner = {layout, PanningLaw::linear, 1, 1, 1},
+            .instructions = set};
 }
 
 std::vector<CollisionEvent> tones(int count, double decayPerSecond) {
@@ -74,14 +79,17 @@ void strikes(InstructionSet set) {
         for (auto* chain : {&flat, &rained}) chain->seconds(2);
         std::vector<double> costs, whole;
         for (int i = 0; i < 15; ++i) {
-            const double without = secondsOf([&] { flat.seconds(0.25); }), with = secondsOf([&] { rained.seconds(0.25); });
+            const double without = secondsOf([&] { flat.seconds(0.25); }),
+                         with = secondsOf([&] { rained.seconds(0.25); });
             costs.push_back(4e9 * (with - without) / std::max(1, perSecond - materials));
             whole.push_back(4e6 * with);
         }
         const std::string name = std::to_string(perSecond) + " strikes a second, ";
         // too few to tell what one costs
-        if (perSecond < 1000) tell((name + "us for all of it").c_str(), median(whole));
-        else tell((name + "ns each").c_str(), median(costs));
+        if (perSecond < 1000)
+            tell((name + "us for all of it").c_str(), median(whole));
+        else
+            tell((name + "ns each").c_str(), median(costs));
     }
 }
 
@@ -93,12 +101,14 @@ void chainAndBank(InstructionSet set) {
     bank->prepare(rate, channels, set);
     PhantomPanner::Gains gains{};
     chain.settings.panner.gainsAt(0.3, 0.3, gains);
-    for (const auto& e : voices) bank->strike({e.frequencyHz, e.decayPerSecond, e.amplitude, {}, Strike::never}, gains.data());
+    for (const auto& e : voices)
+        bank->strike({e.frequencyHz, e.decayPerSecond, e.amplitude, {}, Strike::never}, gains.data());
     std::int64_t frame = 0;
     std::vector<double> ratios, chains;
     for (int i = 0; i < 100; ++i) {
         const double alone = secondsOf([&] {
-            for (int b = 0; b < together; ++b, frame += blockFrames) bank->render(chain.out.data(), frame, blockFrames);
+            for (int b = 0; b < together; ++b, frame += blockFrames)
+                bank->render(chain.out.data(), frame, blockFrames);
         });
         const double whole = secondsOf([&] { chain.blocks(together); });
         ratios.push_back(whole / alone);
@@ -115,8 +125,8 @@ void silence(InstructionSet set) {
     tell("ns a silent block, 8 channels", median(costs));
 }
 
-// The first block of a renderer just made, in which 64 modes begin, over the same block of one that has played already; and a
-// block on empty caches over one on full ones.
+// The first block of a renderer just made, in which 64 modes begin, over the same block of one that has
+// played already; and a block on empty caches over one on full ones.
 void cold(InstructionSet set) {
     std::vector<double> first, again, empty, full;
     std::vector<char> other(96 << 20);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mode bank alone, per instruction set, modes, channels and block: its rate in mode-sample-channels, and as a share
-// of the multiply-adds that the same core does at most, measured by turns in the same run. A share of 1 is the floor of
-// one multiply-add per mode, sample and channel; low rank goes above it.
+// The mode bank alone, per instruction set, modes, channels and block: its rate in mode-sample-channels, and
+// as a share of the multiply-adds that the same core does at most, measured by turns in the same run. A share
+// of 1 is the floor of one multiply-add per mode, sample and channel; low rank goes above it.
 #include "Core/Modes/ModeBank.h"
 #include "PeakRate.h"
 #include "Timing.h"
@@ -34,7 +34,12 @@ struct Sounding {
         std::vector<double> gains(channels.size());
         for (int i = 0; i < modes; ++i) {
             for (auto& g : gains) g = uniform();
-            bank->strike({lowHz * std::pow(highHz / lowHz, uniform()), 1e-4 * (1 + uniform()), 0.01, {0, uniform()}, Strike::never}, gains.data());
+            bank->strike({lowHz * std::pow(highHz / lowHz, uniform()),
+                          1e-4 * (1 + uniform()),
+                          0.01,
+                          {0, uniform()},
+                          Strike::never},
+                         gains.data());
         }
     }
     void render(int blocks, int block) {
@@ -52,7 +57,8 @@ struct Sounding {
 /// Arguments: channels, modes, block.
 void kernel(benchmark::State& state, InstructionSet set, double lowHz, double highHz) {
     if (!isAvailable(set)) return state.SkipWithError("this processor or program lacks it");
-    const int channels = static_cast<int>(state.range(0)), modes = static_cast<int>(state.range(1)), block = static_cast<int>(state.range(2));
+    const int channels = static_cast<int>(state.range(0)), modes = static_cast<int>(state.range(1)),
+              block = static_cast<int>(state.range(2));
     Sounding sounding{set, modes, channels, lowHz, highHz};
     const double perBlock = static_cast<double>(channels) * modes * block;
     const int blocks = std::max(2, static_cast<int>(4e6 / perBlock));
@@ -78,11 +84,17 @@ void kernel(benchmark::State& state, InstructionSet set, double lowHz, double hi
 }
 
 const int registered = [] {
-    for (const auto set : {InstructionSet::scalar, InstructionSet::sse4, InstructionSet::avx2, InstructionSet::avx512, InstructionSet::neon}) {
+    for (const auto set : {InstructionSet::scalar, InstructionSet::sse4, InstructionSet::avx2,
+                           InstructionSet::avx512, InstructionSet::neon}) {
         const std::string name{nameOf(set)};
         const auto log = benchmark::RegisterBenchmark(("kernel/" + name).c_str(), kernel, set, 20.0, 1000.0);
-        const auto high = benchmark::RegisterBenchmark(("kernel_800_1000Hz/" + name).c_str(), kernel, set, 800.0, 1000.0);
-        for (auto* b : {log, high}) b->ArgNames({"channels", "modes", "block"})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(set == InstructionSet::scalar ? 20 : 200);
+        const auto high =
+            benchmark::RegisterBenchmark(("kernel_800_1000Hz/" + name).c_str(), kernel, set, 800.0, 1000.0);
+        for (auto* b : {log, high})
+            b->ArgNames({"channels", "modes", "block"})
+                ->UseManualTime()
+                ->Unit(benchmark::kMicrosecond)
+                ->Iterations(set == InstructionSet::scalar ? 20 : 200);
         for (const int channels : {1, 2, 4, 8, 16})
             for (const int modes : {4, 16, 64, 256, 1024, 4096}) log->Args({channels, modes, 64});
         for (const int block : {1, 16, 256, 4096}) log->Args({4, 64, block});

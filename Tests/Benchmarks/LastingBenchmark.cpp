@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What rolling and sliding costs: balls that roll to and fro on a smooth floor and on a rough one, by turns; and the samples of it.
+// What rolling and sliding costs: balls that roll to and fro on a smooth floor and on a rough one, by turns;
+// and the samples of it.
 #include "Core/HapticRenderer.h"
 #include "Timing.h"
 #include "Worlds.h"
@@ -36,7 +37,9 @@ void stepOfRollingBalls(benchmark::State& state) {
     const auto renderer = std::make_unique<HapticRenderer>();
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
-    RendererSettings settings{.sampleRateHz = rate, .panner = {layout, PanningLaw::linear, 1.0, 2.0 * static_cast<double>(count), 1.0}};
+    RendererSettings settings{
+        .sampleRateHz = rate,
+        .panner = {layout, PanningLaw::linear, 1.0, 2.0 * static_cast<double>(count), 1.0}};
     const int channels = settings.outputs();
     renderer->prepare(settings);
     std::vector<std::vector<float>> samples(static_cast<std::size_t>(channels), std::vector<float>(block));
@@ -59,9 +62,15 @@ void stepOfRollingBalls(benchmark::State& state) {
     state.counters["step_us"] = 1.0e6 * median(plain);
     state.counters["with_grains_us"] = 1.0e6 * median(grained);
     state.counters["overhead_%"] = 100.0 * (median(grained) / median(plain) - 1.0);
-    state.counters["strikes_per_s"] = static_cast<double>(events) / (static_cast<double>(n) * static_cast<double>(stepSeconds));
+    state.counters["strikes_per_s"] =
+        static_cast<double>(events) / (static_cast<double>(n) * static_cast<double>(stepSeconds));
     state.counters["samples_%_of_core"] = 100.0 * median(rendered) / static_cast<double>(stepSeconds);
 }
-BENCHMARK(stepOfRollingBalls)->ArgNames({"balls", "grain_mm"})->ArgsProduct({{100}, {2, 5, 20}})->Iterations(1500)->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(stepOfRollingBalls)
+    ->ArgNames({"balls", "grain_mm"})
+    ->ArgsProduct({{100}, {2, 5, 20}})
+    ->Iterations(1500)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Independent chains of multiply-adds, enough to hide their latency on the cores we know: 4 cycles of two a cycle, and
-// 3 + 3 where product and sum are two instructions.
+// Independent chains of multiply-adds, enough to hide their latency on the cores we know: 4 cycles of two a
+// cycle, and 3 + 3 where product and sum are two instructions.
 #include "PeakRate.h"
 
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)

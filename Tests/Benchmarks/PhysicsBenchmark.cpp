@@ -21,12 +21,15 @@ constexpr HapticFixture wall{349.0, 107.0, true, 340.0, Voice::own};
 constexpr int warmUpSteps(int bodies) { return bodies <= 1000 ? 200 : 75; }
 constexpr int timedSteps(int bodies) { return bodies <= 100 ? 2000 : bodies <= 1000 ? 200 : 24; }
 
-/// Arguments: bodies; cameras (0: none, 4: the walls, more: all bodies as well); whether the timing is release.
+/// Arguments: bodies; cameras (0: none, 4: the walls, more: all bodies as well); whether the timing is
+/// release.
 void stepOfAShakenBox(benchmark::State& state) {
     const int bodies = static_cast<int>(state.range(0));
     ShakenBox plain(bodies), felt(bodies);
     const auto cameras = state.range(1);
-    Attachment attachment(felt.world, {.fieldWidthMetres = 6.4, .timing = state.range(2) != 0 ? ImpactTiming::release : ImpactTiming::onset});
+    Attachment attachment(felt.world,
+                          {.fieldWidthMetres = 6.4,
+                           .timing = state.range(2) != 0 ? ImpactTiming::release : ImpactTiming::onset});
     felt.setAll(attachment, static_cast<int>(cameras));
 
     std::vector<double> without, with;
@@ -66,9 +69,13 @@ void stepOfAShakenBox(benchmark::State& state) {
 }
 const int registered = [] {
     const auto add = [](int bodies, int cameras, int release) {
-        benchmark::RegisterBenchmark("stepOfAShakenBox", stepOfAShakenBox)->ArgNames({"bodies", "cameras", "release"})->Args({bodies, cameras, release})
+        benchmark::RegisterBenchmark("stepOfAShakenBox", stepOfAShakenBox)
+            ->ArgNames({"bodies", "cameras", "release"})
+            ->Args({bodies, cameras, release})
             // one run each: setting up costs more than stepping
-            ->Iterations(timedSteps(bodies))->UseManualTime()->Unit(benchmark::kMicrosecond);
+            ->Iterations(timedSteps(bodies))
+            ->UseManualTime()
+            ->Unit(benchmark::kMicrosecond);
     };
     for (const int bodies : {10, 100, 1000})
         for (const int cameras : {0, 4, 5000}) add(bodies, cameras, 0);
@@ -77,7 +84,8 @@ const int registered = [] {
     return 0;
 }();
 
-/// A map of still tiles on which ten balls bounce. Arguments: tiles; whether all are cameras; whether the timing is release.
+/// A map of still tiles on which ten balls bounce. Arguments: tiles; whether all are cameras; whether the
+/// timing is release.
 void stepAmongTiles(benchmark::State& state) {
     const int tiles = static_cast<int>(state.range(0));
     struct Map {
@@ -87,7 +95,8 @@ void stepAmongTiles(benchmark::State& state) {
             const int columns = std::max(20, count / 20);
             for (int i = 0; i < count; ++i) {
                 b2PolygonShape tile;
-                tile.SetAsBox(0.5F, 0.5F, {static_cast<float>(i % columns), -static_cast<float>(i / columns)}, 0.0F);
+                tile.SetAsBox(0.5F, 0.5F, {static_cast<float>(i % columns), -static_cast<float>(i / columns)},
+                              0.0F);
                 fixtures.push_back(ground->CreateFixture(&tile, 0.0F));
             }
             for (int i = 0; i < 10; ++i) {
@@ -108,7 +117,8 @@ void stepAmongTiles(benchmark::State& state) {
     settings.timing = state.range(2) != 0 ? ImpactTiming::release : ImpactTiming::onset;
     Attachment attachment(felt.world, settings);
     for (b2Fixture* fixture : felt.fixtures)
-        if (state.range(1) != 0 || fixture->GetBody()->GetType() == b2_dynamicBody) (void)attachment.set(*fixture, wall);
+        if (state.range(1) != 0 || fixture->GetBody()->GetType() == b2_dynamicBody)
+            (void)attachment.set(*fixture, wall);
     std::vector<double> without, with;
     std::vector<CollisionEvent> events;
     for (auto _ : state) {

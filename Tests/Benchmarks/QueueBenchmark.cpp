@@ -40,7 +40,8 @@ void twoThreads(benchmark::State& state) {
     }};
     CollisionEvent event;
     for (auto _ : state)
-        while (!queue->pop(event)) {}
+        while (!queue->pop(event)) {
+        }
     isOver = true;
     producer.join();
     state.SetItemsProcessed(state.iterations());

@@ -57,11 +57,16 @@ private:
 class RainedOn {
 public:
     RainedOn(int channels, int strikes, int materials, InstructionSet set = InstructionSet::best)
-        : rain_(strikes, materials), memory_(static_cast<std::size_t>(channels * blockFrames)) {
+        : rain_(strikes, materials)
+        , memory_(static_cast<std::size_t>(channels * blockFrames)) {
         EnchanterLayout layout{1, 1, channels, {}};
         for (int j = 0; j < channels; ++j) // two rows
-            layout.places[static_cast<std::size_t>(j)] = {static_cast<double>(j / 2), static_cast<double>(j % 2)};
-        renderer_->prepare({.sampleRateHz = rate, .channels = channels, .panner = {layout, PanningLaw::linear, 1, 1, 1}, .instructions = set});
+            layout.places[static_cast<std::size_t>(j)] = {static_cast<double>(j / 2),
+                                                          static_cast<double>(j % 2)};
+        renderer_->prepare({.sampleRateHz = rate,
+                            .channels = channels,
+                            .panner = {layout, PanningLaw::linear, 1, 1, 1},
+                            .instructions = set});
         for (int j = 0; j < channels; ++j) at_.push_back(memory_.data() + j * blockFrames);
     }
     void block() noexcept {
@@ -69,7 +74,8 @@ public:
         renderer_->render(rain_, at_.data(), blockFrames);
         frame_ += blockFrames;
         PlayedEvent told;
-        while (renderer_->played().pop(told)) {}
+        while (renderer_->played().pop(told)) {
+        }
     }
     void seconds(double s) noexcept {
         for (int i = 0; i < s * rate / blockFrames; ++i) block();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes from their start to a WAV file, a minute of "shake the box" also in its parts; the counter `times_real_time` is the figure.
+// Scenes from their start to a WAV file, a minute of "shake the box" also in its parts; the counter
+// `times_real_time` is the figure.
 #include "Io/Wav/WavSink.h"
-#include "Session/OfflineRender.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/SceneRun.h"
+#include "Session/OfflineRender.h"
 #include <benchmark/benchmark.h>
 #include <filesystem>
 
@@ -16,14 +17,16 @@ constexpr int rateHz = 48000;
 OfflineSettings settingsFor(const Scene& scene, int seconds) {
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
-    const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene.fieldWidthMetres, scene.fieldHeightMetres};
+    const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene.fieldWidthMetres,
+                               scene.fieldHeightMetres};
     return {{rateHz, 4, panner, true}, static_cast<std::int64_t>(seconds) * rateHz};
 }
 
 std::int64_t nanoseconds(int seconds) { return seconds * 1'000'000'000LL; }
 
 void count(benchmark::State& state, int seconds) {
-    state.counters["times_real_time"] = benchmark::Counter(seconds, benchmark::Counter::kIsIterationInvariantRate);
+    state.counters["times_real_time"] =
+        benchmark::Counter(seconds, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 /// Any scene, physics and samples and file.
@@ -32,7 +35,8 @@ void sceneToWav(benchmark::State& state, const Scene& scene, int seconds) {
     for (auto _ : state) {
         const SceneEvents made = runScene(scene, {}, nanoseconds(seconds));
         WavSink wav{path, 4, rateHz};
-        renderOffline(made.events, settingsFor(scene, seconds), [&](const float* const* block, int frames) { return wav.write(block, frames); });
+        renderOffline(made.events, settingsFor(scene, seconds),
+                      [&](const float* const* block, int frames) { return wav.write(block, frames); });
         if (!wav.finish().empty()) state.SkipWithError("the file could not be written");
         state.counters["events"] = static_cast<double>(made.events.size());
     }
@@ -43,7 +47,8 @@ void sceneToWav(benchmark::State& state, const Scene& scene, int seconds) {
 const int registered = [] {
     for (const Scene& scene : builtInScenes()) {
         const int seconds = scene.name == "shake-the-box" ? 60 : 10;
-        benchmark::RegisterBenchmark(("sceneToWav/" + scene.name).c_str(), sceneToWav, scene, seconds)->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark(("sceneToWav/" + scene.name).c_str(), sceneToWav, scene, seconds)
+            ->Unit(benchmark::kMillisecond);
     }
     return 0;
 }();
@@ -58,7 +63,9 @@ BENCHMARK(physicsOnly)->Unit(benchmark::kMillisecond);
 
 void samplesOnly(benchmark::State& state) {
     const SceneEvents made = runScene(shakeTheBox(), {}, nanoseconds(60));
-    for (auto _ : state) renderOffline(made.events, settingsFor(shakeTheBox(), 60), [](const float* const*, int) { return true; });
+    for (auto _ : state)
+        renderOffline(made.events, settingsFor(shakeTheBox(), 60),
+                      [](const float* const*, int) { return true; });
     count(state, 60);
 }
 BENCHMARK(samplesOnly)->Unit(benchmark::kMillisecond);

@@ -15,14 +15,18 @@ using namespace physvib;
 std::size_t shake(int bodies, int cameras, int steps) {
     bench::ShakenBox box{bodies};
     Attachment attachment{box.world, {.fieldWidthMetres = 6.4}};
-    if (cameras < 0) attachment.detach();
-    else box.setAll(attachment, cameras);
+    if (cameras < 0)
+        attachment.detach();
+    else
+        box.setAll(attachment, cameras);
     std::vector<CollisionEvent> events;
     std::size_t count = 0;
     for (int i = 0; i < steps; ++i) {
         box.shake(i);
-        if (cameras < 0) box.world.Step(bench::stepSeconds, 8, 3);
-        else attachment.step(bench::stepSeconds);
+        if (cameras < 0)
+            box.world.Step(bench::stepSeconds, 8, 3);
+        else
+            attachment.step(bench::stepSeconds);
         events.clear();
         attachment.take(events);
         count += events.size();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Times for benchmarks on machines that others use too: a thread's own processor time, medians, ratios by turns.
+// Times for benchmarks on machines that others use too: a thread's own processor time, medians, ratios by
+// turns.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -24,7 +25,8 @@ double secondsOf(Do work) {
 
 /// The value below which `part` (0 to 1) of them lie; their order is lost.
 inline double quantile(std::vector<double>& values, double part) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The link when the board goes away: it says so, comes back by itself, and what was hit in between is not felt late.
+// The link when the board goes away: it says so, comes back by itself, and what was hit in between is not
+// felt late.
 #include "VirtualBoard.h"
 #include <gtest/gtest.h>
 #include <iostream>
@@ -25,7 +26,8 @@ protected:
         ++struck;
     }
     void strikeFor(double seconds) {
-        for (const auto end = BoardLink::nowNs() + static_cast<std::int64_t>(seconds * 1e9); BoardLink::nowNs() < end;) {
+        for (const auto end = BoardLink::nowNs() + static_cast<std::int64_t>(seconds * 1e9);
+             BoardLink::nowNs() < end;) {
             strike(0.02);
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         }
@@ -65,7 +67,8 @@ TEST_F(BoardLinkTest, APulledPlugIsToldAndPlayGoesOnWhenItIsBack) {
     const double silentAfterMs = static_cast<double>(board.last("silence") - board.last("unplugged")) / ms;
     std::cout << "at mid-scale " << silentAfterMs << " ms after the plug was pulled\n";
     EXPECT_GT(silentAfterMs, 300) << "it was to ring on for half a minute";
-    EXPECT_LT(silentAfterMs, wire::defaultWatchdogMs + 10) << "of the board's time; what was on the line came a little later";
+    EXPECT_LT(silentAfterMs, wire::defaultWatchdogMs + 10)
+        << "of the board's time; what was on the line came a little later";
 
     board.movePlug();
     ASSERT_TRUE(test::comesTrue([this] { return isReady(); }));
@@ -76,7 +79,8 @@ TEST_F(BoardLinkTest, APulledPlugIsToldAndPlayGoesOnWhenItIsBack) {
     strikeFor(0.5);
     const auto after = telemetry();
     const auto s = link.status();
-    std::cout << struck << " strikes: " << s.sent << " sent, " << s.thinned << " thinned, " << s.refused << " refused\n";
+    std::cout << struck << " strikes: " << s.sent << " sent, " << s.thinned << " thinned, " << s.refused
+              << " refused\n";
     EXPECT_GE(s.sent, sentBefore + 5);
     EXPECT_EQ(after.played, s.sent);
     EXPECT_EQ(after.late + after.lost + after.dropped, 0u) << "what was hit meanwhile is not felt afterwards";
@@ -90,7 +94,8 @@ TEST_F(BoardLinkTest, ABoardThatSaysNothingIsConnectedAnew) {
     ASSERT_TRUE(test::comesTrue([this] { return link.status().trouble.ends_with("no answer"); }));
     board.halt(false);
     ASSERT_TRUE(test::comesTrue([this] { return isReady(); }));
-    EXPECT_EQ(link.status().connections, 2u) << "it was greeted many times meanwhile, and answers all of them";
+    EXPECT_EQ(link.status().connections, 2u)
+        << "it was greeted many times meanwhile, and answers all of them";
     const auto before = telemetry().played;
     strikeFor(0.5);
     EXPECT_EQ(telemetry().played - before, struck);

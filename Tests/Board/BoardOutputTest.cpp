@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One session on a device and a board: each hit leaves the device and the board's converters at the same moment.
+// One session on a device and a board: each hit leaves the device and the board's converters at the same
+// moment.
 #include "Session/BoardOutput.h"
 #include "Host/Devices/AudioOutput.h"
-#include "Host/FakeAudioDevice.h"
 #include "Host/Devices/SimulationDriver.h"
+#include "Host/FakeAudioDevice.h"
 #include "Session/WallsScene.h"
 #include "VirtualBoard.h"
 #include <cmath>
@@ -17,11 +18,13 @@ namespace {
 
 constexpr std::int64_t ms = 1'000'000;
 
-/// Plays on a fake interface in real time and notes when its hands begin to feel something. Its crystal is 200 ppm fast; it
-/// calls up to 3 ms late.
+/// Plays on a fake interface in real time and notes when its hands begin to feel something. Its crystal is
+/// 200 ppm fast; it calls up to 3 ms late.
 class Hands {
 public:
-    explicit Hands(test::FakeInterface& thing) : thing_{thing}, thread_{[this] { run(); }} {}
+    explicit Hands(test::FakeInterface& thing)
+        : thing_{thing}
+        , thread_{[this] { run(); }} {}
     ~Hands() {
         stop_ = true;
         thread_.join();
@@ -39,15 +42,18 @@ private:
         const std::int64_t began = BoardLink::nowNs();
         for (std::int64_t done = 0; !stop_; done += thing_.block) {
             const auto due = began + static_cast<std::int64_t>(static_cast<double>(done) * nsPerFrame);
-            if (const auto wait = due + random() % (3 * ms) - BoardLink::nowNs(); wait > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(wait));
+            if (const auto wait = due + random() % (3 * ms) - BoardLink::nowNs(); wait > 0)
+                std::this_thread::sleep_for(std::chrono::nanoseconds(wait));
             const auto out = thing_.play(thing_.block);
             // the latency it tells
-            for (int n = 0; !out.empty() && n < thing_.block; ++n) take(out, n, due + static_cast<std::int64_t>((n + thing_.block) * nsPerFrame));
+            for (int n = 0; !out.empty() && n < thing_.block; ++n)
+                take(out, n, due + static_cast<std::int64_t>((n + thing_.block) * nsPerFrame));
         }
     }
     void take(const std::vector<std::vector<float>>& out, int n, std::int64_t at) {
         float most = 0;
-        for (std::size_t j = 0; j < 4; ++j) most = std::max(most, std::abs(out[j][static_cast<std::size_t>(n)]));
+        for (std::size_t j = 0; j < 4; ++j)
+            most = std::max(most, std::abs(out[j][static_cast<std::size_t>(n)]));
         if (most > audible && quiet_ > thing_.rate / 50) {
             const std::scoped_lock lock{mutex_};
             onsets_.push_back(at);
@@ -118,8 +124,10 @@ TEST_F(BoardOutputTest, ADeviceAndABoardAreFeltAtTheSameMoment) {
         sum += apart;
     }
     const auto t = output.status().telemetry;
-    std::cout << felt.size() << " hits, L " << 1e3 * static_cast<double>(session.timeline().playOutFrames()) / interface.rate << " ms: the board " << sum / 30
-              << " ms after the device on average, at most " << worst << " ms apart\n";
+    std::cout << felt.size() << " hits, L "
+              << 1e3 * static_cast<double>(session.timeline().playOutFrames()) / interface.rate
+              << " ms: the board " << sum / 30 << " ms after the device on average, at most " << worst
+              << " ms apart\n";
     EXPECT_LT(worst, 2.0);
     EXPECT_EQ(t.late + t.dropped + t.lost, 0u);
     EXPECT_EQ(session.status().render.late, 0u);
@@ -128,7 +136,9 @@ TEST_F(BoardOutputTest, ADeviceAndABoardAreFeltAtTheSameMoment) {
 
 TEST_F(BoardOutputTest, SilenceAndMutesHoldForBoth) {
     const auto muteAll = [this](float value) {
-        for (int j = 0; j < 4; ++j) EXPECT_TRUE(session.take({RenderControl{.kind = RenderControl::Kind::mute, .channel = j, .value = value, .panner = {}}}));
+        for (int j = 0; j < 4; ++j)
+            EXPECT_TRUE(session.take({RenderControl{
+                .kind = RenderControl::Kind::mute, .channel = j, .value = value, .panner = {}}}));
         rest();
     };
     const auto expectHits = [this](std::size_t count) {

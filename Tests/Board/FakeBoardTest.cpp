@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boards that answer as none should, and one whose counter is over: what the link makes of them.
-#include "Session/BoardOutput.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/FakeAudioDevice.h"
+#include "Session/BoardOutput.h"
 #include "Session/WallsScene.h"
 #include "VirtualBoard.h"
 #include "VirtualBoard/PseudoTerminal.h"
@@ -18,14 +18,18 @@ constexpr std::int64_t ms = 1'000'000;
 class FakeBoard {
 public:
     FakeBoard(const wire::HelloReply& reply, std::uint32_t first, bool lies = false)
-        : reply_{reply}, first_{first}, lies_{lies} {}
+        : reply_{reply}
+        , first_{first}
+        , lies_{lies} {}
     ~FakeBoard() {
         stop_ = true;
         thread_.join();
     }
     const std::string& port() const { return line_.path(); }
     /// Of its counter, which does not wrap here.
-    double frameAt(std::int64_t ns) const { return first_ + static_cast<double>(ns - startNs_) * 1e-9 * limits::board::sampleRateHz; }
+    double frameAt(std::int64_t ns) const {
+        return first_ + static_cast<double>(ns - startNs_) * 1e-9 * limits::board::sampleRateHz;
+    }
     /// The last that it was told of the first channel.
     int gain() const {
         const std::scoped_lock lock{mutex_};
@@ -36,7 +40,8 @@ public:
         const std::scoped_lock lock{mutex_};
         losses_ = messages;
     }
-    /// How often it was asked for telemetry, which is once a second, between the newest gains and their being heard.
+    /// How often it was asked for telemetry, which is once a second, between the newest gains and their being
+    /// heard.
     int secondsLate() const {
         const std::scoped_lock lock{mutex_};
         return secondsLate_;
@@ -62,7 +67,8 @@ private:
     void handle(std::span<const std::uint8_t> payload) {
         if (wire::Hello hello; wire::decode(payload, hello)) send(reply_);
         if (wire::Ping ping; wire::decode(payload, ping)) {
-            const auto frame = static_cast<std::uint32_t>(static_cast<std::uint64_t>(frameAt(BoardLink::nowNs())));
+            const auto frame =
+                static_cast<std::uint32_t>(static_cast<std::uint64_t>(frameAt(BoardLink::nowNs())));
             // of a ping that was never sent, or is answered
             if (lies_) send(wire::Pong{static_cast<std::uint8_t>(ping.id + 100), frame + 800, 0});
             send(wire::Pong{ping.id, frame, 0});
@@ -114,16 +120,20 @@ TEST(BoardLinkWithAFakeBoard, OneThatIsNotOursIsRefusedAndTold) {
         const char* told;
     } const cases[]{
         {[](wire::HelloReply& r) { r.version = 255; }, ": expected a board of protocol 1 to 2, found 255"},
-        {[](wire::HelloReply& r) { r.channels = 0; }, ": expected a board of 4 channels at 8000 Hz, found 0 at 8000 Hz"},
-        {[](wire::HelloReply& r) { r.sampleRateHz = 0; }, ": expected a board of 4 channels at 8000 Hz, found 4 at 0 Hz"},
-        {[](wire::HelloReply& r) { r.watchdogMs = 65535; }, ": expected a board that is silent 500 ms after its computer, and plays within a second"},
+        {[](wire::HelloReply& r) { r.channels = 0; },
+         ": expected a board of 4 channels at 8000 Hz, found 0 at 8000 Hz"},
+        {[](wire::HelloReply& r) { r.sampleRateHz = 0; },
+         ": expected a board of 4 channels at 8000 Hz, found 4 at 0 Hz"},
+        {[](wire::HelloReply& r) { r.watchdogMs = 65535; },
+         ": expected a board that is silent 500 ms after its computer, and plays within a second"},
     };
     for (const auto& one : cases) {
         auto reply = ours();
         one.change(reply);
         FakeBoard board{reply, 0};
         BoardLink link{board.port()};
-        EXPECT_TRUE(test::comesTrue([&] { return link.status().trouble == board.port() + one.told; })) << link.status().trouble;
+        EXPECT_TRUE(test::comesTrue([&] { return link.status().trouble == board.port() + one.told; }))
+            << link.status().trouble;
         EXPECT_EQ(link.status().connections, 0u);
     }
 }
@@ -136,7 +146,8 @@ TEST(BoardLinkWithAFakeBoard, NeitherAWrongAnswerNorACounterThatIsOverMovesItsCl
     link.push({onset, {0, 16 * 205, 16, 0, {1000, 0, 0, 0}}});
     ASSERT_TRUE(test::comesTrue([&] { return !board.strikes().empty(); }));
     const auto wanted = static_cast<std::uint32_t>(static_cast<std::uint64_t>(board.frameAt(onset)));
-    EXPECT_LT(std::abs(static_cast<std::int32_t>(board.strikes()[0].event.frame - wanted)), 160) << "20 ms; a wrong answer is 50 or 100 off";
+    EXPECT_LT(std::abs(static_cast<std::int32_t>(board.strikes()[0].event.frame - wanted)), 160)
+        << "20 ms; a wrong answer is 50 or 100 off";
     EXPECT_EQ(link.status().connections, 1u);
     EXPECT_EQ(link.status().refused, 0u);
     EXPECT_LT(link.status().playOutMs, 200.0);
@@ -215,8 +226,10 @@ TEST(BoardLinkWithAFakeBoard, WhatMovesIsOneRowOfLegs) {
         const BoardLeg &before = legs[i - 1], &leg = legs[i];
         if (link.refused > 0) break; // other programs held this one up
         EXPECT_EQ(leg.frame, before.frame + before.frames) << i;
-        const auto phase = static_cast<std::uint16_t>(before.phase16 + (static_cast<std::uint64_t>(before.turn) * before.frames >> 16));
-        EXPECT_LE(std::abs(static_cast<std::int16_t>(leg.phase16 - phase)), 2) << i << " goes on in the phase of the one before";
+        const auto phase = static_cast<std::uint16_t>(
+            before.phase16 + (static_cast<std::uint64_t>(before.turn) * before.frames >> 16));
+        EXPECT_LE(std::abs(static_cast<std::int16_t>(leg.phase16 - phase)), 2)
+            << i << " goes on in the phase of the one before";
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A board that is chosen in the mixer's window, plays, loses its power and gets it back: each is seen, none is silent.
+// A board that is chosen in the mixer's window, plays, loses its power and gets it back: each is seen, none
+// is silent.
 #include "Mixer/MixerTesting.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "VirtualBoard.h"
@@ -12,7 +13,9 @@ using State = BoardLinkStatus::State;
 
 juce::Button* buttonOf(juce::Component& window, const juce::String& words) {
     for (auto* child : window.getChildren())
-        if (auto* button = dynamic_cast<juce::Button*>(child); button != nullptr && button->getButtonText() == words) return button;
+        if (auto* button = dynamic_cast<juce::Button*>(child);
+            button != nullptr && button->getButtonText() == words)
+            return button;
     return nullptr;
 }
 
@@ -21,36 +24,47 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     const auto boardText = [&] { return find(window.view(), "Board state")->getDescription(); };
-    const auto state = [&] { return window.desk().device().board() ? window.desk().device().board()->state : State::searching; };
+    const auto state = [&] {
+        return window.desk().device().board() ? window.desk().device().board()->state : State::searching;
+    };
     EXPECT_TRUE(runUntil([&] { return boardText().contains("Board: none"); }));
     window.view().tabs().choose("Output");
     auto* ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Board"));
     ASSERT_NE(ports, nullptr);
     ports->setSelectedItemIndex(ports->getNumItems() - 1); // another port
     juce::AlertWindow* asked = nullptr;
-    ASSERT_TRUE(runUntil([&] { return (asked = dynamic_cast<juce::AlertWindow*>(juce::Component::getCurrentlyModalComponent())) != nullptr; }));
+    ASSERT_TRUE(runUntil([&] {
+        return (asked = dynamic_cast<juce::AlertWindow*>(juce::Component::getCurrentlyModalComponent())) !=
+               nullptr;
+    }));
     asked->getTextEditor("answer")->setText(board.port());
     ASSERT_NE(buttonOf(*asked, "Connect"), nullptr);
     buttonOf(*asked, "Connect")->triggerClick();
 
     ASSERT_TRUE(runUntil([&] { return state() == State::ready; }));
-    ASSERT_TRUE(runUntil([&] { return window.desk().device().board()->sent > 5 && board.last("sound") > 0; }));
+    ASSERT_TRUE(
+        runUntil([&] { return window.desk().device().board()->sent > 5 && board.last("sound") > 0; }));
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
     ASSERT_TRUE(runUntil([&] { return window.desk().trouble().isEmpty(); })) << window.desk().trouble();
 
     board.stop();
-    ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains(board.port()) && window.desk().trouble().contains("is gone"); })) << window.desk().trouble();
+    ASSERT_TRUE(runUntil([&] {
+        return window.desk().trouble().contains(board.port()) && window.desk().trouble().contains("is gone");
+    })) << window.desk().trouble();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("not there"); }));
     EXPECT_NE(state(), State::ready);
     ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Board"));
     ASSERT_NE(ports, nullptr);
     EXPECT_TRUE(ports->isShowing()) << "the tab in which it was chosen";
-    EXPECT_TRUE(ports->getText().contains(juce::String{board.port()})) << "what is wanted, though it is not there: " << ports->getText();
+    EXPECT_TRUE(ports->getText().contains(juce::String{board.port()}))
+        << "what is wanted, though it is not there: " << ports->getText();
 
     board.start();
     ASSERT_TRUE(runUntil([&] { return state() == State::ready; }));
     const auto sent = window.desk().device().board()->sent;
-    ASSERT_TRUE(runUntil([&] { return window.desk().device().board()->sent > sent + 3 && window.desk().trouble().isEmpty(); })) << window.desk().trouble();
+    ASSERT_TRUE(runUntil([&] {
+        return window.desk().device().board()->sent > sent + 3 && window.desk().trouble().isEmpty();
+    })) << window.desk().trouble();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
     EXPECT_EQ(window.desk().device().board()->connections, 2u);
 }
@@ -78,7 +92,10 @@ TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {
 
 TEST(MixerBoard, ThatDoesNotAnswerIsTold) {
     Desk desk{onlyNoDevice(), {noDevice.name, 48000, 128, "/nowhere/port"}};
-    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble() == "The board at /nowhere/port does not answer; it is looked for twice a second"; })) << desk.trouble();
+    EXPECT_TRUE(runUntil([&] {
+        return desk.look(), desk.trouble() ==
+                                "The board at /nowhere/port does not answer; it is looked for twice a second";
+    })) << desk.trouble();
     EXPECT_TRUE(desk.look().device.isRunning) << "the device plays on";
 }
 
@@ -86,7 +103,9 @@ TEST(MixerBoard, ThatDoesNotAnswerIsTold) {
 } // namespace physvib
 
 int main(int argc, char** argv) {
-    juce::JUCEApplicationBase::createInstance = [] { return static_cast<juce::JUCEApplicationBase*>(nullptr); };
+    juce::JUCEApplicationBase::createInstance = [] {
+        return static_cast<juce::JUCEApplicationBase*>(nullptr);
+    };
     testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();
 }

@@ -12,9 +12,7 @@ enum sp_return sp_list_ports(struct sp_port*** list) {
     return SP_OK;
 }
 
-void sp_free_port_list(struct sp_port** list) {
-    (void)list;
-}
+void sp_free_port_list(struct sp_port** list) { (void)list; }
 
 char* sp_get_port_name(const struct sp_port* port) {
     (void)port;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A virtual board in a process of its own, as a person's would be: Unicorn's licence keeps it out of this program.
+// A virtual board in a process of its own, as a person's would be: Unicorn's licence keeps it out of this
+// program.
 #pragma once
 #include "Session/BoardLink.h"
-#include <cstdio>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -19,7 +20,8 @@ namespace physvib::test {
 
 /// Waits until it is true; false if it is not within that time, which is far more than it needs.
 inline bool comesTrue(const std::function<bool()>& isTrue, double seconds = 20) {
-    for (const auto end = BoardLink::nowNs() + static_cast<std::int64_t>(seconds * 1e9); BoardLink::nowNs() < end;) {
+    for (const auto end = BoardLink::nowNs() + static_cast<std::int64_t>(seconds * 1e9);
+         BoardLink::nowNs() < end;) {
         if (isTrue()) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
@@ -49,10 +51,12 @@ public:
         if (process_ == 0) {
             std::freopen((folder_ + "/out").c_str(), "w", stdout);
             std::freopen((folder_ + "/report").c_str(), "w", stderr);
-            execl(PHYSVIB_VIRTUAL_BOARD, PHYSVIB_VIRTUAL_BOARD, PHYSVIB_BOARD_IMAGE, "--link", port().c_str(), "--log", (folder_ + "/log").c_str(), nullptr);
+            execl(PHYSVIB_VIRTUAL_BOARD, PHYSVIB_VIRTUAL_BOARD, PHYSVIB_BOARD_IMAGE, "--link", port().c_str(),
+                  "--log", (folder_ + "/log").c_str(), nullptr);
             _exit(1);
         }
-        if (!comesTrue([this] { return std::filesystem::exists(port()); })) throw std::runtime_error("the virtual board does not start");
+        if (!comesTrue([this] { return std::filesystem::exists(port()); }))
+            throw std::runtime_error("the virtual board does not start");
     }
 
     /// Its power goes.
@@ -76,7 +80,8 @@ public:
         std::vector<Moment> moments;
         std::string line;
         for (std::getline(file, line); std::getline(file, line);)
-            if (const auto comma = line.find(','); comma != std::string::npos) moments.push_back({std::stoll(line), line.substr(comma + 1)});
+            if (const auto comma = line.find(','); comma != std::string::npos)
+                moments.push_back({std::stoll(line), line.substr(comma + 1)});
         return moments;
     }
 

@@ -26,8 +26,18 @@ struct Rig {
         table.addSwitch("--light", values.isOn, "on or off");
         table.add("-f,--flag", values.isFlagged, "a flag");
         table.add("--several", values.several, "words").single();
-        table.addRead("--half", "2", [this](const std::string& word) { return word == "2" ? (values.level = 1.0, std::string{}) : "expected 2, found " + word; }, "read");
-        table.addRow("--all", WordsReader{[this](const std::vector<std::string>& words) { return values.several = words, std::string{}; }}, "read together").single();
+        table.addRead(
+            "--half", "2",
+            [this](const std::string& word) {
+                return word == "2" ? (values.level = 1.0, std::string{}) : "expected 2, found " + word;
+            },
+            "read");
+        table
+            .addRow("--all", WordsReader{[this](const std::vector<std::string>& words) {
+                        return values.several = words, std::string{};
+                    }},
+                    "read together")
+            .single();
     }
     std::string fault(const std::string& call) { return parseText(table, call).reason(); }
     Values values;
@@ -85,7 +95,8 @@ TEST(OptionTables, WhatACallSaidIsKnownAfterwards) {
 TEST(OptionTables, RowsShowWhatTheyTakeAndWhatTheyAreIfNobodySaysIt) {
     Rig rig;
     const auto row = [&](const std::string& name) -> const Option& {
-        return *std::ranges::find_if(rig.table.options, [&](const Option& option) { return option.spellings.back() == name; });
+        return *std::ranges::find_if(rig.table.options,
+                                     [&](const Option& option) { return option.spellings.back() == name; });
     };
     EXPECT_EQ(row("--count").value(), "INT:1 to 9 pieces");
     EXPECT_EQ(row("--count").initial, "3");

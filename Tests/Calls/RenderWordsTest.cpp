@@ -26,8 +26,10 @@ std::string otherWord(const Option& option) {
     if (name == "--method") return "AF-FV-DRF";
     if (name == "--law") return "energy";
     if (std::holds_alternative<bool*>(option.target)) return "true";
-    if (option.check == Option::Check::choice) return option.choices.front() == option.initial ? option.choices.back() : option.choices.front();
-    if (option.check == Option::Check::range) return plainNumber(option.initial == plainNumber(option.low) ? option.high : option.low);
+    if (option.check == Option::Check::choice)
+        return option.choices.front() == option.initial ? option.choices.back() : option.choices.front();
+    if (option.check == Option::Check::range)
+        return plainNumber(option.initial == plainNumber(option.low) ? option.high : option.low);
     if (option.check == Option::Check::ending) return "other" + option.type.substr(option.type.rfind('.'));
     return "other";
 }
@@ -39,7 +41,8 @@ TEST(RenderWords, EveryOptionChangesTheJob) {
     std::size_t tried = 0;
     for (const Option& option : table.options) {
         if (option.spellings.back() == "--help") continue;
-        const std::string name = option.spellings.front(), call = option.isPlace ? otherWord(option) : name + '=' + otherWord(option);
+        const std::string name = option.spellings.front(),
+                          call = option.isPlace ? otherWord(option) : name + '=' + otherWord(option);
         const auto once = jobOf(call), again = jobOf(call);
         ASSERT_TRUE(once) << call << ": " << once.error;
         EXPECT_EQ(once.value, again.value) << call;
@@ -50,7 +53,9 @@ TEST(RenderWords, EveryOptionChangesTheJob) {
 }
 
 TEST(RenderWords, TextIsReadWhereItStands) {
-    const auto job = jobOf("drop --set ball=steel --set n=3 --field 0.5,2 --law log-outer --method AF-FV-DRF --sound 200=a.wav --sound 90.5=b=c.wav --limiter off --marker m.wav --marker-of hits");
+    const auto job =
+        jobOf("drop --set ball=steel --set n=3 --field 0.5,2 --law log-outer --method AF-FV-DRF --sound "
+              "200=a.wav --sound 90.5=b=c.wav --limiter off --marker m.wav --marker-of hits");
     ASSERT_TRUE(job) << job.error;
     EXPECT_EQ(job.value.settings, (SceneSettings{{"ball", "steel"}, {"n", "3"}}));
     EXPECT_EQ(job.value.field, (FieldSize{0.5, 2.0}));
@@ -65,11 +70,15 @@ TEST(RenderWords, TextIsReadWhereItStands) {
 
 TEST(RenderWords, WrongTextIsRefusedWithItsOption) {
     EXPECT_EQ(jobOf("drop --field 1").error, "--field: expected W,H in metres (0.001 to 1e6), found \"1\"");
-    EXPECT_EQ(jobOf("drop --field 1,nan").error, "--field: expected W,H in metres (0.001 to 1e6), found \"1,nan\"");
+    EXPECT_EQ(jobOf("drop --field 1,nan").error,
+              "--field: expected W,H in metres (0.001 to 1e6), found \"1,nan\"");
     EXPECT_EQ(jobOf("drop --set =3").error, "--set: expected NAME=VALUE");
-    EXPECT_EQ(jobOf("drop --law loud").error, "--law: expected linear, log, log-outer or energy, found \"loud\"");
-    EXPECT_EQ(jobOf("drop --method AX-FV-DRV").error, "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"AX-FV-DRV\"");
-    EXPECT_EQ(jobOf("drop --sound 0=a.wav").error, "--sound: expected HZ=FILE.wav, the frequency of a material and its recorded contact");
+    EXPECT_EQ(jobOf("drop --law loud").error,
+              "--law: expected linear, log, log-outer or energy, found \"loud\"");
+    EXPECT_EQ(jobOf("drop --method AX-FV-DRV").error,
+              "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"AX-FV-DRV\"");
+    EXPECT_EQ(jobOf("drop --sound 0=a.wav").error,
+              "--sound: expected HZ=FILE.wav, the frequency of a material and its recorded contact");
 }
 
 TEST(RenderWords, WhatDoesNotFitTogetherIsAFaultOfTheJob) {
@@ -77,7 +86,8 @@ TEST(RenderWords, WhatDoesNotFitTogetherIsAFaultOfTheJob) {
     EXPECT_EQ(renderInputFault(job), "render: give either a scene or --from-events EVENTS.csv");
     job.scene = "drop";
     EXPECT_EQ(renderInputFault(job), "");
-    EXPECT_EQ(renderFault(job), "render: nothing to write; give --out, --events, --picture, --movie, --pattern, --contact-sound or --marker");
+    EXPECT_EQ(renderFault(job), "render: nothing to write; give --out, --events, --picture, --movie, "
+                                "--pattern, --contact-sound or --marker");
     job.isRemapped = true;
     EXPECT_EQ(sceneFault(job), "--remap: expected an --actuator, whose band is to be used");
     job = {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Actuators as users and scripts hold on to them: `physvib actuators`, render's --actuator, --equalise and --remap.
+// Actuators as users and scripts hold on to them: `physvib actuators`, render's --actuator, --equalise and
+// --remap.
 #include "Calls.h"
 #include <cmath>
 #include <cstring>
@@ -12,13 +13,16 @@ protected:
     void SetUp() override {
         CommandLine::SetUp();
         write("mine.json", profile("12", "[180, 230]"));
-        write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,80,34.13,0.05,0,0\n0.5,349,106.99,0.05,0,0\n");
+        write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,80,34.13,0.05,0,0\n0.5,349,"
+                          "106.99,0.05,0,0\n");
     }
     static std::string profile(const std::string& q, const std::string& band) {
-        return R"({"physvib_actuator": 1, "name": "mine", "description": "", "source": "a test", "kind": "linear", "resonance_hz": 205, "q": )" + q + R"(, "band_hz": )" + band +
+        return R"({"physvib_actuator": 1, "name": "mine", "description": "", "source": "a test", "kind": "linear", "resonance_hz": 205, "q": )" +
+               q + R"(, "band_hz": )" + band +
                R"(, "drive_limit_v": null, "rise_time_s": null, "full_scale_g": null, "delay_s": null})";
     }
-    static constexpr const char* render = "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav ";
+    static constexpr const char* render =
+        "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav ";
 };
 
 TEST_F(ActuatorCommand, ListsWhatIsKnownAndLeavesTheRestEmpty) {
@@ -33,19 +37,28 @@ TEST_F(ActuatorCommand, EqualisesWithAProfileAndSaysUpToWhichLevel) {
     const auto plain = read("a.wav");
     const auto outcome = call(std::string{render} + "--actuator mine.json");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("equalised from 180 Hz to 230 Hz: flat up to -11."), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("equalised from 180 Hz to 230 Hz: flat up to -11."), std::string::npos)
+        << outcome.err;
     EXPECT_NE(read("a.wav"), plain);
     const auto equalised = read("a.wav");
     ASSERT_EQ(call(std::string{render} + "--actuator mine.json --block 17").exitCode, 0);
     EXPECT_EQ(read("a.wav"), equalised);
-    write("layout.json", R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "mine.json"}, {"x_m": 0.1, "y_m": 0.1}]})");
-    EXPECT_EQ(call("render --from-events hits.csv --layout layout.json --actuator layout --seconds 1 --out two.wav").exitCode, 0);
+    write(
+        "layout.json",
+        R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "mine.json"}, {"x_m": 0.1, "y_m": 0.1}]})");
+    EXPECT_EQ(
+        call("render --from-events hits.csv --layout layout.json --actuator layout --seconds 1 --out two.wav")
+            .exitCode,
+        0);
 }
 
 TEST_F(ActuatorCommand, RemapsEventsInOrderAndWarnsOfMaterialsThatBecomeOne) {
-    const auto outcome = call(std::string{render} + "--actuator mine.json --equalise off --remap on --events b.csv");
+    const auto outcome =
+        call(std::string{render} + "--actuator mine.json --equalise off --remap on --events b.csv");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("80 Hz and 349 Hz end at 196 Hz and 215 Hz, nearer than one JND of 18 %"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("80 Hz and 349 Hz end at 196 Hz and 215 Hz, nearer than one JND of 18 %"),
+              std::string::npos)
+        << outcome.err;
     EXPECT_NE(outcome.err.find("mine rings down with 53.7 /s"), std::string::npos) << outcome.err;
     const auto moved = read("b.csv");
     EXPECT_NE(moved.find("\n0.100000000,196."), std::string::npos) << moved;
@@ -53,7 +66,8 @@ TEST_F(ActuatorCommand, RemapsEventsInOrderAndWarnsOfMaterialsThatBecomeOne) {
     // without the line on its origin
     const auto tail = [](const std::string& wav) { return wav.substr(wav.size() - 100'000); };
     EXPECT_EQ(tail(read("b.wav")), tail(read("a.wav")));
-    const auto whole = call("render --from-events hits.csv --layout phone1 --seconds 1 --out c.wav --actuator haptuator-mark-2 --equalise off --remap on");
+    const auto whole = call("render --from-events hits.csv --layout phone1 --seconds 1 --out c.wav "
+                            "--actuator haptuator-mark-2 --equalise off --remap on");
     EXPECT_EQ(whole.exitCode, 0) << whole.err;
     EXPECT_EQ(whole.err.find("JND"), std::string::npos) << whole.err; // there is room
 }
@@ -62,33 +76,52 @@ TEST_F(ActuatorCommand, AMeasuredFullScaleReachesEveryLevelInG) {
     std::string measured = profile("12", "[180, 230]");
     measured.replace(measured.find("\"full_scale_g\": null"), 20, "\"full_scale_g\": 5");
     write("mine.json", measured);
-    const auto own = call(std::string{render} + "--equalise off"), calibrated = call(std::string{render} + "--equalise off --actuator mine.json");
+    const auto own = call(std::string{render} + "--equalise off"),
+               calibrated = call(std::string{render} + "--equalise off --actuator mine.json");
     ASSERT_EQ(calibrated.exitCode, 0) << calibrated.err;
     EXPECT_NE(own.out.find("dBFS (0.0464 g)"), std::string::npos) << own.out;
     EXPECT_NE(calibrated.out.find("dBFS (0.23 g)"), std::string::npos) << calibrated.out;
-    const std::string drop = "render drop --seconds 1 --out c.wav --events c.csv --layout phone1 --equalise off";
+    const std::string drop =
+        "render drop --seconds 1 --out c.wav --events c.csv --layout phone1 --equalise off";
     EXPECT_NE(call(drop).out.find("1 collision, 0.15 g to 0.15 g"), std::string::npos) << call(drop).out;
-    EXPECT_NE(call(drop + " --actuator mine.json").out.find("1 collision, 0.73 g to 0.73 g"), std::string::npos) << call(drop + " --actuator mine.json").out;
-    EXPECT_EQ(call(std::string{render} + "--equalise off --actuator mine.json --method AF-FV-DRV").err, "") << "1.5 g are within 5 g";
-    write("layout.json", R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "mine.json"}]})");
-    const auto other = call("render --from-events hits.csv --layout layout.json --actuator layout --equalise off --seconds 1 --out two.wav");
-    EXPECT_NE(other.err.find("layout.json: actuator A: levels are printed with full_scale_g 1 of the layout; mine.json was measured as 5"), std::string::npos) << other.err;
+    EXPECT_NE(call(drop + " --actuator mine.json").out.find("1 collision, 0.73 g to 0.73 g"),
+              std::string::npos)
+        << call(drop + " --actuator mine.json").out;
+    EXPECT_EQ(call(std::string{render} + "--equalise off --actuator mine.json --method AF-FV-DRV").err, "")
+        << "1.5 g are within 5 g";
+    write("layout.json",
+          R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "mine.json"}]})");
+    const auto other = call("render --from-events hits.csv --layout layout.json --actuator layout --equalise "
+                            "off --seconds 1 --out two.wav");
+    EXPECT_NE(other.err.find("layout.json: actuator A: levels are printed with full_scale_g 1 of the layout; "
+                             "mine.json was measured as 5"),
+              std::string::npos)
+        << other.err;
 }
 
 TEST_F(ActuatorCommand, LevelsAreToldInDecibelsAndInG) {
-    write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,200,10,0.5,0,0\n0.8,200,10,0.007,0,0\n");
-    write("layout.json", R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "full_scale_g": 1.4}]})");
-    const auto outcome = call("render --from-events hits.csv --layout layout.json --seconds 1 --out a.wav --events b.csv");
+    write("hits.csv",
+          "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,200,10,0.5,0,0\n0.8,200,10,0.007,0,0\n");
+    write("layout.json",
+          R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "full_scale_g": 1.4}]})");
+    const auto outcome =
+        call("render --from-events hits.csv --layout layout.json --seconds 1 --out a.wav --events b.csv");
     EXPECT_NE(outcome.out.find("peak -6.1 dBFS (0.69 g)"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("2 collisions, 0.0098 g to 0.70 g, 1 under one step of an 8-bit converter"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("2 collisions, 0.0098 g to 0.70 g, 1 under one step of an 8-bit converter"),
+              std::string::npos)
+        << outcome.out;
 }
 
 TEST_F(ActuatorCommand, WritesWhenAMotorWouldBeOn) {
-    write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m,duration_s\n0.1,200,0,0.5,0,0,0.03\n0.5,200,0,0.05,0,0,0.03\n0.9,200,0,0.5,0,0,1\n");
+    write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m,duration_s\n0.1,200,0,0.5,0,0,0."
+                      "03\n0.5,200,0,0.05,0,0,0.03\n0.9,200,0,0.5,0,0,1\n");
     ASSERT_EQ(call("render --from-events hits.csv --layout phone1 --seconds 1 --pattern p.csv").exitCode, 0);
     const std::string text = read("p.csv");
     EXPECT_EQ(text.substr(text.find('\n') + 1), "channel,on_s,off_s\n1,0.10,0.13\n1,0.90,1.00\n");
-    ASSERT_EQ(call("render --from-events hits.csv --layout phone1 --seconds 1 --pattern p.csv --threshold 0.01 --block 7").exitCode, 0);
+    ASSERT_EQ(call("render --from-events hits.csv --layout phone1 --seconds 1 --pattern p.csv --threshold "
+                   "0.01 --block 7")
+                  .exitCode,
+              0);
     EXPECT_NE(read("p.csv").find("1,0.50,0.53\n"), std::string::npos);
 }
 
@@ -106,18 +139,24 @@ TEST_F(ActuatorCommand, ScalesTheFileToTheVoltageOfTheActuator) {
         return most;
     };
     EXPECT_NEAR(peakOf("--interface-volts 6") / peakOf(""), 0.5f, 1e-6f); // the input range is 3 V
-    refuses(with + "--interface-volts 2", 1, "haptuator-2: expected an interface of at least 3 V, found --interface-volts 2", 3);
-    refuses(std::string{render} + "--actuator lra-205 --equalise off --interface-volts 2", 1, "lra-205: drive_limit_v is not known", 3);
+    refuses(with + "--interface-volts 2", 1,
+            "haptuator-2: expected an interface of at least 3 V, found --interface-volts 2", 3);
+    refuses(std::string{render} + "--actuator lra-205 --equalise off --interface-volts 2", 1,
+            "lra-205: drive_limit_v is not known", 3);
     refuses(std::string{render} + "--interface-volts 2", 2, "--interface-volts: expected an --actuator", 3);
 }
 
 TEST_F(ActuatorCommand, WhatIsNotKnownIsRefusedInOneLine) {
-    const auto refusesIt = [&](const std::string& options, const std::string& words) { refuses(render + options, 1, words, 2); };
-    refusesIt("--actuator lra-205", "--actuator lra-205: lra-205: q is not known (measure it with physvib calibrate)");
+    const auto refusesIt = [&](const std::string& options, const std::string& words) {
+        refuses(render + options, 1, words, 2);
+    };
+    refusesIt("--actuator lra-205",
+              "--actuator lra-205: lra-205: q is not known (measure it with physvib calibrate)");
     refusesIt("--actuator erm-coin", "a rotating mass has the frequency of its speed");
     refusesIt("--actuator tapper", "--actuator: no actuator \"tapper\" (see physvib actuators)");
     refusesIt("--actuator none.json", "none.json: cannot be read");
-    refusesIt("--actuator lra-205 --equalise off --remap on", "lra-205: band_hz is not known: nothing to remap into");
+    refusesIt("--actuator lra-205 --equalise off --remap on",
+              "lra-205: band_hz is not known: nothing to remap into");
     refuses(std::string{render} + "--remap on", 2, "--remap: expected an --actuator", 2);
     refuses(std::string{render} + "--actuator mine.json --equalise maybe", 2, "--equalise", 2);
     write("mine.json", profile("12", "[230, 180]"));

@@ -40,16 +40,23 @@ TEST_F(Analyse, AStaircaseWithoutReversalsHasNoThreshold) {
 }
 
 TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
-    const auto expects = [&](const std::string& protocol, const std::string& asked, const std::string& words) {
+    const auto expects = [&](const std::string& protocol, const std::string& asked,
+                             const std::string& words) {
         ASSERT_EQ(call("study run " + protocol + " --observer simulated").exitCode, 0);
         const auto outcome = call("analyse " + asked + " " + protocol + "-P01.csv");
         EXPECT_EQ(outcome.exitCode, 1);
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
     };
-    expects("phantom-places", "confusion", "expected trials of this kind, found none; the file has trials of the task locate, which `physvib analyse resolution` reads");
-    expects("phantom-places", "psychometric", "; the file has trials of the task locate, which `physvib analyse resolution` reads");
-    expects("magnitudes", "resolution", "; the file has trials of the task estimate, which `physvib analyse levels` reads");
-    expects("model-or-sound", "ratings", "; the file has trials of the task choose, which `physvib analyse choices` reads, and trials of the tasks adjust choose, which `physvib analyse levels` reads");
+    expects("phantom-places", "confusion",
+            "expected trials of this kind, found none; the file has trials of the task locate, which "
+            "`physvib analyse resolution` reads");
+    expects("phantom-places", "psychometric",
+            "; the file has trials of the task locate, which `physvib analyse resolution` reads");
+    expects("magnitudes", "resolution",
+            "; the file has trials of the task estimate, which `physvib analyse levels` reads");
+    expects("model-or-sound", "ratings",
+            "; the file has trials of the task choose, which `physvib analyse choices` reads, and trials of "
+            "the tasks adjust choose, which `physvib analyse levels` reads");
     write("cells.csv", "target_column,target_row,x,y\n1,1,0.5,0.5\n");
     const auto cells = call("analyse places cells.csv").err;
     EXPECT_NE(cells.find("cells.csv: expected a column target_x, found none; the file has the columns of "
@@ -65,7 +72,10 @@ TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
     std::filesystem::remove(folder_ / "places.csv");
     std::filesystem::remove(folder_ / "cells.csv");
     write("c.csv", "choice,participant\na,1\nb,1\n");
-    refuses("analyse confusion c.csv", 1, "c.csv: expected a column stimulus, found none; the file has the columns of another kind of trials, which `physvib analyse choices` reads", 4);
+    refuses("analyse confusion c.csv", 1,
+            "c.csv: expected a column stimulus, found none; the file has the columns of another kind of "
+            "trials, which `physvib analyse choices` reads",
+            4);
     write("d.csv", "stimulus,participant,response\n,1,a\n");
     const auto own = call("analyse confusion d.csv").err;
     EXPECT_EQ(own.find("the file has"), std::string::npos) << "its own kind, with another fault: " << own;
@@ -79,15 +89,18 @@ TEST_F(Analyse, PublishedPercentCountsGiveThePublishedResolutions) {
     EXPECT_EQ(outcome.out, "PHONE-LINEAR: 5 x 5\n"
                            "  merge: columns 1+2 | 3 | 4 | 5 | 6+7; rows 1 | 2 | 3 | 4 | 5\n"
                            "  sum 99.96 %, standard deviation 1.32\n"
-                           "  by chance: shares do not say of how many responses they are; analyse resolution of the trials does\n"
+                           "  by chance: shares do not say of how many responses they are; analyse "
+                           "resolution of the trials does\n"
                            "RING-LOGARITHM: 7 x 4\n"
                            "  merge: columns 1 | 2 | 3 | 4 | 5 | 6 | 7; rows 1 | 2+3 | 4 | 5\n"
                            "  tie: 7 x 4, columns 1 | 2 | 3 | 4 | 5 | 6 | 7; rows 1+2 | 3 | 4 | 5\n"
                            "  sum 100.01 %, standard deviation 1.11\n"
-                           "  by chance: shares do not say of how many responses they are; analyse resolution of the trials does\n");
+                           "  by chance: shares do not say of how many responses they are; analyse "
+                           "resolution of the trials does\n");
     EXPECT_EQ(read("p.png").substr(1, 3), "PNG");
     EXPECT_NE(read("merged.csv").find("\nRING-LOGARITHM,4,7,"), std::string::npos);
-    EXPECT_NE(call("analyse percent-counts p.csv --threshold 1.4286").out.find("PHONE-LINEAR: 7 x 3\n"), std::string::npos);
+    EXPECT_NE(call("analyse percent-counts p.csv --threshold 1.4286").out.find("PHONE-LINEAR: 7 x 3\n"),
+              std::string::npos);
 }
 
 std::string identity(int stimuli) {
@@ -104,7 +117,8 @@ TEST_F(Analyse, PerfectAnswersTransferTheLogarithmOfTheirNumber) {
         EXPECT_NE(outcome.out.find("trials: " + std::to_string(stimuli)), std::string::npos) << outcome.out;
         EXPECT_NE(outcome.out.find("percent correct: 100.0"), std::string::npos) << outcome.out;
         EXPECT_NE(outcome.out.find(std::string("\nIT: ") + bits + " bit"), std::string::npos) << outcome.out;
-        EXPECT_NE(outcome.out.find("\n2^IT: " + std::to_string(stimuli) + ".0\n"), std::string::npos) << outcome.out;
+        EXPECT_NE(outcome.out.find("\n2^IT: " + std::to_string(stimuli) + ".0\n"), std::string::npos)
+            << outcome.out;
         EXPECT_NE(outcome.err.find("warning"), std::string::npos) << "one trial per stimulus is too few";
     }
 }
@@ -120,23 +134,31 @@ TEST_F(Analyse, ToleranceCountsNeighboursAsTheStimulus) {
     EXPECT_EQ(outcome.err, "");
     EXPECT_NE(read("g-matrix.csv").find("\n,,\"1,1\",\"1,1\",20\n"), std::string::npos);
     write("s.csv", identity(3));
-    refuses("analyse confusion s.csv --tolerance 1", 1, "s.csv: --tolerance: expected grid labels r,c, found \"s0\"", 4);
+    refuses("analyse confusion s.csv --tolerance 1", 1,
+            "s.csv: --tolerance: expected grid labels r,c, found \"s0\"", 4);
 }
 
 TEST_F(Analyse, ParticipantsTransferForThemselves) {
-    write("c.csv", "participant,condition,stimulus,response\nP1,PHONE,a,a\nP1,PHONE,b,b\nP2,PHONE,a,a\nP2,PHONE,b,a\n");
+    write(
+        "c.csv",
+        "participant,condition,stimulus,response\nP1,PHONE,a,a\nP1,PHONE,b,b\nP2,PHONE,a,a\nP2,PHONE,b,a\n");
     const auto outcome = call("analyse confusion c.csv --export m.csv --participants each.csv");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("\n  IT of participants: mean 0.50 bit, standard error 0.50 bit, 2 participants\n"), std::string::npos) << outcome.out;
+    EXPECT_NE(
+        outcome.out.find("\n  IT of participants: mean 0.50 bit, standard error 0.50 bit, 2 participants\n"),
+        std::string::npos)
+        << outcome.out;
     EXPECT_NE(read("m.csv").find("\nPHONE,P2,b,a,1\n"), std::string::npos);
-    EXPECT_NE(read("each.csv").find("\nPHONE,P1,2,100,1,\nPHONE,P2,2,50,0,\n"), std::string::npos) << read("each.csv");
+    EXPECT_NE(read("each.csv").find("\nPHONE,P1,2,100,1,\nPHONE,P2,2,50,0,\n"), std::string::npos)
+        << read("each.csv");
 }
 
 TEST_F(Analyse, BadTrialsAreNamedAndHandled) {
     write("c.csv", "stimulus,response\na,a\nb,x\nb,\na,a\n");
     const auto outcome = call("analyse confusion c.csv");
     EXPECT_EQ(outcome.exitCode, 0);
-    for (const char* words : {"c.csv:4: no response", "not presented equally often: b 1 times", "responses that are no stimulus count as wrong: x"})
+    for (const char* words : {"c.csv:4: no response", "not presented equally often: b 1 times",
+                              "responses that are no stimulus count as wrong: x"})
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.out.find("nan"), std::string::npos);
     write("c.csv", "stimulus\na\n");
@@ -147,7 +169,9 @@ TEST_F(Analyse, BadTrialsAreNamedAndHandled) {
     refuses("analyse confusion", 2, "files", 1);
     refuses("analyse", 2, "", 1);
     write("p.csv", "condition,row,c1\nA,1,90\nA,2,5\n");
-    EXPECT_NE(call("analyse percent-counts p.csv").err.find("A: percent counts sum to 95.00, expected 100 within 0.01"), std::string::npos);
+    EXPECT_NE(call("analyse percent-counts p.csv")
+                  .err.find("A: percent counts sum to 95.00, expected 100 within 0.01"),
+              std::string::npos);
 }
 
 /// Five responses around each of 3 x 2 targets.
@@ -155,19 +179,24 @@ std::string responses() {
     std::string text = "condition,target_column,target_row,x,y\n";
     for (int c = 1; c <= 3; ++c)
         for (int r = 1; r <= 2; ++r)
-            for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {0.05, 0.01}, {-0.05, 0.02}, {0.01, 0.06}, {0.02, -0.05}})
-                text += "WIDE," + std::to_string(c) + "," + std::to_string(r) + "," + std::to_string((c - 0.5) / 3 + dx) + "," + std::to_string((r - 0.5) / 2 + dy) + "\n";
+            for (const auto& [dx, dy] :
+                 {std::pair{0.0, 0.0}, {0.05, 0.01}, {-0.05, 0.02}, {0.01, 0.06}, {0.02, -0.05}})
+                text += "WIDE," + std::to_string(c) + "," + std::to_string(r) + "," +
+                        std::to_string((c - 0.5) / 3 + dx) + "," + std::to_string((r - 0.5) / 2 + dy) + "\n";
     return text;
 }
 
 TEST_F(Analyse, ResponsesGiveAResolutionAndItsCountsGiveItAgain) {
     write("r.csv", responses());
-    const auto outcome = call("analyse resolution r.csv --picture r.png --counts counts.csv --export normals.csv");
+    const auto outcome =
+        call("analyse resolution r.csv --picture r.png --counts counts.csv --export normals.csv");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.out.rfind("WIDE: 3 x 2\n", 0), 0u) << outcome.out;
     const auto untilChance = [](const std::string& text) { return text.substr(0, text.find("  by chance")); };
     EXPECT_EQ(untilChance(call("analyse percent-counts counts.csv").out), untilChance(outcome.out));
-    EXPECT_NE(outcome.out.find("  by chance 6.0 +- 0.0 cells (responses drawn again 200 times)"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("  by chance 6.0 +- 0.0 cells (responses drawn again 200 times)"),
+              std::string::npos)
+        << outcome.out;
     EXPECT_EQ(files().size(), 4u);
     const std::string picture = read("r.png");
     ASSERT_EQ(call("analyse resolution r.csv --picture r.png").exitCode, 0);
@@ -176,24 +205,35 @@ TEST_F(Analyse, ResponsesGiveAResolutionAndItsCountsGiveItAgain) {
 
 TEST_F(Analyse, ResponsesThatAllowNoNormalAreNamedAndLeaveNothing) {
     write("r.csv", "condition,target_column,target_row,x,y\nA,1,1,0.5,0.5\n");
-    refuses("analyse resolution r.csv --picture r.png --counts c.csv", 1, "r.csv: A: column 1, row 1: expected three or more responses", 1);
+    refuses("analyse resolution r.csv --picture r.png --counts c.csv", 1,
+            "r.csv: A: column 1, row 1: expected three or more responses", 1);
     write("r.csv", responses() + "WIDE,4,1,0.99,0.2\n");
     const auto outcome = call("analyse resolution r.csv");
     EXPECT_EQ(outcome.exitCode, 0);
-    EXPECT_NE(outcome.err.find("column 4, row 1: 1 responses, the condition's pooled covariance is taken"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("column 4, row 1: 1 responses, the condition's pooled covariance is taken"),
+              std::string::npos)
+        << outcome.err;
     EXPECT_NE(outcome.err.find("column 4, row 2: no responses"), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.out.find("nan"), std::string::npos);
 }
 
 TEST_F(Analyse, ChoicesAndRatings) {
-    write("c.csv", "participant,condition,choice\nP1,pair=wood,RM\nP1,pair=steel,SV\nP2,pair=wood,RM\nP2,pair=steel,RM\n");
+    write("c.csv", "participant,condition,choice\nP1,pair=wood,RM\nP1,pair=steel,SV\nP2,pair=wood,RM\nP2,"
+                   "pair=steel,RM\n");
     const auto choices = call("analyse choices c.csv --picture c.png --export c-out.csv");
     ASSERT_EQ(choices.exitCode, 0) << choices.err;
-    EXPECT_EQ(choices.out.rfind("all: RM 75.0 % (0.0 to 100.0), SV 25.0 % (0.0 to 100.0), 4 trials of 2 participants, signed ranks p = 1.000\n", 0), 0u) << choices.out;
-    write("r.csv", "participant,condition,realism,harmony,liking\nP1,AV-FV-DRV,76,68,71\nP2,AF-FF-DRF,36,42,36\n");
+    EXPECT_EQ(choices.out.rfind("all: RM 75.0 % (0.0 to 100.0), SV 25.0 % (0.0 to 100.0), 4 trials of 2 "
+                                "participants, signed ranks p = 1.000\n",
+                                0),
+              0u)
+        << choices.out;
+    write("r.csv",
+          "participant,condition,realism,harmony,liking\nP1,AV-FV-DRV,76,68,71\nP2,AF-FF-DRF,36,42,36\n");
     const auto ratings = call("analyse ratings r.csv --picture r.png --export r-out.csv");
     ASSERT_EQ(ratings.exitCode, 0) << ratings.err;
-    EXPECT_NE(ratings.out.find("AV-FV-DRV: 1 trial, realism 76.0, harmony 68.0, liking 71.0\n"), std::string::npos) << ratings.out;
+    EXPECT_NE(ratings.out.find("AV-FV-DRV: 1 trial, realism 76.0, harmony 68.0, liking 71.0\n"),
+              std::string::npos)
+        << ratings.out;
     EXPECT_NE(read("r-out.csv").find("\nAF-FF-DRF,liking,1,1,36,0,0\n"), std::string::npos);
     write("c.csv", "condition,choice\na,RM\n");
     EXPECT_NE(call("analyse choices c.csv").err.find("every choice is RM"), std::string::npos);
@@ -208,7 +248,8 @@ TEST_F(Analyse, IconsAreThePatternsThatAreConfusedLeast) {
     write("c.csv", text);
     const auto outcome = call("analyse icons c.csv --meanings 3 --picture i.png");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_EQ(outcome.out, "3 meanings need 1.58 bit\nall trials: 4 patterns on 2 actuators, 1.73 bit: enough\n  A-100  100.0 % correct\n"
+    EXPECT_EQ(outcome.out, "3 meanings need 1.58 bit\nall trials: 4 patterns on 2 actuators, 1.73 bit: "
+                           "enough\n  A-100  100.0 % correct\n"
                            "  AB-100  100.0 % correct\n  B-100  100.0 % correct\n");
     refuses("analyse icons c.csv --meanings 1", 2, "--meanings", 2);
 }

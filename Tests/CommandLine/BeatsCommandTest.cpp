@@ -54,7 +54,8 @@ TEST_F(BeatsCommand, WritesTheBeatsOfASongAsStrikesOnTheEnchantersOfTheirBands) 
         EXPECT_TRUE(!(isLow || isHigh) || e.y == 0.0);
         EXPECT_TRUE(!isLow || e.x == 0.0);
     }
-    ASSERT_EQ(call("beats song.wav --out again.csv --low C --strike-level 0.3 --render felt.wav").exitCode, 0);
+    ASSERT_EQ(call("beats song.wav --out again.csv --low C --strike-level 0.3 --render felt.wav").exitCode,
+              0);
     EXPECT_EQ(read("again.csv"), read("beats.csv"));
     ASSERT_EQ(call("render --from-events beats.csv --seconds 6 --rate 44100 --out rendered.wav").exitCode, 0);
     const auto samplesOf = [&](const std::string& name) {
@@ -67,8 +68,10 @@ TEST_F(BeatsCommand, WritesTheBeatsOfASongAsStrikesOnTheEnchantersOfTheirBands) 
 TEST_F(BeatsCommand, GivesTheMusicItselfToThoseWhoAreChosen) {
     const BeatSong song{3.0, 48000, 7};
     writeSong(song, 1, 48000);
-    ASSERT_EQ(call("beats song.wav --render through.wav --through --enchanters AC --layout ring4").exitCode, 0);
-    const std::string bytes = read("through.wav"), samples = bytes.substr(bytes.find("data") + 8, song.samples.size() * 16);
+    ASSERT_EQ(call("beats song.wav --render through.wav --through --enchanters AC --layout ring4").exitCode,
+              0);
+    const std::string bytes = read("through.wav"),
+                      samples = bytes.substr(bytes.find("data") + 8, song.samples.size() * 16);
     std::array<float, 4> peaks{};
     for (std::size_t i = 0; i + 4 <= samples.size(); i += 4) {
         float sample = 0.0f;
@@ -84,7 +87,8 @@ TEST_F(BeatsCommand, GivesTheMusicItselfToThoseWhoAreChosen) {
 TEST_F(BeatsCommand, TakesMoreThanARecordingMayHave) {
     const BeatSong song{2.0, 8000, 7};
     std::string part, whole;
-    for (const float sample : song.samples) part += static_cast<char>(128 + std::lround(80.0f * std::clamp(sample, -1.5f, 1.5f)));
+    for (const float sample : song.samples)
+        part += static_cast<char>(128 + std::lround(80.0f * std::clamp(sample, -1.5f, 1.5f)));
     for (int i = 0; i < 330; ++i) whole += part;
     write("evening.wav", test::wavBytes({.rateHz = 8000, .bits = 8}, whole));
     const auto outcome = call("beats evening.wav --render felt.wav --through --layout phone1");
@@ -99,16 +103,19 @@ TEST_F(BeatsCommand, RefusesInOneLineAndLeavesNothing) {
     write("short.wav", test::wavBytes({.dataBytes = 50'000}, std::string(2000, '\1')));
     refuses("beats noise.wav --out beats.csv", 1, "noise.wav: expected a WAV, FLAC or Ogg Vorbis file", 4);
     refuses("beats silence.wav --out beats.csv", 1, "silence.wav: expected beats, found none", 4);
-    refuses("beats slow.wav --render felt.wav", 1, "slow.wav: expected a rate of 5000 to 192000 Hz, found 1000 Hz", 4);
+    refuses("beats slow.wav --render felt.wav", 1,
+            "slow.wav: expected a rate of 5000 to 192000 Hz, found 1000 Hz", 4);
     refuses("beats short.wav --through --render felt.wav", 1, "it ends early", 4);
     refuses("beats none.wav --out beats.csv", 1, "none.wav: cannot be read", 4);
     refuses("beats silence.wav", 2, "give --out or --render", 4);
     refuses("beats silence.wav --out silence.wav", 2, "silence.wav", 4);
     refuses("beats silence.wav --out beats.csv --low E", 2, "--low: expected letters of the 4 actuators", 4);
-    refuses("beats silence.wav --out beats.csv --strike-hz 1,2", 2, "--strike-hz: expected one frequency or three", 4);
+    refuses("beats silence.wav --out beats.csv --strike-hz 1,2", 2,
+            "--strike-hz: expected one frequency or three", 4);
     refuses("beats silence.wav --out beats.csv --band 50-500", 2, "expected with --through", 4);
     refuses("beats silence.wav --render felt.wav --through --band 500", 2, "--band: expected LO-HI", 4);
-    refuses("beats silence.wav --render felt.wav --through --enchanters AX", 2, "--enchanters: expected letters", 4);
+    refuses("beats silence.wav --render felt.wav --through --enchanters AX", 2,
+            "--enchanters: expected letters", 4);
     refuses("play shake-the-box --device none --beats 0", 2, "--beats: expected inputs like 1,2", 4);
 }
 

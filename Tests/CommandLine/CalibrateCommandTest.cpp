@@ -29,13 +29,16 @@ protected:
     std::vector<float> felt() const {
         SimulatedActuator actuator{{205, 9}, 8000};
         std::vector<float> out;
-        for (const float x : sweep_) out.push_back(static_cast<float>(0.5 * actuator.process(static_cast<double>(x))));
+        for (const float x : sweep_)
+            out.push_back(static_cast<float>(0.5 * actuator.process(static_cast<double>(x))));
         return out;
     }
     void record(const std::vector<float>& samples) const {
         const auto bytes = static_cast<std::uint32_t>(4 * samples.size());
         std::string wav = head_ + std::string(reinterpret_cast<const char*>(samples.data()), bytes);
-        const auto put = [&wav](std::size_t at, std::uint32_t number) { std::memcpy(wav.data() + at, &number, 4); };
+        const auto put = [&wav](std::size_t at, std::uint32_t number) {
+            std::memcpy(wav.data() + at, &number, 4);
+        };
         put(4, static_cast<std::uint32_t>(wav.size()) - 8);
         put(head_.size() - 4, bytes);
         write("felt.wav", wav);
@@ -69,15 +72,18 @@ TEST_F(CalibrateCommand, WritesTheLayoutThatHasItsFullScale) {
     const auto plain = call(std::string{pair} + "--g-per-unit 10");
     EXPECT_NE(plain.out.find("full scale 5.0"), std::string::npos) << plain.out;
     EXPECT_NE(plain.out.find("--layout-out FILE.json"), std::string::npos) << "it is offered: " << plain.out;
-    const auto outcome = call(std::string{pair} + "--g-per-unit 10 --layout phone4 --place B --layout-out four.json");
+    const auto outcome =
+        call(std::string{pair} + "--g-per-unit 10 --layout phone4 --place B --layout-out four.json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto layout = loadLayout(folder_ / "four.json");
     ASSERT_TRUE(layout) << layout.error;
     EXPECT_NEAR(layout.value.enchanters[1].fullScaleG, 5.0, 0.25);
     EXPECT_EQ(layout.value.enchanters[1].actuator, "mine.json");
     EXPECT_EQ(layout.value.enchanters[0].fullScaleG, 1.0);
-    refuses(std::string{pair} + "--layout phone4 --layout-out five.json", 2, "--layout-out: expected --g-per-unit", 4);
-    refuses(std::string{pair} + "--g-per-unit 10 --layout phone4 --place Z --layout-out five.json", 1, "--place: phone4 has no actuator \"Z\"", 4);
+    refuses(std::string{pair} + "--layout phone4 --layout-out five.json", 2,
+            "--layout-out: expected --g-per-unit", 4);
+    refuses(std::string{pair} + "--g-per-unit 10 --layout phone4 --place Z --layout-out five.json", 1,
+            "--place: phone4 has no actuator \"Z\"", 4);
     refuses(std::string{pair} + "--g-per-unit 10 --layout phone4 --layout-out mine.json", 2, "mine.json", 4);
 }
 
@@ -87,7 +93,8 @@ TEST_F(CalibrateCommand, BadRecordingsAreOneLineAndLeaveNoProfile) {
         refuses(pair, 1, words, 2);
     };
     auto samples = felt();
-    refusesIt(std::vector<float>(samples.size(), 0.0f), "felt.wav: what was recorded: expected the sweep, found silence");
+    refusesIt(std::vector<float>(samples.size(), 0.0f),
+              "felt.wav: what was recorded: expected the sweep, found silence");
     refusesIt({0.1f}, "felt.wav: what was recorded: expected at least 0.1 s, found 1 sample");
     refusesIt({}, "felt.wav: expected samples, found none");
     refusesIt(std::vector<float>(601u * 8000), "felt.wav: expected at most 600 s");
@@ -106,8 +113,10 @@ TEST_F(CalibrateCommand, BadCallsAreUsageErrors) {
     refuses("calibrate --out mine.json", 2, "expected --device, or --played and --recorded, or --sweep", 1);
     refuses("calibrate --played sweep.wav --out mine.json", 2, "expected both --played and --recorded", 1);
     refuses("calibrate --played sweep.wav --recorded sweep.wav", 2, "expected --out FILE.json", 1);
-    refuses("calibrate --played sweep.wav --recorded sweep.wav --out mine.txt", 2, "--out: expected a name that ends in .json, found \"mine.txt\"", 1);
-    refuses("calibrate --played sweep.wav --recorded sweep.wav --out m.json --band 9", 2, "--band: expected LO-HI", 1);
+    refuses("calibrate --played sweep.wav --recorded sweep.wav --out mine.txt", 2,
+            "--out: expected a name that ends in .json, found \"mine.txt\"", 1);
+    refuses("calibrate --played sweep.wav --recorded sweep.wav --out m.json --band 9", 2,
+            "--band: expected LO-HI", 1);
     refuses("calibrate --device x --out m.json --channel 0", 2, "--channel", 1);
     refuses("calibrate --device x --out m.json --level 3", 2, "--level", 1);
     refuses("calibrate --sweep s.wav --device x", 2, "--sweep stands alone", 1);

@@ -31,7 +31,9 @@ protected:
 
     /// `before`: words of a shell that come first.
     Outcome call(const std::string& arguments, const std::string& before = {}) const {
-        const std::string command = before + "cd '" + folder_.string() + "' && env -u DISPLAY '" PHYSVIB_PROGRAM "' " + arguments + " >.out 2>.err";
+        const std::string command = before + "cd '" + folder_.string() +
+                                    "' && env -u DISPLAY '" PHYSVIB_PROGRAM "' " + arguments +
+                                    " >.out 2>.err";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
     }
@@ -39,17 +41,21 @@ protected:
         std::ifstream file{folder_ / name, std::ios::binary};
         return {std::istreambuf_iterator<char>{file}, {}};
     }
-    void write(const std::string& name, const std::string& text) const { std::ofstream{folder_ / name, std::ios::binary} << text; }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream{folder_ / name, std::ios::binary} << text;
+    }
 
     /// Names of all files but the captured output.
     std::vector<std::string> files() const {
         std::vector<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator{folder_})
-            if (const auto name = entry.path().filename().string(); name != ".out" && name != ".err") names.push_back(name);
+            if (const auto name = entry.path().filename().string(); name != ".out" && name != ".err")
+                names.push_back(name);
         return names;
     }
     /// The call fails with that code, says one line that holds `words`, and leaves no file but `kept`.
-    void refuses(const std::string& arguments, int exitCode, const std::string& words, std::size_t kept = 0) const {
+    void refuses(const std::string& arguments, int exitCode, const std::string& words,
+                 std::size_t kept = 0) const {
         const Outcome outcome = call(arguments);
         EXPECT_EQ(outcome.exitCode, exitCode) << arguments;
         EXPECT_NE(outcome.err.find(words), std::string::npos) << arguments << "\nsaid: " << outcome.err;

@@ -25,7 +25,9 @@ protected:
     void SetUp() override {
         CommandLine::SetUp();
         write("hits.csv", hits());
-        write("four.json", R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0.1}, {"x_m": 0.1, "y_m": 0.1}, {"x_m": 0, "y_m": 0}, {"x_m": 0.1, "y_m": 0}]})");
+        write(
+            "four.json",
+            R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0.1}, {"x_m": 0.1, "y_m": 0.1}, {"x_m": 0, "y_m": 0}, {"x_m": 0.1, "y_m": 0}]})");
         write("c.json", coupling(-360.0 * frequencyHz * delayFrames / rate, 1.0));
     }
 
@@ -33,7 +35,8 @@ protected:
         std::ostringstream text;
         text << "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n";
         for (int k = 0; k < columns * rows; ++k)
-            text << 0.2 * k + 0.01 << ',' << frequencyHz << ",40,0.5," << 0.1 * (k % columns) / (columns - 1) << ',' << 0.1 * (k / columns) / (rows - 1) << '\n';
+            text << 0.2 * k + 0.01 << ',' << frequencyHz << ",40,0.5," << 0.1 * (k % columns) / (columns - 1)
+                 << ',' << 0.1 * (k / columns) / (rows - 1) << '\n';
         return text.str();
     }
 
@@ -51,8 +54,10 @@ protected:
             phases << ']';
         }
         std::ostringstream text;
-        text << R"({"physvib_coupling": 1, "name": "square", "source": "simulated", "measured": [{"frequency_hz": )" << frequencyHz << R"(, "magnitude": [)" << magnitudes.str()
-             << R"(], "phase_deg": [)" << phases.str() << "]}]}";
+        text
+            << R"({"physvib_coupling": 1, "name": "square", "source": "simulated", "measured": [{"frequency_hz": )"
+            << frequencyHz << R"(, "magnitude": [)" << magnitudes.str() << R"(], "phase_deg": [)"
+            << phases.str() << "]}]}";
         return text.str();
     }
 
@@ -79,24 +84,29 @@ protected:
         for (int i = 0; i < enchanters; ++i)
             for (int j = 0; j < enchanters; ++j)
                 for (std::size_t n = delayFrames; i != j && n < sum[0].size(); ++n)
-                    sum[static_cast<std::size_t>(i)][n] += shareOf(i, j) * driven[static_cast<std::size_t>(j)][n - delayFrames];
+                    sum[static_cast<std::size_t>(i)][n] +=
+                        shareOf(i, j) * driven[static_cast<std::size_t>(j)][n - delayFrames];
         return sum;
     }
 
-    /// Mean distance between the place of each hit and the centroid of the enchanters' levels, in percent of the side.
+    /// Mean distance between the place of each hit and the centroid of the enchanters' levels, in percent of
+    /// the side.
     static double centroidError(const Signals& x) {
         double sum = 0.0;
         for (int k = 0; k < columns * rows; ++k) {
             double all = 0.0, cx = 0.0, cy = 0.0;
             for (std::size_t j = 0; j < enchanters; ++j) {
                 double power = 0.0;
-                for (std::size_t n = 0; n < framesPerHit; ++n) power += std::pow(x[j][static_cast<std::size_t>(k) * framesPerHit + n], 2);
+                for (std::size_t n = 0; n < framesPerHit; ++n)
+                    power += std::pow(x[j][static_cast<std::size_t>(k) * framesPerHit + n], 2);
                 const double level = std::sqrt(power);
                 all += level;
                 cx += level * placesX[j];
                 cy += level * placesY[j];
             }
-            sum += std::hypot(cx / all - 0.1 * (k % columns) / (columns - 1), cy / all - 0.1 * (k / columns) / (rows - 1)) / 0.1;
+            sum += std::hypot(cx / all - 0.1 * (k % columns) / (columns - 1),
+                              cy / all - 0.1 * (k / columns) / (rows - 1)) /
+                   0.1;
         }
         return 100.0 * sum / (columns * rows);
     }
@@ -108,13 +118,18 @@ protected:
         return most;
     }
 
-    const std::string render = "render --from-events hits.csv --layout four.json --rate 8000 --seconds 7 --out a.wav ";
+    const std::string render =
+        "render --from-events hits.csv --layout four.json --rate 8000 --seconds 7 --out a.wav ";
 };
 
 TEST_F(CouplingCommand, APhantomIsFeltWhereItIsMeant) {
-    const Signals plain = rendered(""), compensated = rendered("--coupling c.json"), misjudged = (write("off.json", coupling(-61.0, 1.2)), rendered("--coupling off.json"));
-    const double meant = centroidError(plain), before = centroidError(felt(plain)), after = centroidError(felt(compensated)), misjudgedError = centroidError(felt(misjudged));
-    RecordProperty("meant_before_after_misjudged", std::to_string(meant) + " " + std::to_string(before) + " " + std::to_string(after) + " " + std::to_string(misjudgedError));
+    const Signals plain = rendered(""), compensated = rendered("--coupling c.json"),
+                  misjudged = (write("off.json", coupling(-61.0, 1.2)), rendered("--coupling off.json"));
+    const double meant = centroidError(plain), before = centroidError(felt(plain)),
+                 after = centroidError(felt(compensated)), misjudgedError = centroidError(felt(misjudged));
+    RecordProperty("meant_before_after_misjudged", std::to_string(meant) + " " + std::to_string(before) +
+                                                       " " + std::to_string(after) + " " +
+                                                       std::to_string(misjudgedError));
     EXPECT_LT(meant, 0.5); // the linear law, nearly: the first frames of a hit are not all of it
     EXPECT_GT(before, 10.0);
     EXPECT_LT(after, 0.25 * before);
@@ -134,8 +149,13 @@ TEST_F(CouplingCommand, TheDriveIsAtMostThreeDecibelsStrongerEvenWhereThatIsNotE
 TEST_F(CouplingCommand, TellsWhatIsLeftAndWhereTheDriveCameFrom) {
     const auto outcome = call(render + "--coupling c.json --events b.csv");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("coupling: what is felt differs from what is wanted by 0.0 %, without compensation by 30.0 %; by 2"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find(" where it is off by up to 2 dB and 20 degrees; strongest drive "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("coupling: what is felt differs from what is wanted by 0.0 %, without "
+                               "compensation by 30.0 %; by 2"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.err.find(" where it is off by up to 2 dB and 20 degrees; strongest drive "),
+              std::string::npos)
+        << outcome.err;
     EXPECT_NE(read("b.csv").find("coupling=c.json"), std::string::npos);
     const std::string once = read("a.wav");
     ASSERT_EQ(call(render + "--coupling c.json --events b.csv --block 17").exitCode, 0);
@@ -144,12 +164,19 @@ TEST_F(CouplingCommand, TellsWhatIsLeftAndWhereTheDriveCameFrom) {
 
 TEST_F(CouplingCommand, RefusesInOneLineWhatDoesNotFit) {
     refuses(render + "--coupling none.json", 1, "none.json: cannot be read", 3);
-    refuses("render --from-events hits.csv --layout phone2 --out a.wav --coupling c.json", 1, "c.json: expected as many actuators as the layout has, 2, found 4", 3);
+    refuses("render --from-events hits.csv --layout phone2 --out a.wav --coupling c.json", 1,
+            "c.json: expected as many actuators as the layout has, 2, found 4", 3);
     refuses(render + "--coupling hits.csv", 1, "hits.csv: ", 3);
-    refuses(render + "--coupling c.json --method SV --sound 200=b.wav", 2, "--coupling: expected a --method of modes", 3);
-    refuses("play drop --device ALSA:null --coupling c.json", 2, "--coupling: not yet live; render has it", 3);
-    std::filesystem::copy_file(PHYSVIB_SOURCE_DIR "/Tests/Fuzz/corpus/session/two-takes.json", folder_ / "session.json");
-    refuses("render session.json --out a.wav --coupling c.json", 1, "--coupling: expected a scene or events; a saved session may change its layout and play recordings", 4);
+    refuses(render + "--coupling c.json --method SV --sound 200=b.wav", 2,
+            "--coupling: expected a --method of modes", 3);
+    refuses("play drop --device ALSA:null --coupling c.json", 2, "--coupling: not yet live; render has it",
+            3);
+    std::filesystem::copy_file(PHYSVIB_SOURCE_DIR "/Tests/Fuzz/corpus/session/two-takes.json",
+                               folder_ / "session.json");
+    refuses(
+        "render session.json --out a.wav --coupling c.json", 1,
+        "--coupling: expected a scene or events; a saved session may change its layout and play recordings",
+        4);
     write("c.json", coupling(0.0, 1.0).replace(1, 21, "\"physvib_coupling\": 2"));
     refuses(render + "--coupling c.json", 1, "c.json: physvib_coupling: made for a newer PhysVib", 4);
 }

@@ -39,7 +39,8 @@ protected:
         EXPECT_EQ(a.size(), b.size());
         double most = 0.0;
         for (std::size_t j = 0; j < std::min(a.size(), b.size()); ++j)
-            for (std::size_t n = 0; n < std::min(a[j].size(), b[j].size()); ++n) most = std::max(most, static_cast<double>(std::abs(a[j][n] - b[j][n])));
+            for (std::size_t n = 0; n < std::min(a[j].size(), b[j].size()); ++n)
+                most = std::max(most, static_cast<double>(std::abs(a[j][n] - b[j][n])));
         return most;
     }
 };
@@ -84,21 +85,32 @@ TEST_F(ExportCommand, KeepsEveryHitOfAListAndOfASessionWhereItWasAndWhen) {
     std::ostringstream list;
     list << "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n";
     constexpr int hits = 30;
-    for (int k = 0; k < hits; ++k) list << 0.1 + 0.25 * k + 1.3e-6 * k << ",250,60," << (k % 3 ? 0.5 : 0.02) << ',' << 0.004 * k << ',' << 0.002 * (hits - k) << '\n';
+    for (int k = 0; k < hits; ++k)
+        list << 0.1 + 0.25 * k + 1.3e-6 * k << ",250,60," << (k % 3 ? 0.5 : 0.02) << ',' << 0.004 * k << ','
+             << 0.002 * (hits - k) << '\n';
     write("hits.csv", list.str());
     std::ostringstream strikes;
     for (int k = 0; k < hits; ++k)
-        strikes << (k ? "," : "") << R"({"time_s": )" << 0.1 + 0.25 * k + 1.3e-6 * k << R"(, "frequency_hz": 250, "decay_per_s": 60, "amplitude": )" << (k % 3 ? 0.5 : 0.02) << R"(, "x_m": )" << 0.04 * k
-                << R"(, "y_m": )" << 0.02 * (hits - k) << R"(, "duration_s": 0})";
-    write("hits.json", R"({"physvib_session": 5, "seconds": 8, "steps_per_second": 100, "timing": "onset", "location": "contact", "limiter": false, "channels": 4,
+        strikes << (k ? "," : "") << R"({"time_s": )" << 0.1 + 0.25 * k + 1.3e-6 * k
+                << R"(, "frequency_hz": 250, "decay_per_s": 60, "amplitude": )" << (k % 3 ? 0.5 : 0.02)
+                << R"(, "x_m": )" << 0.04 * k << R"(, "y_m": )" << 0.02 * (hits - k)
+                << R"(, "duration_s": 0})";
+    write(
+        "hits.json",
+        R"({"physvib_session": 5, "seconds": 8, "steps_per_second": 100, "timing": "onset", "location": "contact", "limiter": false, "channels": 4,
         "panning": {"layout": {"extent_m": [0.12, 0.06], "enchanters": [{"label": "A", "x_m": 0, "y_m": 0.06}, {"label": "B", "x_m": 0.12, "y_m": 0.06}, {"label": "C", "x_m": 0, "y_m": 0}, {"label": "D", "x_m": 0.12, "y_m": 0}]},
                     "law": "linear", "exponent": 1, "field_m": [1.2, 0.6]},
         "takes": [{"start_s": 0, "world_end_s": 8, "seed": 1, "scene": {"name": "quiet", "field_m": [1.2, 0.6], "gravity_m_per_s2": [0, 0], "materials": [], "bodies": []}, "inputs": [], "stalls": []}],
-        "strikes": [)" + strikes.str() + "]}");
+        "strikes": [)" +
+            strikes.str() + "]}");
     for (const std::string layout : {"phone4", "ring4", "session"}) {
         const bool isSession = layout == "session";
-        runs(isSession ? "render hits.json --out direct.wav" : "render --from-events hits.csv --field 0.12,0.06 --seconds 8 --limiter off --layout " + layout + " --out direct.wav");
-        runs(isSession ? "export hits.json --to a.hjif" : "export hits.csv --field 0.12,0.06 --layout " + layout + " --to a.hjif");
+        runs(isSession
+                 ? "render hits.json --out direct.wav"
+                 : "render --from-events hits.csv --field 0.12,0.06 --seconds 8 --limiter off --layout " +
+                       layout + " --out direct.wav");
+        runs(isSession ? "export hits.json --to a.hjif"
+                       : "export hits.csv --field 0.12,0.06 --layout " + layout + " --to a.hjif");
         runs("render a.hjif --seconds 8 --limiter off --out again.wav");
         const ClipSignals direct = wav("direct.wav"), again = wav("again.wav");
         ASSERT_EQ(direct.size(), again.size());
@@ -111,20 +123,23 @@ TEST_F(ExportCommand, KeepsEveryHitOfAListAndOfASessionWhereItWasAndWhen) {
                 double x = 0.0, sum = 0.0;
                 for (std::size_t j = 0; j < signals.size(); ++j) {
                     double energy = 0.0;
-                    for (std::size_t n = from; n < from + 11000; ++n) energy += static_cast<double>(signals[j][n]) * signals[j][n];
+                    for (std::size_t n = from; n < from + 11000; ++n)
+                        energy += static_cast<double>(signals[j][n]) * signals[j][n];
                     x += (j % 2 ? 1.0 : 0.0) * std::sqrt(energy);
                     sum += std::sqrt(energy);
                 }
                 centroid[which] = x / sum;
                 for (onset[which] = from; onset[which] < from + 100;) {
                     bool sounds = false;
-                    for (const auto& channel : signals) sounds = sounds || std::abs(channel[onset[which]]) > 1e-5f;
+                    for (const auto& channel : signals)
+                        sounds = sounds || std::abs(channel[onset[which]]) > 1e-5f;
                     if (sounds) break;
                     ++onset[which];
                 }
             }
             EXPECT_NEAR(centroid[0], centroid[1], 0.03) << layout << ' ' << k;
-            EXPECT_NEAR(static_cast<double>(onset[0]), static_cast<double>(onset[1]), 1.0) << layout << ' ' << k;
+            EXPECT_NEAR(static_cast<double>(onset[0]), static_cast<double>(onset[1]), 1.0)
+                << layout << ' ' << k;
         }
     }
 }
@@ -135,13 +150,19 @@ TEST_F(ExportCommand, KeepsASessionsLayoutsAndInputs) {
     scene.erase(scene.find("\"physvib_scene\": 1,"), 19);
     const auto panning = [](double left) {
         std::ostringstream text;
-        text << R"({"layout": {"name": "", "extent_m": [0.12, 0.06], "enchanters": [{"label": "A", "x_m": )" << left
-             << R"(, "y_m": 0.03}, {"label": "B", "x_m": 0.12, "y_m": 0.03}]}, "law": "linear", "exponent": 1, "field_m": [6.4, 3.6]})";
+        text
+            << R"({"layout": {"name": "", "extent_m": [0.12, 0.06], "enchanters": [{"label": "A", "x_m": )"
+            << left
+            << R"(, "y_m": 0.03}, {"label": "B", "x_m": 0.12, "y_m": 0.03}]}, "law": "linear", "exponent": 1, "field_m": [6.4, 3.6]})";
         return text.str();
     };
-    write("run.json", R"({"physvib_session": 1, "seconds": 6, "steps_per_second": 100, "timing": "onset", "location": "contact", "limiter": false, "ceilings": [1, 1], "channels": 2, "panning": )" + panning(0.0) +
-                          R"(, "takes": [{"start_s": 0, "world_end_s": 6, "seed": 3, "scene": )" + scene + R"(, "inputs": [{"time_s": 1, "input": "tilt", "angle_rad": 0.3}], "stalls": []}],
-                          "controls": [{"time_s": 3, "control": "layout", "panning": )" + panning(0.06) + "}]}");
+    write(
+        "run.json",
+        R"({"physvib_session": 1, "seconds": 6, "steps_per_second": 100, "timing": "onset", "location": "contact", "limiter": false, "ceilings": [1, 1], "channels": 2, "panning": )" +
+            panning(0.0) + R"(, "takes": [{"start_s": 0, "world_end_s": 6, "seed": 3, "scene": )" + scene +
+            R"(, "inputs": [{"time_s": 1, "input": "tilt", "angle_rad": 0.3}], "stalls": []}],
+                          "controls": [{"time_s": 3, "control": "layout", "panning": )" +
+            panning(0.06) + "}]}");
     runs("render run.json --out direct.wav");
     runs("export run.json --error 0.001 --to run.hjif");
     runs("render run.hjif --seconds 6 --limiter off --out again.wav");
@@ -150,7 +171,9 @@ TEST_F(ExportCommand, KeepsASessionsLayoutsAndInputs) {
 }
 
 TEST_F(ExportCommand, WhatMovesIsExportedInStepsThatGoOnInPhase) {
-    write("moves.json", R"({"physvib_session": 5, "seconds": 1, "steps_per_second": 100, "timing": "onset", "location": "contact", "limiter": false, "channels": 2,
+    write(
+        "moves.json",
+        R"({"physvib_session": 5, "seconds": 1, "steps_per_second": 100, "timing": "onset", "location": "contact", "limiter": false, "channels": 2,
         "panning": {"layout": {"extent_m": [1, 1], "enchanters": [{"label": "A", "x_m": 0, "y_m": 0}, {"label": "B", "x_m": 1, "y_m": 0}]}, "law": "linear", "exponent": 1, "field_m": [1, 1]},
         "takes": [{"start_s": 0, "world_end_s": 1, "seed": 1, "scene": {"name": "quiet", "field_m": [1, 1], "gravity_m_per_s2": [0, 0], "materials": [], "bodies": []}, "inputs": [], "stalls": []}],
         "strikes": [{"time_s": 0.1, "frequency_hz": 149.7, "decay_per_s": 0, "amplitude": 0.5, "x_m": 0, "y_m": 0, "duration_s": 0.3, "to_x_m": 0.4, "to_y_m": 0, "travel_s": 0.3, "spread": "linear"},
@@ -166,7 +189,8 @@ TEST_F(ExportCommand, WritesAFileForEachEnchanterWhereAFormatHasOneChannel) {
     const auto outcome = call("export shake-the-box --seconds 7 --to box.ahap");
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(files().size(), 4u);
-    for (const char* label : {"A", "B", "C", "D"}) EXPECT_NE(read("box-" + std::string(label) + ".ahap").find("HapticContinuous"), std::string::npos);
+    for (const char* label : {"A", "B", "C", "D"})
+        EXPECT_NE(read("box-" + std::string(label) + ".ahap").find("HapticContinuous"), std::string::npos);
     EXPECT_NE(outcome.err.find("a file for each actuator"), std::string::npos);
     EXPECT_NE(outcome.err.find("where a hit was is not carried"), std::string::npos);
     EXPECT_NE(outcome.out.find("box-D.ahap  1 channel, "), std::string::npos);
@@ -205,7 +229,9 @@ TEST_F(ExportCommand, ReadsClipsWhereARecordingIs) {
 }
 
 TEST_F(ExportCommand, FeelsChannelsWithoutPlacesOneOnEachEnchanter) {
-    write("two.hjif", R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
+    write(
+        "two.hjif",
+        R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
         {"relative_position": 0, "amplitude_modulation": 0.5, "frequency_modulation": 100}, {"relative_position": 500, "amplitude_modulation": 0.5}]}]}]}, {"bands": []}]}]})");
     runs("render two.hjif --layout ring2 --out two.wav");
     const ClipSignals two = wav("two.wav");
@@ -213,12 +239,16 @@ TEST_F(ExportCommand, FeelsChannelsWithoutPlacesOneOnEachEnchanter) {
     EXPECT_EQ(two[0].size(), 24000u);
     EXPECT_NEAR(*std::ranges::max_element(two[0]), 0.5, 1e-3);
     EXPECT_NEAR(*std::ranges::max_element(two[1]), 0.0, 1e-6);
-    refuses("render two.hjif --layout ring3 --out three.wav", 1, "two.hjif: expected one channel, places, or as many channels as the layout has actuators, 3, found 2", 2);
+    refuses(
+        "render two.hjif --layout ring3 --out three.wav", 1,
+        "two.hjif: expected one channel, places, or as many channels as the layout has actuators, 3, found 2",
+        2);
 }
 
 TEST_F(ExportCommand, RefusesInOneLine) {
     refuses("export", 2, "--to is required");
-    refuses("export drop --to a.wav", 2, "--to: expected a name that ends in .hjif, .hmpg, .haptic or .ahap, found \"a.wav\"");
+    refuses("export drop --to a.wav", 2,
+            "--to: expected a name that ends in .hjif, .hmpg, .haptic or .ahap, found \"a.wav\"");
     refuses("export --to a.hjif", 2, "export: give a scene");
     refuses("export nowhere --to a.hjif", 2, "nowhere");
     refuses("export drop --limiter off --to a.hjif", 2, "--limiter: says how something is played");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every built-in study, killed (SIGKILL) in each of its phases: nothing that was answered is lost, settings that changed meanwhile are refused in
-// words, and the file ends as that of a study that was never killed, byte by byte.
+// Every built-in study, killed (SIGKILL) in each of its phases: nothing that was answered is lost, settings
+// that changed meanwhile are refused in words, and the file ends as that of a study that was never killed,
+// byte by byte.
 #include "Jobs/StudyRun.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Study/SimulatedObserver.h"
@@ -25,7 +26,9 @@ protected:
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
-    StudyRun run(const std::string& name) const { return {builtInProtocols()[GetParam()], {"P01", 1, "person"}, folder_ / name}; }
+    StudyRun run(const std::string& name) const {
+        return {builtInProtocols()[GetParam()], {"P01", 1, "person"}, folder_ / name};
+    }
     static Apparatus usual() { return {"1.0", "JACK:system", -6.0, -30.0}; }
 
     /// The next answer, as a person gives it who felt it with that apparatus; false at the study's end.
@@ -45,7 +48,8 @@ protected:
         std::vector<int> phases;
         int session = 0;
         while (!study.experiment().isDone()) {
-            if (const int now = study.experiment().sessionNumber(); std::exchange(session, now) != now) phases.push_back(study.experiment().trialsTaken());
+            if (const int now = study.experiment().sessionNumber(); std::exchange(session, now) != now)
+                phases.push_back(study.experiment().trialsTaken());
             if (!takeOne(study, observer)) break;
         }
         EXPECT_EQ(study.error(), "");
@@ -67,7 +71,8 @@ protected:
         }
         int status = 0;
         waitpid(child, &status, 0);
-        ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) << "after " << trials << " trials: " << status;
+        ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+            << "after " << trials << " trials: " << status;
     }
     std::string bytes(const std::string& name) const {
         std::ifstream file{run(name).trialFile(), std::ios::binary};
@@ -83,16 +88,28 @@ protected:
         };
         EXPECT_EQ(faultOf([](Apparatus&) {}), "");
         EXPECT_EQ(faultOf([](Apparatus& a) { a.version = "2.0"; }), "") << "rows say which";
-        EXPECT_NE(faultOf([](Apparatus& a) { a.device = "ALSA:other"; }).find("expected the device as in the trials before, \"JACK:system\", found \"ALSA:other\""), std::string::npos);
-        EXPECT_NE(faultOf([](Apparatus& a) { a.masterDb = -18.0; }).find("expected the master level as in the trials before, -6 dB, found -18 dB"), std::string::npos);
-        EXPECT_NE(faultOf([](Apparatus& a) { a.noiseDb = -40.0; }).find("expected the pink noise as in the trials before, -30 dB, found -40 dB"), std::string::npos);
+        EXPECT_NE(
+            faultOf([](Apparatus& a) {
+                a.device = "ALSA:other";
+            }).find("expected the device as in the trials before, \"JACK:system\", found \"ALSA:other\""),
+            std::string::npos);
+        EXPECT_NE(faultOf([](Apparatus& a) {
+                      a.masterDb = -18.0;
+                  }).find("expected the master level as in the trials before, -6 dB, found -18 dB"),
+                  std::string::npos);
+        EXPECT_NE(faultOf([](Apparatus& a) {
+                      a.noiseDb = -40.0;
+                  }).find("expected the pink noise as in the trials before, -30 dB, found -40 dB"),
+                  std::string::npos);
         EXPECT_NE(faultOf([](Apparatus& a) { a.noiseDb.reset(); }).find("found off"), std::string::npos);
         StudyRun other = run("killed");
         other.protocol.exposureLimit = 1.0;
-        EXPECT_NE(StudyInProgress{other}.error().find("was begun with another version of the protocol"), std::string::npos);
+        EXPECT_NE(StudyInProgress{other}.error().find("was begun with another version of the protocol"),
+                  std::string::npos);
         other = run("killed");
         other.participant.number = 2;
-        EXPECT_NE(StudyInProgress{other}.error().find("expected trials of number 2, found 1"), std::string::npos);
+        EXPECT_NE(StudyInProgress{other}.error().find("expected trials of number 2, found 1"),
+                  std::string::npos);
     }
 
     std::filesystem::path folder_;
@@ -109,7 +126,8 @@ TEST_P(KilledStudies, GoOnInEveryPhaseWithTheSameSettingsOnly) {
             takeAndBeKilled(trials);
             if (HasFatalFailure()) return;
             // the disk got no more of the next one
-            if (++kills % 2 == 0) std::ofstream{run("killed").trialFile(), std::ios::app} << "P01,person,half a r";
+            if (++kills % 2 == 0)
+                std::ofstream{run("killed").trialFile(), std::ios::app} << "P01,person,half a r";
             if (kills < 5) expectChangesRefused();
         }
     const StudyRun killed = run("killed");
@@ -117,18 +135,20 @@ TEST_P(KilledStudies, GoOnInEveryPhaseWithTheSameSettingsOnly) {
         StudyInProgress study{killed};
         EXPECT_EQ(study.error(), "");
         const SimulatedObserver observer{{}, killed.protocol, killed.participant};
-        while (takeOne(study, observer)) {}
+        while (takeOne(study, observer)) {
+        }
         EXPECT_TRUE(study.experiment().isDone());
     }
     EXPECT_EQ(bytes("killed"), bytes("whole")) << killed.protocol.name << " after " << kills << " kills";
     RecordProperty("kills", static_cast<int>(kills));
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEveryStudy, KilledStudies, ::testing::Range(std::size_t{0}, std::size_t{8}), [](const auto& info) {
-    std::string name = builtInProtocols()[info.param].name;
-    std::erase(name, '-');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(OfEveryStudy, KilledStudies, ::testing::Range(std::size_t{0}, std::size_t{8}),
+                         [](const auto& info) {
+                             std::string name = builtInProtocols()[info.param].name;
+                             std::erase(name, '-');
+                             return name;
+                         });
 
 } // namespace
 } // namespace physvib

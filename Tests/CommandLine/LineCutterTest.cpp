@@ -15,7 +15,8 @@ std::vector<std::string> linesOf(const std::string& text, std::size_t atOnce) {
         lines.push_back(isWhole ? std::string{line} : tooLong + std::string{line});
     };
     LineCutter cutter;
-    for (std::size_t at = 0; at < text.size(); at += atOnce) cutter.add(std::string_view{text}.substr(at, atOnce), take);
+    for (std::size_t at = 0; at < text.size(); at += atOnce)
+        cutter.add(std::string_view{text}.substr(at, atOnce), take);
     cutter.end(take);
     return lines;
 }
@@ -33,8 +34,10 @@ TEST(LineCutter, NothingOfALineThatIsTooLongIsTakenForAnother) {
         EXPECT_EQ(linesOf(std::string(69'632, 'x') + control + "\n" + control + "\n", atOnce),
                   (std::vector<std::string>{tooLong + "silence", control}));
         EXPECT_EQ(linesOf(control + std::string(69'632, 'x') + "\n", atOnce)[0], tooLong + "silence");
-        EXPECT_EQ(linesOf(control + "\n" + std::string(200'000, 'x'), atOnce), (std::vector<std::string>{control, tooLong}));
-        EXPECT_EQ(linesOf(std::string(LineCutter::longest, 'x') + "\n", atOnce)[0].size(), LineCutter::longest);
+        EXPECT_EQ(linesOf(control + "\n" + std::string(200'000, 'x'), atOnce),
+                  (std::vector<std::string>{control, tooLong}));
+        EXPECT_EQ(linesOf(std::string(LineCutter::longest, 'x') + "\n", atOnce)[0].size(),
+                  LineCutter::longest);
     }
 }
 

@@ -12,13 +12,19 @@ protected:
     /// What `render` makes of one hit on one enchanter.
     void record(const std::string& hit, const std::string& seconds = "1") const {
         write("hit.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n" + hit + "\n");
-        ASSERT_EQ(call("render --from-events hit.csv --layout phone1 --seconds " + seconds + " --out hit.wav").exitCode, 0);
+        ASSERT_EQ(call("render --from-events hit.csv --layout phone1 --seconds " + seconds + " --out hit.wav")
+                      .exitCode,
+                  0);
     }
     /// 16 bits, one channel.
-    void writeWav(const std::string& name, std::uint32_t rate, std::uint32_t frames, const std::string& data) const {
-        const auto number = [](std::uint32_t value, std::size_t bytes) { return std::string(reinterpret_cast<const char*>(&value), bytes); };
-        write(name, "RIFF" + number(36 + 2 * frames, 4) + "WAVEfmt " + number(16, 4) + number(1, 2) + number(1, 2) + number(rate, 4) + number(2 * rate, 4) + number(2, 2) +
-                        number(16, 2) + "data" + number(2 * frames, 4) + data);
+    void writeWav(const std::string& name, std::uint32_t rate, std::uint32_t frames,
+                  const std::string& data) const {
+        const auto number = [](std::uint32_t value, std::size_t bytes) {
+            return std::string(reinterpret_cast<const char*>(&value), bytes);
+        };
+        write(name, "RIFF" + number(36 + 2 * frames, 4) + "WAVEfmt " + number(16, 4) + number(1, 2) +
+                        number(1, 2) + number(rate, 4) + number(2 * rate, 4) + number(2, 2) + number(16, 2) +
+                        "data" + number(2 * frames, 4) + data);
     }
 };
 
@@ -43,7 +49,9 @@ TEST_F(MaterialCommand, ListsTheThreeMeasuredPairsAndTheirSource) {
     const auto outcome = call("material --list");
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.out.rfind("# Table 5.1", 0), 0u) << outcome.out;
-    for (const char* pair : {"\nconcrete block,80,34.13\n", "\nwooden board,349,106.99\n", "\nsteel plate,430,11.97\n"}) EXPECT_NE(outcome.out.find(pair), std::string::npos) << pair;
+    for (const char* pair :
+         {"\nconcrete block,80,34.13\n", "\nwooden board,349,106.99\n", "\nsteel plate,430,11.97\n"})
+        EXPECT_NE(outcome.out.find(pair), std::string::npos) << pair;
 }
 
 TEST_F(MaterialCommand, BadRecordingsAreOneLine) {
@@ -61,7 +69,8 @@ TEST_F(MaterialCommand, BadRecordingsAreOneLine) {
 }
 
 /// A crate is pushed over a ridged floor at a steady speed, as `render` plays it.
-constexpr const char* ridges = R"({"physvib_scene": 1, "name": "ridges", "description": "a crate on ridges", "field_m": [8, 4], "gravity_m_per_s2": [0, -10], "normalisation": {"a_star_s_per_m": 1, "hand_mass_kg": 0},
+constexpr const char* ridges =
+    R"({"physvib_scene": 1, "name": "ridges", "description": "a crate on ridges", "field_m": [8, 4], "gravity_m_per_s2": [0, -10], "normalisation": {"a_star_s_per_m": 1, "hand_mass_kg": 0},
   "materials": [{"name": "steel", "density_kg_per_m2": 10, "friction": 0, "restitution": 0, "frequency_hz": 349, "decay_per_s": 107, "grain_m": 0.004, "grain_pattern": "regular", "roughness": 0.5},
                 {"name": "felt", "density_kg_per_m2": 10, "friction": 0, "restitution": 0}],
   "bodies": [{"name": "floor", "type": "static", "position_m": [4, 1], "mass_kg": 20, "fixtures": [{"shape": "box", "size_m": [8, 0.2], "material": "steel", "camera": true}]},
@@ -69,9 +78,11 @@ constexpr const char* ridges = R"({"physvib_scene": 1, "name": "ridges", "descri
 
 TEST_F(MaterialCommand, TexturesOfARenderedScrapeAreThoseOfItsScene) {
     write("ridges.json", ridges);
-    ASSERT_EQ(call("render ridges.json --layout phone1 --seconds 3 --limiter off --out scrape.wav").exitCode, 0);
+    ASSERT_EQ(call("render ridges.json --layout phone1 --seconds 3 --limiter off --out scrape.wav").exitCode,
+              0);
     const double newtons = 10.0 * 10.0 * 3.14159265 * 0.2 * 0.2;
-    const auto outcome = call("material --texture scrape.wav --speed 0.8 --mass 20 --load " + std::to_string(newtons));
+    const auto outcome =
+        call("material --texture scrape.wav --speed 0.8 --mass 20 --load " + std::to_string(newtons));
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     std::istringstream lines{outcome.out};
     std::string header, cell;
@@ -87,15 +98,19 @@ TEST_F(MaterialCommand, TexturesOfARenderedScrapeAreThoseOfItsScene) {
 }
 
 TEST_F(MaterialCommand, ATexturesModelNearestToTheScrapeIsTaken) {
-    write("ours.xml", "<modelSet><SampleRate>10000</SampleRate>"
-                      "<model><ARcoeff><value>1</value><value>-1.9554</value><value>0.9802</value></ARcoeff><var>0.01</var><speedMod>100</speedMod><forceMod>1</forceMod></model>"
-                      "<model><ARcoeff><value>1</value><value>-1.9</value><value>0.95</value></ARcoeff><var>0.01</var><speedMod>200</speedMod><forceMod>1</forceMod></model></modelSet>");
+    write("ours.xml",
+          "<modelSet><SampleRate>10000</SampleRate>"
+          "<model><ARcoeff><value>1</value><value>-1.9554</value><value>0.9802</value></ARcoeff><var>0.01</"
+          "var><speedMod>100</speedMod><forceMod>1</forceMod></model>"
+          "<model><ARcoeff><value>1</value><value>-1.9</value><value>0.95</value></ARcoeff><var>0.01</"
+          "var><speedMod>200</speedMod><forceMod>1</forceMod></model></modelSet>");
     const auto outcome = call("material --texture ours.xml --speed 0.09 --load 1.1");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("the model of 0.1 m/s, 1 N and 1 kg, of 2"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.out.find(",random\n"), std::string::npos) << outcome.out;
     write("tap.xml", "<tapSet></tapSet>");
-    refuses("material --texture tap.xml --speed 0.1", 1, "tap.xml: line 1: expected a modelSet, found \"tapSet\"", 2);
+    refuses("material --texture tap.xml --speed 0.1", 1,
+            "tap.xml: line 1: expected a modelSet, found \"tapSet\"", 2);
     refuses("material --texture none.xml --speed 0.1", 1, "none.xml: cannot be read", 2);
 }
 
@@ -103,11 +118,14 @@ TEST_F(MaterialCommand, WhatIsNoScrapeIsOneLine) {
     record("0.1,349,106.99,0,0,0");
     refuses("material --texture hit.wav --speed 1", 1, "hit.wav: expected a scrape, found silence", 2);
     record("0.1,349,106.99,0.5,0,0");
-    refuses("material --texture hit.wav --speed 1", 1, "hit.wav: expected a scrape whose grains stand out or repeat, found none that do", 2);
+    refuses("material --texture hit.wav --speed 1", 1,
+            "hit.wav: expected a scrape whose grains stand out or repeat, found none that do", 2);
     refuses("material --texture hit.wav", 2, "--texture and --speed go together", 2);
     refuses("material hit.wav --speed 1", 2, "--texture and --speed go together", 2);
-    refuses("material hit.wav --texture hit.wav --speed 1", 2, "give either FILE.wav or --list or --texture FILE", 2);
-    for (const char* speed : {"0", "-1", "nan", "101", "fast"}) refuses(std::string{"material --texture hit.wav --speed="} + speed, 2, "--speed", 2);
+    refuses("material hit.wav --texture hit.wav --speed 1", 2,
+            "give either FILE.wav or --list or --texture FILE", 2);
+    for (const char* speed : {"0", "-1", "nan", "101", "fast"})
+        refuses(std::string{"material --texture hit.wav --speed="} + speed, 2, "--speed", 2);
 }
 
 TEST_F(MaterialCommand, BadCallsAreUsageErrors) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib render --movie`: its pictures and their times, read from the file itself; ffmpeg by a stand-in that tells how it was called.
+// `physvib render --movie`: its pictures and their times, read from the file itself; ffmpeg by a stand-in
+// that tells how it was called.
 #include "CommandLine/Calls.h"
 #include <cstdint>
 
@@ -10,7 +11,8 @@ using MovieCommand = CommandLine;
 
 std::uint32_t little(const std::string& bytes, std::size_t at, int count) {
     std::uint32_t value = 0;
-    for (int i = count - 1; i >= 0; --i) value = value << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)]);
+    for (int i = count - 1; i >= 0; --i)
+        value = value << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)]);
     return value;
 }
 
@@ -25,11 +27,13 @@ Animation animationOf(const std::string& webp) {
     Animation found;
     if (webp.size() < 30 || webp.substr(0, 4) != "RIFF" || webp.substr(8, 8) != "WEBPVP8X") return found;
     found.width = 1 + little(webp, 24, 3), found.height = 1 + little(webp, 27, 3);
-    for (std::size_t at = 12; at + 24 < webp.size(); at += 8 + little(webp, at + 4, 4) + (little(webp, at + 4, 4) & 1u)) {
+    for (std::size_t at = 12; at + 24 < webp.size();
+         at += 8 + little(webp, at + 4, 4) + (little(webp, at + 4, 4) & 1u)) {
         if (webp.substr(at, 4) != "ANMF") continue;
         ++found.frames;
         found.durationMs += little(webp, at + 20, 3);
-        found.share += (1.0 + little(webp, at + 14, 3)) * (1.0 + little(webp, at + 17, 3)) / found.width / found.height;
+        found.share +=
+            (1.0 + little(webp, at + 14, 3)) * (1.0 + little(webp, at + 17, 3)) / found.width / found.height;
     }
     found.share /= static_cast<double>(std::max<std::size_t>(found.frames, 1));
     return found;
@@ -38,7 +42,10 @@ Animation animationOf(const std::string& webp) {
 TEST_F(MovieCommand, LastsAsLongAsTheRenderAndMoves) {
     const auto made = call("render drop --seconds 1.5 --movie drop.webp --events drop.csv");
     ASSERT_EQ(made.exitCode, 0) << made.err;
-    EXPECT_NE(made.out.find("drop.webp  the world, its impacts and every channel in time, 20 pictures per second"), std::string::npos) << made.out;
+    EXPECT_NE(
+        made.out.find("drop.webp  the world, its impacts and every channel in time, 20 pictures per second"),
+        std::string::npos)
+        << made.out;
     const auto movie = animationOf(read("drop.webp"));
     EXPECT_EQ(movie.width, 960u);
     EXPECT_EQ(movie.height, 640u);
@@ -48,28 +55,34 @@ TEST_F(MovieCommand, LastsAsLongAsTheRenderAndMoves) {
     EXPECT_GT(movie.share, 0.05);
     ASSERT_EQ(call("render drop --seconds 1.5 --movie again.webp").exitCode, 0);
     EXPECT_EQ(read("drop.webp"), read("again.webp"));
-    EXPECT_EQ(call("render --from-events drop.csv --field 8,4.5 --seconds 0.2 --movie list.webp").exitCode, 0);
+    EXPECT_EQ(call("render --from-events drop.csv --field 8,4.5 --seconds 0.2 --movie list.webp").exitCode,
+              0);
     EXPECT_EQ(animationOf(read("list.webp")).durationMs, 200u);
 }
 
 TEST_F(MovieCommand, RefusesWhatItCannotMake) {
-    refuses("render drop --movie drop.avi", 2, "--movie: expected a name that ends in .webp, .gif or .mp4, found \"drop.avi\"");
+    refuses("render drop --movie drop.avi", 2,
+            "--movie: expected a name that ends in .webp, .gif or .mp4, found \"drop.avi\"");
     refuses("render drop --seconds 601 --movie drop.webp", 2, "--movie: expected --seconds of at most 600");
     refuses("render drop --out a.webp --movie a.webp", 2, "a.webp");
 }
 
 TEST_F(MovieCommand, WithoutFfmpegItSaysWhatIsMissing) {
-    const auto alone = call("render drop --seconds 0.2 --movie drop.mp4 --out drop.wav", "env() { PATH= /usr/bin/env \"$@\"; }; ");
+    const auto alone = call("render drop --seconds 0.2 --movie drop.mp4 --out drop.wav",
+                            "env() { PATH= /usr/bin/env \"$@\"; }; ");
     EXPECT_EQ(alone.exitCode, 1);
-    EXPECT_NE(alone.err.find("drop.mp4: .gif and .mp4 need the program ffmpeg"), std::string::npos) << alone.err;
+    EXPECT_NE(alone.err.find("drop.mp4: .gif and .mp4 need the program ffmpeg"), std::string::npos)
+        << alone.err;
     EXPECT_EQ(files().size(), 0u);
 }
 
 TEST_F(MovieCommand, HandsPicturesAndWhatIsHeardToFfmpeg) {
     std::filesystem::create_directory(folder_ / "tools");
-    write("tools/ffmpeg", "#!/bin/sh\necho \"$@\" >told\nwhile [ $# -gt 1 ]; do [ \"$1\" = -i ] && wc -c <\"$2\" >>sizes; shift; done\nprintf movie >\"$1\"\n");
+    write("tools/ffmpeg", "#!/bin/sh\necho \"$@\" >told\nwhile [ $# -gt 1 ]; do [ \"$1\" = -i ] && wc -c "
+                          "<\"$2\" >>sizes; shift; done\nprintf movie >\"$1\"\n");
     std::filesystem::permissions(folder_ / "tools/ffmpeg", std::filesystem::perms::owner_all);
-    const auto made = call("render drop --seconds 0.5 --movie drop.mp4", "PATH=\"" + (folder_ / "tools").string() + ":$PATH\"; export PATH; ");
+    const auto made = call("render drop --seconds 0.5 --movie drop.mp4",
+                           "PATH=\"" + (folder_ / "tools").string() + ":$PATH\"; export PATH; ");
     ASSERT_EQ(made.exitCode, 0) << made.err;
     EXPECT_EQ(read("drop.mp4"), "movie");
     EXPECT_NE(read("told").find("-framerate 20 -c:v png"), std::string::npos);

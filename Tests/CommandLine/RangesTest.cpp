@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options that take a number of a range: whatever is not in it is refused in one line, and so is what is no number at all.
+// Options that take a number of a range: whatever is not in it is refused in one line, and so is what is no
+// number at all.
 #include "Calls.h"
 #include <regex>
 #include <sstream>
@@ -22,7 +23,8 @@ std::vector<std::string> numbersOf(const std::string& help) {
 
 TEST_F(Ranges, NoOptionTakesWhatIsNoNumber) {
     std::size_t count = 0;
-    for (const std::string command : {"play", "export", "stimulus phantom", "stimulus pattern", "study run", "board", "material", "calibrate"})
+    for (const std::string command : {"play", "export", "stimulus phantom", "stimulus pattern", "study run",
+                                      "board", "material", "calibrate"})
         for (const auto& option : numbersOf(call(command + " --help").out)) {
             SCOPED_TRACE(command + ' ' + option);
             refuses(command + ' ' + option + " nan", 2, option + ": expected ");

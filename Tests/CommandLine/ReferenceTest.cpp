@@ -21,20 +21,29 @@ protected:
     std::set<std::string> found(const std::string& text, const char* pattern) const {
         const std::regex wanted{pattern};
         std::set<std::string> words;
-        for (auto at = std::sregex_iterator{text.begin(), text.end(), wanted}; at != std::sregex_iterator{}; ++at) words.insert(at->str(1));
+        for (auto at = std::sregex_iterator{text.begin(), text.end(), wanted}; at != std::sregex_iterator{};
+             ++at)
+            words.insert(at->str(1));
         return words;
     }
     /// What --help lists under "Subcommands:".
     std::set<std::string> commandsOf(const std::string& help) const {
         const auto begin = help.find("\nSubcommands:\n");
-        return begin == std::string::npos ? std::set<std::string>{} : found(help.substr(begin), "\n  ([a-z-]+)");
+        return begin == std::string::npos ? std::set<std::string>{}
+                                          : found(help.substr(begin), "\n  ([a-z-]+)");
     }
     /// Lines of a page as a reader sees them, near enough.
-    std::string page(const std::string& name) const { return std::regex_replace(read("told/man1/" + name + ".1"), std::regex{"\\\\-"}, "-"); }
+    std::string page(const std::string& name) const {
+        return std::regex_replace(read("told/man1/" + name + ".1"), std::regex{"\\\\-"}, "-");
+    }
 
     std::string proposals(const std::string& words) const {
-        const std::string script = "source told/bash/physvib; COMP_WORDS=(" + words + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _physvib; echo \"${COMPREPLY[*]}\"";
-        EXPECT_EQ(std::system(("cd '" + folder_.string() + "' && bash -c '" + script + "' >.proposals").c_str()), 0);
+        const std::string script =
+            "source told/bash/physvib; COMP_WORDS=(" + words +
+            "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _physvib; echo \"${COMPREPLY[*]}\"";
+        EXPECT_EQ(
+            std::system(("cd '" + folder_.string() + "' && bash -c '" + script + "' >.proposals").c_str()),
+            0);
         return read(".proposals");
     }
     void holdsAllOf(const std::string& command, const std::string& pageName) const {
@@ -44,7 +53,8 @@ protected:
         for (const std::string& option : options) {
             EXPECT_NE(manual.find(option), std::string::npos) << command << ' ' << option;
             EXPECT_NE(zsh_.find("'" + option + "["), std::string::npos) << command << ' ' << option;
-            EXPECT_NE(fish_.find(" -l " + option.substr(2) + " "), std::string::npos) << command << ' ' << option;
+            EXPECT_NE(fish_.find(" -l " + option.substr(2) + " "), std::string::npos)
+                << command << ' ' << option;
         }
         std::istringstream proposed{proposals("physvib " + command + " -")};
         const std::set<std::string> words{std::istream_iterator<std::string>{proposed}, {}};
@@ -61,12 +71,14 @@ TEST_F(Reference, HoldsAllThatHelpHolds) {
     for (const std::string& command : commands) {
         holdsAllOf(command, "physvib-" + command);
         EXPECT_NE(page("physvib").find("physvib-" + command), std::string::npos);
-        for (const std::string& inner : commandsOf(call(command + " --help").out)) holdsAllOf(command + ' ' + inner, "physvib-" + command);
+        for (const std::string& inner : commandsOf(call(command + " --help").out))
+            holdsAllOf(command + ' ' + inner, "physvib-" + command);
     }
 }
 
 TEST_F(Reference, ProgramsAreDescribed) {
-    for (const char* name : {"physvib", "physvib-render", "physvib-play", "physvib-study", "physvib-analyse", "physvib-board"})
+    for (const char* name :
+         {"physvib", "physvib-render", "physvib-play", "physvib-study", "physvib-analyse", "physvib-board"})
         EXPECT_NE(page(name).find("\n.SH DESCRIPTION\n"), std::string::npos) << name;
 }
 

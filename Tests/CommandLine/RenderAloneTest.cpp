@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// physvib-render, which has no JUCE: the same events and samples as the whole program, the same care with files.
+// physvib-render, which has no JUCE: the same events and samples as the whole program, the same care with
+// files.
 #include "Calls.h"
 #include "TestPlaces.h"
 #include <algorithm>
@@ -12,7 +13,9 @@ class RenderAlone : public test::CommandLine {
 protected:
     /// What `physvib-render` says; 0 if it is content.
     int alone(const std::string& arguments) const {
-        const int status = std::system(("cd '" + folder_.string() + "' && '" PHYSVIB_RENDER_PROGRAM "' " + arguments + " >.out 2>.err").c_str());
+        const int status = std::system(
+            ("cd '" + folder_.string() + "' && '" PHYSVIB_RENDER_PROGRAM "' " + arguments + " >.out 2>.err")
+                .c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     /// What stands behind the head of a WAV file.
@@ -24,9 +27,14 @@ protected:
 
 TEST_F(RenderAlone, GivesTheEventsAndSamplesOfTheWholeProgram) {
     for (const std::string scene : {"shake-the-box", "marbles", "drop"})
-        for (const std::string options : {" --seconds 2 --seed 3", " --seconds 1 --layout ring2 --rate 44100 --steps-per-second 200 --instructions scalar"}) {
-            ASSERT_EQ(call("render " + scene + options + " --out a.wav --events a.csv --picture a.png").exitCode, 0);
-            ASSERT_EQ(alone(scene + options + " --out b.wav --events b.csv --picture b.png"), 0) << read(".err");
+        for (const std::string options :
+             {" --seconds 2 --seed 3",
+              " --seconds 1 --layout ring2 --rate 44100 --steps-per-second 200 --instructions scalar"}) {
+            ASSERT_EQ(
+                call("render " + scene + options + " --out a.wav --events a.csv --picture a.png").exitCode,
+                0);
+            ASSERT_EQ(alone(scene + options + " --out b.wav --events b.csv --picture b.png"), 0)
+                << read(".err");
             EXPECT_EQ(read("a.csv"), read("b.csv")) << scene;
             EXPECT_GE(samplesOf("b.wav").size(), 8 * 44100u);
             EXPECT_TRUE(samplesOf("a.wav") == samplesOf("b.wav")) << scene << options;

@@ -19,7 +19,9 @@ const std::string oneHit = header + "0.1,205,30,0.5,0.06,0.03\n";
 
 std::string layoutOf(int count) {
     std::string text = R"({"name":"many","extent_m":[1,1],"enchanters":[)";
-    for (int j = 0; j < count; ++j) text += (j ? "," : "") + std::string{R"({"x_m":)"} + std::to_string((j % 8) / 8.0) + R"(,"y_m":)" + std::to_string((j / 8) / 9.0) + "}";
+    for (int j = 0; j < count; ++j)
+        text += (j ? "," : "") + std::string{R"({"x_m":)"} + std::to_string((j % 8) / 8.0) + R"(,"y_m":)" +
+                std::to_string((j / 8) / 9.0) + "}";
     return text + "]}";
 }
 
@@ -34,7 +36,8 @@ struct Wav {
             std::memcpy(&value, bytes.data() + at, size);
             return value;
         };
-        for (std::size_t at = 12; at + 8 <= bytes.size(); at += 8 + number(at + 4, 4) + number(at + 4, 4) % 2) {
+        for (std::size_t at = 12; at + 8 <= bytes.size();
+             at += 8 + number(at + 4, 4) + number(at + 4, 4) % 2) {
             const std::string id = bytes.substr(at, 4);
             if (id == "data") samples = bytes.substr(at + 8, number(at + 4, 4));
             if (id != "fmt ") continue;
@@ -68,11 +71,19 @@ TEST_F(Render, SceneLeavesFourChannelsEventsAndAPicture) {
 TEST_F(Render, BlockSizeAndRepetitionDoNotChangeAByte) {
     ASSERT_EQ(call("render shake-the-box --seconds 3 --out r.wav --events r.csv").exitCode, 0);
     for (const char* block : {"1", "17", "64", "441", "4096", "256"}) {
-        ASSERT_EQ(call(std::string{"render shake-the-box --seconds 3 --out b.wav --events b.csv --block "} + block).exitCode, 0);
+        ASSERT_EQ(
+            call(std::string{"render shake-the-box --seconds 3 --out b.wav --events b.csv --block "} + block)
+                .exitCode,
+            0);
         EXPECT_EQ(read("b.wav"), read("r.wav")) << block;
         EXPECT_EQ(read("b.csv"), read("r.csv")) << block;
-        ASSERT_EQ(call(std::string{"render --from-events r.csv --field 6.4,3.6 --seconds 3 --out l.wav --block "} + block).exitCode, 0);
-        EXPECT_EQ(Wav{read("l.wav")}.samples, Wav{read("r.wav")}.samples) << "the list renders as its scene did";
+        ASSERT_EQ(
+            call(std::string{"render --from-events r.csv --field 6.4,3.6 --seconds 3 --out l.wav --block "} +
+                 block)
+                .exitCode,
+            0);
+        EXPECT_EQ(Wav{read("l.wav")}.samples, Wav{read("r.wav")}.samples)
+            << "the list renders as its scene did";
     }
 }
 
@@ -84,7 +95,11 @@ TEST_F(Render, AFileFromAListIsTheClosedFormOfThatList) {
         for (int j = 0; j < 4; ++j) g[j] = corner(x - j % 2) * corner(y - (j < 2 ? 1 : 0));
     };
     for (const int rate : {5000, 44100}) {
-        ASSERT_EQ(call("render --from-events hits.csv --field 1,1 --seconds 3 --limiter off --out a.wav --rate " + std::to_string(rate)).exitCode, 0);
+        ASSERT_EQ(
+            call("render --from-events hits.csv --field 1,1 --seconds 3 --limiter off --out a.wav --rate " +
+                 std::to_string(rate))
+                .exitCode,
+            0);
         const std::string bytes = Wav{read("a.wav")}.samples;
         std::vector<float> samples(bytes.size() / sizeof(float));
         std::memcpy(samples.data(), bytes.data(), bytes.size());
@@ -105,7 +120,8 @@ TEST_F(Render, ReleaseTimingFeelsTheSameFallLaterAndPrintsSo) {
     const std::string fall = "render drop --set height=1 --seed 0 --seconds 0.6 --events ";
     ASSERT_EQ(call(fall + "onset.csv").exitCode, 0);
     ASSERT_EQ(call(fall + "release.csv --timing release").exitCode, 0);
-    const auto onset = readEventsCsv(read("onset.csv"), "onset.csv"), release = readEventsCsv(read("release.csv"), "release.csv");
+    const auto onset = readEventsCsv(read("onset.csv"), "onset.csv"),
+               release = readEventsCsv(read("release.csv"), "release.csv");
     ASSERT_EQ(onset.value.events.size(), 1u) << onset.error;
     ASSERT_EQ(release.value.events.size(), 1u) << release.error;
     EXPECT_GT(release.value.events[0].timeNs, onset.value.events[0].timeNs);
@@ -118,7 +134,8 @@ TEST_F(Render, ReleaseTimingFeelsTheSameFallLaterAndPrintsSo) {
 TEST_F(Render, FixtureLocationPutsEveryHitAtTheCentreOfItsFixture) {
     ASSERT_EQ(call("render drop --seed 3 --seconds 3 --events contact.csv").exitCode, 0);
     ASSERT_EQ(call("render drop --seed 3 --seconds 3 --events fixture.csv --location fixture").exitCode, 0);
-    const auto contact = readEventsCsv(read("contact.csv"), "contact.csv"), fixture = readEventsCsv(read("fixture.csv"), "fixture.csv");
+    const auto contact = readEventsCsv(read("contact.csv"), "contact.csv"),
+               fixture = readEventsCsv(read("fixture.csv"), "fixture.csv");
     ASSERT_GE(fixture.value.events.size(), 3u) << fixture.error;
     ASSERT_EQ(contact.value.events.size(), fixture.value.events.size());
     for (std::size_t i = 0; i < fixture.value.events.size(); ++i) {
@@ -134,7 +151,10 @@ TEST_F(Render, FixtureLocationPutsEveryHitAtTheCentreOfItsFixture) {
 TEST_F(Render, LayoutDecidesTheNumberOfChannels) {
     write("hits.csv", oneHit);
     for (const auto& [layout, channels] : {std::pair{"phone1", 1}, {"ring2", 2}, {"phone3", 3}}) {
-        ASSERT_EQ(call(std::string{"render --from-events hits.csv --seconds 0.2 --out a.wav --layout "} + layout).exitCode, 0);
+        ASSERT_EQ(
+            call(std::string{"render --from-events hits.csv --seconds 0.2 --out a.wav --layout "} + layout)
+                .exitCode,
+            0);
         EXPECT_EQ(Wav{read("a.wav")}.channels, channels);
     }
     write("many.json", layoutOf(64));
@@ -207,38 +227,52 @@ TEST_F(Render, MethodsFixWhatTheirNamesSay) {
     EXPECT_EQ(read("b.csv"), read("a.csv"));
     const auto outcome = call("render drop --seconds 3 --method AF-FF-DRF --out c.wav --events c.csv");
     ASSERT_EQ(outcome.exitCode, 0);
-    EXPECT_NE(outcome.err.find("fixed level of 1.5 g is above the actuators' full scale of 1 g; the limiter lowers it"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(
+                  "fixed level of 1.5 g is above the actuators' full scale of 1 g; the limiter lowers it"),
+              std::string::npos)
+        << outcome.err;
     const auto varied = readEventsCsv(read("a.csv"), "a.csv"), fixed = readEventsCsv(read("c.csv"), "c.csv");
     ASSERT_EQ(fixed.value.events.size(), varied.value.events.size());
     ASSERT_FALSE(fixed.value.events.empty());
     for (std::size_t i = 0; i < fixed.value.events.size(); ++i) {
         const CollisionEvent& e = fixed.value.events[i];
-        EXPECT_EQ(std::tuple(e.amplitude, e.frequencyHz, e.decayPerSecond, e.durationNs), std::tuple(1.5, 250.0, 0.0, 20'000'000));
+        EXPECT_EQ(std::tuple(e.amplitude, e.frequencyHz, e.decayPerSecond, e.durationNs),
+                  std::tuple(1.5, 250.0, 0.0, 20'000'000));
         EXPECT_EQ(std::tuple(e.timeNs, e.x, e.y, e.source),
                   std::tuple(varied.value.events[i].timeNs, varied.value.events[i].x,
                              varied.value.events[i].y, varied.value.events[i].source));
     }
     EXPECT_NE(read("c.csv").substr(0, 200).find("method=AF-FF-DRF"), std::string::npos);
-    ASSERT_EQ(call("render --from-events a.csv --seconds 3 --field 9,5 --method AF-FF-DRF --out d.wav").exitCode, 0);
+    ASSERT_EQ(
+        call("render --from-events a.csv --seconds 3 --field 9,5 --method AF-FF-DRF --out d.wav").exitCode,
+        0);
     ASSERT_EQ(call("render --from-events c.csv --seconds 3 --field 9,5 --out e.wav").exitCode, 0);
-    EXPECT_EQ(Wav{read("d.wav")}.samples, Wav{read("e.wav")}.samples) << "what is written is what is rendered";
+    EXPECT_EQ(Wav{read("d.wav")}.samples, Wav{read("e.wav")}.samples)
+        << "what is written is what is rendered";
 }
 
 TEST_F(Render, AFixedLevelIsInG) {
-    const std::string start = R"({"extent_m":[1,1],"enchanters":[{"x_m":0,"y_m":0.5,"full_scale_g":3},{"x_m":1,"y_m":0.5,"full_scale_g":)";
+    const std::string start =
+        R"({"extent_m":[1,1],"enchanters":[{"x_m":0,"y_m":0.5,"full_scale_g":3},{"x_m":1,"y_m":0.5,"full_scale_g":)";
     write("strong.json", start + "3}]}");
     write("mixed.json", start + "1}]}");
-    const auto outcome = call("render drop --seconds 3 --method AF-FV-DRV --layout strong.json --events a.csv");
+    const auto outcome =
+        call("render drop --seconds 3 --method AF-FV-DRV --layout strong.json --events a.csv");
     EXPECT_EQ(outcome.err, "");
     const auto events = readEventsCsv(read("a.csv"), "a.csv");
     ASSERT_FALSE(events.value.events.empty());
     const CollisionEvent& first = events.value.events.front();
-    const double omega = 2.0 * std::numbers::pi * first.frequencyHz, peakAt = std::atan(omega / first.decayPerSecond) / omega;
+    const double omega = 2.0 * std::numbers::pi * first.frequencyHz,
+                 peakAt = std::atan(omega / first.decayPerSecond) / omega;
     // 1.5 g of 3
-    EXPECT_NEAR(first.amplitude * std::sin(omega * peakAt) * std::exp(-first.decayPerSecond * peakAt), 0.5, 1e-9);
-    refuses("render drop --method AF-FV-DRV --layout mixed.json --out b.wav", 1, "mixed.json: --method AF-FV-DRV: expected one full_scale_g for all actuators, found 3 and 1", 3);
-    EXPECT_EQ(call("render drop --seconds 1 --method AV-FF-DRF --layout mixed.json --events b.csv").exitCode, 0);
-    refuses("render drop --method AF --out b.wav", 2, "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"AF\"", 4);
+    EXPECT_NEAR(first.amplitude * std::sin(omega * peakAt) * std::exp(-first.decayPerSecond * peakAt), 0.5,
+                1e-9);
+    refuses("render drop --method AF-FV-DRV --layout mixed.json --out b.wav", 1,
+            "mixed.json: --method AF-FV-DRV: expected one full_scale_g for all actuators, found 3 and 1", 3);
+    EXPECT_EQ(call("render drop --seconds 1 --method AV-FF-DRF --layout mixed.json --events b.csv").exitCode,
+              0);
+    refuses("render drop --method AF --out b.wav", 2,
+            "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"AF\"", 4);
     refuses("play drop --board /dev/none --method AF-FF-DRF", 2, "--board: not yet with --method", 4);
 }
 
@@ -249,7 +283,8 @@ TEST_F(Render, UnwritableOutputsLeaveNothing) {
 }
 
 TEST_F(Render, TwoOutputsInOneFileAreRefused) {
-    refuses("render shake-the-box --seconds 1 --out a --events a", 2, "a: expected another file to write, this is the output a");
+    refuses("render shake-the-box --seconds 1 --out a --events a", 2,
+            "a: expected another file to write, this is the output a");
 }
 
 TEST_F(Render, EventsAfterTheEndAreTold) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A study's report as researchers call it: pages that need nothing else, tables that repeat, simulated data that say so.
+// A study's report as researchers call it: pages that need nothing else, tables that repeat, simulated data
+// that say so.
 #include "Calls.h"
 #include "Io/Text/NumberText.h"
 #include "Study/Files/ProtocolFile.h"
@@ -10,15 +11,22 @@ namespace {
 class Report : public test::CommandLine {
 protected:
     void simulate(const std::string& protocol, int participants) const {
-        ASSERT_EQ(call("study run " + protocol + " --observer simulated --participants " + std::to_string(participants)).exitCode, 0);
+        ASSERT_EQ(call("study run " + protocol + " --observer simulated --participants " +
+                       std::to_string(participants))
+                      .exitCode,
+                  0);
     }
     std::string page(const std::string& folder = "out") const { return read(folder + "/index.html"); }
     static std::size_t count(const std::string& text, const std::string& what) {
         std::size_t n = 0;
-        for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++n;
+        for (std::size_t at = text.find(what); at != std::string::npos;
+             at = text.find(what, at + what.size()))
+            ++n;
         return n;
     }
-    static bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+    static bool has(const std::string& text, const std::string& what) {
+        return text.find(what) != std::string::npos;
+    }
 };
 
 TEST_F(Report, EveryBuiltInStudyHasAPageThatNeedsNothingElse) {
@@ -31,12 +39,18 @@ TEST_F(Report, EveryBuiltInStudyHasAPageThatNeedsNothingElse) {
         const std::string html = page(name);
         EXPECT_TRUE(has(html, protocol.title)) << name;
         EXPECT_GE(count(html, "<svg "), 1u) << name;
-        EXPECT_EQ(count(html, ">SIMULATED</text>"), count(html, "<svg ")) << name << ": every picture is watermarked";
-        EXPECT_EQ(count(html, "http"), count(html, "http://www.w3.org/2000/svg") + 1) << name << ": no network (the other is http-equiv)";
-        for (const char* bad : {"<script", "=\"nan", ">nan", " nan", "Mnan", "NaN", "-inf", "url(h", "<img"}) EXPECT_FALSE(has(html, bad)) << name << ' ' << bad;
-        for (const char* part : {">Participants<", ">Exclusions<", ">Procedure<", ">How stimuli were made<", ">Files, versions, seeds<", "hash of the protocol"}) EXPECT_TRUE(has(html, part)) << name << part;
+        EXPECT_EQ(count(html, ">SIMULATED</text>"), count(html, "<svg "))
+            << name << ": every picture is watermarked";
+        EXPECT_EQ(count(html, "http"), count(html, "http://www.w3.org/2000/svg") + 1)
+            << name << ": no network (the other is http-equiv)";
+        for (const char* bad : {"<script", "=\"nan", ">nan", " nan", "Mnan", "NaN", "-inf", "url(h", "<img"})
+            EXPECT_FALSE(has(html, bad)) << name << ' ' << bad;
+        for (const char* part : {">Participants<", ">Exclusions<", ">Procedure<", ">How stimuli were made<",
+                                 ">Files, versions, seeds<", "hash of the protocol"})
+            EXPECT_TRUE(has(html, part)) << name << part;
         for (const auto& entry : std::filesystem::directory_iterator{folder_ / name})
-            if (entry.path().extension() == ".csv") EXPECT_TRUE(has(html, entry.path().filename().string())) << entry.path();
+            if (entry.path().extension() == ".csv")
+                EXPECT_TRUE(has(html, entry.path().filename().string())) << entry.path();
     }
 }
 
@@ -46,12 +60,15 @@ TEST_F(Report, TheTestsAreThoseOfAnalyseOnTheTablesBesideIt) {
     const std::string html = page(), command = "analyse anova trials.csv --measure realism --within A,F,DR";
     EXPECT_TRUE(has(html, "physvib " + command));
     const auto again = call(command + " --export again.csv", "cd '" + (folder_ / "out").string() + "' && ");
-    const auto analysed = call("analyse anova out/trials.csv --measure realism --within A,F,DR --export again.csv");
+    const auto analysed =
+        call("analyse anova out/trials.csv --measure realism --within A,F,DR --export again.csv");
     ASSERT_EQ(analysed.exitCode, 0) << analysed.err;
     EXPECT_EQ(read("again.csv"), read("out/anova-realism.csv"));
     const std::string line = analysed.out.substr(analysed.out.find("\nA: ") + 1);
     EXPECT_TRUE(has(html, line.substr(0, line.find('\n')))) << line;
-    EXPECT_TRUE(has(read("out/report.R"), "anova.test(\"anova-realism.csv\", \"trials.csv\", \"realism\", c(\"A\", \"F\", \"DR\"))"));
+    EXPECT_TRUE(
+        has(read("out/report.R"),
+            "anova.test(\"anova-realism.csv\", \"trials.csv\", \"realism\", c(\"A\", \"F\", \"DR\"))"));
 }
 
 TEST_F(Report, TheSameTrialsGiveTheSameBytes) {
@@ -65,8 +82,10 @@ TEST_F(Report, TheSameTrialsGiveTheSameBytes) {
 }
 
 TEST_F(Report, WordsOfFilesAreOnlyWords) {
-    write("t.csv", "participant,condition,stimulus,response\n<script>alert(1)</script>,\"<img src=x onerror=alert(1)>\",<b>,<b>\n"
-                   "<script>alert(1)</script>,\"<img src=x onerror=alert(1)>\",c,<b>\nQ,\"<img src=x onerror=alert(1)>\",<b>,<b>\nQ,\"<img src=x onerror=alert(1)>\",c,c\n");
+    write("t.csv", "participant,condition,stimulus,response\n<script>alert(1)</script>,\"<img src=x "
+                   "onerror=alert(1)>\",<b>,<b>\n"
+                   "<script>alert(1)</script>,\"<img src=x onerror=alert(1)>\",c,<b>\nQ,\"<img src=x "
+                   "onerror=alert(1)>\",<b>,<b>\nQ,\"<img src=x onerror=alert(1)>\",c,c\n");
     ASSERT_EQ(call("report t.csv --out out").exitCode, 0);
     const std::string html = page();
     EXPECT_TRUE(has(html, "&lt;script&gt;"));
@@ -77,7 +96,9 @@ TEST_F(Report, WordsOfFilesAreOnlyWords) {
 TEST_F(Report, OtherProgramsTablesAreReadByTheirNames) {
     std::string text = "sound,key_resp.keys,subject,\n,,1,\n";
     for (int p = 1; p <= 4; ++p)
-        for (int t = 0; t < 10; ++t) text += std::string(t % 2 ? "hi" : "lo") + (t % 3 || p % 2 ? ",hi," : ",lo,") + std::to_string(p) + ",\n";
+        for (int t = 0; t < 10; ++t)
+            text += std::string(t % 2 ? "hi" : "lo") + (t % 3 || p % 2 ? ",hi," : ",lo,") +
+                    std::to_string(p) + ",\n";
     write("p.csv", text);
     const std::string columns = " --columns participant=subject,stimulus=sound,response=key_resp.keys";
     const auto outcome = call("report p.csv --out out" + columns);
@@ -89,7 +110,8 @@ TEST_F(Report, OtherProgramsTablesAreReadByTheirNames) {
     EXPECT_EQ(analysed.exitCode, 0) << analysed.err;
     EXPECT_TRUE(has(analysed.out, "trials: 40 (2 stimuli)")) << analysed.out;
     refuses("analyse confusion p.csv --columns response", 2, "--columns: expected NAME=COLUMN", 2);
-    refuses("analyse confusion p.csv --columns response=keys", 1, "p.csv: expected a column keys, found none", 2);
+    refuses("analyse confusion p.csv --columns response=keys", 1, "p.csv: expected a column keys, found none",
+            2);
 }
 
 /// Three people who say at seven speeds whether something was faster, more surely the later they took part.
@@ -175,7 +197,8 @@ TEST_F(Report, ASecondTrialFileOfAParticipantIsRefused) {
 TEST_F(Report, TrialsCanBeABidsDatasetAsWell) {
     simulate("eight-methods", 2);
     ASSERT_EQ(call("report eight-methods-P*.csv --out out --bids").exitCode, 0);
-    EXPECT_EQ(count(read("out/bids/sub-P02/beh/sub-P02_task-eightmethods_beh.tsv"), "\n"), 97u) << "a header, 16 trials of training, 80";
+    EXPECT_EQ(count(read("out/bids/sub-P02/beh/sub-P02_task-eightmethods_beh.tsv"), "\n"), 97u)
+        << "a header, 16 trials of training, 80";
     EXPECT_TRUE(has(read("out/bids/dataset_description.json"), "SIMULATED"));
     write("t.csv", "stimulus,response\na,a\nb,b\n");
     refuses("report t.csv --out none --bids", 1, "t.csv: --bids: expected a column participant", 4);
@@ -183,7 +206,8 @@ TEST_F(Report, TrialsCanBeABidsDatasetAsWell) {
 
 TEST_F(Report, FitsHavePictures) {
     simulate("level-steps", 3);
-    ASSERT_EQ(call("analyse psychometric level-steps-P01.csv level-steps-P02.csv --picture p.svg").exitCode, 0);
+    ASSERT_EQ(call("analyse psychometric level-steps-P01.csv level-steps-P02.csv --picture p.svg").exitCode,
+              0);
     EXPECT_EQ(read("p.svg").rfind("<svg xmlns=", 0), 0u);
     EXPECT_EQ(count(read("p.svg"), ">SIMULATED<"), 1u);
     EXPECT_TRUE(has(read("p.svg"), "threshold "));
@@ -192,19 +216,25 @@ TEST_F(Report, FitsHavePictures) {
 TEST_F(Report, TheThesisStandsBesideWhatFollowsFromIt) {
     const auto outcome = call("report thesis --out t");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    const std::string html = page("t"), tests = read("t/tests.csv"), transfer = read("t/transfer.csv"), resolutions = read("t/resolutions.csv");
-    EXPECT_TRUE(has(tests, "\n5.3.2,realism: amplitude,F,1,19,13.8,0.0147,0.0014")) << "a digit slipped: " << tests;
+    const std::string html = page("t"), tests = read("t/tests.csv"), transfer = read("t/transfer.csv"),
+                      resolutions = read("t/resolutions.csv");
+    EXPECT_TRUE(has(tests, "\n5.3.2,realism: amplitude,F,1,19,13.8,0.0147,0.0014"))
+        << "a digit slipped: " << tests;
     EXPECT_TRUE(has(tests, "412.5,0.017,impossible,NO,")) << tests;
     EXPECT_TRUE(has(tests, "\n3.2.2,percent correct: configuration,F,1,11,0.21,0.658,0.65")) << tests;
     EXPECT_EQ(count(tests, ",NO,"), 4u) << tests;
     EXPECT_EQ(count(transfer, ",NO: "), 1u) << transfer;
     EXPECT_TRUE(has(transfer.substr(transfer.rfind("RING-5x5")), "tolerance 1,25,2.62,")) << transfer;
-    for (const char* line : {"PHONE-LINEAR,", "PHONE-LOGARITHM,", "RING-LINEAR,", "RING-LOGARITHM,"}) EXPECT_TRUE(has(resolutions, line)) << resolutions;
-    for (const char* grid : {",5 x 5,5 x 5,", ",5 x 4,5 x 4,", ",6 x 4,6 x 4,", ",7 x 4,7 x 4,"}) EXPECT_TRUE(has(resolutions, grid)) << resolutions;
+    for (const char* line : {"PHONE-LINEAR,", "PHONE-LOGARITHM,", "RING-LINEAR,", "RING-LOGARITHM,"})
+        EXPECT_TRUE(has(resolutions, line)) << resolutions;
+    for (const char* grid : {",5 x 5,5 x 5,", ",5 x 4,5 x 4,", ",6 x 4,6 x 4,", ",7 x 4,7 x 4,"})
+        EXPECT_TRUE(has(resolutions, grid)) << resolutions;
     EXPECT_TRUE(has(html, "SIMULATED"));
-    EXPECT_EQ(count(html, ">SIMULATED</text>"), count(html, ">rehearsed (simulated)<")) << "rehearsals' pictures, and no other";
+    EXPECT_EQ(count(html, ">SIMULATED</text>"), count(html, ">rehearsed (simulated)<"))
+        << "rehearsals' pictures, and no other";
     EXPECT_GT(count(html, "<svg "), count(html, ">SIMULATED</text>"));
-    for (const char* study : {"patterns", "phantom-grids", "phantom-places", "model-or-sound", "eight-methods"}) {
+    for (const char* study :
+         {"patterns", "phantom-grids", "phantom-places", "model-or-sound", "eight-methods"}) {
         EXPECT_TRUE(has(html, std::string("href=\"") + study + "/index.html\"")) << study;
         EXPECT_TRUE(has(page(std::string("t/") + study), ">SIMULATED</div>")) << study;
     }
@@ -231,7 +261,8 @@ TEST_F(Report, UnknownTrialsHaveTheirTableAndAreTold) {
 TEST_F(Report, RefusalsLeaveNothing) {
     simulate("magnitudes", 1);
     simulate("level-steps", 1);
-    refuses("report magnitudes-P01.csv level-steps-P01.csv --out out", 1, "level-steps-P01.csv:1: expected trials of the protocol \"magnitudes\"", 2);
+    refuses("report magnitudes-P01.csv level-steps-P01.csv --out out", 1,
+            "level-steps-P01.csv:1: expected trials of the protocol \"magnitudes\"", 2);
     refuses("report nothing.csv --out out", 1, "nothing.csv", 2);
     refuses("report magnitudes-P01.csv --out magnitudes-P01.csv/x", 1, "expected a folder", 2);
     refuses("report magnitudes-P01.csv", 2, "--out", 2);

@@ -9,7 +9,8 @@ namespace {
 using SceneFiles = test::CommandLine;
 
 /// A ball above a camera, with two variables.
-const std::string drop = R"({ "physvib_scene": 1, "name": "my drop", "field_m": [4, 4], "gravity_m_per_s2": [0, -9.8],
+const std::string drop =
+    R"({ "physvib_scene": 1, "name": "my drop", "field_m": [4, 4], "gravity_m_per_s2": [0, -9.8],
   "materials": [{ "name": "concrete", "density_kg_per_m2": 1000, "friction": 0.5, "restitution": 0.5, "frequency_hz": 80, "decay_per_s": 34.13 }],
   "bodies": [
     { "name": "plate", "type": "static", "position_m": [2, 0.15], "mass_kg": 870, "fixtures": [{ "shape": "box", "size_m": [2.9, 0.3], "material": "concrete", "camera": true }] },
@@ -25,7 +26,8 @@ TEST_F(SceneFiles, AnybodysWorldIsRendered) {
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     EXPECT_EQ(files().size(), 4u);
-    EXPECT_NE(read("a.csv").find("scene=my drop seed=1 steps_per_second=100 height=low size=big"), std::string::npos);
+    EXPECT_NE(read("a.csv").find("scene=my drop seed=1 steps_per_second=100 height=low size=big"),
+              std::string::npos);
     EXPECT_NE(read("a.csv").find(",80,34.13,"), std::string::npos);
 }
 
@@ -41,14 +43,18 @@ TEST_F(SceneFiles, SetChangesTheScene) {
 
 TEST_F(SceneFiles, SmallBodiesAreWarnedOf) {
     write("drop.json", drop);
-    const auto outcome = call("render drop.json --seconds 1 --events a.csv --set size=tiny --set height=high");
+    const auto outcome =
+        call("render drop.json --seconds 1 --events a.csv --set size=tiny --set height=high");
     EXPECT_EQ(outcome.exitCode, 0);
-    EXPECT_EQ(outcome.err, "physvib: warning: drop.json: bodies[1].fixtures[0]: expected 0.1 to 10, found 0.04 m: Box2D simulates such moving bodies less well\n");
+    EXPECT_EQ(outcome.err, "physvib: warning: drop.json: bodies[1].fixtures[0]: expected 0.1 to 10, found "
+                           "0.04 m: Box2D simulates such moving bodies less well\n");
 }
 
 TEST_F(SceneFiles, BadScenesAreNamedByTheirField) {
-    write("bad.json", R"({ "physvib_scene": 1, "name": "bad", "field_m": [0, 4], "materials": [], "bodies": [] })");
-    refuses("render bad.json --out a.wav --events a.csv", 1, "bad.json: field_m[0]: expected 0.01 to 1000, found 0", 1);
+    write("bad.json",
+          R"({ "physvib_scene": 1, "name": "bad", "field_m": [0, 4], "materials": [], "bodies": [] })");
+    refuses("render bad.json --out a.wav --events a.csv", 1,
+            "bad.json: field_m[0]: expected 0.01 to 1000, found 0", 1);
     refuses("render none.json --out a.wav", 1, "none.json: cannot be read", 1);
     refuses("render ./none --out a.wav", 1, "./none: cannot be read", 1);
 }
@@ -58,8 +64,10 @@ TEST_F(SceneFiles, WrongSettingsAreRefused) {
     refuses("render shake-the-box --set size --out a.wav", 2, "--set: expected NAME=VALUE");
     refuses("render nonsense --out a.wav", 2, "no scene \"nonsense\" (see physvib scenes)");
     write("drop.json", drop);
-    refuses("render drop.json --set height=2 --out a.wav", 1, "drop.json: variable \"height\": expected one of low, high, found \"2\"", 1);
-    refuses("render --from-events drop.json --set height=low --out a.wav", 2, "--set: only a scene has variables", 1);
+    refuses("render drop.json --set height=2 --out a.wav", 1,
+            "drop.json: variable \"height\": expected one of low, high, found \"2\"", 1);
+    refuses("render --from-events drop.json --set height=low --out a.wav", 2,
+            "--set: only a scene has variables", 1);
 }
 
 } // namespace

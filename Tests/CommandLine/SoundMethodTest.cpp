@@ -12,8 +12,10 @@ protected:
     void SetUp() override {
         CommandLine::SetUp();
         write("one.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,349,40,0.8,0,0\n");
-        ASSERT_EQ(call("render --from-events one.csv --layout phone1 --seconds 1 --out knock.wav").exitCode, 0);
-        write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.2,349,40,0.4,0,0\n0.6,349,40,0.1,0,0\n");
+        ASSERT_EQ(call("render --from-events one.csv --layout phone1 --seconds 1 --out knock.wav").exitCode,
+                  0);
+        write("hits.csv",
+              "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.2,349,40,0.4,0,0\n0.6,349,40,0.1,0,0\n");
     }
     std::vector<float> samplesOf(const std::string& name) const {
         const std::string wav = read(name);
@@ -26,13 +28,15 @@ protected:
     }
     static float peakOf(const std::vector<float>& samples, double from, double to, double rate) {
         float most = 0.0f;
-        for (auto n = static_cast<std::size_t>(from * rate); n < static_cast<std::size_t>(to * rate); ++n) most = std::max(most, std::abs(samples[n]));
+        for (auto n = static_cast<std::size_t>(from * rate); n < static_cast<std::size_t>(to * rate); ++n)
+            most = std::max(most, std::abs(samples[n]));
         return most;
     }
 };
 
 TEST_F(SoundMethod, TheRecordingPlaysAtEachHitWithTheHitsAmplitudeAsItsPeak) {
-    const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --limiter off --method SV --sound 349=knock.wav --out a.wav ";
+    const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --limiter off "
+                               "--method SV --sound 349=knock.wav --out a.wav ";
     const auto outcome = call(render);
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto a = samplesOf("a.wav");
@@ -44,11 +48,16 @@ TEST_F(SoundMethod, TheRecordingPlaysAtEachHitWithTheHitsAmplitudeAsItsPeak) {
 }
 
 TEST_F(SoundMethod, MarksAreAFileOfTheirOwnInSyncWithWhatIsFelt) {
-    write("close.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.2000005,349,40,0.4,0,0\n0.6000005,349,40,0.1,0,0\n0.6002,349,40,0.1,0,0\n");
-    const std::string render = "render --from-events close.csv --layout phone1 --seconds 1 --out a.wav --marker m.wav";
+    write("close.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.2000005,349,40,0.4,0,0\n0."
+                       "6000005,349,40,0.1,0,0\n0.6002,349,40,0.1,0,0\n");
+    const std::string render =
+        "render --from-events close.csv --layout phone1 --seconds 1 --out a.wav --marker m.wav";
     const auto outcome = call(render);
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("m.wav  a pulse at each onset: 1 channel, 2 pulses for 3 onsets: 1 came within 0.5 ms of another"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("m.wav  a pulse at each onset: 1 channel, 2 pulses for 3 onsets: 1 came "
+                               "within 0.5 ms of another"),
+              std::string::npos)
+        << outcome.out;
     const auto felt = samplesOf("a.wav"), marks = samplesOf("m.wav");
     ASSERT_EQ(felt.size(), marks.size());
     for (const std::size_t onset : {9601u, 28801u}) {
@@ -58,15 +67,19 @@ TEST_F(SoundMethod, MarksAreAFileOfTheirOwnInSyncWithWhatIsFelt) {
     }
     EXPECT_EQ(felt[9600], 0.0f);
     EXPECT_NE(felt[9601], 0.0f);
-    EXPECT_EQ(call(render + " --marker-of hits").out.find("0 pulses") == std::string::npos, false) << "a list without fixtures has no hits of a world";
+    EXPECT_EQ(call(render + " --marker-of hits").out.find("0 pulses") == std::string::npos, false)
+        << "a list without fixtures has no hits of a world";
     EXPECT_EQ(call(render + " --marker-of some").exitCode, 2);
 }
 
 TEST_F(SoundMethod, TheContactSoundIsAFileOfItsOwnInSyncWithWhatIsFelt) {
-    const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav --contact-sound b.wav ";
+    const std::string render =
+        "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav --contact-sound b.wav ";
     auto outcome = call(render);
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("b.wav  what is heard of each hit: 1 channel, at full scale -20 dBFS"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("b.wav  what is heard of each hit: 1 channel, at full scale -20 dBFS"),
+              std::string::npos)
+        << outcome.out;
     const auto felt = samplesOf("a.wav"), heard = samplesOf("b.wav");
     ASSERT_EQ(felt.size(), heard.size());
     for (std::size_t n = 0; n < felt.size(); ++n) ASSERT_NEAR(heard[n], 0.1f * felt[n], 1e-6f) << n;
@@ -78,7 +91,8 @@ TEST_F(SoundMethod, TheContactSoundIsAFileOfItsOwnInSyncWithWhatIsFelt) {
 }
 
 TEST_F(SoundMethod, LevelsMoveAllHitsAndRecordingsCanBeAsStrongAsTheMode) {
-    const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --limiter off --out a.wav ";
+    const std::string render =
+        "render --from-events hits.csv --layout phone1 --seconds 1 --limiter off --out a.wav ";
     ASSERT_EQ(call(render).exitCode, 0);
     const auto plain = samplesOf("a.wav");
     ASSERT_EQ(call(render + "--level-db -6.0206").exitCode, 0);
@@ -100,15 +114,21 @@ TEST_F(SoundMethod, LevelsMoveAllHitsAndRecordingsCanBeAsStrongAsTheMode) {
 TEST_F(SoundMethod, WhatIsMissingOrNoHitIsToldInOneLine) {
     const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav ";
     refuses(render + "--method SV", 2, "--method SV: expected a --sound for each material", 3);
-    refuses(render + "--sound 349=knock.wav", 2, "--sound: expected --method SV, to feel it, or --contact-sound, to hear it", 3);
-    refuses(render + "--sound 349=knock.wav --contact-sound b.wav --method AV-FF-DRV", 2, "--sound: expected hits at their material's own frequency, found --method AV-FF-DRV", 3);
+    refuses(render + "--sound 349=knock.wav", 2,
+            "--sound: expected --method SV, to feel it, or --contact-sound, to hear it", 3);
+    refuses(render + "--sound 349=knock.wav --contact-sound b.wav --method AV-FF-DRV", 2,
+            "--sound: expected hits at their material's own frequency, found --method AV-FF-DRV", 3);
     refuses(render + "--method SV --sound knock.wav", 2, "--sound: expected HZ=FILE.wav", 3);
-    refuses(render + "--method SV --sound 80=knock.wav", 1, "hits.csv: expected a --sound for 349 Hz, found none", 3);
+    refuses(render + "--method SV --sound 80=knock.wav", 1,
+            "hits.csv: expected a --sound for 349 Hz, found none", 3);
     refuses(render + "--method SV --sound 349=none.wav", 1, "none.wav: cannot be read", 3);
-    refuses(render + "--method SV --sound 349=hits.csv", 1, "hits.csv: expected a WAV, FLAC or Ogg Vorbis file", 3);
+    refuses(render + "--method SV --sound 349=hits.csv", 1,
+            "hits.csv: expected a WAV, FLAC or Ogg Vorbis file", 3);
     write("silence.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,349,40,0,0,0\n");
-    ASSERT_EQ(call("render --from-events silence.csv --layout phone1 --seconds 1 --out silence.wav").exitCode, 0);
-    refuses(render + "--method SV --sound 349=silence.wav", 1, "silence.wav: expected a hit, found silence", 5);
+    ASSERT_EQ(call("render --from-events silence.csv --layout phone1 --seconds 1 --out silence.wav").exitCode,
+              0);
+    refuses(render + "--method SV --sound 349=silence.wav", 1, "silence.wav: expected a hit, found silence",
+            5);
 }
 
 } // namespace

@@ -21,7 +21,8 @@ std::vector<float> samplesOf(const std::string& wav) {
 }
 
 TEST_F(StimulusCommand, PatternsAndPhantomsBecomeFilesAndTheSameOnesAgain) {
-    for (const std::string what : {"pattern ABA-250", "phantom --grid 5x5 --cell 2,4 --law log", "phantom --at 0.25,0.5 --layout ring4 --seconds 0.3"}) {
+    for (const std::string what : {"pattern ABA-250", "phantom --grid 5x5 --cell 2,4 --law log",
+                                   "phantom --at 0.25,0.5 --layout ring4 --seconds 0.3"}) {
         const auto outcome = call("stimulus " + what + " --out a.wav --picture a.png");
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
         EXPECT_EQ(outcome.err, "");
@@ -35,17 +36,22 @@ TEST_F(StimulusCommand, PatternsAndPhantomsBecomeFilesAndTheSameOnesAgain) {
 
 TEST_F(StimulusCommand, TheResonanceIsThatOfTheLayoutsActuators) {
     const auto layout = [](const std::string& a, const std::string& b) {
-        return R"({"extent_m":[1,1],"enchanters":[{"label":"L","x_m":0,"y_m":0.5,"actuator":")" + a + R"("},{"label":"R","x_m":1,"y_m":0.5,"actuator":")" + b + R"("}]})";
+        return R"({"extent_m":[1,1],"enchanters":[{"label":"L","x_m":0,"y_m":0.5,"actuator":")" + a +
+               R"("},{"label":"R","x_m":1,"y_m":0.5,"actuator":")" + b + R"("}]})";
     };
     write("same.json", layout("piezo-230", "piezo-230"));
     write("two.json", layout("lra-205", "piezo-230"));
     write("none.json", layout("none", "none"));
-    ASSERT_EQ(call("stimulus pattern AB-100 --layout same.json --frequency resonance --out a.wav").exitCode, 0);
+    ASSERT_EQ(call("stimulus pattern AB-100 --layout same.json --frequency resonance --out a.wav").exitCode,
+              0);
     ASSERT_EQ(call("stimulus pattern AB-100 --layout same.json --frequency 230 --out b.wav").exitCode, 0);
     EXPECT_EQ(read("a.wav"), read("b.wav"));
-    refuses("stimulus pattern AB-100 --layout two.json --frequency resonance --out c.wav", 1, "actuator R: expected the resonance of the others, 205 Hz, found 230 Hz", 5);
-    refuses("stimulus phantom --at 0,0 --layout none.json --frequency resonance --out c.wav", 1, "actuator L: expected an actuator, found none", 5);
-    refuses("stimulus phantom --at 0,0 --frequency loud --out c.wav", 2, "--frequency: expected 5 to 20000 Hz, or resonance, found \"loud\"", 5);
+    refuses("stimulus pattern AB-100 --layout two.json --frequency resonance --out c.wav", 1,
+            "actuator R: expected the resonance of the others, 205 Hz, found 230 Hz", 5);
+    refuses("stimulus phantom --at 0,0 --layout none.json --frequency resonance --out c.wav", 1,
+            "actuator L: expected an actuator, found none", 5);
+    refuses("stimulus phantom --at 0,0 --frequency loud --out c.wav", 2,
+            "--frequency: expected 5 to 20000 Hz, or resonance, found \"loud\"", 5);
 }
 
 TEST_F(StimulusCommand, EveryPatternIsListed) {
@@ -56,36 +62,53 @@ TEST_F(StimulusCommand, EveryPatternIsListed) {
 }
 
 TEST_F(StimulusCommand, ARecordingIsPlacedLikeAPhantom) {
-    ASSERT_EQ(call("stimulus phantom --at 0,0 --layout phone1 --seconds 0.1 --level-g 0.5 --out mono.wav --rate 44100").exitCode, 0);
+    ASSERT_EQ(call("stimulus phantom --at 0,0 --layout phone1 --seconds 0.1 --level-g 0.5 --out mono.wav "
+                   "--rate 44100")
+                  .exitCode,
+              0);
     ASSERT_EQ(call("stimulus wav mono.wav --at 0,0 --level-g 0.5 --out placed.wav").exitCode, 0);
-    ASSERT_EQ(call("stimulus phantom --at 0,0 --seconds 0.1 --level-g 0.5 --rate 44100 --out direct.wav").exitCode, 0);
+    ASSERT_EQ(
+        call("stimulus phantom --at 0,0 --seconds 0.1 --level-g 0.5 --rate 44100 --out direct.wav").exitCode,
+        0);
     const auto placed = samplesOf(read("placed.wav")), direct = samplesOf(read("direct.wav"));
     float worst = 0.0f; // the recording's peak, a sample of the sine, becomes the level
     for (std::size_t i = 0; i < placed.size(); ++i) worst = std::max(worst, std::abs(placed[i] - direct[i]));
     EXPECT_LE(worst, 1e-4f);
     EXPECT_EQ(*std::ranges::max_element(placed), 0.5f);
-    refuses("stimulus wav direct.wav --at 0,0 --out x.wav", 1, "direct.wav: expected one channel, found 4", 3);
+    refuses("stimulus wav direct.wav --at 0,0 --out x.wav", 1, "direct.wav: expected one channel, found 4",
+            3);
     write("no.wav", "RIFF, but not really");
     refuses("stimulus wav no.wav --at 0,0 --out x.wav", 1, "no.wav: expected a WAV file", 4);
 }
 
 TEST_F(StimulusCommand, WhatLiesBelow5HzInARecordingIsTakenAwayAndTold) {
     std::vector<float> samples(8000, 0.02f);
-    const auto writeWav = [&](const std::string& name) { write(name, test::wavBytes({.format = 3, .rateHz = 8000, .bits = 32}, {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(float)})); };
-    for (std::size_t n = 0; n < samples.size(); ++n) samples[n] += 0.02f * std::sin(0.16f * static_cast<float>(n));
+    const auto writeWav = [&](const std::string& name) {
+        write(name, test::wavBytes(
+                        {.format = 3, .rateHz = 8000, .bits = 32},
+                        {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(float)}));
+    };
+    for (std::size_t n = 0; n < samples.size(); ++n)
+        samples[n] += 0.02f * std::sin(0.16f * static_cast<float>(n));
     writeWav("offset.wav");
     const auto outcome = call("stimulus wav offset.wav --at 0,0 --layout phone1 --out a.wav");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("offset.wav: what lies below 5 Hz is not played: a mean of 0.50, of full scale\n"), std::string::npos) << outcome.err;
+    EXPECT_NE(
+        outcome.err.find("offset.wav: what lies below 5 Hz is not played: a mean of 0.50, of full scale\n"),
+        std::string::npos)
+        << outcome.err;
     const auto placed = samplesOf(read("a.wav"));
     EXPECT_NEAR(*std::ranges::min_element(placed), -1.0f, 0.01f);
     EXPECT_NEAR(*std::ranges::max_element(placed), 1.0f, 0.01f);
 }
 
 TEST_F(StimulusCommand, LevelsAreInG) {
-    write("weak.json", R"({"extent_m":[1,1],"enchanters":[{"label":"L","x_m":0,"y_m":0.5,"full_scale_g":0.5},{"label":"R","x_m":1,"y_m":0.5}]})");
+    write(
+        "weak.json",
+        R"({"extent_m":[1,1],"enchanters":[{"label":"L","x_m":0,"y_m":0.5,"full_scale_g":0.5},{"label":"R","x_m":1,"y_m":0.5}]})");
     EXPECT_EQ(call("stimulus pattern A-100 --layout weak.json --level-g 0.5 --out a.wav").exitCode, 0);
-    refuses("stimulus pattern A-100 --layout weak.json --out b.wav", 1, "actuator L: expected at most its full scale of 0.5 g, found 1.000 g", 2);
+    refuses("stimulus pattern A-100 --layout weak.json --out b.wav", 1,
+            "actuator L: expected at most its full scale of 0.5 g, found 1.000 g", 2);
     EXPECT_EQ(call("stimulus pattern B-100 --layout weak.json --out a.wav").exitCode, 0);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib study`: each of the thesis' studies run whole by the observer, cut off in the middle, and analysed.
+// `physvib study`: each of the thesis' studies run whole by the observer, cut off in the middle, and
+// analysed.
 #include "Calls.h"
 #include "Io/Text/CsvTable.h"
 #include "TestPlaces.h"
@@ -13,8 +14,10 @@ namespace {
 class Study : public test::CommandLine {
 protected:
     /// Runs a study of that many participants; the names of their files.
-    std::string run(const std::string& protocol, int participants, const std::string& more = "--observer simulated") const {
-        const auto outcome = call("study run " + protocol + " --participants " + std::to_string(participants) + " " + more);
+    std::string run(const std::string& protocol, int participants,
+                    const std::string& more = "--observer simulated") const {
+        const auto outcome =
+            call("study run " + protocol + " --participants " + std::to_string(participants) + " " + more);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         EXPECT_NE(outcome.out.find("SIMULATED"), std::string::npos);
         std::string names;
@@ -23,7 +26,8 @@ protected:
     }
     /// The analysis succeeds, marks the data as simulated, and leaves a picture.
     std::string analyse(const std::string& kind, const std::string& files) const {
-        const auto outcome = call("analyse " + kind + files + " --picture " + kind + ".png --export " + kind + "-export.csv");
+        const auto outcome =
+            call("analyse " + kind + files + " --picture " + kind + ".png --export " + kind + "-export.csv");
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         EXPECT_EQ(outcome.out.rfind("SIMULATED", 0), 0u) << outcome.out;
         EXPECT_EQ(read(kind + ".png").substr(1, 3), "PNG");
@@ -34,28 +38,37 @@ protected:
 
 TEST_F(Study, PatternsWhole) {
     const std::string out = analyse("confusion", run("patterns", 3));
-    for (const char* words : {"PHONE-2\n  trials: 84 (28 stimuli)\n", "RING-4\n  trials: 504 (168 stimuli)\n"}) EXPECT_NE(out.find(words), std::string::npos) << out;
-    EXPECT_NE(call("analyse icons patterns-P01.csv patterns-P02.csv --meanings 24").out.find("enough"), std::string::npos);
+    for (const char* words :
+         {"PHONE-2\n  trials: 84 (28 stimuli)\n", "RING-4\n  trials: 504 (168 stimuli)\n"})
+        EXPECT_NE(out.find(words), std::string::npos) << out;
+    EXPECT_NE(call("analyse icons patterns-P01.csv patterns-P02.csv --meanings 24").out.find("enough"),
+              std::string::npos);
 }
 
 #if !defined(_WIN32) // where there is always one
 TEST_F(Study, WithoutADisplayNoPersonAnswersAndItSaysWhere) {
     unsetenv("DISPLAY");
     for (const char* observer : {"", " --observer person"})
-        refuses(std::string{"study run magnitudes"} + observer, 2, "physvib-mixer shows a person what to answer; its tab Studies has the protocol \"magnitudes\"");
-    refuses("study run magnitudes --participants 2", 2, "--participants: expected one at a time where a person answers");
+        refuses(
+            std::string{"study run magnitudes"} + observer, 2,
+            "physvib-mixer shows a person what to answer; its tab Studies has the protocol \"magnitudes\"");
+    refuses("study run magnitudes --participants 2", 2,
+            "--participants: expected one at a time where a person answers");
 }
 #endif
 
 TEST_F(Study, PhantomGridsWhole) {
     const std::string files = run("phantom-grids", 2, "--observer simulated-RING");
     EXPECT_NE(analyse("confusion", files).find("RING-5x5\n  trials: 500 (25 stimuli)\n"), std::string::npos);
-    EXPECT_NE(call("analyse confusion" + files + " --tolerance 1").out.find("PHONE-3x3\n  trials: 180 (9 stimuli)\n"), std::string::npos);
+    EXPECT_NE(call("analyse confusion" + files + " --tolerance 1")
+                  .out.find("PHONE-3x3\n  trials: 180 (9 stimuli)\n"),
+              std::string::npos);
 }
 
 TEST_F(Study, PhantomPlacesWhole) {
     const std::string out = analyse("resolution", run("phantom-places", 4, "--observer simulated-RING"));
-    for (const char* condition : {"PHONE-LINEAR: ", "PHONE-LOGARITHM: ", "RING-LINEAR: ", "RING-LOGARITHM: "}) EXPECT_NE(out.find(condition), std::string::npos) << out;
+    for (const char* condition : {"PHONE-LINEAR: ", "PHONE-LOGARITHM: ", "RING-LINEAR: ", "RING-LOGARITHM: "})
+        EXPECT_NE(out.find(condition), std::string::npos) << out;
 }
 
 TEST_F(Study, ModelOrSoundWhole) {
@@ -66,13 +79,15 @@ TEST_F(Study, ModelOrSoundWhole) {
 }
 
 TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
-    ASSERT_EQ(call("render drop --layout phone1 --set pair=wood-wood --seconds 2 --out wood.wav").exitCode, 0);
+    ASSERT_EQ(call("render drop --layout phone1 --set pair=wood-wood --seconds 2 --out wood.wav").exitCode,
+              0);
     ASSERT_EQ(call("study run model-or-sound --observer simulated --sound 349=wood.wav").exitCode, 0);
     const auto table = readCsvTable(read("model-or-sound-P01.csv"), "rows").value;
     std::string last;
     for (const auto& row : table.rows) {
         const std::string& calls = row.cells[*table.column("render")];
-        const auto sv = calls.find("--method SV --sound-match rms --level-db -8 --sound 80=synthetic-1 --sound 430=synthetic-1 --sound 349=wood.wav");
+        const auto sv = calls.find("--method SV --sound-match rms --level-db -8 --sound 80=synthetic-1 "
+                                   "--sound 430=synthetic-1 --sound 349=wood.wav");
         ASSERT_NE(sv, std::string::npos) << calls;
         const auto model = calls.find("--method AV-FV-DRV --sound-match rms --level-db ");
         ASSERT_NE(model, std::string::npos) << calls;
@@ -81,8 +96,10 @@ TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
     }
     const auto outcome = call(last + " --out again.wav"); // the model at its matched level
     EXPECT_EQ(outcome.exitCode, 0) << last << outcome.err;
-    refuses("study run model-or-sound --observer simulated --out other --sound 349=gone.wav", 1, "gone.wav: cannot be read", 3);
-    refuses("study run model-or-sound --observer simulated --out other --sound gone.wav", 2, "--sound: expected HZ=FILE.wav", 3);
+    refuses("study run model-or-sound --observer simulated --out other --sound 349=gone.wav", 1,
+            "gone.wav: cannot be read", 3);
+    refuses("study run model-or-sound --observer simulated --out other --sound gone.wav", 2,
+            "--sound: expected HZ=FILE.wav", 3);
 }
 
 TEST_F(Study, EightMethodsWhole) {
@@ -107,13 +124,18 @@ TEST_F(Study, EveryTrialCarriesWhatRendersItAgain) {
 }
 
 TEST_F(Study, KilledInTheMiddleOfATrialItGoesOnAndTheFileIsTheSame) {
-    for (const std::string protocol : {"patterns", "phantom-grids", "phantom-places", "model-or-sound", "eight-methods"}) {
-        const std::string file = protocol + "-P01.csv", study = "study run " + protocol + " --observer simulated";
+    for (const std::string protocol :
+         {"patterns", "phantom-grids", "phantom-places", "model-or-sound", "eight-methods"}) {
+        const std::string file = protocol + "-P01.csv",
+                          study = "study run " + protocol + " --observer simulated";
         ASSERT_EQ(call(study + " --out .").exitCode, 0);
         const std::string whole = read(file);
         std::filesystem::remove(folder_ / file);
-        const std::string background = "cd '" + folder_.string() + "' && { '" PHYSVIB_PROGRAM "' " + study + " --pace 0.02 >.out 2>.err & pid=$!; "
-                                       "until [ \"$(cat " + file + " | wc -c)\" -gt 3000 ]; do sleep 0.01; done; kill -9 $pid; wait $pid; } 2>/dev/null";
+        const std::string background =
+            "cd '" + folder_.string() + "' && { '" PHYSVIB_PROGRAM "' " + study +
+            " --pace 0.02 >.out 2>.err & pid=$!; "
+            "until [ \"$(cat " +
+            file + " | wc -c)\" -gt 3000 ]; do sleep 0.01; done; kill -9 $pid; wait $pid; } 2>/dev/null";
         EXPECT_NE(std::system(background.c_str()), 0);
         const std::string cut = read(file);
         ASSERT_GT(cut.size(), 3000u) << "some trials were answered";
@@ -148,13 +170,18 @@ TEST_F(Study, ProtocolsOfOnesOwnNeedNoCode) {
 
 TEST_F(Study, FilesOfAProtocolAreFoundBesideItAndTheFolderOfRowsIsMade) {
     std::filesystem::create_directories(folder_ / "mine");
-    write("mine/glove.json", R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0}, {"x_m": 0.1, "y_m": 0}]})");
-    write("mine/study.json", R"({ "physvib_protocol": 1, "name": "study", "conditions": [{ "name": "A", "layout": "glove.json", "stimuli": "grid", "columns": 2, "rows": 1 }], "sessions": [{ "name": "main" }] })");
+    write("mine/glove.json",
+          R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0}, {"x_m": 0.1, "y_m": 0}]})");
+    write(
+        "mine/study.json",
+        R"({ "physvib_protocol": 1, "name": "study", "conditions": [{ "name": "A", "layout": "glove.json", "stimuli": "grid", "columns": 2, "rows": 1 }], "sessions": [{ "name": "main" }] })");
     const auto outcome = call("study run mine/study.json --observer simulated --out rows/today");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(read("rows/today/study-P01.csv").find("--layout glove.json"), std::string::npos) << "the row's call is one for the protocol's folder";
+    EXPECT_NE(read("rows/today/study-P01.csv").find("--layout glove.json"), std::string::npos)
+        << "the row's call is one for the protocol's folder";
     std::filesystem::remove(folder_ / "mine/glove.json");
-    refuses("study run mine/study.json --observer simulated --out rows/tomorrow", 1, "glove.json: cannot be read", 2);
+    refuses("study run mine/study.json --observer simulated --out rows/tomorrow", 1,
+            "glove.json: cannot be read", 2);
 }
 
 TEST_F(Study, RendersCanBeCutAsThePublishedOnesWere) {
@@ -176,15 +203,23 @@ TEST_F(Study, RendersCanBeCutAsThePublishedOnesWere) {
 }
 
 TEST_F(Study, ExpertsSetTheLevelsThatTheMainStudyReads) {
-    const std::string conditions = R"("sounds": [{ "frequency_hz": 80, "file": "synthetic-1" }], "conditions": [{ "name": "drop", "layout": "phone1", "stimuli": "calls",
+    const std::string conditions =
+        R"("sounds": [{ "frequency_hz": 80, "file": "synthetic-1" }], "conditions": [{ "name": "drop", "layout": "phone1", "stimuli": "calls",
         "factors": [{ "name": "height", "values": ["1", "2"] }], "call": "render drop --set height={height} --seconds 1 --layout phone1 --method {alternative} --level-db {level_db}" }], )";
     const std::string alternatives = R"("alternatives": [{ "name": "AV-FV-DRV" }, { "name": "SV" }])";
-    write("experts.json", R"({ "physvib_protocol": 1, "name": "experts", )" + conditions + R"("sessions": [{ "name": "matching", "task": "adjust", "repetitions": 3, )" + alternatives +
-                              R"(, "adjustment": { "alternative": "AV-FV-DRV", "random_start": true, "least_db": -20, "most_db": 10 } }] })");
-    write("main.json", R"({ "physvib_protocol": 1, "name": "main", )" + conditions + R"("sessions": [{ "name": "main", "task": "choose", "levels_file": "levels.csv", )" + alternatives + "}] }");
+    write(
+        "experts.json",
+        R"({ "physvib_protocol": 1, "name": "experts", )" + conditions +
+            R"("sessions": [{ "name": "matching", "task": "adjust", "repetitions": 3, )" + alternatives +
+            R"(, "adjustment": { "alternative": "AV-FV-DRV", "random_start": true, "least_db": -20, "most_db": 10 } }] })");
+    write("main.json",
+          R"({ "physvib_protocol": 1, "name": "main", )" + conditions +
+              R"("sessions": [{ "name": "main", "task": "choose", "levels_file": "levels.csv", )" +
+              alternatives + "}] }");
     refuses("study run main.json --observer simulated", 1, "levels.csv: cannot be read", 2);
     ASSERT_EQ(call("study run experts.json --observer simulated --participants 3").exitCode, 0);
-    const auto outcome = call("study levels experts.json experts-P01.csv experts-P02.csv experts-P03.csv --out levels.csv");
+    const auto outcome =
+        call("study levels experts.json experts-P01.csv experts-P02.csv experts-P03.csv --out levels.csv");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("levels.csv  2 levels of 3 participants"), std::string::npos) << outcome.out;
     const auto levels = readCsvTable(read("levels.csv"), "levels.csv").value;
@@ -192,39 +227,57 @@ TEST_F(Study, ExpertsSetTheLevelsThatTheMainStudyReads) {
     ASSERT_EQ(call("study run main.json --observer simulated").exitCode, 0);
     const auto rows = readCsvTable(read("main-P01.csv"), "main-P01.csv").value;
     for (const auto& row : rows.rows) {
-        const auto& level = levels.rows[row.cells[*rows.column("stimulus")] == "1" ? 0 : 1].cells[*levels.column("level_db")];
+        const auto& level =
+            levels.rows[row.cells[*rows.column("stimulus")] == "1" ? 0 : 1].cells[*levels.column("level_db")];
         EXPECT_EQ(row.cells[*rows.column("level_db")], level);
-        EXPECT_NE(row.cells[*rows.column("render")].find("--method AV-FV-DRV --level-db " + level), std::string::npos) << row.cells[*rows.column("render")];
+        EXPECT_NE(row.cells[*rows.column("render")].find("--method AV-FV-DRV --level-db " + level),
+                  std::string::npos)
+            << row.cells[*rows.column("render")];
     }
     write("levels.csv", "condition,stimulus,alternative,level_db\ndrop,1,SV,1\ndrop,2,SV,1\n");
-    EXPECT_NE(call("study run main.json --observer simulated").err.find("was begun with another version of the protocol"), std::string::npos) << "other levels are another study";
+    EXPECT_NE(call("study run main.json --observer simulated")
+                  .err.find("was begun with another version of the protocol"),
+              std::string::npos)
+        << "other levels are another study";
     write("levels.csv", "condition,stimulus,alternative,level_db\ndrop,1,SV,1\n");
-    EXPECT_NE(call("study run main.json --observer simulated --participant P09").err.find("levels.csv: expected a level of drop, 2, found none"), std::string::npos);
+    EXPECT_NE(call("study run main.json --observer simulated --participant P09")
+                  .err.find("levels.csv: expected a level of drop, 2, found none"),
+              std::string::npos);
 }
 
 // Every trial of the protocol renders one of these calls.
 TEST_F(Study, AFixedLevelPeaksAtOneAndAHalfGInEveryTrialOfEightMethodsAndNoLimiterActs) {
-    for (const std::string method : {"AF-FV-DRV", "AF-FV-DRF", "AF-FF-DRV", "AF-FF-DRF", "AV-FV-DRV", "AV-FF-DRF"})
+    for (const std::string method :
+         {"AF-FV-DRV", "AF-FV-DRF", "AF-FF-DRV", "AF-FF-DRF", "AV-FV-DRV", "AV-FF-DRF"})
         for (const std::string pair : {"rubber-concrete", "wood-wood", "steel-steel"}) {
-            const std::string render = "render box-study --set pair=" + pair + " --layout study1 --method " + method + " --rate 48000 --out ";
+            const std::string render = "render box-study --set pair=" + pair + " --layout study1 --method " +
+                                       method + " --rate 48000 --out ";
             const auto outcome = call(render + "on.wav");
             ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
             EXPECT_EQ(outcome.err.find("limiter"), std::string::npos) << outcome.err;
             ASSERT_EQ(call(render + "off.wav --limiter off").exitCode, 0);
             const std::string on = read("on.wav"), off = read("off.wav");
-            // Rubber's own frequency is so low that hits at a fixed level have a mean of 0.09: the guard acts.
+            // Rubber's own frequency is so low that hits at a fixed level have a mean of 0.09: the guard
+            // acts.
             const bool isGuarded = pair == "rubber-concrete" && method.starts_with("AF-FV");
             EXPECT_EQ(on.substr(on.find("data")) != off.substr(off.find("data")), isGuarded)
                 << method << ' ' << pair << ": the limiter or the guard acted";
             float peak = 0.0f, sample = 0.0f;
-            for (std::size_t at = on.find("data") + 8; at + 4 <= on.size(); at += 4) std::memcpy(&sample, on.data() + at, 4), peak = std::max(peak, std::abs(sample));
-            if (method.starts_with("AF")) { EXPECT_NEAR(2.0f * peak, 1.5f, 0.015f) << method << ' ' << pair; }
+            for (std::size_t at = on.find("data") + 8; at + 4 <= on.size(); at += 4)
+                std::memcpy(&sample, on.data() + at, 4), peak = std::max(peak, std::abs(sample));
+            if (method.starts_with("AF")) {
+                EXPECT_NEAR(2.0f * peak, 1.5f, 0.015f) << method << ' ' << pair;
+            }
         }
     EXPECT_NE(call("study show eight-methods").out.find("--layout study1"), std::string::npos);
     std::string text = call("study show eight-methods").out;
-    for (std::size_t at = 0; (at = text.find("study1", at)) != std::string::npos;) text.replace(at, 6, "phone1");
+    for (std::size_t at = 0; (at = text.find("study1", at)) != std::string::npos;)
+        text.replace(at, 6, "phone1");
     write("soft.json", text);
-    EXPECT_NE(call("study run soft.json --observer simulated").err.find("expected enchanters of at least 1.68 g (full_scale_g), as 1.5 g and 1 dB of headroom are felt, found 1.00 g"), std::string::npos);
+    EXPECT_NE(call("study run soft.json --observer simulated")
+                  .err.find("expected enchanters of at least 1.68 g (full_scale_g), as 1.5 g and 1 dB of "
+                            "headroom are felt, found 1.00 g"),
+              std::string::npos);
 }
 
 TEST_F(Study, BadCallsAndFilesAreRefused) {
@@ -236,10 +289,14 @@ TEST_F(Study, BadCallsAndFilesAreRefused) {
     refuses("study run patterns --observer simulated --out /proc/none", 1, "/proc/none: cannot be made: ");
     refuses("study", 2, "");
     write("patterns-P01.csv", "my diary\n");
-    refuses("study run patterns --observer simulated", 1, "patterns-P01.csv:1: expected a trial file of physvib, found something else", 1);
+    refuses("study run patterns --observer simulated", 1,
+            "patterns-P01.csv:1: expected a trial file of physvib, found something else", 1);
     EXPECT_EQ(read("patterns-P01.csv"), "my diary\n");
-    write("bad.json", R"({ "physvib_protocol": 1, "name": "bad", "conditions": [{ "name": "A", "layout": "phone2", "stimuli": "patterns", "enchanters": 4 }], "sessions": [{ "name": "main" }] })");
-    refuses("study run bad.json --observer simulated", 1, "bad.json: condition A: expected as many enchanters as the layout has (2), found 4", 2);
+    write(
+        "bad.json",
+        R"({ "physvib_protocol": 1, "name": "bad", "conditions": [{ "name": "A", "layout": "phone2", "stimuli": "patterns", "enchanters": 4 }], "sessions": [{ "name": "main" }] })");
+    refuses("study run bad.json --observer simulated", 1,
+            "bad.json: condition A: expected as many enchanters as the layout has (2), found 4", 2);
 }
 
 } // namespace

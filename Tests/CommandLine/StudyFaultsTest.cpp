@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faults planted into the built-in protocols, one at a time: each is refused by `study run` and by `study check`, with place and expectation.
+// Faults planted into the built-in protocols, one at a time: each is refused by `study run` and by `study
+// check`, with place and expectation.
 #include "Calls.h"
 
 namespace physvib {
@@ -61,7 +62,8 @@ TEST_F(StudyFaults, EveryPlantedFaultIsRefusedWithItsPlaceBeforeAnythingIsAsked)
         EXPECT_EQ(checked.exitCode, 1) << fault.from << " -> " << fault.to;
         std::string place = fault.words; // the check's page names the file once
         if (place.starts_with("mine.json: ")) place.erase(0, 11);
-        EXPECT_NE((checked.out + checked.err).find(place), std::string::npos) << place << "\nsaid: " << checked.out.substr(0, 500) << checked.err;
+        EXPECT_NE((checked.out + checked.err).find(place), std::string::npos)
+            << place << "\nsaid: " << checked.out.substr(0, 500) << checked.err;
     }
 }
 

@@ -23,7 +23,8 @@ TEST(ContactCounts, AreTheLinesThatArePromised) {
     counts.dropped = 5;
     counts.events = 6;
     const std::string text = describe(counts);
-    const std::string lines = "contacts 10\nbelow the threshold of 0.15 m/s: 3\nno haptic source: 2\nunplayable: 1\nmuted: 4\ndropped: 5\nevents: 6\n";
+    const std::string lines = "contacts 10\nbelow the threshold of 0.15 m/s: 3\nno haptic source: "
+                              "2\nunplayable: 1\nmuted: 4\ndropped: 5\nevents: 6\n";
     ASSERT_GT(text.size(), lines.size());
     EXPECT_EQ(text.substr(text.size() - lines.size()), lines);
 }
@@ -35,7 +36,8 @@ TEST(ContactCounts, NameTheMostFrequentReason) {
         counts.*most = 7;
         return explain(counts);
     };
-    EXPECT_NE(reason(&ContactCounts::belowThreshold).find("slower than the threshold of 0.15 m/s"), std::string::npos);
+    EXPECT_NE(reason(&ContactCounts::belowThreshold).find("slower than the threshold of 0.15 m/s"),
+              std::string::npos);
     EXPECT_NE(reason(&ContactCounts::unplayable).find("frequency and the decay"), std::string::npos);
     EXPECT_NE(reason(&ContactCounts::muted).find("muted"), std::string::npos);
     EXPECT_NE(reason(&ContactCounts::dropped).find("left out"), std::string::npos);

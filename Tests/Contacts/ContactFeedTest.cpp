@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A world of numbers: what an engine would tell of it is written here, and what is felt is known by pencil and paper.
+// A world of numbers: what an engine would tell of it is written here, and what is felt is known by pencil
+// and paper.
 #include "Contacts/ContactFeed.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -26,7 +27,9 @@ protected:
         EXPECT_EQ(feed.set(ground, {}, {}), "");
         EXPECT_EQ(feed.set(ball, {.massKg = 2.0}, camera()), "");
     }
-    void beginStep(double seconds) { EXPECT_EQ(feed.beginStep(feed.timeNs() + std::llround(seconds * 1.0e9), g), ""); }
+    void beginStep(double seconds) {
+        EXPECT_EQ(feed.beginStep(feed.timeNs() + std::llround(seconds * 1.0e9), g), "");
+    }
     void step() {
         beginStep(0.01);
         endStep();
@@ -45,8 +48,8 @@ FedContact landing() { return {.a = ground, .b = ball, .point = {0.25F, 0.0F}}; 
 /// A ball of 2 kg falls from 0.8 m as engines move it: straight within a step, its speed changed between two.
 class ContactFeedSpeeds : public ContactFeedTest, public testing::WithParamInterface<int> {
 protected:
-    /// The engine tells only how fast it comes and how far it still is at the start of the step; its speed is wrong by `error` of
-    /// it, as that of Box2D 3 is.
+    /// The engine tells only how fast it comes and how far it still is at the start of the step; its speed is
+    /// wrong by `error` of it, as that of Box2D 3 is.
     void fall(double error) {
         const double dt = 1.0 / GetParam();
         double height = 0.8;
@@ -198,7 +201,9 @@ TEST_F(ContactFeedTest, ABlowBesideTheCentreHasLessMass) {
 
 /// Five balls that touch, the last one a camera; what strikes the first goes through all of them.
 TEST_F(ContactFeedTest, AChainHandsABlowOnAndItCountsOnce) {
-    for (const std::int32_t id : {1, 2, 3, 4, 5}) ASSERT_EQ(feed.set(id, {.massKg = 1.0, .gravityScale = 0.0}, id == 5 ? camera() : HapticFixture{}), "");
+    for (const std::int32_t id : {1, 2, 3, 4, 5})
+        ASSERT_EQ(feed.set(id, {.massKg = 1.0, .gravityScale = 0.0}, id == 5 ? camera() : HapticFixture{}),
+                  "");
     FedContact contact;
     contact.normal = {1.0F, 0.0F};
     for (int i = 0; i < 10; ++i) {
@@ -212,7 +217,9 @@ TEST_F(ContactFeedTest, AChainHandsABlowOnAndItCountsOnce) {
         contact.a = 1;
         contact.b = 2;
         contact.impulseNewtonSeconds = 1.2;
-        if (i == 5) { EXPECT_EQ(feed.touch(contact), ""); }
+        if (i == 5) {
+            EXPECT_EQ(feed.touch(contact), "");
+        }
         endStep();
     }
     const auto felt = events();
@@ -295,7 +302,8 @@ protected:
 TEST_F(ContactFeedRubs, WhatRollsGivesTheTonesOfItsRidgesAndTravels) {
     const auto rolled = pass(0.4), slid = pass(0.0);
     ASSERT_GT(rolled.size(), 190U);
-    for (std::size_t i = 1; i < rolled.size(); ++i) EXPECT_NEAR(static_cast<double>(rolled[i].timeNs - rolled[i - 1].timeNs), 5.0e6, 10.0e3);
+    for (std::size_t i = 1; i < rolled.size(); ++i)
+        EXPECT_NEAR(static_cast<double>(rolled[i].timeNs - rolled[i - 1].timeNs), 5.0e6, 10.0e3);
     for (const CollisionEvent& e : rolled) {
         EXPECT_EQ(e.source.kind, ContactKind::roll);
         EXPECT_NEAR(e.x, 0.4 * 1.0e-9 * static_cast<double>(e.timeNs), 0.004);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points of pairs: what is new while its pair touches is a blow, and what is told at several points is solved together.
+// Points of pairs: what is new while its pair touches is a blow, and what is told at several points is solved
+// together.
 #include "Contacts/ContactFeed.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -14,9 +15,13 @@ class ContactPoints : public testing::Test {
 protected:
     ContactPoints() { EXPECT_EQ(feed.set(ground, {}, {}), ""); }
     void set(double massKg, double inertia) {
-        EXPECT_EQ(feed.set(body, {massKg, inertia}, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true}), "");
+        EXPECT_EQ(feed.set(body, {massKg, inertia},
+                           {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true}),
+                  "");
     }
-    void move(Vector2 centre, Vector2 velocity, float spin = 0.0F) { EXPECT_EQ(feed.move(body, centre, {velocity, spin}), ""); }
+    void move(Vector2 centre, Vector2 velocity, float spin = 0.0F) {
+        EXPECT_EQ(feed.move(body, centre, {velocity, spin}), "");
+    }
     void begin() { EXPECT_EQ(feed.beginStep(feed.timeNs() + 10'000'000, g), ""); }
     void end() { EXPECT_EQ(feed.endStep(), ""); }
     static FedContact at(float x, std::int32_t id) {
@@ -55,7 +60,8 @@ TEST_P(FlatLandings, AreTheLandingAtHoweverManyPoints) {
                 move({0.0F, 0.25F}, {0.0F, -static_cast<float>(speed)});
                 begin();
                 for (int i = 0; i < GetParam(); ++i) {
-                    FedContact contact = at(-0.5F + static_cast<float>(i) / static_cast<float>(GetParam() - 1), i);
+                    FedContact contact =
+                        at(-0.5F + static_cast<float>(i) / static_cast<float>(GetParam() - 1), i);
                     contact.isSoft = isSoft;
                     contact.restitution = restitution;
                     if (isSoft) contact.impulseNewtonSeconds = 0.1; // what a spring pushes in its first step
@@ -73,14 +79,14 @@ TEST_P(FlatLandings, AreTheLandingAtHoweverManyPoints) {
 }
 INSTANTIATE_TEST_SUITE_P(Points, FlatLandings, testing::Values(2, 3, 4));
 
-/// A pole of 2 m and 3 kg topples about the foot that stands, and its head comes down at 7 m/s: rigid bodies that hold at the foot
-/// stop with m/3 of that speed.
+/// A pole of 2 m and 3 kg topples about the foot that stands, and its head comes down at 7 m/s: rigid bodies
+/// that hold at the foot stop with m/3 of that speed.
 class ToppledPoles : public ContactPoints, public testing::WithParamInterface<std::int32_t> {
 protected:
     void topple(double impulseOfPair) {
         set(3.0, 3.0 * 4.0 / 12.0);
         move({1.0F, 0.0F}, {0.0F, -3.5F}, -3.5F); // about the foot at 0
-        for (int step = 0; step < 3; ++step) { // it stands
+        for (int step = 0; step < 3; ++step) {    // it stands
             begin();
             FedContact foot = at(0.0F, GetParam() == FedPoints::byPlace ? FedPoints::byPlace : 4);
             foot.approachMetresPerSecond = 0.0;
@@ -90,7 +96,10 @@ protected:
         EXPECT_TRUE(events().empty());
         begin();
         for (const bool isHead : {false, true}) {
-            FedContact contact = at(isHead ? 2.0F : 0.0F, GetParam() == FedPoints::byPlace ? FedPoints::byPlace : isHead ? 9 : 4);
+            FedContact contact =
+                at(isHead ? 2.0F : 0.0F, GetParam() == FedPoints::byPlace ? FedPoints::byPlace
+                                         : isHead                         ? 9
+                                                                          : 4);
             if (impulseOfPair > 0.0) {
                 contact.impulseNewtonSeconds = impulseOfPair;
                 contact.isImpulseOfPair = true;
@@ -172,15 +181,20 @@ TEST_F(ContactPoints, WhatBeginsAndEndsWithinAStepIsFelt) {
     EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 4.0);
 }
 
-/// Five balls of 1 kg in a row that touch, the last one feels; velocities before and after are all that is told.
+/// Five balls of 1 kg in a row that touch, the last one feels; velocities before and after are all that is
+/// told.
 TEST_F(ContactPoints, ARowHandsOnByMomentumAlone) {
     for (const std::int32_t id : {1, 2, 3, 4, 5})
-        ASSERT_EQ(feed.set(id, {.massKg = 1.0}, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = id == 5}), "");
+        ASSERT_EQ(feed.set(id, {.massKg = 1.0},
+                           {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = id == 5}),
+                  "");
     const float after[] = {0.1F, 0.15F, 0.2F, 0.55F, 2.0F};
     for (int step = 0; step < 8; ++step) {
         begin();
         for (const std::int32_t id : {1, 2, 3, 4, 5}) {
-            ASSERT_EQ(feed.move(id, {0.2F * static_cast<float>(id), 0.0F}, {{id == 1 ? 3.0F : 0.0F, 0.0F}, 0.0F}), "");
+            ASSERT_EQ(
+                feed.move(id, {0.2F * static_cast<float>(id), 0.0F}, {{id == 1 ? 3.0F : 0.0F, 0.0F}, 0.0F}),
+                "");
             ASSERT_EQ(feed.moved(id, {{step == 5 ? after[id - 1] : id == 1 ? 3.0F : 0.0F, 0.0F}, 0.0F}), "");
         }
         for (const std::int32_t id : {1, 2, 3, 4}) {
@@ -202,8 +216,8 @@ TEST_F(ContactPoints, ARowHandsOnByMomentumAlone) {
     EXPECT_EQ(felt[0].source.other, 4);
 }
 
-/// A ball of 1 kg at 3 m/s lands on a slab of 1 kg that lies on the ground, and all comes to rest: 3 N s, where two free bodies would
-/// have half of it.
+/// A ball of 1 kg at 3 m/s lands on a slab of 1 kg that lies on the ground, and all comes to rest: 3 N s,
+/// where two free bodies would have half of it.
 TEST_F(ContactPoints, ALandingOnWhatIsSupportedIsThatOfTheWhole) {
     constexpr std::int32_t slab = 2;
     set(1.0, 0.0);
@@ -228,7 +242,8 @@ TEST_F(ContactPoints, ALandingOnWhatIsSupportedIsThatOfTheWhole) {
     EXPECT_EQ(feed.moved(body, {}), "step: expected to be within one");
 }
 
-// A box of 1 kg that carries two of its kind: the engine says that it gave 3 m v and what gravity adds; at one corner, and at two.
+// A box of 1 kg that carries two of its kind: the engine says that it gave 3 m v and what gravity adds; at
+// one corner, and at two.
 TEST_F(ContactPoints, WhatCarriesOthersIsStruckByAllThatTheEnginePushes) {
     constexpr double speed = 3.0;
     const auto felt = [&](int points, bool isPushWhole, double pushed) {
@@ -236,7 +251,8 @@ TEST_F(ContactPoints, WhatCarriesOthersIsStruckByAllThatTheEnginePushes) {
         move({0.0F, 0.25F}, {0.0F, -static_cast<float>(speed)});
         begin();
         for (int i = 0; i < points; ++i) {
-            FedContact contact = at(points == 1 ? 0.0F : static_cast<float>(i) - 0.5F, points == 1 ? FedPoints::none : i);
+            FedContact contact =
+                at(points == 1 ? 0.0F : static_cast<float>(i) - 0.5F, points == 1 ? FedPoints::none : i);
             contact.isSoft = true;
             contact.isPushWhole = isPushWhole;
             contact.impulseNewtonSeconds = pushed / points;

@@ -28,21 +28,27 @@ TEST(EventSorter, ReleasesInOrderOfTimeThenFixtureThenArrival) {
 // Hundreds go by shares of the time, few by comparison: the same order.
 TEST(EventSorter, ManyAreSortedAsFew) {
     std::mt19937 random{1};
-    for (const std::int64_t range : {std::int64_t{1}, std::int64_t{40}, std::int64_t{10'000'000}, std::int64_t{60'000'000'000}}) {
+    for (const std::int64_t range :
+         {std::int64_t{1}, std::int64_t{40}, std::int64_t{10'000'000}, std::int64_t{60'000'000'000}}) {
         const std::int64_t start = range == 1 ? limits::maxTimeNs - 1 : 0; // one time, that late
         EventSorter sorter(1000);
         std::vector<CollisionEvent> all, finished, rest;
         for (int round = 0; round < 3; ++round) {
             for (int i = 0; i < 300; ++i) {
-                all.push_back(event(start + static_cast<std::int64_t>(random()) % range, static_cast<std::int32_t>(random() % 4) - 1, 1e-3 * static_cast<double>(all.size())));
+                all.push_back(event(start + static_cast<std::int64_t>(random()) % range,
+                                    static_cast<std::int32_t>(random() % 4) - 1,
+                                    1e-3 * static_cast<double>(all.size())));
                 sorter.push(all.back());
             }
             if (round == 1) sorter.release(start + range / 2, finished);
         }
         sorter.flush(rest);
-        const auto isBefore = [](const CollisionEvent& a, const CollisionEvent& b) { return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.source.fixture < b.source.fixture; };
+        const auto isBefore = [](const CollisionEvent& a, const CollisionEvent& b) {
+            return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.source.fixture < b.source.fixture;
+        };
         std::vector<CollisionEvent> early, late;
-        for (std::size_t i = 0; i < all.size(); ++i) (i < 600 && all[i].timeNs < start + range / 2 ? early : late).push_back(all[i]);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            (i < 600 && all[i].timeNs < start + range / 2 ? early : late).push_back(all[i]);
         std::ranges::stable_sort(early, isBefore);
         std::ranges::stable_sort(late, isBefore);
         EXPECT_EQ(finished, early) << range;

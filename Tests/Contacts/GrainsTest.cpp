@@ -52,7 +52,8 @@ TEST(Grains, ArePassedOnceEachHoweverTheWayIsCut) {
     std::vector<Pass> parts;
     for (int k = 0; k < 1000; ++k) {
         const double t = 0.001 * k;
-        for (Pass p : passes(grains, {whole.metresAt(t), whole.speedAt(t), whole.metresPerSecond2, 0.001})) parts.push_back({p.index, t + p.t});
+        for (Pass p : passes(grains, {whole.metresAt(t), whole.speedAt(t), whole.metresPerSecond2, 0.001}))
+            parts.push_back({p.index, t + p.t});
     }
     ASSERT_EQ(parts.size(), all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -73,7 +74,8 @@ TEST(Grains, ThinnedOnesAreSomeOfThem) {
 
 /// Power of half a minute's impulses in third octaves from 63 to 500 Hz, dB.
 std::vector<double> thirdOctaves(const Grains& grains, double metresPerSecond, std::int64_t every) {
-    constexpr double rate = 5000.0, length = 32.0; // four times the thinned grains: their tones fold onto themselves
+    constexpr double rate = 5000.0, length = 32.0; // four times the thinned grains: their tones fold onto
+                                                   // themselves
     std::vector<double> impulses(static_cast<std::size_t>(rate * length));
     grains.along({0.0, metresPerSecond, 0.0, length}, every, [&](std::int64_t index, double t) {
         const auto at = std::min(static_cast<std::size_t>(t * rate), impulses.size() - 1);
@@ -84,7 +86,9 @@ std::vector<double> thirdOctaves(const Grains& grains, double metresPerSecond, s
     std::vector<double> bands;
     for (double centre = 62.5; centre < 510.0; centre *= std::cbrt(2.0)) {
         double power = 0.0;
-        for (auto k = static_cast<std::size_t>(centre * 0.89 / perBin); static_cast<double>(k) * perBin < centre * 1.12; ++k) power += bins[k] * bins[k];
+        for (auto k = static_cast<std::size_t>(centre * 0.89 / perBin);
+             static_cast<double>(k) * perBin < centre * 1.12; ++k)
+            power += bins[k] * bins[k];
         bands.push_back(10.0 * std::log10(power));
     }
     return bands;
@@ -97,7 +101,8 @@ TEST(Grains, SoundAlikeBelow500HertzThinnedOrNot) {
     for (const auto& [speed, every] : {std::pair{5.0, 4}, std::pair{20.0, 16}}) {
         const auto all = thirdOctaves(grains, speed, 1), thinned = thirdOctaves(grains, speed, every);
         ASSERT_EQ(all.size(), 10U);
-        for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(thinned[i], all[i], 1.0) << speed << " m/s, band " << i;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            EXPECT_NEAR(thinned[i], all[i], 1.0) << speed << " m/s, band " << i;
     }
 }
 
@@ -105,7 +110,8 @@ TEST(Textures, WhatCannotBeFeltIsRefused) {
     EXPECT_EQ(faultOf(Texture{}), "");
     EXPECT_EQ(faultOf(Texture{0.002}), "");
     EXPECT_FALSE(Texture{1.0e-6}.isRough());
-    for (const double grain : {-1.0, 11.0, std::numeric_limits<double>::quiet_NaN()}) EXPECT_NE(faultOf(Texture{grain}), "") << grain;
+    for (const double grain : {-1.0, 11.0, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_NE(faultOf(Texture{grain}), "") << grain;
     EXPECT_NE(faultOf(Texture{0.002, -1.0}), "");
     EXPECT_NE(faultOf(Texture{0.002, 1.0, GrainPattern::random, 1.5}), "");
 }
@@ -146,7 +152,8 @@ protected:
         for (int i = 0; i < 3; ++i) step(newtons, metresPerSecond);
         double sum = 0.0;
         for (int i = 0; i < steps; ++i)
-            for (const Impact& impact : step(newtons, metresPerSecond)) sum += impact.newtonSeconds * impact.newtonSeconds;
+            for (const Impact& impact : step(newtons, metresPerSecond))
+                sum += impact.newtonSeconds * impact.newtonSeconds;
         return sum / (0.01 * steps);
     }
     FixtureTable table;
@@ -162,7 +169,8 @@ TEST_F(LastingStream, GrowsWithLoadAndSpeedThinnedOrNot) {
     for (const double load : {0.1, 1.0, 10.0})
         for (const double speed : {0.05, 0.5, 1.0, 5.0, 30.0}) { // 25 to 15,000 grains a second
             const double expected = one * load * load * speed * speed * speed;
-            EXPECT_NEAR(10.0 * std::log10(power(load, speed, speed < 0.1 ? 2000 : 200) / expected), 0.0, 1.0) << load << " N, " << speed << " m/s";
+            EXPECT_NEAR(10.0 * std::log10(power(load, speed, speed < 0.1 ? 2000 : 200) / expected), 0.0, 1.0)
+                << load << " N, " << speed << " m/s";
         }
     EXPECT_GT(lasting.thinned(), 0U);
 }

@@ -16,9 +16,7 @@ TEST(ImpactModel, DriveGainMultiplies) {
     EXPECT_DOUBLE_EQ(model.amplitude(80.0, 10.0), 1.0);
 }
 
-TEST(ImpactModel, FastestBodyCrossesTheFieldInASecond) {
-    EXPECT_DOUBLE_EQ(defaultNormalisation(4.0), 0.125);
-}
+TEST(ImpactModel, FastestBodyCrossesTheFieldInASecond) { EXPECT_DOUBLE_EQ(defaultNormalisation(4.0), 0.125); }
 
 } // namespace
 } // namespace physvib

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The board's renderer against the closed form in double precision, and what it does when too much is asked of it.
+// The board's renderer against the closed form in double precision, and what it does when too much is asked
+// of it.
 #include "Core/BoardRenderer.h"
 #include "Support/BoardReference.h"
-#include <gtest/gtest.h>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <memory>
 #include <numbers>
 
@@ -19,8 +20,10 @@ std::unique_ptr<BoardRenderer> prepared() {
     return renderer;
 }
 
-BoardEvent hit(std::uint32_t frame, double f, double tau, std::array<std::int16_t, 4> amplitudes, int durationMs = 0) {
-    return {frame, static_cast<std::uint16_t>(16 * f), static_cast<std::uint16_t>(16 * tau), static_cast<std::uint16_t>(durationMs), amplitudes};
+BoardEvent hit(std::uint32_t frame, double f, double tau, std::array<std::int16_t, 4> amplitudes,
+               int durationMs = 0) {
+    return {frame, static_cast<std::uint16_t>(16 * f), static_cast<std::uint16_t>(16 * tau),
+            static_cast<std::uint16_t>(durationMs), amplitudes};
 }
 
 TEST(BoardRenderer, IsWithinOneStepOfTheClosedFormForRandomLists) {
@@ -52,15 +55,19 @@ TEST(BoardRenderer, CutsWhatHasADuration) {
 }
 
 TEST(BoardRenderer, HoldsALowSlowNoteForSeconds) {
-    const std::vector<BoardEvent> events{hit(5, 20, 0.0625, {4096, 2048, -4096, 1000}), hit(9, 399.5, 0.0625, {0, 1000, 0, 0})};
+    const std::vector<BoardEvent> events{hit(5, 20, 0.0625, {4096, 2048, -4096, 1000}),
+                                         hit(9, 399.5, 0.0625, {0, 1000, 0, 0})};
     const auto renderer = prepared();
-    EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, events, 80000), test::boardClosedForm(events, 80000)), 1);
+    EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, events, 80000),
+                                    test::boardClosedForm(events, 80000)),
+              1);
 }
 
 TEST(BoardRenderer, StrikesOfOneMaterialCostOneModeAndEndTogether) {
     const auto renderer = prepared();
     std::vector<BoardEvent> events;
-    for (std::uint32_t i = 0; i < 1500; ++i) events.push_back(hit(8 + 9 * i, 205, 12, {static_cast<std::int16_t>(i % 90), 20, -30, 0}));
+    for (std::uint32_t i = 0; i < 1500; ++i)
+        events.push_back(hit(8 + 9 * i, 205, 12, {static_cast<std::int16_t>(i % 90), 20, -30, 0}));
     BoardRenderer::Codes block;
     const auto played = test::renderBoardEvents(*renderer, events, 15000);
     EXPECT_EQ(renderer->status().modes, 1);
@@ -81,7 +88,8 @@ TEST(BoardRenderer, OneGainTakesWhatIsTooLoudFromAllChannels) {
 TEST(BoardRenderer, AStolenModeLeavesNoStep) {
     const auto renderer = prepared();
     std::vector<BoardEvent> events;
-    for (int i = 0; i < 128; ++i) events.push_back(hit(4, 50 + i, 1, {static_cast<std::int16_t>(i == 77 ? 1500 : 2000), 0, 0, 0}));
+    for (int i = 0; i < 128; ++i)
+        events.push_back(hit(4, 50 + i, 1, {static_cast<std::int16_t>(i == 77 ? 1500 : 2000), 0, 0, 0}));
     for (const auto& e : events) renderer->schedule(e);
     EXPECT_EQ(renderer->status().pending, 64) << "more than may wait";
     EXPECT_EQ(renderer->status().dropped, 64u);
@@ -113,15 +121,19 @@ TEST(BoardRenderer, ALateEventIsPlayedAtOnceAndCounted) {
     renderer->schedule(hit(3, 250, 10, {4096, 0, 0, 0}));
     const auto late = test::renderBoardEvents(*renderer, {}, 100);
     const auto fresh = prepared();
-    EXPECT_EQ(test::worstDifference(late, test::renderBoardEvents(*fresh, {hit(0, 250, 10, {4096, 0, 0, 0})}, 100)), 0);
+    EXPECT_EQ(
+        test::worstDifference(late, test::renderBoardEvents(*fresh, {hit(0, 250, 10, {4096, 0, 0, 0})}, 100)),
+        0);
     EXPECT_EQ(renderer->status().late, 1u);
 }
 
 TEST(BoardRenderer, GainsTurnPolarityAndStopAllIsSilence) {
     const auto renderer = prepared(), turned = prepared();
     turned->setGains({-1.0f, 0.0f, 1.0f, 1.0f});
-    const std::vector<BoardEvent> events{hit(400, 200, 5, {2000, 2000, 2000, 2000}), hit(900, 150, 5, {500, 0, 0, 0})};
-    const auto plain = test::renderBoardEvents(*renderer, events, 800, 2000), other = test::renderBoardEvents(*turned, events, 800, 2000);
+    const std::vector<BoardEvent> events{hit(400, 200, 5, {2000, 2000, 2000, 2000}),
+                                         hit(900, 150, 5, {500, 0, 0, 0})};
+    const auto plain = test::renderBoardEvents(*renderer, events, 800, 2000),
+               other = test::renderBoardEvents(*turned, events, 800, 2000);
     for (std::size_t n = 0; n < 800; ++n) {
         ASSERT_NEAR(other[n][0] - 128, 128 - plain[n][0], 1);
         ASSERT_EQ(other[n][1], 128);
@@ -131,8 +143,12 @@ TEST(BoardRenderer, GainsTurnPolarityAndStopAllIsSilence) {
     for (const auto& frame : test::renderBoardEvents(*renderer, {}, 400)) ASSERT_EQ(frame, silence);
 }
 
-BoardLeg legOf(std::uint32_t frame, std::uint16_t frames, double hz, std::array<std::int16_t, 4> start, std::array<std::int16_t, 4> end) {
-    return {frame, static_cast<std::uint32_t>(hz / limits::board::sampleRateHz * 4294967296.0), frames, 0, 0, start, end};
+BoardLeg legOf(std::uint32_t frame, std::uint16_t frames, double hz, std::array<std::int16_t, 4> start,
+               std::array<std::int16_t, 4> end) {
+    return {frame,  static_cast<std::uint32_t>(hz / limits::board::sampleRateHz * 4294967296.0),
+            frames, 0,
+            0,      start,
+            end};
 }
 
 /// Of legs alone, that are within full scale.
@@ -141,12 +157,19 @@ std::vector<BoardFrame> legsInDouble(const std::vector<BoardLeg>& legs, std::siz
     for (const BoardLeg& leg : legs)
         for (std::size_t k = 0; k < leg.frames && leg.frame + k < frames; ++k) {
             const auto n = static_cast<double>(k);
-            const double tone = std::sin(2.0 * std::numbers::pi * (leg.phase16 / 65536.0 + std::fmod(leg.turn / 4294967296.0 * n, 1.0))) * std::exp(-leg.decay16 / 16.0 * n / 8000.0);
-            for (std::size_t j = 0; j < 4; ++j) sums[leg.frame + k][j] += tone * std::lerp(leg.start[j], leg.end[j], leg.frames > 1 ? n / (leg.frames - 1) : 0.0) / limits::board::amplitudeUnit;
+            const double tone =
+                std::sin(2.0 * std::numbers::pi *
+                         (leg.phase16 / 65536.0 + std::fmod(leg.turn / 4294967296.0 * n, 1.0))) *
+                std::exp(-leg.decay16 / 16.0 * n / 8000.0);
+            for (std::size_t j = 0; j < 4; ++j)
+                sums[leg.frame + k][j] +=
+                    tone * std::lerp(leg.start[j], leg.end[j], leg.frames > 1 ? n / (leg.frames - 1) : 0.0) /
+                    limits::board::amplitudeUnit;
         }
     std::vector<BoardFrame> codes(frames);
     for (std::size_t n = 0; n < frames; ++n)
-        for (std::size_t j = 0; j < 4; ++j) codes[n][j] = static_cast<std::uint8_t>(std::floor(sums[n][j] * 127.0 + 128.5));
+        for (std::size_t j = 0; j < 4; ++j)
+            codes[n][j] = static_cast<std::uint8_t>(std::floor(sums[n][j] * 127.0 + 128.5));
     return codes;
 }
 
@@ -154,7 +177,10 @@ TEST(BoardRenderer, LegsAreWithinOneStepOfTheClosedForm) {
     for (const int most : {4, 40, 320, 4000}) {
         const auto renderer = prepared();
         const auto legs = test::randomBoardLegs(4, 100, 16'000, most, 5);
-        EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, {}, 20'000, 4, legs), legsInDouble(legs, 20'000)), 1) << most;
+        EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, {}, 20'000, 4, legs),
+                                        legsInDouble(legs, 20'000)),
+                  1)
+            << most;
         EXPECT_EQ(renderer->status().played, legs.size());
         EXPECT_EQ(renderer->status().late + renderer->status().dropped, 0u);
     }
@@ -175,7 +201,8 @@ TEST(BoardRenderer, OfALateLegTheRestIsPlayedAndOneThatIsOverIsNot) {
 
 TEST(BoardRenderer, MoreLegsThanItHoldsAreDroppedAndStopAllForgetsThem) {
     const auto renderer = prepared();
-    for (int i = 0; i < limits::board::maxLegs; ++i) EXPECT_TRUE(renderer->schedule(legOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
+    for (int i = 0; i < limits::board::maxLegs; ++i)
+        EXPECT_TRUE(renderer->schedule(legOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
     EXPECT_FALSE(renderer->schedule(legOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
     EXPECT_FALSE(renderer->schedule(BoardLeg{})) << "of no length";
     EXPECT_FALSE(renderer->schedule(legOf(100, 10, 4000.0, {}, {}))) << "half the sample rate";

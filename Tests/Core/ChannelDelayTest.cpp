@@ -10,7 +10,8 @@ namespace {
 
 std::vector<float> sine(int frames) {
     std::vector<float> x(static_cast<std::size_t>(frames));
-    for (std::size_t n = 0; n < x.size(); ++n) x[n] = static_cast<float>(std::sin(0.02 * static_cast<double>(n)));
+    for (std::size_t n = 0; n < x.size(); ++n)
+        x[n] = static_cast<float>(std::sin(0.02 * static_cast<double>(n)));
     return x;
 }
 
@@ -20,7 +21,8 @@ TEST(ChannelDelay, DelaysByWholeFramesAtAnyBlockSize) {
         ChannelDelay<500> delay;
         delay.prepare(100, 123);
         auto out = in;
-        for (int done = 0; done < 3000; done += block) delay.process(out.data() + done, std::min(block, 3000 - done), false);
+        for (int done = 0; done < 3000; done += block)
+            delay.process(out.data() + done, std::min(block, 3000 - done), false);
         for (std::size_t n = 0; n < out.size(); ++n) ASSERT_EQ(out[n], n < 123 ? 0.0f : in[n - 123]) << n;
     }
 }

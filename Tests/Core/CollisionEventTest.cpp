@@ -44,10 +44,12 @@ TEST(CollisionEvent, WhatIsSlowerThan5HzDecays) {
 }
 
 TEST(CollisionEvent, NothingThatIsNotANumberIsPlayable) {
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                             -std::numeric_limits<double>::infinity()})
-        for (double CollisionEvent::*field : {&CollisionEvent::frequencyHz, &CollisionEvent::decayPerSecond,
-                                              &CollisionEvent::amplitude, &CollisionEvent::x, &CollisionEvent::y}) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+          -std::numeric_limits<double>::infinity()})
+        for (double CollisionEvent::*field :
+             {&CollisionEvent::frequencyHz, &CollisionEvent::decayPerSecond, &CollisionEvent::amplitude,
+              &CollisionEvent::x, &CollisionEvent::y}) {
             CollisionEvent e = sound();
             e.*field = bad;
             EXPECT_FALSE(isPlayable(e));

@@ -40,11 +40,16 @@ test::Signal expected(const std::vector<CollisionEvent>& events, const Drives& d
         panner.gainsAt(e.x, e.y, g);
         for (std::size_t i = 0; i < 2; ++i) {
             std::complex<double> drive;
-            for (std::size_t j = 0; j < 2; ++j) drive += g[j] * std::complex{drives.entries[2 * i + j].re, drives.entries[2 * i + j].im};
+            for (std::size_t j = 0; j < 2; ++j)
+                drive += g[j] * std::complex{drives.entries[2 * i + j].re, drives.entries[2 * i + j].im};
             for (int n = 0; n < frames; ++n) {
                 const double t = static_cast<double>(n) / rate - static_cast<double>(e.timeNs) * 1e-9;
-                if (t < 0.0 || (e.durationNs > 0 && t >= static_cast<double>(e.durationNs) * 1e-9) || e.decayPerSecond * t > 16.2) continue;
-                sum[i][static_cast<std::size_t>(n)] += e.amplitude * std::imag(drive * std::polar(std::exp(-e.decayPerSecond * t), 2.0 * std::numbers::pi * e.frequencyHz * t));
+                if (t < 0.0 || (e.durationNs > 0 && t >= static_cast<double>(e.durationNs) * 1e-9) ||
+                    e.decayPerSecond * t > 16.2)
+                    continue;
+                sum[i][static_cast<std::size_t>(n)] +=
+                    e.amplitude * std::imag(drive * std::polar(std::exp(-e.decayPerSecond * t),
+                                                               2.0 * std::numbers::pi * e.frequencyHz * t));
             }
         }
     }
@@ -62,7 +67,13 @@ TEST(CoupledRenderer, EqualsTheClosedFormWithAPhasePerChannel) {
 }
 
 TEST(CoupledRenderer, OneModePerMaterialAndSilenceWhenTheDurationIsOver) {
-    const CollisionEvent e{.timeNs = 10'000'000, .frequencyHz = 200.0, .decayPerSecond = 0.0, .amplitude = 0.5, .x = 0.3, .y = 0.0, .durationNs = 100'000'000};
+    const CollisionEvent e{.timeNs = 10'000'000,
+                           .frequencyHz = 200.0,
+                           .decayPerSecond = 0.0,
+                           .amplitude = 0.5,
+                           .x = 0.3,
+                           .y = 0.0,
+                           .durationNs = 100'000'000};
     const auto rendered = test::renderEvents({e}, settingsWith(mixing.view()), 5000);
     EXPECT_EQ(rendered.status.liveModes, 1);
     const auto whole = test::renderEvents({e}, settingsWith(mixing.view()), frames);
@@ -73,7 +84,10 @@ TEST(CoupledRenderer, OneModePerMaterialAndSilenceWhenTheDurationIsOver) {
 TEST(CoupledRenderer, AnyBlockSizeGivesTheSameBits) {
     const auto events = test::randomEvents(100, 0.4, 2);
     const auto reference = test::renderEvents(events, settingsWith(mixing.view()), frames, {8192});
-    for (const int block : {1, 17, 441}) EXPECT_EQ(test::renderEvents(events, settingsWith(mixing.view()), frames, {block}).channels, reference.channels) << block;
+    for (const int block : {1, 17, 441})
+        EXPECT_EQ(test::renderEvents(events, settingsWith(mixing.view()), frames, {block}).channels,
+                  reference.channels)
+            << block;
 }
 
 TEST(CoupledRenderer, DrivesThatChangeNothingChangeNoBit) {
@@ -86,7 +100,8 @@ TEST(CoupledRenderer, DrivesOfAnotherNumberOfEnchantersAreNotUsed) {
     const auto events = test::randomEvents(20, 0.4, 4);
     DriveMatrices other = mixing.view();
     other.channels = 1;
-    EXPECT_EQ(test::renderEvents(events, settingsWith(other), frames).channels, test::renderEvents(events, settingsWith({}), frames).channels);
+    EXPECT_EQ(test::renderEvents(events, settingsWith(other), frames).channels,
+              test::renderEvents(events, settingsWith({}), frames).channels);
 }
 
 } // namespace

@@ -50,14 +50,18 @@ TEST(EventQueue, NothingIsTornLostOrReorderedBetweenTwoThreads) {
     EventQueue<CollisionEvent, 64> queue;
     std::thread producer{[&] {
         for (std::int64_t n = 0; n < count;)
-            if (queue.push(numbered(n))) ++n;
-            else std::this_thread::yield();
+            if (queue.push(numbered(n)))
+                ++n;
+            else
+                std::this_thread::yield();
     }};
     CollisionEvent e;
     bool whole = true;
     for (std::int64_t n = 0; n < count;)
-        if (queue.pop(e)) whole = whole && e == numbered(n++);
-        else std::this_thread::yield();
+        if (queue.pop(e))
+            whole = whole && e == numbered(n++);
+        else
+            std::this_thread::yield();
     producer.join();
     EXPECT_TRUE(whole);
     EXPECT_FALSE(queue.pop(e));

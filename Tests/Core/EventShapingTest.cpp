@@ -30,7 +30,14 @@ TEST(FrequencyRemap, EqualIntervalsStayEqual) {
 TEST(FrequencyRemap, WithoutABandNothingMoves) { EXPECT_EQ(FrequencyRemap{}(349.0), 349.0); }
 
 TEST(EventShaping, MovesTheFrequencyOnlyAndAfterTheMethod) {
-    CollisionEvent e{.timeNs = 7, .frequencyHz = 349, .decayPerSecond = 107, .amplitude = 0.3, .x = 1, .y = 2, .durationNs = 0, .source = {1, 2, 3, 4}};
+    CollisionEvent e{.timeNs = 7,
+                     .frequencyHz = 349,
+                     .decayPerSecond = 107,
+                     .amplitude = 0.3,
+                     .x = 1,
+                     .y = 2,
+                     .durationNs = 0,
+                     .source = {1, 2, 3, 4}};
     EventShaping shaping;
     EXPECT_EQ(shaping(e), e);
     shaping.remap.band = {180, 230};
@@ -57,10 +64,16 @@ TEST(EventShaping, CutsADecayWhereItsEnvelopeFallsToGamma) {
 }
 
 TEST(EventShaping, AClipStaysAsItIsAloneAndAmongTheHitsOfAWorld) {
-    EventShaping shaping{.method = {}, .remap = {{180, 230}}, .gain = 0.5, .perceived = {true}, .truncation = 0.1};
+    EventShaping shaping{
+        .method = {}, .remap = {{180, 230}}, .gain = 0.5, .perceived = {true}, .truncation = 0.1};
     ASSERT_TRUE(renderingMethodNamed("AF-FV-DRV", shaping.method));
     shaping.method.holdsLevel = true;
-    const CollisionEvent hit{.timeNs = 7, .frequencyHz = 349, .decayPerSecond = 107, .amplitude = 0.3, .durationNs = 9, .source = {1, 2, 3, 4}};
+    const CollisionEvent hit{.timeNs = 7,
+                             .frequencyHz = 349,
+                             .decayPerSecond = 107,
+                             .amplitude = 0.3,
+                             .durationNs = 9,
+                             .source = {1, 2, 3, 4}};
     CollisionEvent clip = hit;
     clip.frequencyHz = clipFrequencyHz(mostClips - 1);
     EventShaper shaper{shaping};

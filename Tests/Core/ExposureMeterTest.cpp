@@ -11,7 +11,8 @@
 namespace physvib {
 namespace {
 
-constexpr double thirdOctaves[] = {8, 10, 12.5, 16, 20, 25, 31.5, 40, 50, 63, 80, 100, 125, 160, 200, 250, 315, 400, 500, 630, 800, 1000};
+constexpr double thirdOctaves[] = {8,   10,  12.5, 16,  20,  25,  31.5, 40,  50,  63,  80,
+                                   100, 125, 160,  200, 250, 315, 400,  500, 630, 800, 1000};
 
 double exactHz(double nominal) { return std::pow(10.0, std::round(10.0 * std::log10(nominal)) / 10.0); }
 
@@ -22,15 +23,19 @@ TEST(HandWeighting, IsWithinATenthOfADecibelOfTheFormulaAtEveryRate) {
         const HandWeighting weighting{rate};
         double worst = 0.0;
         for (const double hz : thirdOctaves)
-            for (const double at : {hz, exactHz(hz)}) worst = std::max(worst, std::abs(decibels(weighting.gainAt(at) / handWeighting::gain(at))));
+            for (const double at : {hz, exactHz(hz)})
+                worst = std::max(worst, std::abs(decibels(weighting.gainAt(at) / handWeighting::gain(at))));
         EXPECT_LT(worst, 0.1) << rate << " Hz";
         std::cout << rate << " Hz: " << worst << " dB at most\n";
     }
 }
 
 TEST(HandWeighting, IsTheStandardsTable) { // ISO 5349-1, table A.2
-    constexpr std::pair<double, double> table[] = {{8, 0.873}, {10, 0.951}, {12.5, 0.958}, {16, 0.896}, {31.5, 0.519}, {63, 0.256}, {125, 0.127}, {250, 0.0634}, {500, 0.0314}, {1000, 0.0135}};
-    for (const auto& [hz, gain] : table) EXPECT_NEAR(decibels(handWeighting::gain(exactHz(hz)) / gain), 0.0, 0.1) << hz;
+    constexpr std::pair<double, double> table[] = {{8, 0.873},    {10, 0.951},   {12.5, 0.958}, {16, 0.896},
+                                                   {31.5, 0.519}, {63, 0.256},   {125, 0.127},  {250, 0.0634},
+                                                   {500, 0.0314}, {1000, 0.0135}};
+    for (const auto& [hz, gain] : table)
+        EXPECT_NEAR(decibels(handWeighting::gain(exactHz(hz)) / gain), 0.0, 0.1) << hz;
 }
 
 /// Squares of a sine of 1 full scale for so long, in blocks as a device asks for them.
@@ -40,7 +45,9 @@ double weightedSquare(int rate, double hz, double seconds, int block) {
     std::vector<float> samples(static_cast<std::size_t>(block));
     const auto frames = static_cast<std::int64_t>(seconds * rate);
     for (std::int64_t done = 0; done < frames; done += block) {
-        for (int n = 0; n < block; ++n) samples[static_cast<std::size_t>(n)] = static_cast<float>(std::sin(2.0 * std::numbers::pi * hz * static_cast<double>((done + n) % rate) / rate));
+        for (int n = 0; n < block; ++n)
+            samples[static_cast<std::size_t>(n)] = static_cast<float>(
+                std::sin(2.0 * std::numbers::pi * hz * static_cast<double>((done + n) % rate) / rate));
         meter.take(0, samples.data(), static_cast<int>(std::min<std::int64_t>(block, frames - done)));
     }
     meter.publish();
@@ -49,11 +56,15 @@ double weightedSquare(int rate, double hz, double seconds, int block) {
 
 TEST(ExposureMeter, AnHourOfOneGAt205HzIsTheClosedFormsDailyExposure) {
     constexpr double hourShare = 1.0 / 360.0; // ten seconds, as an hour is long in a test
-    const double wanted = standardGravity / std::sqrt(2.0) * handWeighting::gain(205.0) * std::sqrt(1.0 / 8.0);
+    const double wanted =
+        standardGravity / std::sqrt(2.0) * handWeighting::gain(205.0) * std::sqrt(1.0 / 8.0);
     for (const auto& [rate, block] : {std::pair{48000, 256}, {5000, 64}, {192000, 8192}}) {
-        const double found = dailyExposure(weightedSquare(rate, 205.0, 3600.0 * hourShare, block) / hourShare);
+        const double found =
+            dailyExposure(weightedSquare(rate, 205.0, 3600.0 * hourShare, block) / hourShare);
         EXPECT_NEAR(found, wanted, 0.01 * wanted) << rate;
-        if (rate == 48000) std::cout << "1 g at 205 Hz for an hour: A(8) " << found << " m/s^2, closed form " << wanted << '\n';
+        if (rate == 48000)
+            std::cout << "1 g at 205 Hz for an hour: A(8) " << found << " m/s^2, closed form " << wanted
+                      << '\n';
     }
     EXPECT_NEAR(squareGSecondsOf(dailyExposure(123.0)), 123.0, 1e-9);
 }

@@ -19,7 +19,8 @@ EventShaping heldAt(double level, const char* name) {
 }
 
 CollisionEvent hitAt(double seconds, double hz, double decay) {
-    CollisionEvent e{.timeNs = std::llround(seconds * 1e9), .frequencyHz = hz, .decayPerSecond = decay, .amplitude = 0.01};
+    CollisionEvent e{
+        .timeNs = std::llround(seconds * 1e9), .frequencyHz = hz, .decayPerSecond = decay, .amplitude = 0.01};
     e.source.fixture = 0;
     return e;
 }
@@ -31,7 +32,8 @@ double peakOf(const std::vector<CollisionEvent>& events, double seconds) {
         for (const CollisionEvent& e : events) {
             const double since = t - 1e-9 * static_cast<double>(e.timeNs);
             if (since >= 0.0 && (e.durationNs == 0 || since < 1e-9 * static_cast<double>(e.durationNs)))
-                sum += e.amplitude * std::sin(2.0 * std::numbers::pi * e.frequencyHz * since) * std::exp(-e.decayPerSecond * since);
+                sum += e.amplitude * std::sin(2.0 * std::numbers::pi * e.frequencyHz * since) *
+                       std::exp(-e.decayPerSecond * since);
         }
         peak = std::max(peak, std::abs(sum));
     }
@@ -39,7 +41,8 @@ double peakOf(const std::vector<CollisionEvent>& events, double seconds) {
 }
 
 TEST(FixedLevel, ALoneHitPeaksAtItWhateverItsDecay) {
-    for (const auto& [hz, decay] : {std::pair{80.0, 34.13}, {349.0, 106.99}, {430.0, 11.97}, {250.0, 1000.0}}) {
+    for (const auto& [hz, decay] :
+         {std::pair{80.0, 34.13}, {349.0, 106.99}, {430.0, 11.97}, {250.0, 1000.0}}) {
         EventShaper shaper{heldAt(0.75, "AF-FV-DRV")};
         EXPECT_NEAR(peakOf({shaper(hitAt(0.01, hz, decay))}, 0.1), 0.75, 0.0075) << hz;
     }

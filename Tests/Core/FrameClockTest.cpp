@@ -10,7 +10,6 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-
 TEST(FrameClock, OnsetOnAFrameHasNoLead) {
     const FrameClock clock{44100};
     EXPECT_EQ(clock.at(100'000'000).frame, 4410);
@@ -25,7 +24,8 @@ TEST(FrameClock, FrameIsTheFirstOneNotBeforeTheOnset) {
         for (int i = 0; i < 2000; ++i) {
             const std::int64_t ns = static_cast<std::int64_t>(random()) * 4096 + random() % 4096;
             const FramePosition p = clock.at(ns);
-            const auto ahead = static_cast<double>(static_cast<Wide>(p.frame) * 1'000'000'000 - static_cast<Wide>(ns) * rate);
+            const auto ahead = static_cast<double>(static_cast<Wide>(p.frame) * 1'000'000'000 -
+                                                   static_cast<Wide>(ns) * rate);
             ASSERT_GE(ahead, 0.0);
             ASSERT_LT(ahead, 1e9);
             ASSERT_NEAR(p.leadFrames, ahead * 1e-9, 1e-15);

@@ -26,7 +26,8 @@ TEST(GainRamp, MovesInAStraightLineAcrossBlocksAndThenRests) {
     ramp.apply(&at, 1, 7);
     at += 7;
     ramp.apply(&at, 1, 13);
-    for (std::size_t n = 0; n < 20; ++n) EXPECT_NEAR(x[n], std::min(1.0f, 0.1f * static_cast<float>(n + 1)), 1e-6);
+    for (std::size_t n = 0; n < 20; ++n)
+        EXPECT_NEAR(x[n], std::min(1.0f, 0.1f * static_cast<float>(n + 1)), 1e-6);
     EXPECT_TRUE(ramp.isResting());
     EXPECT_EQ(x.back(), 1.0f);
 }

@@ -21,11 +21,15 @@ RendererSettings settingsFor(const EnchanterLayout& layout, PanningLaw law, int 
 
 EnchanterLayout layoutOf(int channels) {
     EnchanterLayout corners{1, 1, 4, {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}}};
-    return channels == 4 ? corners : channels == 2 ? gridLayout(2, 1) : channels == 1 ? gridLayout(1, 1) : gridLayout(channels / 2, 2);
+    return channels == 4   ? corners
+           : channels == 2 ? gridLayout(2, 1)
+           : channels == 1 ? gridLayout(1, 1)
+                           : gridLayout(channels / 2, 2);
 }
 
 /// The largest error of any instruction set.
-double errorOf(int channels, PanningLaw law, int rate, double seconds, const std::vector<CollisionEvent>& events) {
+double errorOf(int channels, PanningLaw law, int rate, double seconds,
+               const std::vector<CollisionEvent>& events) {
     const int frames = static_cast<int>(seconds * rate);
     const auto layout = layoutOf(channels);
     const PhantomPanner panner{layout, law, 1.0, 1.0, 1.0};
@@ -43,7 +47,8 @@ double errorOf(int channels, PanningLaw law, int rate, double seconds, const std
         EXPECT_EQ(rendered.status.played, events.size());
         EXPECT_EQ(rendered.status.late + rendered.status.rejected + rendered.status.stolen, 0u);
         const double error = test::relativeError(expected, rendered.channels);
-        ::testing::Test::RecordProperty("error_" + std::string{nameOf(set)} + "_" + std::to_string(channels) + "_" + std::to_string(rate),
+        ::testing::Test::RecordProperty("error_" + std::string{nameOf(set)} + "_" + std::to_string(channels) +
+                                            "_" + std::to_string(rate),
                                         std::to_string(error * 1e6) + "e-6");
         worst = std::max(worst, error);
     }
@@ -75,15 +80,16 @@ TEST(HapticRenderer, PlaysAfterMonthsAsAtTheBeginning) {
     for (const std::int64_t days : {90, 3 * 365}) {
         const auto later = signalFrom(days * 86'400);
         for (std::size_t j = 0; j < 4; ++j)
-            for (std::size_t n = 0; n < frames; ++n) ASSERT_NEAR(later[j][n], first[j][n], 1e-6f) << days << " days, frame " << n;
+            for (std::size_t n = 0; n < frames; ++n)
+                ASSERT_NEAR(later[j][n], first[j][n], 1e-6f) << days << " days, frame " << n;
     }
 }
-
 
 TEST(HapticRenderer, EqualsTheClosedFormForEveryLawAndWidth) {
     const auto events = randomEvents(2000, 2.9, 1);
     for (const int channels : {1, 2, 4, 8, 16})
-        for (const auto& one : panningLaws) ASSERT_LE(errorOf(channels, one.law, 5000, 3, events), 1e-6) << channels << " channels";
+        for (const auto& one : panningLaws)
+            ASSERT_LE(errorOf(channels, one.law, 5000, 3, events), 1e-6) << channels << " channels";
 }
 
 TEST(HapticRenderer, EqualsTheClosedFormAtEveryRate) {
@@ -105,8 +111,10 @@ TEST(HapticRenderer, AnyBlockSizeGivesTheSameBits) {
             auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, limiter);
             settings.instructions = set;
             const auto reference = renderEvents(events, settings, 24000, {8192});
-            for (const auto& blocks : std::vector<std::vector<int>>{{1}, {17}, {64}, {441}, {4096}, {3, 8192, 1, 500, 63}})
-                EXPECT_TRUE(renderEvents(events, settings, 24000, blocks).channels == reference.channels) << nameOf(set) << ' ' << blocks[0];
+            for (const auto& blocks :
+                 std::vector<std::vector<int>>{{1}, {17}, {64}, {441}, {4096}, {3, 8192, 1, 500, 63}})
+                EXPECT_TRUE(renderEvents(events, settings, 24000, blocks).channels == reference.channels)
+                    << nameOf(set) << ' ' << blocks[0];
         }
 }
 
@@ -121,13 +129,18 @@ RendererSettings equalisedSettings(bool limiter) {
 TEST(HapticRenderer, EachChannelIsItsEqualisersWorkAndAnyBlockSizeGivesTheSameBits) {
     const auto events = randomEvents(300, 0.4, 6);
     const int frames = 30000;
-    auto expected = renderEvents(events, settingsFor(layoutOf(4), PanningLaw::linear, 48000), frames).channels;
-    for (const std::size_t j : {1u, 3u}) ActuatorEqualiser{equalisedSettings(false).equalised[j], 48000}.process(expected[j].data(), frames, false);
+    auto expected =
+        renderEvents(events, settingsFor(layoutOf(4), PanningLaw::linear, 48000), frames).channels;
+    for (const std::size_t j : {1u, 3u})
+        ActuatorEqualiser{equalisedSettings(false).equalised[j], 48000}.process(expected[j].data(), frames,
+                                                                                false);
     EXPECT_TRUE(renderEvents(events, equalisedSettings(false), frames).channels == expected);
     for (const bool limiter : {false, true}) {
         const auto reference = renderEvents(events, equalisedSettings(limiter), frames, {8192});
         for (const auto& blocks : std::vector<std::vector<int>>{{1}, {17}, {64}, {3, 8192, 1, 500, 63}})
-            EXPECT_TRUE(renderEvents(events, equalisedSettings(limiter), frames, blocks).channels == reference.channels) << blocks[0];
+            EXPECT_TRUE(renderEvents(events, equalisedSettings(limiter), frames, blocks).channels ==
+                        reference.channels)
+                << blocks[0];
     }
 }
 
@@ -159,7 +172,8 @@ TEST(HapticRenderer, MoreEventsAtOneMomentThanThePendingStoreHoldsAreAllPlayed) 
 TEST(HapticRenderer, LimiterKeepsEverythingBelowFullScale) {
     auto events = randomEvents(2000, 0.9, 5);
     for (auto& e : events) e.amplitude *= 10;
-    for (const auto& channel : renderEvents(events, settingsFor(layoutOf(4), PanningLaw::linear, 48000, true), 48000).channels)
+    for (const auto& channel :
+         renderEvents(events, settingsFor(layoutOf(4), PanningLaw::linear, 48000, true), 48000).channels)
         for (const float y : channel) ASSERT_LE(std::abs(y), 1.0f);
 }
 
@@ -202,10 +216,12 @@ private:
     }
 };
 
-test::Channels renderSession(Session session, const RendererSettings& settings, int frames, int block, RenderStatus& status) {
+test::Channels renderSession(Session session, const RendererSettings& settings, int frames, int block,
+                             RenderStatus& status) {
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settings);
-    test::Channels all(static_cast<std::size_t>(settings.channels), std::vector<float>(static_cast<std::size_t>(frames)));
+    test::Channels all(static_cast<std::size_t>(settings.channels),
+                       std::vector<float>(static_cast<std::size_t>(frames)));
     for (int done = 0; done < frames; done += block) {
         std::vector<float*> at;
         for (auto& channel : all) at.push_back(channel.data() + done);
@@ -227,14 +243,17 @@ RenderControl controlAt(std::int64_t timeNs, RenderControl::Kind kind, int chann
 TEST(HapticRenderer, ControlsActAtTheirTimeWhateverTheBlockSize) {
     using Kind = RenderControl::Kind;
     Session session{randomEvents(500, 0.9, 8), {}};
-    session.controls = {controlAt(100'000'001, Kind::gain, 1, -0.5f), controlAt(200'000'003, Kind::mute, 2, 1),
-                        controlAt(300'000'007, Kind::panner), controlAt(500'000'000, Kind::stopAll), controlAt(600'000'000, Kind::mute, 2, 0)};
+    session.controls = {controlAt(100'000'001, Kind::gain, 1, -0.5f),
+                        controlAt(200'000'003, Kind::mute, 2, 1), controlAt(300'000'007, Kind::panner),
+                        controlAt(500'000'000, Kind::stopAll), controlAt(600'000'000, Kind::mute, 2, 0)};
     session.controls[2].panner = PhantomPanner{gridLayout(2, 1), PanningLaw::energy, 1, 1, 1};
     const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, true);
     RenderStatus status;
     const auto reference = renderSession(session, settings, 48000, 8192, status);
-    for (const int block : {1, 64, 441}) EXPECT_EQ(renderSession(session, settings, 48000, block, status).size(), 4u);
-    for (const int block : {1, 64, 441}) EXPECT_TRUE(renderSession(session, settings, 48000, block, status) == reference) << block;
+    for (const int block : {1, 64, 441})
+        EXPECT_EQ(renderSession(session, settings, 48000, block, status).size(), 4u);
+    for (const int block : {1, 64, 441})
+        EXPECT_TRUE(renderSession(session, settings, 48000, block, status) == reference) << block;
 }
 
 TEST(HapticRenderer, ADelaySetLaterBeginsWithWhatHasPassed) {
@@ -248,11 +267,13 @@ TEST(HapticRenderer, ADelaySetLaterBeginsWithWhatHasPassed) {
         settings.instructions = set;
         for (const int block : {1, 64, 441}) {
             RenderStatus status;
-            const auto out = renderSession(session, settings, 48000, block, status), undelayed = renderSession(plain, settings, 48000, block, status);
+            const auto out = renderSession(session, settings, 48000, block, status),
+                       undelayed = renderSession(plain, settings, 48000, block, status);
             EXPECT_EQ(out[0], undelayed[0]);
             const std::size_t delay = 960, faded = 24000 + 480 + 48; // the ramp, and the limiter's look-ahead
             EXPECT_NE(undelayed[1][faded - delay], 0.0f);
-            for (std::size_t n = faded; n < 48000; ++n) ASSERT_EQ(out[1][n], undelayed[1][n - delay]) << nameOf(set) << ' ' << block << ' ' << n;
+            for (std::size_t n = faded; n < 48000; ++n)
+                ASSERT_EQ(out[1][n], undelayed[1][n - delay]) << nameOf(set) << ' ' << block << ' ' << n;
         }
     }
 }
@@ -260,11 +281,14 @@ TEST(HapticRenderer, ADelaySetLaterBeginsWithWhatHasPassed) {
 TEST(HapticRenderer, ALevelMultipliesTheGainsOfAllChannels) {
     using Kind = RenderControl::Kind;
     Session levelled{randomEvents(200, 0.9, 8), {}}, gained = levelled;
-    levelled.controls = {controlAt(0, Kind::gain, 1, -0.5f), controlAt(0, Kind::mute, 2, 1), controlAt(0, Kind::level, 0, 0.25f)};
-    gained.controls = {controlAt(0, Kind::gain, 0, 0.25f), controlAt(0, Kind::gain, 1, -0.125f), controlAt(0, Kind::mute, 2, 1), controlAt(0, Kind::gain, 3, 0.25f)};
+    levelled.controls = {controlAt(0, Kind::gain, 1, -0.5f), controlAt(0, Kind::mute, 2, 1),
+                         controlAt(0, Kind::level, 0, 0.25f)};
+    gained.controls = {controlAt(0, Kind::gain, 0, 0.25f), controlAt(0, Kind::gain, 1, -0.125f),
+                       controlAt(0, Kind::mute, 2, 1), controlAt(0, Kind::gain, 3, 0.25f)};
     const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, true);
     RenderStatus status;
-    EXPECT_TRUE(renderSession(levelled, settings, 48000, 256, status) == renderSession(gained, settings, 48000, 256, status));
+    EXPECT_TRUE(renderSession(levelled, settings, 48000, 256, status) ==
+                renderSession(gained, settings, 48000, 256, status));
 }
 
 TEST(HapticRenderer, AMutedChannelIsSilentAndHasNoSayInTheLimiter) {
@@ -290,13 +314,15 @@ TEST(HapticRenderer, ALayoutChangeMovesLaterStrikesOnly) {
     unchanged.controls.clear();
     const auto settings = settingsFor(gridLayout(2, 1), PanningLaw::linear, 48000);
     RenderStatus status;
-    EXPECT_TRUE(renderSession(session, settings, 48000, 256, status) == renderSession(unchanged, settings, 48000, 256, status));
+    EXPECT_TRUE(renderSession(session, settings, 48000, 256, status) ==
+                renderSession(unchanged, settings, 48000, 256, status));
     CollisionEvent later = e;
     later.timeNs = 200'000'000;
     later.x = 1;
     later.frequencyHz = 100;
     session.events.push_back(later);
-    EXPECT_TRUE(renderSession(session, settings, 48000, 256, status)[1] == renderSession(unchanged, settings, 48000, 256, status)[1])
+    EXPECT_TRUE(renderSession(session, settings, 48000, 256, status)[1] ==
+                renderSession(unchanged, settings, 48000, 256, status)[1])
         << "the one enchanter left is channel 0";
 }
 
@@ -309,7 +335,8 @@ TEST(HapticRenderer, StopAllFadesWhatRingsAndLaterEventsArePlayed) {
     later.timeNs = 700'000'000;
     const Session session{{e, later}, {controlAt(300'000'000, RenderControl::Kind::stopAll)}};
     RenderStatus status;
-    const auto out = renderSession(session, settingsFor(layoutOf(1), PanningLaw::linear, 48000), 48000, 256, status)[0];
+    const auto out =
+        renderSession(session, settingsFor(layoutOf(1), PanningLaw::linear, 48000), 48000, 256, status)[0];
     float jump = 0, between = 0, after = 0;
     for (std::size_t n = 14'000; n < 15'500; ++n) jump = std::max(jump, std::abs(out[n] - out[n - 1]));
     for (std::size_t n = 15'360; n < 33'600; ++n) between = std::max(between, std::abs(out[n]));
@@ -347,7 +374,8 @@ TEST(HapticRenderer, WhatCannotBePlayedIsCountedAndSilent) {
     high.decayPerSecond = 10;
     CollisionEvent nan = high;
     nan.amplitude = std::numeric_limits<double>::quiet_NaN();
-    const auto rendered = renderEvents({e, high, nan}, settingsFor(layoutOf(1), PanningLaw::linear, 5000), 500);
+    const auto rendered =
+        renderEvents({e, high, nan}, settingsFor(layoutOf(1), PanningLaw::linear, 5000), 500);
     EXPECT_EQ(rendered.status.rejected, 3u);
     for (const float y : rendered.channels[0]) ASSERT_EQ(y, 0.0f);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// LinkedLimiter at 20 dB of random overload: ceilings, ratios, slopes, release to exactly 1, and what never passes.
+// LinkedLimiter at 20 dB of random overload: ceilings, ratios, slopes, release to exactly 1, and what never
+// passes.
 #include "Core/Actuators/LinkedLimiter.h"
 #include "Support/ClosedForm.h"
 #include "Support/Sets.h"
@@ -25,12 +26,15 @@ Block noise(int frames, double level, std::uint32_t seed) {
 
 struct Limited {
     std::unique_ptr<LinkedLimiter> limiter = std::make_unique<LinkedLimiter>();
-    explicit Limited(bool enabled = true, InstructionSet set = InstructionSet::best) { limiter->prepare(rate, channels, enabled, set); }
+    explicit Limited(bool enabled = true, InstructionSet set = InstructionSet::best) {
+        limiter->prepare(rate, channels, enabled, set);
+    }
     Block operator()(Block block, int size = 100) {
         for (std::size_t done = 0; done < block[0].size(); done += static_cast<std::size_t>(size)) {
             std::vector<float*> at;
             for (auto& channel : block) at.push_back(channel.data() + done);
-            limiter->process(at.data(), static_cast<int>(std::min(block[0].size() - done, static_cast<std::size_t>(size))));
+            limiter->process(at.data(), static_cast<int>(std::min(block[0].size() - done,
+                                                                  static_cast<std::size_t>(size))));
         }
         return block;
     }
@@ -58,12 +62,15 @@ TEST(LinkedLimiter, NoChannelExceedsItsCeiling) {
 }
 
 /// A tone of full scale on all channels; from `changeFrame` on, the ceiling of channel 2 is another.
-Block toneAcrossACeiling(int changeFrame, float before, float after, int size, InstructionSet set = InstructionSet::best) {
+Block toneAcrossACeiling(int changeFrame, float before, float after, int size,
+                         InstructionSet set = InstructionSet::best) {
     Limited limited{true, set};
     limited.limiter->setCeiling(2, before);
     Block in(channels, std::vector<float>(rate));
     for (auto& channel : in)
-        for (std::size_t n = 0; n < channel.size(); ++n) channel[n] = static_cast<float>(std::sin(2.0 * std::numbers::pi * 205.0 * static_cast<double>(n) / rate));
+        for (std::size_t n = 0; n < channel.size(); ++n)
+            channel[n] =
+                static_cast<float>(std::sin(2.0 * std::numbers::pi * 205.0 * static_cast<double>(n) / rate));
     Block first(channels), rest(channels);
     for (std::size_t j = 0; j < channels; ++j) {
         first[j].assign(in[j].begin(), in[j].begin() + changeFrame);
@@ -82,15 +89,23 @@ TEST(LinkedLimiter, ACeilingThatChangesIsARamp) {
     for (const auto& [before, after] : {std::pair{1.0f, 0.3f}, {0.3f, 1.0f}, {0.9f, 0.05f}})
         for (int change = 20000; change < 20240; change += 13) { // anywhere in a period
             const std::vector<float> out = toneAcrossACeiling(change, before, after, 100)[2];
-            for (std::size_t n = 1; n < out.size(); ++n) ASSERT_LE(std::abs(out[n] - out[n - 1]), slope + ramp) << before << ' ' << after << ' ' << change << ' ' << n;
-            const auto settled = static_cast<std::size_t>(change + limits::channelRampSeconds * rate) + Limited{}.latency();
-            for (std::size_t n = 0; n < out.size(); ++n) ASSERT_LE(std::abs(out[n]), n < static_cast<std::size_t>(change) ? before : n < settled ? std::max(before, after) : after) << n;
+            for (std::size_t n = 1; n < out.size(); ++n)
+                ASSERT_LE(std::abs(out[n] - out[n - 1]), slope + ramp)
+                    << before << ' ' << after << ' ' << change << ' ' << n;
+            const auto settled =
+                static_cast<std::size_t>(change + limits::channelRampSeconds * rate) + Limited{}.latency();
+            for (std::size_t n = 0; n < out.size(); ++n)
+                ASSERT_LE(std::abs(out[n]), n < static_cast<std::size_t>(change) ? before
+                                            : n < settled                        ? std::max(before, after)
+                                                                                 : after)
+                    << n;
         }
 }
 
 TEST(LinkedLimiter, ACeilingsRampIsTheSameForEveryBlockSizeAndInstructionSet) {
     const Block whole = toneAcrossACeiling(20111, 1.0f, 0.3f, rate);
-    for (const int size : {1, 7, 64, 333}) ASSERT_EQ(toneAcrossACeiling(20111, 1.0f, 0.3f, size), whole) << size;
+    for (const int size : {1, 7, 64, 333})
+        ASSERT_EQ(toneAcrossACeiling(20111, 1.0f, 0.3f, size), whole) << size;
     ASSERT_EQ(toneAcrossACeiling(20111, 1.0f, 0.3f, 64, InstructionSet::scalar), whole);
 }
 
@@ -136,7 +151,8 @@ TEST(LinkedLimiter, OneSecondAfterTheOverloadTheInputPassesBitForBit) {
     limited(noise(rate, 0.9, 5));
     const Block in = noise(rate, 0.9, 6), out = limited(in);
     for (std::size_t j = 0; j < channels; ++j)
-        for (std::size_t n = limited.latency(); n < rate; ++n) ASSERT_EQ(out[j][n], in[j][n - limited.latency()]);
+        for (std::size_t n = limited.latency(); n < rate; ++n)
+            ASSERT_EQ(out[j][n], in[j][n - limited.latency()]);
     EXPECT_EQ(limited.limiter->gain(), 1.0f);
 }
 
@@ -144,8 +160,12 @@ TEST(LinkedLimiter, NothingNonFiniteOrDenormalPasses) {
     Limited limited;
     Block in = noise(rate, 10, 7);
     test::Random random{8};
-    const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-                         -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::denorm_min(), -1e-39f, 1.3e-38f};
+    const float bad[] = {std::numeric_limits<float>::quiet_NaN(),
+                         std::numeric_limits<float>::infinity(),
+                         -std::numeric_limits<float>::infinity(),
+                         std::numeric_limits<float>::denorm_min(),
+                         -1e-39f,
+                         1.3e-38f};
     for (auto& channel : in)
         for (auto& x : channel)
             if (random.below(10) == 0) x = bad[random.below(6)];
@@ -196,7 +216,9 @@ TEST(LinkedLimiter, IsTheSameToTheBitOnEachInstructionSetAndAtEachBlockSize) {
                 const Block out = limited(in, size);
                 for (std::size_t j = 0; j < channels; ++j)
                     for (std::size_t n = 0; n < in[0].size(); ++n)
-                        ASSERT_EQ(std::bit_cast<std::uint32_t>(out[j][n]), std::bit_cast<std::uint32_t>(expected[j][n])) << nameOf(set) << ", block " << size << ", frame " << n;
+                        ASSERT_EQ(std::bit_cast<std::uint32_t>(out[j][n]),
+                                  std::bit_cast<std::uint32_t>(expected[j][n]))
+                            << nameOf(set) << ", block " << size << ", frame " << n;
                 EXPECT_EQ(limited.limiter->nonFiniteSamples(), 2U);
             }
     }

@@ -18,7 +18,8 @@ struct Bank {
 
     bool strike(double f, double tau, double amplitude, double lead = 0, std::int64_t frames = 0) {
         const double gain = 1;
-        return bank->strike({f, tau, amplitude, {frame, lead}, frames > 0 ? frame + frames : Strike::never}, &gain);
+        return bank->strike({f, tau, amplitude, {frame, lead}, frames > 0 ? frame + frames : Strike::never},
+                            &gain);
     }
     /// Renders one channel up to absolute frame `end`, as a renderer would: cut at tiles and gates.
     std::vector<float> renderTo(std::int64_t end) {
@@ -39,7 +40,9 @@ struct Bank {
 class OnEachModeBank : public test::OnEachSet {};
 INSTANTIATE_TEST_SUITE_P(ModeBank, OnEachModeBank, test::eachSet(), test::setName);
 
-double sinusoid(double f, double tau, double t) { return t < 0 ? 0 : std::sin(2 * std::numbers::pi * f * t) * std::exp(-tau * t); }
+double sinusoid(double f, double tau, double t) {
+    return t < 0 ? 0 : std::sin(2 * std::numbers::pi * f * t) * std::exp(-tau * t);
+}
 
 TEST_P(OnEachModeBank, OneStrikeIsTheClosedFormOverItsWholeLife) {
     Bank bank{GetParam()};
@@ -48,8 +51,10 @@ TEST_P(OnEachModeBank, OneStrikeIsTheClosedFormOverItsWholeLife) {
     const auto out = bank.renderTo(777 + 8 * rate);
     double worst = 0;
     for (std::size_t n = 0; n < out.size(); ++n)
-        worst = std::max(worst, std::abs(out[n] - sinusoid(205.3, 2, (static_cast<double>(n) + 0.37) / rate)));
-    EXPECT_LT(worst, GetParam() == InstructionSet::scalar ? 7e-8 : 3e-7) << "scalar: one rounding to float, no more";
+        worst =
+            std::max(worst, std::abs(out[n] - sinusoid(205.3, 2, (static_cast<double>(n) + 0.37) / rate)));
+    EXPECT_LT(worst, GetParam() == InstructionSet::scalar ? 7e-8 : 3e-7)
+        << "scalar: one rounding to float, no more";
 }
 
 TEST(ModeBank, TenThousandStrikesOfOneMaterialCostOneModeAndEqualTheirSum) {
@@ -60,11 +65,13 @@ TEST(ModeBank, TenThousandStrikesOfOneMaterialCostOneModeAndEqualTheirSum) {
     test::Random random{5};
     std::vector<Hit> hits;
     std::int64_t end = 0;
-    for (int i = 0; i < 10'000; ++i, end += random.below(9)) hits.push_back({end, random.below(1000) / 1000.0, random.uniform(-0.1, 0.1)});
+    for (int i = 0; i < 10'000; ++i, end += random.below(9))
+        hits.push_back({end, random.below(1000) / 1000.0, random.uniform(-0.1, 0.1)});
     std::vector<double> expected(static_cast<std::size_t>(end));
     for (const auto& h : hits)
         for (std::int64_t n = h.frame; n < end; ++n)
-            expected[static_cast<std::size_t>(n)] += h.amplitude * sinusoid(205, 12, (static_cast<double>(n - h.frame) + h.lead) / rate);
+            expected[static_cast<std::size_t>(n)] +=
+                h.amplitude * sinusoid(205, 12, (static_cast<double>(n - h.frame) + h.lead) / rate);
     for (const auto set : test::runnableSets()) {
         Bank bank{set};
         std::vector<float> out;
@@ -170,10 +177,12 @@ TEST_P(OnEachModeBank, AFullBankFadesTheQuietestModeWithoutAClick) {
     for (std::size_t n = 0; n < expected.size(); ++n)
         for (int i = 0; i < modes; ++i) {
             const double t = (4833.0 + static_cast<double>(n)) / rate;
-            const double kept = i == 7 ? 1e-3 * std::exp(-limits::stealFadePerSecond * static_cast<double>(n) / rate) : 1e-2;
+            const double kept =
+                i == 7 ? 1e-3 * std::exp(-limits::stealFadePerSecond * static_cast<double>(n) / rate) : 1e-2;
             expected[n] += kept * sinusoid(100 + 0.01 * i, 0.5, t);
         }
-    for (std::size_t n = 0; n < expected.size(); ++n) expected[n] += 1e-2 * sinusoid(333, 0.5, static_cast<double>(n) / rate);
+    for (std::size_t n = 0; n < expected.size(); ++n)
+        expected[n] += 1e-2 * sinusoid(333, 0.5, static_cast<double>(n) / rate);
     const auto out = bank.renderTo(6833);
     for (std::size_t n = 0; n < expected.size(); ++n) ASSERT_NEAR(out[n], expected[n], 4e-6) << n;
     EXPECT_EQ(bank.bank->liveModes(), modes);

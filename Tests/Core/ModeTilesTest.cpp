@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The vector kernels against the scalar oracle and against each other; the low-rank rows and the index they rest on.
+// The vector kernels against the scalar oracle and against each other; the low-rank rows and the index they
+// rest on.
 #include "Core/Modes/LowRankBasis.h"
 #include "Core/Modes/ModeIndex.h"
 #include "Support/ClosedForm.h"
@@ -20,7 +21,10 @@ Channels rendered(InstructionSet set, int channels, int rate, bool crowded = fal
     for (auto& e : events) e.amplitude *= crowded ? 0.01 : 0.2;
     for (auto& e : events) e.decayPerSecond *= crowded ? 0.1 : 1;
     const auto layout = test::gridLayout(channels, 1);
-    const RendererSettings settings{.sampleRateHz = rate, .channels = channels, .panner = {layout, PanningLaw::energy, 1, 1, 1}, .limiterEnabled = false,
+    const RendererSettings settings{.sampleRateHz = rate,
+                                    .channels = channels,
+                                    .panner = {layout, PanningLaw::energy, 1, 1, 1},
+                                    .limiterEnabled = false,
                                     .instructions = set};
     return test::renderEvents(events, settings, rate * 3 / 4).channels;
 }
@@ -38,20 +42,24 @@ double difference(const Channels& a, const Channels& b) {
 TEST(ModeTiles, EverySetAgreesWithTheScalarKernelForAnyNumberOfChannels) {
     for (const int channels : {1, 2, 3, 5, 7, 8, 13, 17, 64}) {
         const auto oracle = rendered(InstructionSet::scalar, channels, 16000);
-        for (const auto set : test::runnableSets()) EXPECT_LT(difference(oracle, rendered(set, channels, 16000)), 1e-6) << nameOf(set) << ' ' << channels;
+        for (const auto set : test::runnableSets())
+            EXPECT_LT(difference(oracle, rendered(set, channels, 16000)), 1e-6)
+                << nameOf(set) << ' ' << channels;
     }
 }
 
 TEST(ModeTiles, EverySetAgreesWithTheScalarKernelAtEveryRank) {
     for (const int rate : {5000, 12000, 96000}) { // 20 to 1000 Hz: from nearly constant in a tile to 13 turns
         const auto oracle = rendered(InstructionSet::scalar, 4, rate);
-        for (const auto set : test::runnableSets()) EXPECT_LT(difference(oracle, rendered(set, 4, rate)), 1e-6) << nameOf(set) << ' ' << rate;
+        for (const auto set : test::runnableSets())
+            EXPECT_LT(difference(oracle, rendered(set, 4, rate)), 1e-6) << nameOf(set) << ' ' << rate;
     }
 }
 
 TEST(ModeTiles, EverySetAgreesWithTheScalarKernelWhenModesAreStolen) {
     const auto oracle = rendered(InstructionSet::scalar, 2, 8000, true);
-    for (const auto set : test::runnableSets()) EXPECT_LT(difference(oracle, rendered(set, 2, 8000, true)), 1e-6) << nameOf(set);
+    for (const auto set : test::runnableSets())
+        EXPECT_LT(difference(oracle, rendered(set, 2, 8000, true)), 1e-6) << nameOf(set);
 }
 
 TEST(ModeTiles, SetsWithFusedMultiplyAddsAgreeToTheBit) {
@@ -61,14 +69,16 @@ TEST(ModeTiles, SetsWithFusedMultiplyAddsAgreeToTheBit) {
     if (fused.size() < 2) GTEST_SKIP() << "only " << fused.size() << " of them here";
     for (const int channels : {1, 3, 4, 8, 13, 17})
         for (std::size_t i = 1; i < fused.size(); ++i)
-            EXPECT_TRUE(rendered(fused[0], channels, 12000) == rendered(fused[i], channels, 12000)) << nameOf(fused[i]) << ' ' << channels;
+            EXPECT_TRUE(rendered(fused[0], channels, 12000) == rendered(fused[i], channels, 12000))
+                << nameOf(fused[i]) << ' ' << channels;
 }
 
 TEST(ModeTiles, ASetThatIsNotThereMeansTheScalarKernel) {
     const auto bank = std::make_unique<ModeBank>();
     bank->prepare(48000, 1, InstructionSet::scalar);
     EXPECT_EQ(bank->instructionSet(), InstructionSet::scalar);
-    for (const auto set : {InstructionSet::sse4, InstructionSet::avx2, InstructionSet::avx512, InstructionSet::neon}) {
+    for (const auto set :
+         {InstructionSet::sse4, InstructionSet::avx2, InstructionSet::avx512, InstructionSet::neon}) {
         bank->prepare(48000, 1, set);
         EXPECT_EQ(bank->instructionSet(), isAvailable(set) ? set : InstructionSet::scalar);
     }
@@ -93,7 +103,8 @@ TEST(ModeTiles, AStrikeInTheTileOfAClosingGateKeepsItsBits) {
     EXPECT_TRUE(std::equal(a.begin(), a.begin() + 34, b.begin()));
 }
 
-// What it is turned by and what its mode is turned by are each other's opposites, rounded alike: unless the product is rounded once.
+// What it is turned by and what its mode is turned by are each other's opposites, rounded alike: unless the
+// product is rounded once.
 TEST(ModeTiles, AStrikeOnATilesFirstFrameBeginsAtExactlyZero) {
     for (const auto set : test::runnableSets()) {
         if (set == InstructionSet::scalar) continue; // rounds its amplitudes first
@@ -111,7 +122,8 @@ TEST(ModeTiles, AStrikeOnATilesFirstFrameBeginsAtExactlyZero) {
     }
 }
 
-/// A tile of a bank that is struck so often, by more modes than it has room for, so that some are stolen; `apart`: none waits for another.
+/// A tile of a bank that is struck so often, by more modes than it has room for, so that some are stolen;
+/// `apart`: none waits for another.
 Channels struck(InstructionSet set, int channels, bool apart) {
     const auto bank = std::make_unique<ModeBank>();
     bank->prepare(48000, channels, set, 5, 64);
@@ -123,7 +135,12 @@ Channels struck(InstructionSet set, int channels, bool apart) {
     for (int i = 0; i < 39; ++i) {
         for (auto& g : gains) g = random.uniform(-1, 1);
         const bool isGated = i % 7 == 6;
-        bank->strike({60.0 + 10 * random.below(9), 30, 0.1, {64 + i * 3 / 2, random.uniform(0, 1)}, isGated ? 1000 : Strike::never}, gains.data());
+        bank->strike({60.0 + 10 * random.below(9),
+                      30,
+                      0.1,
+                      {64 + i * 3 / 2, random.uniform(0, 1)},
+                      isGated ? 1000 : Strike::never},
+                     gains.data());
         if (apart) bank->render(at.data(), 64, 0);
     }
     bank->render(at.data(), 64, 64);
@@ -134,7 +151,9 @@ Channels struck(InstructionSet set, int channels, bool apart) {
 
 TEST(ModeTiles, StrikesThatWaitForOthersAreStrikesOneByOneToTheBit) {
     for (const auto set : test::runnableSets())
-        for (const int channels : {1, 2, 3, 4, 5, 8, 11, 16}) EXPECT_TRUE(struck(set, channels, false) == struck(set, channels, true)) << nameOf(set) << ' ' << channels;
+        for (const int channels : {1, 2, 3, 4, 5, 8, 11, 16})
+            EXPECT_TRUE(struck(set, channels, false) == struck(set, channels, true))
+                << nameOf(set) << ' ' << channels;
 }
 
 TEST(LowRankBasis, RowsOfTheChosenRankGiveTheModeBack) {
@@ -144,7 +163,9 @@ TEST(LowRankBasis, RowsOfTheChosenRankGiveTheModeBack) {
             const double angle = std::numbers::pi / 2 * tilt / 8;
             std::array<double, 64> cosPowers{}, sinPowers{};
             for (std::size_t t = 0; t < 64; ++t) {
-                const auto p = std::exp(std::complex<double>{-radians * std::sin(angle), radians * std::cos(angle)} * static_cast<double>(t));
+                const auto p =
+                    std::exp(std::complex<double>{-radians * std::sin(angle), radians * std::cos(angle)} *
+                             static_cast<double>(t));
                 cosPowers[t] = p.real();
                 sinPowers[t] = p.imag();
             }
@@ -155,12 +176,15 @@ TEST(LowRankBasis, RowsOfTheChosenRankGiveTheModeBack) {
                 double sine = row[2 * t], cosine = row[2 * t + 1]; // rank 64: as they are
                 if (rank < 64) sine = cosine = 0;
                 for (std::size_t k = 0; rank < 64 && k < static_cast<std::size_t>(rank); ++k) {
-                    const double u = basis.halves()[k * 32 + (t < 32 ? t : 63 - t)] * (t >= 32 && k % 2 == 1 ? -1 : 1);
+                    const double u =
+                        basis.halves()[k * 32 + (t < 32 ? t : 63 - t)] * (t >= 32 && k % 2 == 1 ? -1 : 1);
                     sine += u * row[2 * k];
                     cosine += u * row[2 * k + 1];
                 }
-                ASSERT_NEAR(sine, sinPowers[t], 2e-7) << "rank " << rank << ", " << radians << " radians a frame";
-                ASSERT_NEAR(cosine, cosPowers[t], 2e-7) << "rank " << rank << ", " << radians << " radians a frame";
+                ASSERT_NEAR(sine, sinPowers[t], 2e-7)
+                    << "rank " << rank << ", " << radians << " radians a frame";
+                ASSERT_NEAR(cosine, cosPowers[t], 2e-7)
+                    << "rank " << rank << ", " << radians << " radians a frame";
             }
         }
 }
@@ -176,13 +200,16 @@ TEST(ModeIndex, FindsWhatIsThereWhateverCameAndWent) {
             index.erase(hashes[slot], slot);
             hashes.erase(slot);
         } else { // few homes: long chains, also around the end
-            hashes[slot] = static_cast<std::uint64_t>(random.below(7) * 0x26ff'0000'0000LL) << 16 | static_cast<std::uint64_t>(slot);
+            hashes[slot] = static_cast<std::uint64_t>(random.below(7) * 0x26ff'0000'0000LL) << 16 |
+                           static_cast<std::uint64_t>(slot);
             index.insert(hashes[slot], slot);
         }
         const int wanted = random.below(100);
         const auto isMeant = [&](int s) { return s == wanted; };
         const auto found = hashes.find(wanted);
-        ASSERT_EQ(index.find(found == hashes.end() ? 0 : found->second, isMeant), found == hashes.end() ? -1 : wanted) << i;
+        ASSERT_EQ(index.find(found == hashes.end() ? 0 : found->second, isMeant),
+                  found == hashes.end() ? -1 : wanted)
+            << i;
     }
 }
 

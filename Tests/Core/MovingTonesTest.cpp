@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A tone that moves is felt where it is, equally strong all the way, without anything beside it, whatever the blocks.
+// A tone that moves is felt where it is, equally strong all the way, without anything beside it, whatever the
+// blocks.
 #include "Core/HapticRenderer.h"
 #include "Support/Rendering.h"
 #include <cmath>
@@ -16,10 +17,13 @@ constexpr double hz = 205.0;
 RendererSettings phone4(PanningLaw law = PanningLaw::linear) {
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
-    return {rate, 4, PhantomPanner{layout, law, 1, layout.extentWidthMetres, layout.extentHeightMetres}, false};
+    return {rate, 4, PhantomPanner{layout, law, 1, layout.extentWidthMetres, layout.extentHeightMetres},
+            false};
 }
 
-EnchanterPlace placeOf(char letter) { return phone4().panner.layout().places[static_cast<std::size_t>(letter - 'A')]; }
+EnchanterPlace placeOf(char letter) {
+    return phone4().panner.layout().places[static_cast<std::size_t>(letter - 'A')];
+}
 
 CollisionEvent leg(EnchanterPlace from, EnchanterPlace to, std::int64_t fromNs, std::int64_t lengthNs) {
     CollisionEvent e;
@@ -38,7 +42,9 @@ const CollisionEvent fromAToD = leg(placeOf('A'), placeOf('D'), 0, 1'000'000'000
 /// Of the tone in samples [first, first + count).
 double amplitudeIn(const std::vector<float>& samples, std::size_t first, std::size_t count) {
     std::complex<double> sum;
-    for (std::size_t n = first; n < first + count; ++n) sum += static_cast<double>(samples[n]) * std::polar(1.0, -2 * std::numbers::pi * hz * static_cast<double>(n) / rate);
+    for (std::size_t n = first; n < first + count; ++n)
+        sum += static_cast<double>(samples[n]) *
+               std::polar(1.0, -2 * std::numbers::pi * hz * static_cast<double>(n) / rate);
     return 2 * std::abs(sum) / static_cast<double>(count);
 }
 
@@ -48,12 +54,14 @@ void transform(std::vector<std::complex<double>>& a) {
             for (std::size_t k = 0; k < size / 2; ++k) {
                 const auto x = a[at + k], y = a[at + k + size / 2];
                 a[at + k] = x + y;
-                a[at + k + size / 2] = (x - y) * std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(size));
+                a[at + k + size / 2] =
+                    (x - y) * std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) /
+                                                  static_cast<double>(size));
             }
 }
 
-/// dB of the largest component that is further than `awayHz` from the tone, below a tone that stands still. A window of
-/// four terms: what its own sides do lies below -92 dB.
+/// dB of the largest component that is further than `awayHz` from the tone, below a tone that stands still. A
+/// window of four terms: what its own sides do lies below -92 dB.
 double loudestBeside(const std::vector<float>& samples, double awayHz) {
     constexpr std::size_t size = 65536;
     std::vector<std::complex<double>> spectrum(size);
@@ -61,7 +69,8 @@ double loudestBeside(const std::vector<float>& samples, double awayHz) {
     double whole = 0.0;
     for (std::size_t n = 0; n < samples.size(); ++n) {
         const double turn = 2 * std::numbers::pi * static_cast<double>(n) / length;
-        const double window = 0.35875 - 0.48829 * std::cos(turn) + 0.14128 * std::cos(2 * turn) - 0.01168 * std::cos(3 * turn);
+        const double window =
+            0.35875 - 0.48829 * std::cos(turn) + 0.14128 * std::cos(2 * turn) - 0.01168 * std::cos(3 * turn);
         spectrum[n] = static_cast<double>(samples[n]) * window;
         whole += 0.5 * fromAToD.amplitude * window;
     }
@@ -69,8 +78,10 @@ double loudestBeside(const std::vector<float>& samples, double awayHz) {
     double most = 0.0;
     for (std::size_t k = 0; k < size; ++k) {
         std::size_t frequency = 0; // bits in reverse
-        for (std::size_t bit = 1, other = size / 2; bit < size; bit *= 2, other /= 2) frequency |= (k & bit) != 0 ? other : 0;
-        if (frequency < size / 2 && std::abs(static_cast<double>(frequency) * rate / size - hz) > awayHz) most = std::max(most, std::abs(spectrum[k]));
+        for (std::size_t bit = 1, other = size / 2; bit < size; bit *= 2, other /= 2)
+            frequency |= (k & bit) != 0 ? other : 0;
+        if (frequency < size / 2 && std::abs(static_cast<double>(frequency) * rate / size - hz) > awayHz)
+            most = std::max(most, std::abs(spectrum[k]));
     }
     return 20 * std::log10(most / whole);
 }
@@ -90,7 +101,8 @@ TEST(MovingTones, TheCentreOfWhatIsFeltFollowsThePathAtEqualStrength) {
         }
         const double share = (static_cast<double>(first) + 0.5 * window) / rate;
         const EnchanterPlace a = placeOf('A'), d = placeOf('D');
-        const double away = std::hypot(x / energy - std::lerp(a.xMetres, d.xMetres, share), y / energy - std::lerp(a.yMetres, d.yMetres, share));
+        const double away = std::hypot(x / energy - std::lerp(a.xMetres, d.xMetres, share),
+                                       y / energy - std::lerp(a.yMetres, d.yMetres, share));
         EXPECT_LE(away, 0.02 * std::hypot(d.xMetres - a.xMetres, d.yMetres - a.yMetres)) << share;
         least = std::min(least, energy);
         most = std::max(most, energy);
@@ -105,25 +117,32 @@ TEST(MovingTones, NothingIsBesideTheTone) {
 }
 
 TEST(MovingTones, LegsOfOnePathJoinWithoutAStep) {
-    CollisionEvent first = leg(placeOf('A'), placeOf('B'), 0, 400'123'457), second = leg(placeOf('B'), placeOf('D'), first.durationNs, 1'000'000'000 - first.durationNs);
+    CollisionEvent first = leg(placeOf('A'), placeOf('B'), 0, 400'123'457),
+                   second =
+                       leg(placeOf('B'), placeOf('D'), first.durationNs, 1'000'000'000 - first.durationNs);
     second.course.sinceNs = second.timeNs;
     const auto felt = test::renderEvents({first, second}, phone4(), rate).channels;
     float steepest = 0.0f;
     for (const auto& channel : felt)
-        for (std::size_t n = 1; n < channel.size(); ++n) steepest = std::max(steepest, std::abs(channel[n] - channel[n - 1]));
+        for (std::size_t n = 1; n < channel.size(); ++n)
+            steepest = std::max(steepest, std::abs(channel[n] - channel[n - 1]));
     EXPECT_LE(steepest, 0.5 * 2 * std::numbers::pi * hz / rate * 1.01) << "no more than the tone itself";
 }
 
 TEST(MovingTones, AnyBlocksGiveTheSameBits) {
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 12; ++i) {
-        events.push_back(leg(placeOf(static_cast<char>('A' + i % 4)), placeOf(static_cast<char>('A' + (i + 1) % 4)), 3'333'331 * i, 20'000'000 + 1'234'567 * i));
+        events.push_back(leg(placeOf(static_cast<char>('A' + i % 4)),
+                             placeOf(static_cast<char>('A' + (i + 1) % 4)), 3'333'331 * i,
+                             20'000'000 + 1'234'567 * i));
         events.back().decayPerSecond = i % 3 * 7.0;
         events.back().course.spread = static_cast<Spread>(i % static_cast<int>(spreadNames.size()));
     }
     const auto reference = test::renderEvents(events, phone4(), 6000, {8192});
     EXPECT_EQ(reference.status.played, events.size());
-    for (const auto& blocks : {std::vector{1}, {64}, {4096}, {17, 1, 333}}) EXPECT_TRUE(test::renderEvents(events, phone4(), 6000, blocks).channels == reference.channels) << blocks[0];
+    for (const auto& blocks : {std::vector{1}, {64}, {4096}, {17, 1, 333}})
+        EXPECT_TRUE(test::renderEvents(events, phone4(), 6000, blocks).channels == reference.channels)
+            << blocks[0];
 }
 
 TEST(MovingTones, WhatGoesNowhereIsTheStillStrike) {
@@ -132,7 +151,8 @@ TEST(MovingTones, WhatGoesNowhereIsTheStillStrike) {
     still.x = moving.x = moving.course.toX = 0.04;
     still.y = moving.y = moving.course.toY = 0.02;
     moving.course.spread = Spread::layout;
-    const auto a = test::renderEvents({still}, phone4(), rate).channels, b = test::renderEvents({moving}, phone4(), rate).channels;
+    const auto a = test::renderEvents({still}, phone4(), rate).channels,
+               b = test::renderEvents({moving}, phone4(), rate).channels;
     for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t n = 0; n < a[j].size(); ++n) ASSERT_NEAR(a[j][n], b[j][n], 1e-6) << j << ' ' << n;
 }
@@ -144,7 +164,8 @@ TEST(MovingTones, TheRestOfALongerToneGoesOnWhereThatOneIs) {
     rest.course = {.sinceNs = 300'000'017};
     rest.timeNs = rest.course.sinceNs;
     rest.durationNs -= rest.course.sinceNs;
-    const auto a = test::renderEvents({whole}, phone4(), rate).channels, b = test::renderEvents({rest}, phone4(), rate).channels;
+    const auto a = test::renderEvents({whole}, phone4(), rate).channels,
+               b = test::renderEvents({rest}, phone4(), rate).channels;
     for (std::size_t n = 14'401; n < a[0].size(); ++n) ASSERT_NEAR(a[0][n], b[0][n], 1e-6) << n;
 }
 
@@ -167,7 +188,9 @@ TEST(MovingTones, AStopFadesThem) {
         for (std::size_t j = 0; j < 4; ++j) at[j] = out[j].data() + done;
         renderer->render(source, at.data(), 480);
     }
-    const auto loudest = [&](int from, int to) { return std::abs(*std::max_element(out[0].begin() + from, out[0].begin() + to)); };
+    const auto loudest = [&](int from, int to) {
+        return std::abs(*std::max_element(out[0].begin() + from, out[0].begin() + to));
+    };
     EXPECT_GT(loudest(23'000, 24'000), 0.2f);
     EXPECT_EQ(loudest(25'000, rate), 0.0f);
 }
@@ -182,13 +205,17 @@ TEST(MovingTones, TooManyAtOnceAreRefused) {
 TEST(Spread, EqualKeepsTheEnergyOnAnyLayoutAndAloneIsOne) {
     for (const int count : {1, 2, 3, 4, 7}) {
         EnchanterLayout layout{1.0, 0.5, count, {}};
-        for (int j = 0; j < count; ++j) layout.places[static_cast<std::size_t>(j)] = {count == 3 ? 0.5 * j : std::abs(std::sin(j * 1.7)), count == 3 ? 0.2 : 0.5 * std::abs(std::cos(j * 2.3))};
+        for (int j = 0; j < count; ++j)
+            layout.places[static_cast<std::size_t>(j)] = {count == 3 ? 0.5 * j : std::abs(std::sin(j * 1.7)),
+                                                          count == 3 ? 0.2
+                                                                     : 0.5 * std::abs(std::cos(j * 2.3))};
         const PhantomPanner panner{layout, PanningLaw::linear, 2.0, 2.0, 1.0};
         for (double x = 0.0; x <= 2.0; x += 0.31) {
             PhantomPanner::Gains gains{};
             panner.gainsAt(x, 0.3, Spread::equal, gains);
             double energy = 0.0;
-            for (int j = 0; j < count; ++j) energy += gains[static_cast<std::size_t>(j)] * gains[static_cast<std::size_t>(j)];
+            for (int j = 0; j < count; ++j)
+                energy += gains[static_cast<std::size_t>(j)] * gains[static_cast<std::size_t>(j)];
             EXPECT_NEAR(energy, 1.0, 1e-9) << count << ' ' << x;
             panner.gainsAt(x, 0.3, Spread::alone, gains);
             EXPECT_EQ(std::count(gains.begin(), gains.begin() + count, 0.0), count - 1);

@@ -17,7 +17,8 @@ PhantomPanner grips() {
     return PadMotors::gripsOf({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
 }
 
-CollisionEvent hit(double seconds, double frequencyHz, double amplitude, double x = 0.5, double decayPerSecond = 30.0) {
+CollisionEvent hit(double seconds, double frequencyHz, double amplitude, double x = 0.5,
+                   double decayPerSecond = 30.0) {
     CollisionEvent event;
     event.timeNs = static_cast<std::int64_t>(seconds * 1e9);
     event.frequencyHz = frequencyHz;
@@ -35,7 +36,8 @@ CollisionEvent pulse(double at, double seconds, double amplitude, double frequen
     return event;
 }
 
-std::vector<PadCommand> commandsOf(const PadLaw& law, const std::vector<CollisionEvent>& events, double level = 1.0) {
+std::vector<PadCommand> commandsOf(const PadLaw& law, const std::vector<CollisionEvent>& events,
+                                   double level = 1.0) {
     PadMotors motors{law};
     std::vector<PadCommand> commands;
     const auto runUntil = [&](std::int64_t ns) {
@@ -64,7 +66,8 @@ Felt feltOf(const PadLaw& law, const std::vector<PadCommand>& commands) {
     Felt now, most;
     for (std::int64_t ns = 0; ns < commands.back().timeNs + 500 * ms; ns += ms) {
         const PadCommand command = at(commands, ns);
-        now = {law.low.strengthAfter(now.low, command.low, 0.001), law.high.strengthAfter(now.high, command.high, 0.001)};
+        now = {law.low.strengthAfter(now.low, command.low, 0.001),
+               law.high.strengthAfter(now.high, command.high, 0.001)};
         most = {std::max(most.low, now.low), std::max(most.high, now.high)};
     }
     return most;
@@ -75,7 +78,8 @@ std::vector<CollisionEvent> rain(unsigned seed, int count, double seconds) {
     const auto unit = [&] { return static_cast<double>(random()) / 4294967296.0; };
     std::vector<CollisionEvent> events;
     for (int i = 0; i < count; ++i) {
-        events.push_back(hit(seconds * unit(), 40.0 + 400.0 * unit(), unit() * unit(), unit(), 10.0 + 40.0 * std::floor(3.0 * unit())));
+        events.push_back(hit(seconds * unit(), 40.0 + 400.0 * unit(), unit() * unit(), unit(),
+                             10.0 + 40.0 * std::floor(3.0 * unit())));
         if (i % 5 == 0) events.back().durationNs = static_cast<std::int64_t>(50e6 * unit()) + 1;
     }
     std::ranges::sort(events, {}, &CollisionEvent::timeNs);
@@ -87,7 +91,8 @@ TEST(PadMotor, CommandsAndStrengthsAreInverseAndNothingTurnsBelowTheThreshold) {
     EXPECT_EQ(motor.strengthOf(0.29), 0.0);
     EXPECT_DOUBLE_EQ(motor.strengthOf(0.5), 0.5);
     EXPECT_DOUBLE_EQ(motor.strengthOf(0.86), 1.0);
-    for (double strength = 0.05; strength < 1.0; strength += 0.05) EXPECT_NEAR(motor.strengthOf(motor.commandOf(strength)), strength, 1e-12);
+    for (double strength = 0.05; strength < 1.0; strength += 0.05)
+        EXPECT_NEAR(motor.strengthOf(motor.commandOf(strength)), strength, 1e-12);
     EXPECT_NEAR(motor.strengthAfter(0.0, 1.0, motor.riseSeconds), 0.9, 1e-12);
     EXPECT_NEAR(motor.strengthAfter(1.0, 0.0, motor.fallSeconds), 0.1, 1e-12);
 }
@@ -101,8 +106,12 @@ TEST(PadMotors, CommandsAreZeroOrAtLeastTheThresholdNeverCloserThanThePaceAndEnd
             const auto commands = commandsOf(law, rain(seed, 100, 3.0));
             ASSERT_FALSE(commands.empty());
             for (std::size_t i = 0; i < commands.size(); ++i) {
-                EXPECT_TRUE(commands[i].low == 0.0 || (commands[i].low >= law.low.threshold && commands[i].low <= 1.0)) << commands[i].low;
-                EXPECT_TRUE(commands[i].high == 0.0 || (commands[i].high >= law.high.threshold && commands[i].high <= 1.0)) << commands[i].high;
+                EXPECT_TRUE(commands[i].low == 0.0 ||
+                            (commands[i].low >= law.low.threshold && commands[i].low <= 1.0))
+                    << commands[i].low;
+                EXPECT_TRUE(commands[i].high == 0.0 ||
+                            (commands[i].high >= law.high.threshold && commands[i].high <= 1.0))
+                    << commands[i].high;
                 const std::int64_t sinceNs = i > 0 ? commands[i].timeNs - commands[i - 1].timeNs : INT64_MAX;
                 EXPECT_GE(static_cast<double>(sinceNs), 1e9 / perSecond - 1.0);
             }
@@ -129,9 +138,11 @@ TEST(PadMotors, WhatIsToBeFeltIsFeltHoweverShortAndWeak) {
                 PadLaw law;
                 law.commandsPerSecond = perSecond;
                 const Felt felt = feltOf(law, commandsOf(law, {pulse(0.1, 0.02, amplitude, frequencyHz)}));
-                EXPECT_GE(std::max(felt.low, felt.high), 0.9 * PadMotors::leastFelt) << perSecond << ' ' << frequencyHz << ' ' << amplitude;
+                EXPECT_GE(std::max(felt.low, felt.high), 0.9 * PadMotors::leastFelt)
+                    << perSecond << ' ' << frequencyHz << ' ' << amplitude;
             }
-    EXPECT_TRUE(commandsOf({}, {pulse(0.1, 0.02, 0.0099, 50.0)}).back().isSame({})) << "weaker than the floor";
+    EXPECT_TRUE(commandsOf({}, {pulse(0.1, 0.02, 0.0099, 50.0)}).back().isSame({}))
+        << "weaker than the floor";
     EXPECT_EQ(feltOf({}, commandsOf({}, {pulse(0.1, 0.02, 0.0099, 50.0)})).low, 0.0);
 }
 
@@ -145,12 +156,15 @@ TEST(PadMotors, StrongerHitsAreFeltStronger) {
 }
 
 TEST(PadMotors, FrequencyAndPlaceShareAHitBetweenTheMotors) {
-    const auto felt = [](double frequencyHz, double x) { return feltOf({}, commandsOf({}, {hit(0.1, frequencyHz, 0.5, x)})); };
+    const auto felt = [](double frequencyHz, double x) {
+        return feltOf({}, commandsOf({}, {hit(0.1, frequencyHz, 0.5, x)}));
+    };
     EXPECT_GT(felt(40.0, 0.5).low, 1.5 * felt(40.0, 0.5).high);
     EXPECT_GT(felt(250.0, 0.5).high, 1.5 * felt(250.0, 0.5).low);
     EXPECT_GT(felt(100.0, 0.0).low, felt(100.0, 0.0).high);
     EXPECT_GT(felt(100.0, 1.0).high, felt(100.0, 1.0).low);
-    EXPECT_GE(felt(250.0, 0.0).high, PadMotors::leastFelt * 0.9) << "a high hit at the left is felt all the same";
+    EXPECT_GE(felt(250.0, 0.0).high, PadMotors::leastFelt * 0.9)
+        << "a high hit at the left is felt all the same";
 }
 
 TEST(PadMotors, WhatMovesGoesFromOneGripToTheOther) {
@@ -167,7 +181,8 @@ TEST(PadMotors, WhatMovesGoesFromOneGripToTheOther) {
 TEST(PadMotors, AThousandHitsOfOneMaterialAreAsMuchAsTheirEnergy) {
     std::vector<CollisionEvent> many(200, hit(0.1, 50.0, 0.8 / std::sqrt(200.0)));
     const auto summed = commandsOf({}, many), one = commandsOf({}, {hit(0.1, 50.0, 0.8)});
-    for (std::int64_t ns = 200 * ms; ns < 400 * ms; ns += 10 * ms) EXPECT_NEAR(at(summed, ns).low, at(one, ns).low, 0.1) << ns / ms;
+    for (std::int64_t ns = 200 * ms; ns < 400 * ms; ns += 10 * ms)
+        EXPECT_NEAR(at(summed, ns).low, at(one, ns).low, 0.1) << ns / ms;
     PadMotors full{PadLaw{}};
     for (int i = 0; i < 300; ++i) full.strike(many.front(), grips());
     EXPECT_EQ(full.lost(), 44u);

@@ -7,7 +7,8 @@
 namespace physvib {
 namespace {
 
-// The threshold of detection as a displacement, relative to 250 Hz, in dB: -12 dB per octave from 40 to 250 Hz, flat on both sides.
+// The threshold of detection as a displacement, relative to 250 Hz, in dB: -12 dB per octave from 40 to 250
+// Hz, flat on both sides.
 double displacementThresholdDb(double hz) { return -40.0 * std::log10(std::clamp(hz, 40.0, 250.0) / 250.0); }
 
 // The same as an acceleration, of which half is made up for, by at most a factor of 2.
@@ -18,7 +19,8 @@ double expectedDb(double hz) {
 }
 
 TEST(PerceivedLevel, IsHalfTheThresholdOfAnAccelerationWithinSixDecibels) {
-    for (double hz = 1.0; hz <= 20000.0; hz *= 1.01) ASSERT_NEAR(20.0 * std::log10(PerceivedLevel::weight(hz)), expectedDb(hz), 1e-9) << hz;
+    for (double hz = 1.0; hz <= 20000.0; hz *= 1.01)
+        ASSERT_NEAR(20.0 * std::log10(PerceivedLevel::weight(hz)), expectedDb(hz), 1e-9) << hz;
     EXPECT_NEAR(PerceivedLevel::weight(349), 1.396, 1e-12);
     EXPECT_EQ(PerceivedLevel::weight(500), 2.0);
     EXPECT_EQ(PerceivedLevel::weight(20), 0.5);
@@ -58,13 +60,29 @@ TEST(PerceivedLevel, RaisesNothingAboveFullScaleAndKeepsTheOrderOfHits) {
 }
 
 TEST(PerceivedLevel, OffChangesNoBit) {
-    for (const double amplitude : {0.0, 1e-300, 0.1, 0.3, -0.7, 1.7, std::numeric_limits<double>::denorm_min()}) EXPECT_EQ(PerceivedLevel{}(amplitude, 430.0), amplitude);
-    const CollisionEvent e{.timeNs = 7, .frequencyHz = 430, .decayPerSecond = 50, .amplitude = 0.3, .x = 1, .y = 2, .durationNs = 0, .source = {1, 2, 3, 4}};
+    for (const double amplitude :
+         {0.0, 1e-300, 0.1, 0.3, -0.7, 1.7, std::numeric_limits<double>::denorm_min()})
+        EXPECT_EQ(PerceivedLevel{}(amplitude, 430.0), amplitude);
+    const CollisionEvent e{.timeNs = 7,
+                           .frequencyHz = 430,
+                           .decayPerSecond = 50,
+                           .amplitude = 0.3,
+                           .x = 1,
+                           .y = 2,
+                           .durationNs = 0,
+                           .source = {1, 2, 3, 4}};
     EXPECT_EQ(EventShaping{}(e), e);
 }
 
 TEST(PerceivedLevel, WeighsTheFrequencyThatIsPlayedAfterTheGainAndNothingElse) {
-    const CollisionEvent e{.timeNs = 7, .frequencyHz = 430, .decayPerSecond = 50, .amplitude = 0.3, .x = 1, .y = 2, .durationNs = 0, .source = {1, 2, 3, 4}};
+    const CollisionEvent e{.timeNs = 7,
+                           .frequencyHz = 430,
+                           .decayPerSecond = 50,
+                           .amplitude = 0.3,
+                           .x = 1,
+                           .y = 2,
+                           .durationNs = 0,
+                           .source = {1, 2, 3, 4}};
     EventShaping shaping{.perceived = {true}};
     CollisionEvent felt = shaping(e);
     EXPECT_EQ(felt.amplitude, 0.3 * (430.0 / 250.0));

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double W = 6.4, H = 3.6; // field metres
 
-PhantomPanner::Gains gainsOf(const EnchanterLayout& layout, PanningLaw law, double x, double y, double exponent = 1) {
+PhantomPanner::Gains gainsOf(const EnchanterLayout& layout, PanningLaw law, double x, double y,
+                             double exponent = 1) {
     PhantomPanner::Gains gains{};
     PhantomPanner{layout, law, exponent, W, H}.gainsAt(x, y, gains);
     return gains;
@@ -59,8 +60,10 @@ TEST(PhantomPanner, LogarithmicLawsFollowTheTwoReconstructionsOfEquation43) {
 }
 
 TEST(PhantomPanner, CentreOfFourIs6dBDownLinearAnd9Point3Logarithmic) {
-    EXPECT_NEAR(10 * std::log10(sumOfSquares(gainsOf(preset("phone4"), PanningLaw::linear, W / 2, H / 2))), -6.02, 0.01);
-    EXPECT_NEAR(10 * std::log10(sumOfSquares(gainsOf(preset("phone4"), PanningLaw::log, W / 2, H / 2))), -9.26, 0.01);
+    EXPECT_NEAR(10 * std::log10(sumOfSquares(gainsOf(preset("phone4"), PanningLaw::linear, W / 2, H / 2))),
+                -6.02, 0.01);
+    EXPECT_NEAR(10 * std::log10(sumOfSquares(gainsOf(preset("phone4"), PanningLaw::log, W / 2, H / 2))),
+                -9.26, 0.01);
 }
 
 TEST(PhantomPanner, TwoFollowTheLineOnly) {
@@ -73,7 +76,8 @@ TEST(PhantomPanner, TwoFollowTheLineOnly) {
 
 TEST(PhantomPanner, AnyLineUsesTheExtentAlongIt) {
     const auto level = gainsOf(test::gridLayout(8, 1), PanningLaw::linear, W / 7.0 * 3, 0);
-    for (int j = 0; j < 8; ++j) EXPECT_NEAR(level[static_cast<std::size_t>(j)], 1 - std::abs(j - 3) / 7.0, 1e-12);
+    for (int j = 0; j < 8; ++j)
+        EXPECT_NEAR(level[static_cast<std::size_t>(j)], 1 - std::abs(j - 3) / 7.0, 1e-12);
     EnchanterLayout diagonal{1, 1, 2, {}};
     diagonal.places[1] = {1, 1};
     EXPECT_NEAR(gainsOf(diagonal, PanningLaw::linear, W / 4, H / 4)[0], 0.75, 1e-12);
@@ -94,9 +98,11 @@ TEST(PhantomPanner, OtherArrangementsWeighByInverseSquareDistance) {
     const auto layout = test::gridLayout(3, 3);
     const auto g = gainsOf(layout, PanningLaw::linear, 0.2 * W, 0.1 * H);
     double sum = 0;
-    for (int j = 0; j < 9; ++j) sum += 1 / (std::pow(0.2 - (j % 3) / 2.0, 2) + std::pow(0.1 - (j / 3) / 2.0, 2));
     for (int j = 0; j < 9; ++j)
-        EXPECT_NEAR(g[static_cast<std::size_t>(j)], 1 / (std::pow(0.2 - (j % 3) / 2.0, 2) + std::pow(0.1 - (j / 3) / 2.0, 2)) / sum, 1e-12);
+        sum += 1 / (std::pow(0.2 - (j % 3) / 2.0, 2) + std::pow(0.1 - (j / 3) / 2.0, 2));
+    for (int j = 0; j < 9; ++j)
+        EXPECT_NEAR(g[static_cast<std::size_t>(j)],
+                    1 / (std::pow(0.2 - (j % 3) / 2.0, 2) + std::pow(0.1 - (j / 3) / 2.0, 2)) / sum, 1e-12);
     EXPECT_NEAR(gainsOf(layout, PanningLaw::log, 0.5 * W, 0.5 * H)[4], 1, 1e-9);
 }
 
@@ -124,7 +130,8 @@ TEST(PhantomPanner, EveryLawFallsFromOneToZero) {
     for (const auto& one : panningLaws) {
         EXPECT_EQ(one.factor(0.0), 1.0) << one.name;
         EXPECT_EQ(one.factor(1.0), 0.0) << one.name;
-        for (int i = 1; i <= 64; ++i) EXPECT_LT(one.factor(i / 64.0), one.factor((i - 1) / 64.0)) << one.name << ' ' << i;
+        for (int i = 1; i <= 64; ++i)
+            EXPECT_LT(one.factor(i / 64.0), one.factor((i - 1) / 64.0)) << one.name << ' ' << i;
     }
 }
 
@@ -148,7 +155,8 @@ TEST(PhantomPanner, GrainsAreFeltWhereTheyAre) {
         grain.y = 0.5 * H;
         grain.source.kind = ContactKind::roll;
         grain.x = 0.3 * W;
-        EXPECT_NEAR(centroidOf(panner, grain), 0.16, 0.005) << name << ": as everything, before anybody says otherwise";
+        EXPECT_NEAR(centroidOf(panner, grain), 0.16, 0.005)
+            << name << ": as everything, before anybody says otherwise";
         EXPECT_NEAR(centroidOf(panner, grain), centroidOf(PanningLaw::linear, 0.3), 1e-9) << name;
         panner.setGrains(grainSpread);
         for (double share = 0.0; share <= 1.0; share += 0.05) {
@@ -164,7 +172,8 @@ TEST(PhantomPanner, GrainsAreFeltWhereTheyAre) {
     }
 }
 
-// Every law has a row in Docs/panning.md, in this order, with the gains that its formula has at 1/4, 1/2 and 3/4.
+// Every law has a row in Docs/panning.md, in this order, with the gains that its formula has at 1/4, 1/2 and
+// 3/4.
 TEST(PhantomPanner, ThePageHasTheTableOfLaws) {
     std::ifstream page{PHYSVIB_SOURCE_DIR "/Docs/panning.md"};
     std::string line;
@@ -172,7 +181,8 @@ TEST(PhantomPanner, ThePageHasTheTableOfLaws) {
     std::getline(page, line); // the rule below the heads
     for (const auto& one : panningLaws) {
         std::getline(page, line);
-        ASSERT_TRUE(line.starts_with("| `" + std::string{one.name} + "`")) << "expected the row of " << one.name << " in Docs/panning.md, found " << line;
+        ASSERT_TRUE(line.starts_with("| `" + std::string{one.name} + "`"))
+            << "expected the row of " << one.name << " in Docs/panning.md, found " << line;
         std::istringstream gains{line.substr(line.find(" |", line.find(" |") + 1) + 2)};
         for (const double u : {0.25, 0.5, 0.75}) {
             double gain = 0.0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a renderer takes from the heap, and when: in prepare, by channels and modes; and what happens beyond them.
-#include "Support/ClosedForm.h"
+// What a renderer takes from the heap, and when: in prepare, by channels and modes; and what happens beyond
+// them.
 #include "Support/RendererMemory.h"
+#include "Support/ClosedForm.h"
 #include "Support/Rendering.h"
 #include <gtest/gtest.h>
 
@@ -56,8 +57,10 @@ TEST(RendererMemory, FollowsChannelsAndModes) {
 
 TEST(RendererMemory, ABudgetThatSufficesChangesNoBit) {
     auto events = test::randomEvents(300, 0.5, 8);
-    for (std::size_t i = 0; i < events.size(); ++i) events[i].frequencyHz = 50.0 + static_cast<double>(i % 40), events[i].decayPerSecond = 20.0;
-    const auto all = test::renderEvents(events, settingsFor(4, 0), 30000), few = test::renderEvents(events, settingsFor(4, 80), 30000);
+    for (std::size_t i = 0; i < events.size(); ++i)
+        events[i].frequencyHz = 50.0 + static_cast<double>(i % 40), events[i].decayPerSecond = 20.0;
+    const auto all = test::renderEvents(events, settingsFor(4, 0), 30000),
+               few = test::renderEvents(events, settingsFor(4, 80), 30000);
     EXPECT_EQ(few.status.stolen, 0U);
     EXPECT_EQ(all.channels, few.channels);
 }

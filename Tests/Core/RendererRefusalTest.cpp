@@ -34,7 +34,9 @@ bool isSilent(const test::Channels& channels, int outputs) {
 }
 
 RendererSettings settingsOf(int channels, int sampleRateHz = 8000) {
-    return {.sampleRateHz = sampleRateHz, .channels = channels, .panner = {test::gridLayout(2, 1), PanningLaw::linear, 1.0, 1.0, 1.0}};
+    return {.sampleRateHz = sampleRateHz,
+            .channels = channels,
+            .panner = {test::gridLayout(2, 1), PanningLaw::linear, 1.0, 1.0, 1.0}};
 }
 
 void expectRefused(const RendererSettings& settings, const char* why) {
@@ -42,16 +44,15 @@ void expectRefused(const RendererSettings& settings, const char* why) {
     ASSERT_TRUE(renderer->prepare(settingsOf(2)));
     EXPECT_FALSE(isSilent(blockOf(*renderer), 2));
     EXPECT_FALSE(renderer->prepare(settings)) << why;
-    EXPECT_TRUE(isSilent(blockOf(*renderer), std::clamp(settings.outputs(), 0, limits::maxEnchanters))) << why;
+    EXPECT_TRUE(isSilent(blockOf(*renderer), std::clamp(settings.outputs(), 0, limits::maxEnchanters)))
+        << why;
     EXPECT_EQ(renderer->status().framesRendered, 0) << why;
     EXPECT_FALSE(renderer->moveTo(8000, 100)) << why;
     EXPECT_TRUE(renderer->prepare(settingsOf(2))) << why;
     EXPECT_FALSE(isSilent(blockOf(*renderer), 2)) << why;
 }
 
-TEST(RendererRefusal, MoreOutputsThanEnchantersAtMost) {
-    expectRefused(settingsOf(65), "65 outputs");
-}
+TEST(RendererRefusal, MoreOutputsThanEnchantersAtMost) { expectRefused(settingsOf(65), "65 outputs"); }
 
 TEST(RendererRefusal, NoOutputsOrFewerThanEnchanters) {
     expectRefused(RendererSettings{}, "no outputs");
@@ -65,7 +66,8 @@ TEST(RendererRefusal, RatesOutsideTheLimits) {
 }
 
 TEST(RendererRefusal, CeilingsThatAreNone) {
-    for (const float ceiling : {0.0f, -1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    for (const float ceiling :
+         {0.0f, -1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
         auto settings = settingsOf(2);
         settings.ceilings[1] = ceiling;
         expectRefused(settings, std::to_string(ceiling).c_str());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recorded contacts: from their exact frames on, scaled by the event, panned as a mode is, whatever the blocks.
+// Recorded contacts: from their exact frames on, scaled by the event, panned as a mode is, whatever the
+// blocks.
 #include "Core/HapticRenderer.h"
 #include "Support/Rendering.h"
 #include <gtest/gtest.h>
@@ -9,7 +10,8 @@ namespace {
 
 const std::vector<float> wood = [] {
     std::vector<float> samples(3000);
-    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>((i % 7 == 0 ? 1.0 : -0.3) * (1.0 - static_cast<double>(i) / 3000));
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] = static_cast<float>((i % 7 == 0 ? 1.0 : -0.3) * (1.0 - static_cast<double>(i) / 3000));
     return samples;
 }();
 const RecordedContact contacts[] = {{349.0, wood}};
@@ -26,7 +28,8 @@ CollisionEvent hit(std::int64_t timeNs, double amplitude, double x, double y) {
 }
 
 RendererSettings square(int rate = 48000) {
-    return {rate, 4, PhantomPanner{{1, 1, 4, {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}}}, PanningLaw::linear, 1, 1, 1}, false};
+    return {rate, 4,
+            PhantomPanner{{1, 1, 4, {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}}}, PanningLaw::linear, 1, 1, 1}, false};
 }
 
 struct Played {
@@ -72,7 +75,8 @@ TEST(SamplePlayer, AnyBlockSizeGivesTheSameBits) {
     for (int i = 0; i < 40; ++i) events.push_back(hit(1'234'567 * i, 0.01 * i, 0.02 * i, 1.0 - 0.01 * i));
     events[10].durationNs = 5'000'000;
     const auto reference = play(events, 9000, 8192);
-    for (const int block : {1, 17, 64, 441}) EXPECT_TRUE(play(events, 9000, block).channels == reference.channels) << block;
+    for (const int block : {1, 17, 64, 441})
+        EXPECT_TRUE(play(events, 9000, block).channels == reference.channels) << block;
 }
 
 TEST(SamplePlayer, ADurationCutsIt) {
@@ -157,7 +161,8 @@ TEST(SamplePlayer, RecordingsThatAreExchangedFadeWithoutAStep) {
     const auto& out = all[0];
     EXPECT_EQ(out[static_cast<std::size_t>(latency + 479)], 1.0f);
     EXPECT_EQ(out[static_cast<std::size_t>(latency + 960)], 0.0f);
-    for (std::size_t n = static_cast<std::size_t>(latency) + 1; n < 2000; ++n) ASSERT_LE(std::abs(out[n] - out[n - 1]), 0.0022f) << n;
+    for (std::size_t n = static_cast<std::size_t>(latency) + 1; n < 2000; ++n)
+        ASSERT_LE(std::abs(out[n] - out[n - 1]), 0.0022f) << n;
 }
 
 } // namespace

@@ -46,7 +46,9 @@ TEST(TimeOrdered, IsTheSameAsASortedListWhateverComesAndGoes) {
         std::int64_t now = 0;
         for (int i = 0; i < 20'000; ++i) {
             const auto what = random() % 10;
-            const std::int64_t time = what == 0 ? now - static_cast<int>(random() % 50) : what == 1 ? now + 40 : now;
+            const std::int64_t time = what == 0   ? now - static_cast<int>(random() % 50)
+                                      : what == 1 ? now + 40
+                                                  : now;
             ASSERT_EQ(store.push(time, i), static_cast<int>(expected.size()) < capacity);
             if (static_cast<int>(expected.size()) < capacity) expected.emplace(time, i);
             now += random() % 3;

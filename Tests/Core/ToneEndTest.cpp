@@ -16,15 +16,18 @@ TEST(ToneEnd, IsACrossingAQuarterPeriodAwayAtMost) {
         const std::int64_t end = softEndNs(hz, wanted);
         const double halfNs = 0.5e9 / hz;
         ASSERT_GE(end, 1);
-        if (static_cast<double>(wanted) >= halfNs) ASSERT_LE(std::abs(static_cast<double>(end - wanted)), 0.5 * halfNs + 1.0) << hz << ' ' << wanted;
-        else ASSERT_NEAR(static_cast<double>(end), halfNs, 1.0) << hz << ' ' << wanted;
+        if (static_cast<double>(wanted) >= halfNs)
+            ASSERT_LE(std::abs(static_cast<double>(end - wanted)), 0.5 * halfNs + 1.0) << hz << ' ' << wanted;
+        else
+            ASSERT_NEAR(static_cast<double>(end), halfNs, 1.0) << hz << ' ' << wanted;
         const double halves = static_cast<double>(end) / halfNs;
         ASSERT_NEAR(halves, std::round(halves), 1.0 / halfNs + 1e-9 * halves) << hz << ' ' << wanted;
     }
 }
 
 TEST(ToneEnd, StaysWhereItIsACrossing) {
-    for (const std::int64_t ms : {2, 20, 250, 1000}) EXPECT_EQ(softEndNs(250.0, ms * 1'000'000), ms * 1'000'000);
+    for (const std::int64_t ms : {2, 20, 250, 1000})
+        EXPECT_EQ(softEndNs(250.0, ms * 1'000'000), ms * 1'000'000);
     EXPECT_EQ(softEndNs(205.0, 250'000'000), 251'219'512) << "ABA-250: 103 half periods";
     EXPECT_EQ(nearestCrossingNs(205.0, 1'000'000), 0);
 }

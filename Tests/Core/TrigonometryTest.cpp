@@ -16,7 +16,8 @@ double worstPhasorError() {
         const std::uint64_t phase = random();
         const double angle = 2.0 * std::numbers::pi * (static_cast<double>(phase) / 18446744073709551616.0);
         const auto p = unitPhasor<Real>(phase);
-        worst = std::max({worst, std::abs(double(p.re) - std::cos(angle)), std::abs(double(p.im) - std::sin(angle))});
+        worst = std::max(
+            {worst, std::abs(double(p.re) - std::cos(angle)), std::abs(double(p.im) - std::sin(angle))});
     }
     return worst;
 }
@@ -53,7 +54,8 @@ TEST(Trigonometry, DecayIsAccurate) {
 
 TEST(Trigonometry, DecayIsExactAtWholeOctaves) {
     for (const std::int64_t n : {-55, -1, 0, 1, 23, 120})
-        EXPECT_EQ(decayFactor<float>(n * (std::int64_t{1} << octaveFractionBits)), std::exp2(static_cast<float>(-n)));
+        EXPECT_EQ(decayFactor<float>(n * (std::int64_t{1} << octaveFractionBits)),
+                  std::exp2(static_cast<float>(-n)));
 }
 
 } // namespace

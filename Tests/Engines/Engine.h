@@ -21,7 +21,9 @@ struct Body {
     double vx = 0, vy = 0, spin = 0;
     bool isSource = false;
     double grain = 0.0; ///< m, of its surface, where the engine's program knows it
-    double inertia() const { return isBox ? massKg * (width * width + height * height) / 12.0 : massKg * width * width / 8.0; }
+    double inertia() const {
+        return isBox ? massKg * (width * width + height * height) / 12.0 : massKg * width * width / 8.0;
+    }
 };
 
 struct Motion {
@@ -39,7 +41,14 @@ struct Engine {
     /// A floor of so many parts, its surface at 0, without seams if the engine knows how.
     virtual void tiles(double left, double right, int count) {
         const double width = (right - left) / count;
-        for (int i = 0; i < count; ++i) add({.id = floorBody, .isBox = true, .x = left + (i + 0.5) * width, .y = -0.5, .width = width, .height = 1.0, .massKg = 0.0});
+        for (int i = 0; i < count; ++i)
+            add({.id = floorBody,
+                 .isBox = true,
+                 .x = left + (i + 0.5) * width,
+                 .y = -0.5,
+                 .width = width,
+                 .height = 1.0,
+                 .massKg = 0.0});
     }
     virtual void step() = 0;
     virtual Motion motion(int body) const = 0;
@@ -65,7 +74,8 @@ struct Engine {
     double handedOnPart = 0.02; ///< of what a row hands on
     int subSteps = 1;           ///< in each of which gravity changes the velocity
     double restitution = 0.5;
-    bool isRigid = true;        ///< a blow goes through a row at once, and not over many steps; boxes and joints are asked for
+    bool isRigid = true; ///< a blow goes through a row at once, and not over many steps; boxes and joints are
+                         ///< asked for
     physvib_world world = nullptr;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A world that was written as text, through an engine: its motion and its events, as text. worlds.py writes the one and judges the other.
+// A world that was written as text, through an engine: its motion and its events, as text. worlds.py writes
+// the one and judges the other.
 #pragma once
 #include "Engine.h"
 #include <cstdio>
@@ -29,7 +30,8 @@ inline void printMotions(const Engine& engine, const std::map<int, Body>& moving
     }
 }
 
-/// `m STEP BODY x y vx vy spin` behind each step (step 0: at first), then `e SECONDS BODY OTHER IMPULSE x y KIND` for each event.
+/// `m STEP BODY x y vx vy spin` behind each step (step 0: at first), then `e SECONDS BODY OTHER IMPULSE x y
+/// KIND` for each event.
 inline int trace(Engine& engine, const char* path) {
     std::ifstream file(path);
     std::map<int, Body> moving;
@@ -49,7 +51,8 @@ inline int trace(Engine& engine, const char* path) {
         } else if (word == "ball" || word == "box") {
             Body body;
             body.isBox = word == "box";
-            file >> body.id >> body.x >> body.y >> body.angle >> body.width >> body.height >> body.massKg >> body.vx >> body.vy >> body.spin >> body.isSource;
+            file >> body.id >> body.x >> body.y >> body.angle >> body.width >> body.height >> body.massKg >>
+                body.vx >> body.vy >> body.spin >> body.isSource;
             if (isFalling) body.vy += kick;
             body.grain = grain;
             engine.add(body);
@@ -77,7 +80,9 @@ inline int trace(Engine& engine, const char* path) {
             file >> left >> right >> count;
             engine.tiles(left, right, count);
         } else {
-            return std::fprintf(stderr, "%s: %s: expected weightless, world, ball, box, pin, oneway, falling, grain, floor or tiles\n",
+            return std::fprintf(stderr,
+                                "%s: %s: expected weightless, world, ball, box, pin, oneway, falling, grain, "
+                                "floor or tiles\n",
                                 path, word.c_str()),
                    1;
         }
@@ -88,8 +93,8 @@ inline int trace(Engine& engine, const char* path) {
         printMotions(engine, moving, step);
     }
     for (const auto& event : engine.take())
-        std::printf("e %.9f %d %d %.7g %.7g %.7g %d\n", static_cast<double>(event.time_ns) * 1e-9, event.fixture, event.other,
-                    event.impulse_n_s, event.x_m, event.y_m, event.kind);
+        std::printf("e %.9f %d %d %.7g %.7g %.7g %d\n", static_cast<double>(event.time_ns) * 1e-9,
+                    event.fixture, event.other, event.impulse_n_s, event.x_m, event.y_m, event.kind);
     return 0;
 }
 

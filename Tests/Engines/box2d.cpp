@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Box2D through its attachment, in the scenes of the others.
-#include "Scenes.h"
 #include "Physics/Attachment.h"
+#include "Scenes.h"
 #include <map>
 #include <memory>
 
 struct Box2d final : scenes::Engine, b2ContactListener {
     Box2d() { landsLate = true; }
     void begin(double stepSeconds, double g, double e, double mu) override {
-        dt = static_cast<float>(stepSeconds), elasticity = static_cast<float>(e), friction = static_cast<float>(mu);
+        dt = static_cast<float>(stepSeconds), elasticity = static_cast<float>(e),
+        friction = static_cast<float>(mu);
         haptics.reset(), bodies.clear(), platform = nullptr;
         box2d = std::make_unique<b2World>(b2Vec2{0.0F, static_cast<float>(-g)});
         box2d->SetAllowSleeping(false);
@@ -25,9 +26,11 @@ struct Box2d final : scenes::Engine, b2ContactListener {
     }
     void tiles(double left, double right, int count) override {
         std::vector<b2Vec2> points;
-        for (int i = count; i >= 0; --i) points.push_back({static_cast<float>(left + (right - left) * i / count), -b2_polygonRadius});
+        for (int i = count; i >= 0; --i)
+            points.push_back({static_cast<float>(left + (right - left) * i / count), -b2_polygonRadius});
         b2ChainShape chain;
-        chain.CreateChain(points.data(), count + 1, {points[0].x + 1, points[0].y}, {points.back().x - 1, points[0].y});
+        chain.CreateChain(points.data(), count + 1, {points[0].x + 1, points[0].y},
+                          {points.back().x - 1, points[0].y});
         number(ground().CreateFixture(&chain, 0.0F), scenes::floorBody, false);
     }
     b2Body& ground() {
@@ -45,23 +48,30 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         disc.m_radius = static_cast<float>(from.width / 2);
         b2PolygonShape polygon;
         // with its skin as large as told
-        polygon.SetAsBox(static_cast<float>(from.width / 2) - b2_polygonRadius, static_cast<float>(from.height / 2) - b2_polygonRadius);
+        polygon.SetAsBox(static_cast<float>(from.width / 2) - b2_polygonRadius,
+                         static_cast<float>(from.height / 2) - b2_polygonRadius);
         bodies[from.id] = box2d->CreateBody(&def);
-        const double area = from.isBox ? (from.width - 2 * b2_polygonRadius) * (from.height - 2 * b2_polygonRadius) : b2_pi * disc.m_radius * disc.m_radius;
-        number(bodies[from.id]->CreateFixture(from.isBox ? static_cast<b2Shape*>(&polygon) : &disc, static_cast<float>(from.massKg / area)), from.id, from.isSource,
-               from.grain);
+        const double area = from.isBox
+                                ? (from.width - 2 * b2_polygonRadius) * (from.height - 2 * b2_polygonRadius)
+                                : b2_pi * disc.m_radius * disc.m_radius;
+        number(bodies[from.id]->CreateFixture(from.isBox ? static_cast<b2Shape*>(&polygon) : &disc,
+                                              static_cast<float>(from.massKg / area)),
+               from.id, from.isSource, from.grain);
     }
     void number(b2Fixture* fixture, int id, bool isSource, double grain = 0.0) {
         fixture->SetRestitution(elasticity);
         fixture->SetFriction(friction);
         physvib::HapticFixture values{.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = isSource};
-        if (grain > 0.0 && isSource) values.voice = physvib::Voice::other;
-        else values.texture.grainMetres = grain;
+        if (grain > 0.0 && isSource)
+            values.voice = physvib::Voice::other;
+        else
+            values.texture.grainMetres = grain;
         (void)haptics->set(*fixture, values, id);
     }
     void pin(int a, int b, double x, double y) override {
         b2RevoluteJointDef def;
-        def.Initialize(bodies[a], b > 0 ? bodies[b] : &ground(), {static_cast<float>(x), static_cast<float>(y)});
+        def.Initialize(bodies[a], b > 0 ? bodies[b] : &ground(),
+                       {static_cast<float>(x), static_cast<float>(y)});
         box2d->CreateJoint(&def);
     }
     void oneWay(int body) override { platform = bodies[body]; }
@@ -69,8 +79,11 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         const b2Body *a = contact->GetFixtureA()->GetBody(), *b = contact->GetFixtureB()->GetBody();
         if (platform == nullptr || (a != platform && b != platform)) return;
         const b2Body& other = a == platform ? *b : *a;
-        const double top = contact->GetFixtureA()->GetBody() == platform ? contact->GetFixtureA()->GetAABB(0).upperBound.y : contact->GetFixtureB()->GetAABB(0).upperBound.y;
-        if (scenes::passes(top, other.GetPosition().y, other.GetLinearVelocity().y)) contact->SetEnabled(false);
+        const double top = contact->GetFixtureA()->GetBody() == platform
+                               ? contact->GetFixtureA()->GetAABB(0).upperBound.y
+                               : contact->GetFixtureB()->GetAABB(0).upperBound.y;
+        if (scenes::passes(top, other.GetPosition().y, other.GetLinearVelocity().y))
+            contact->SetEnabled(false);
     }
     void step() override { haptics->step(dt, 30); }
     std::vector<physvib_event> take() override {
@@ -79,15 +92,18 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         std::vector<physvib_event> events;
         for (const auto& e : told) {
             physvib_event event{};
-            event.time_ns = e.timeNs, event.amplitude = e.amplitude, event.x_m = e.x, event.y_m = e.y, event.impulse_n_s = e.source.impulseNewtonSeconds;
-            event.fixture = e.source.fixture, event.other = e.source.other, event.kind = static_cast<int>(e.source.kind);
+            event.time_ns = e.timeNs, event.amplitude = e.amplitude, event.x_m = e.x, event.y_m = e.y,
+            event.impulse_n_s = e.source.impulseNewtonSeconds;
+            event.fixture = e.source.fixture, event.other = e.source.other,
+            event.kind = static_cast<int>(e.source.kind);
             events.push_back(event);
         }
         return events;
     }
     scenes::Motion motion(int body) const override {
         const b2Body& it = *bodies.at(body);
-        return {it.GetWorldCenter().x, it.GetWorldCenter().y, it.GetLinearVelocity().x, it.GetLinearVelocity().y, it.GetAngularVelocity()};
+        return {it.GetWorldCenter().x, it.GetWorldCenter().y, it.GetLinearVelocity().x,
+                it.GetLinearVelocity().y, it.GetAngularVelocity()};
     }
     float dt = 0.0F, elasticity = 0.0F, friction = 0.0F;
     std::unique_ptr<b2World> box2d;

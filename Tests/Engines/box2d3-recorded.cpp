@@ -29,9 +29,12 @@ int play(bool numbered, physvib_event* events, physvib_box2d3& haptics) {
     demand(physvib_world_create(&settings, &haptics.world) == PHYSVIB_OK, "a world");
     physvib_body body;
     physvib_body_init(&body, sizeof body);
-    if (numbered) demand(physvib_box2d3_set(&haptics, recordedFloor, 0, body) == PHYSVIB_OK, "the floor's number");
+    if (numbered)
+        demand(physvib_box2d3_set(&haptics, recordedFloor, 0, body) == PHYSVIB_OK, "the floor's number");
     body.is_camera = 1, body.frequency_hz = 200.0;
-    demand(physvib_box2d3_set(&haptics, recordedBall, 1, body) == PHYSVIB_ERROR_ARGUMENT && std::strncmp(physvib_error(), "decay:", 6) == 0, "a decay that is missing is refused");
+    demand(physvib_box2d3_set(&haptics, recordedBall, 1, body) == PHYSVIB_ERROR_ARGUMENT &&
+               std::strncmp(physvib_error(), "decay:", 6) == 0,
+           "a decay that is missing is refused");
     body.decay_per_s = 30.0;
     demand(physvib_box2d3_set(&haptics, recordedBall, 1, body) == PHYSVIB_OK, "the ball's number");
     for (const RecordedStep& step : recorded) {
@@ -53,18 +56,25 @@ int main() {
     for (int i = 0; i < static_cast<int>(sizeof recorded / sizeof *recorded) && hit < 2; ++i) {
         const RecordedStep& step = recorded[i];
         if (!(step.before < -0.5F && step.after > 0.0F)) continue;
-        const double g = 9.81, v = -static_cast<double>(step.before), gap = static_cast<double>(step.height) - 0.1, meets = std::sqrt(v * v + 2.0 * g * gap);
-        const double offMs = static_cast<double>(events[hit].time_ns) * 1e-6 - (10.0 * i + 1e3 * (meets - v) / g), part = events[hit].impulse_n_s / (1.5 * meets) - 1.0;
+        const double g = 9.81, v = -static_cast<double>(step.before),
+                     gap = static_cast<double>(step.height) - 0.1, meets = std::sqrt(v * v + 2.0 * g * gap);
+        const double offMs =
+                         static_cast<double>(events[hit].time_ns) * 1e-6 - (10.0 * i + 1e3 * (meets - v) / g),
+                     part = events[hit].impulse_n_s / (1.5 * meets) - 1.0;
         std::printf("hit %d: onset %+.3f ms, level %+.1f %%\n", hit + 1, offMs, 100.0 * part);
-        demand(std::fabs(offMs) <= 0.15 && std::fabs(part) <= 0.03, "onset within 0.15 ms and level within 3 %");
+        demand(std::fabs(offMs) <= 0.15 && std::fabs(part) <= 0.03,
+               "onset within 0.15 ms and level within 3 %");
         ++hit;
     }
     demand(hit == 2, "two landings in the recording");
-    demand(physvib_box2d3_remove(&haptics, recordedBall) == PHYSVIB_OK && physvib_box2d3_id(&haptics, recordedBall) == -1, "a number that is taken away");
+    demand(physvib_box2d3_remove(&haptics, recordedBall) == PHYSVIB_OK &&
+               physvib_box2d3_id(&haptics, recordedBall) == -1,
+           "a number that is taken away");
     physvib_box2d3_free(&haptics);
     physvib_world_free(haptics.world);
 
-    demand(play(false, events, haptics) == 0 && haptics.code == PHYSVIB_ERROR_ARGUMENT, "a floor without a number is an error");
+    demand(play(false, events, haptics) == 0 && haptics.code == PHYSVIB_ERROR_ARGUMENT,
+           "a floor without a number is an error");
     char why[256];
     physvib_box2d3_explain(&haptics, why, sizeof why);
     demand(std::strstr(why, "physvib_box2d3_set") != nullptr, "which names the call that is missing");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Box2D 3 through its adapter, in the scenes of the others. No Debian package has it: Tests/Engines/box2d3.sh compiles it.
+// Box2D 3 through its adapter, in the scenes of the others. No Debian package has it: Tests/Engines/box2d3.sh
+// compiles it.
 #include "Scenes.h"
 #include <cstdint>
 #include <map>
@@ -18,11 +19,14 @@ struct Box2d3 final : scenes::Engine {
         haptics.world = world;
         haptics.box2d = b2CreateWorld(&def);
     }
-    void floor() override { add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0}); }
+    void floor() override {
+        add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0});
+    }
     void tiles(double left, double right, int count) override {
         std::vector<b2Vec2> points;
         // two ghosts
-        for (int i = count + 1; i >= -1; --i) points.push_back({static_cast<float>(left + (right - left) * i / count), 0});
+        for (int i = count + 1; i >= -1; --i)
+            points.push_back({static_cast<float>(left + (right - left) * i / count), 0});
         const b2BodyDef still = b2DefaultBodyDef();
         const b2BodyId ground = b2CreateBody(haptics.box2d, &still);
         b2ChainDef chain = b2DefaultChainDef();
@@ -44,7 +48,8 @@ struct Box2d3 final : scenes::Engine {
         def.rotation = b2MakeRot(static_cast<float>(from.angle));
         def.linearVelocity = {static_cast<float>(from.vx), static_cast<float>(from.vy)};
         def.angularVelocity = static_cast<float>(from.spin);
-        const double area = from.isBox ? from.width * from.height : 3.14159265358979 * from.width * from.width / 4;
+        const double area =
+            from.isBox ? from.width * from.height : 3.14159265358979 * from.width * from.width / 4;
         b2ShapeDef shape = b2DefaultShapeDef();
         shape.density = static_cast<float>(from.massKg / area);
         shape.enablePreSolveEvents = true;
@@ -54,10 +59,13 @@ struct Box2d3 final : scenes::Engine {
         shape.material.restitution = elasticity, shape.material.friction = friction;
 #endif
         const b2BodyId body = bodies[from.id] = b2CreateBody(haptics.box2d, &def);
-        const b2Polygon box = b2MakeBox(static_cast<float>(from.width / 2), static_cast<float>(from.height / 2));
+        const b2Polygon box =
+            b2MakeBox(static_cast<float>(from.width / 2), static_cast<float>(from.height / 2));
         const b2Circle disc = {{0, 0}, static_cast<float>(from.width / 2)};
-        if (from.isBox) b2CreatePolygonShape(body, &shape, &box);
-        else b2CreateCircleShape(body, &shape, &disc);
+        if (from.isBox)
+            b2CreatePolygonShape(body, &shape, &box);
+        else
+            b2CreateCircleShape(body, &shape, &disc);
         number(body, from.id, from.isSource);
     }
     void number(b2BodyId which, int id, bool isSource) {
@@ -66,7 +74,8 @@ struct Box2d3 final : scenes::Engine {
         values.is_camera = isSource;
         values.frequency_hz = 200.0;
         values.decay_per_s = 30.0;
-        if (physvib_box2d3_set(&haptics, which, id, values) != PHYSVIB_OK) std::fprintf(stderr, "%s\n", physvib_error());
+        if (physvib_box2d3_set(&haptics, which, id, values) != PHYSVIB_OK)
+            std::fprintf(stderr, "%s\n", physvib_error());
     }
     void pin(int a, int b, double x, double y) override {
         const b2BodyDef still = b2DefaultBodyDef();
@@ -75,12 +84,14 @@ struct Box2d3 final : scenes::Engine {
 #if defined(B2_NULL_INDEX)
         const b2Pos at = {static_cast<float>(x), static_cast<float>(y)};
         def.base.bodyIdA = first, def.base.bodyIdB = second;
-        def.base.localFrameA.p = b2Body_GetLocalPoint(first, at), def.base.localFrameB.p = b2Body_GetLocalPoint(second, at);
+        def.base.localFrameA.p = b2Body_GetLocalPoint(first, at),
+        def.base.localFrameB.p = b2Body_GetLocalPoint(second, at);
         def.base.constraintHertz = 240, def.base.constraintDampingRatio = 5; // pins that hold
 #else
         const b2Vec2 at = {static_cast<float>(x), static_cast<float>(y)};
         def.bodyIdA = first, def.bodyIdB = second;
-        def.localAnchorA = b2Body_GetLocalPoint(first, at), def.localAnchorB = b2Body_GetLocalPoint(second, at);
+        def.localAnchorA = b2Body_GetLocalPoint(first, at),
+        def.localAnchorB = b2Body_GetLocalPoint(second, at);
 #endif
         b2CreateRevoluteJoint(haptics.box2d, &def);
     }
@@ -97,13 +108,16 @@ struct Box2d3 final : scenes::Engine {
         if (!static_cast<Box2d3*>(self)->isSolid(a, b)) manifold->pointCount = 0;
     }
 #else
-    static bool pre(b2ShapeId a, b2ShapeId b, b2Manifold*, void* self) { return static_cast<Box2d3*>(self)->isSolid(a, b); }
+    static bool pre(b2ShapeId a, b2ShapeId b, b2Manifold*, void* self) {
+        return static_cast<Box2d3*>(self)->isSolid(a, b);
+    }
 #endif
     bool isSolid(b2ShapeId one, b2ShapeId two) const {
         const b2BodyId a = b2Shape_GetBody(one), b = b2Shape_GetBody(two);
         if (!B2_ID_EQUALS(a, platform) && !B2_ID_EQUALS(b, platform)) return true;
         const b2BodyId other = B2_ID_EQUALS(a, platform) ? b : a;
-        return !scenes::passes(b2Body_GetPosition(platform).y + 0.05, b2Body_GetPosition(other).y, b2Body_GetLinearVelocity(other).y);
+        return !scenes::passes(b2Body_GetPosition(platform).y + 0.05, b2Body_GetPosition(other).y,
+                               b2Body_GetLinearVelocity(other).y);
     }
     void step() override {
         if (physvib_box2d3_step(&haptics, dt, 4) != PHYSVIB_OK) std::fprintf(stderr, "%s\n", haptics.error);
@@ -117,7 +131,8 @@ struct Box2d3 final : scenes::Engine {
         const b2BodyId body = bodies.at(id);
         const auto at = b2Body_GetPosition(body);
         const b2Vec2 v = b2Body_GetLinearVelocity(body);
-        return {static_cast<double>(at.x), static_cast<double>(at.y), v.x, v.y, b2Body_GetAngularVelocity(body)};
+        return {static_cast<double>(at.x), static_cast<double>(at.y), v.x, v.y,
+                b2Body_GetAngularVelocity(body)};
     }
     double dt = 0;
     float elasticity = 0, friction = 0;

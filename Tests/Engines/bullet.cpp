@@ -15,17 +15,25 @@ struct Bullet final : scenes::Engine {
         haptics = std::make_unique<PhysVibBullet>(*bullet, world);
     }
     // in this order
-    void end() { bodies.clear(), joints.clear(), haptics.reset(), bullet.reset(), shapes.clear(), platform = nullptr; }
-    void floor() override { add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0}); }
+    void end() {
+        bodies.clear(), joints.clear(), haptics.reset(), bullet.reset(), shapes.clear(), platform = nullptr;
+    }
+    void floor() override {
+        add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0});
+    }
     void add(const scenes::Body& from) override {
         tell(from);
-        if (from.isBox) shapes.push_back(std::make_unique<btBoxShape>(btVector3(real(from.width / 2), real(from.height / 2), real(0.5))));
-        else shapes.push_back(std::make_unique<btSphereShape>(real(from.width / 2)));
+        if (from.isBox)
+            shapes.push_back(std::make_unique<btBoxShape>(
+                btVector3(real(from.width / 2), real(from.height / 2), real(0.5))));
+        else
+            shapes.push_back(std::make_unique<btSphereShape>(real(from.width / 2)));
         btVector3 inertia(0, 0, 0);
         if (from.massKg > 0) shapes.back()->calculateLocalInertia(real(from.massKg), inertia);
         if (from.isBox && from.massKg > 0) inertia.setZ(real(from.inertia()));
         auto* body = new btRigidBody(real(from.massKg), nullptr, shapes.back().get(), inertia);
-        body->setWorldTransform(btTransform(btQuaternion(btVector3(0, 0, 1), real(from.angle)), vector(from.x, from.y)));
+        body->setWorldTransform(
+            btTransform(btQuaternion(btVector3(0, 0, 1), real(from.angle)), vector(from.x, from.y)));
         body->setInterpolationWorldTransform(body->getWorldTransform());
         body->setLinearVelocity(vector(from.vx, from.vy));
         body->setAngularVelocity({0, 0, real(from.spin)});
@@ -40,19 +48,27 @@ struct Bullet final : scenes::Engine {
     }
     void pin(int a, int b, double x, double y) override {
         const btVector3 at = vector(x, y), inA = bodies[a]->getWorldTransform().inverse() * at, axis(0, 0, 1);
-        if (b > 0) joints.push_back(std::make_unique<btHingeConstraint>(*bodies[a], *bodies[b], inA, bodies[b]->getWorldTransform().inverse() * at, axis, axis));
-        else joints.push_back(std::make_unique<btHingeConstraint>(*bodies[a], inA, axis));
+        if (b > 0)
+            joints.push_back(std::make_unique<btHingeConstraint>(
+                *bodies[a], *bodies[b], inA, bodies[b]->getWorldTransform().inverse() * at, axis, axis));
+        else
+            joints.push_back(std::make_unique<btHingeConstraint>(*bodies[a], inA, axis));
         bullet->addConstraint(joints.back().get(), true);
     }
     void oneWay(int body) override {
         platform = bodies[body];
-        dispatcher.setNearCallback([](btBroadphasePair& pair, btCollisionDispatcher& to, const btDispatcherInfo& how) {
-            const auto *a = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject), *b = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
-            const btRigidBody* other = btRigidBody::upcast(a == platform ? b : a);
-            const bool isAsked = a == platform || b == platform;
-            if (isAsked && scenes::passes(platform->getWorldTransform().getOrigin().y() + 0.05, other->getWorldTransform().getOrigin().y(), other->getLinearVelocity().y())) return;
-            btCollisionDispatcher::defaultNearCallback(pair, to, how);
-        });
+        dispatcher.setNearCallback(
+            [](btBroadphasePair& pair, btCollisionDispatcher& to, const btDispatcherInfo& how) {
+                const auto *a = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject),
+                           *b = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+                const btRigidBody* other = btRigidBody::upcast(a == platform ? b : a);
+                const bool isAsked = a == platform || b == platform;
+                if (isAsked && scenes::passes(platform->getWorldTransform().getOrigin().y() + 0.05,
+                                              other->getWorldTransform().getOrigin().y(),
+                                              other->getLinearVelocity().y()))
+                    return;
+                btCollisionDispatcher::defaultNearCallback(pair, to, how);
+            });
     }
     static btScalar real(double value) { return static_cast<btScalar>(value); }
     static btVector3 vector(double x, double y) { return {real(x), real(y), 0}; }

@@ -20,7 +20,9 @@ struct Chipmunk final : scenes::Engine {
         bodies[0] = cpSpaceGetStaticBody(space);
         physvib_chipmunk_attach(space, world);
     }
-    void floor() override { shape(cpSegmentShapeNew(bodies[0], cpv(-20, 0), cpv(20, 0), 0), scenes::floorBody, false); }
+    void floor() override {
+        shape(cpSegmentShapeNew(bodies[0], cpv(-20, 0), cpv(20, 0), 0), scenes::floorBody, false);
+    }
     void tiles(double left, double right, int count) override {
         const double width = (right - left) / count;
         for (int i = 0; i < count; ++i) {
@@ -36,9 +38,12 @@ struct Chipmunk final : scenes::Engine {
         cpSpaceAddBody(space, body);
         cpBodySetPosition(body, cpv(from.x, from.y));
         cpBodySetAngle(body, from.angle);
-        if (from.massKg > 0) cpBodySetVelocity(body, cpv(from.vx, from.vy)), cpBodySetAngularVelocity(body, from.spin);
+        if (from.massKg > 0)
+            cpBodySetVelocity(body, cpv(from.vx, from.vy)), cpBodySetAngularVelocity(body, from.spin);
         bodies[from.id] = body;
-        shape(from.isBox ? cpBoxShapeNew(body, from.width, from.height, 0) : cpCircleShapeNew(body, from.width / 2, cpvzero), from.id, from.massKg > 0);
+        shape(from.isBox ? cpBoxShapeNew(body, from.width, from.height, 0)
+                         : cpCircleShapeNew(body, from.width / 2, cpvzero),
+              from.id, from.massKg > 0);
     }
     void shape(cpShape* added, int id, bool moves) { // a pair's are products
         cpShapeSetElasticity(cpSpaceAddShape(space, added), moves ? elasticity : 1.0);
@@ -46,7 +51,8 @@ struct Chipmunk final : scenes::Engine {
         cpShapeSetUserData(added, reinterpret_cast<void*>(static_cast<std::intptr_t>(id)));
     }
     void pin(int a, int b, double x, double y) override {
-        cpConstraintSetCollideBodies(cpSpaceAddConstraint(space, cpPivotJointNew(bodies[a], bodies[b], cpv(x, y))), cpFalse);
+        cpConstraintSetCollideBodies(
+            cpSpaceAddConstraint(space, cpPivotJointNew(bodies[a], bodies[b], cpv(x, y))), cpFalse);
     }
     void oneWay(int body) override {
         platform = bodies[body];
@@ -56,13 +62,19 @@ struct Chipmunk final : scenes::Engine {
             const Chipmunk& self = *static_cast<Chipmunk*>(data);
             CP_ARBITER_GET_BODIES(arbiter, a, b);
             cpBody* other = a == self.platform ? b : a;
-            if ((a == self.platform || b == self.platform) && scenes::passes(cpBodyGetPosition(self.platform).y + 0.05, cpBodyGetPosition(other).y, cpBodyGetVelocity(other).y)) return cpArbiterIgnore(arbiter);
+            if ((a == self.platform || b == self.platform) &&
+                scenes::passes(cpBodyGetPosition(self.platform).y + 0.05, cpBodyGetPosition(other).y,
+                               cpBodyGetVelocity(other).y))
+                return cpArbiterIgnore(arbiter);
             return physvib_chipmunk_look(arbiter, in, self.world);
         };
-        handler->postSolveFunc = [](cpArbiter* arbiter, cpSpace* in, cpDataPointer data) { physvib_chipmunk_push(arbiter, in, static_cast<Chipmunk*>(data)->world); };
+        handler->postSolveFunc = [](cpArbiter* arbiter, cpSpace* in, cpDataPointer data) {
+            physvib_chipmunk_push(arbiter, in, static_cast<Chipmunk*>(data)->world);
+        };
     }
     void step() override {
-        if (physvib_chipmunk_step(space, world, dt) != PHYSVIB_OK) std::fprintf(stderr, "%s\n", physvib_chipmunk_error);
+        if (physvib_chipmunk_step(space, world, dt) != PHYSVIB_OK)
+            std::fprintf(stderr, "%s\n", physvib_chipmunk_error);
     }
     scenes::Motion motion(int id) const override {
         const cpBody* body = bodies.at(id);

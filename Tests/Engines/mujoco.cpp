@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // MuJoCo through its adapter.
 #include "Scenes.h"
-#include <physvib/engines/physvib_mujoco.h>
 #include <fstream>
 #include <memory>
+#include <physvib/engines/physvib_mujoco.h>
 #include <sstream>
 #include <string>
 
@@ -24,7 +24,9 @@ struct MuJoCo final : scenes::Engine {
         physvib_world_set_body(world, 0, &still);
         tell(from);
         std::ostringstream body;
-        body << "<body pos='" << from.x << " 0 " << from.y << "'><freejoint/><geom type='sphere' solref='0.02 0.2155' size='" << from.width / 2 << "' mass='" << from.massKg << "'/></body>";
+        body << "<body pos='" << from.x << " 0 " << from.y
+             << "'><freejoint/><geom type='sphere' solref='0.02 0.2155' size='" << from.width / 2
+             << "' mass='" << from.massKg << "'/></body>";
         xml += body.str();
         balls.push_back(from);
     }
@@ -35,7 +37,8 @@ struct MuJoCo final : scenes::Engine {
         model.reset(mj_loadXML(path.c_str(), nullptr, fault, sizeof fault));
         if (model == nullptr) std::puts(fault);
         data.reset(mj_makeData(model.get()));
-        for (std::size_t i = 0; i < balls.size(); ++i) data->qvel[6 * i] = balls[i].vx, data->qvel[6 * i + 2] = balls[i].vy;
+        for (std::size_t i = 0; i < balls.size(); ++i)
+            data->qvel[6 * i] = balls[i].vx, data->qvel[6 * i + 2] = balls[i].vy;
         mj_forward(model.get(), data.get());
     }
     void step() override {

@@ -18,10 +18,14 @@ struct Ode final : scenes::Engine {
         bodies.clear();
         haptics.world = world, haptics.count = 0;
     }
-    void floor() override { dGeomSetData(dCreatePlane(space, 0, 1, 0, 0), reinterpret_cast<void*>(static_cast<std::intptr_t>(scenes::floorBody))); }
+    void floor() override {
+        dGeomSetData(dCreatePlane(space, 0, 1, 0, 0),
+                     reinterpret_cast<void*>(static_cast<std::intptr_t>(scenes::floorBody)));
+    }
     void add(const scenes::Body& from) override {
         tell(from);
-        const dGeomID geom = from.isBox ? dCreateBox(space, from.width, from.height, 1.0) : dCreateSphere(space, from.width / 2);
+        const dGeomID geom = from.isBox ? dCreateBox(space, from.width, from.height, 1.0)
+                                        : dCreateSphere(space, from.width / 2);
         dMatrix3 turned;
         dRFromAxisAndAngle(turned, 0, 0, 1, from.angle);
         dGeomSetData(geom, reinterpret_cast<void*>(static_cast<std::intptr_t>(from.id)));
@@ -32,8 +36,10 @@ struct Ode final : scenes::Engine {
     }
     void fall(const scenes::Body& from, dGeomID geom) {
         dMass mass;
-        if (from.isBox) dMassSetBoxTotal(&mass, from.massKg, from.width, from.height, 1.0);
-        else dMassSetSphereTotal(&mass, from.massKg, from.width / 2);
+        if (from.isBox)
+            dMassSetBoxTotal(&mass, from.massKg, from.width, from.height, 1.0);
+        else
+            dMassSetSphereTotal(&mass, from.massKg, from.width / 2);
         const dBodyID body = bodies[from.id] = dBodyCreate(ode);
         dBodySetMass(body, &mass);
         dGeomSetBody(geom, body);
@@ -54,7 +60,8 @@ struct Ode final : scenes::Engine {
         if (a1 != nullptr && b1 != nullptr && dAreConnected(a1, b1)) return true; // by a pin
         if (platform == nullptr || (a != platform && b != platform)) return false;
         const dBodyID other = a == platform ? b1 : a1;
-        return scenes::passes(dGeomGetPosition(platform)[1] + 0.05, dBodyGetPosition(other)[1], dBodyGetLinearVel(other)[1]);
+        return scenes::passes(dGeomGetPosition(platform)[1] + 0.05, dBodyGetPosition(other)[1],
+                              dBodyGetLinearVel(other)[1]);
     }
     static void near(void* self, dGeomID a, dGeomID b) {
         Ode& engine = *static_cast<Ode*>(self);

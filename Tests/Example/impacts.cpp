@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <physvib/Physics/Attachment.h>
 #include <cstdio>
+#include <physvib/Physics/Attachment.h>
 
 int main() {
     b2World world({0.0f, -9.81f}); // a Box2D world of your own: a ball falls on the ground
@@ -20,5 +20,6 @@ int main() {
     std::vector<physvib::CollisionEvent> impacts;
     for (int step = 0; step < 200; ++step) haptics.step(0.01f);
     haptics.take(impacts);
-    for (const auto& impact : impacts) std::printf("%.3f s: amplitude %.2f\n", impact.timeNs * 1e-9, impact.amplitude);
+    for (const auto& impact : impacts)
+        std::printf("%.3f s: amplitude %.2f\n", impact.timeNs * 1e-9, impact.amplitude);
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Somebody's own Box2D world, in which a ball falls on a slab: four enchanters feel it.
-#include <physvib/Core/EventQueue.h>
-#include <physvib/Core/HapticRenderer.h>
-#include <physvib/Physics/Attachment.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <physvib/Core/EventQueue.h>
+#include <physvib/Core/HapticRenderer.h>
+#include <physvib/Physics/Attachment.h>
 #include <vector>
 
 int main() {
@@ -30,7 +30,8 @@ int main() {
     physvib::EnchanterLayout layout;
     physvib::layoutPreset("phone4", layout);
     const auto renderer = std::make_unique<physvib::HapticRenderer>();
-    if (!renderer->prepare({.channels = 4, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}})) return 1;
+    if (!renderer->prepare({.channels = 4, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}}))
+        return 1;
 
     std::vector<physvib::CollisionEvent> events;
     physvib::EventQueue<physvib::CollisionEvent, 64> queue; // its two ends may be on two threads

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
-// A game's two threads: one steps the world, the other fills the blocks of an audio device, whose frames are the clock.
-// What happens at world time t is felt at t + L, and L is a constant: late and early threads are not felt.
-#include <physvib/Core/ClockLaw.h>
-#include <physvib/Core/EventQueue.h>
-#include <physvib/Core/HapticRenderer.h>
-#include <physvib/Physics/Attachment.h>
+// A game's two threads: one steps the world, the other fills the blocks of an audio device, whose frames are
+// the clock. What happens at world time t is felt at t + L, and L is a constant: late and early threads are
+// not felt.
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <physvib/Core/ClockLaw.h>
+#include <physvib/Core/EventQueue.h>
+#include <physvib/Core/HapticRenderer.h>
+#include <physvib/Physics/Attachment.h>
 #include <thread>
 #include <vector>
 
 namespace {
 
 constexpr int rate = 48000, block = 256, seconds = 5;
-constexpr physvib::ClockLaw law{.sampleRateHz = rate, .blockFrames = block, .stepsPerSecond = 100, .longestGapSeconds = 0.005};
+constexpr physvib::ClockLaw law{
+    .sampleRateHz = rate, .blockFrames = block, .stepsPerSecond = 100, .longestGapSeconds = 0.005};
 constexpr std::int64_t stepNs = 1'000'000'000 / law.stepsPerSecond;
 
 std::atomic<std::int64_t> sessionNs{0}; // the device has come so far: the world may
@@ -69,7 +71,10 @@ int main() {
     physvib::EnchanterLayout layout;
     physvib::layoutPreset("phone4", layout);
     const auto renderer = std::make_unique<physvib::HapticRenderer>();
-    if (!renderer->prepare({.sampleRateHz = rate, .channels = 4, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}})) return 1;
+    if (!renderer->prepare({.sampleRateHz = rate,
+                            .channels = 4,
+                            .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}}))
+        return 1;
     std::array<std::array<float, block>, 4> out{};
     std::array<float*, 4> channels{out[0].data(), out[1].data(), out[2].data(), out[3].data()};
 
@@ -86,5 +91,6 @@ int main() {
     isOver = true;
     physics.join();
     const auto status = renderer->status();
-    std::cout << "felt " << 1000.0 * law.playOutSeconds() << " ms later: " << status.played << " events, " << status.late << " late, peak " << peak << '\n';
+    std::cout << "felt " << 1000.0 * law.playOutSeconds() << " ms later: " << status.played << " events, "
+              << status.late << " late, peak " << peak << '\n';
 }

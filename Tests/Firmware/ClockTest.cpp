@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The link's clock through the image: random delays of 10 to 30 ms each way, a computer that drifts by 300 ppm.
+// The link's clock through the image: random delays of 10 to 30 ms each way, a computer that drifts by 300
+// ppm.
 #include "Rig.h"
 #include "Wire/LinkClock.h"
 #include <gtest/gtest.h>
@@ -34,15 +35,21 @@ TEST(BoardClock, OnsetsAreWithinTwoMillisecondsForThirtySeconds) {
         }
         if (now >= nextEvent && clock.isReady()) {
             const double target = now + 0.2;
-            BoardEvent e{static_cast<std::uint32_t>(clock.frameAt(hostNs(target)) + 0.5), 16 * 400, 16 * 200, 20, {4000, 4000, 4000, 4000}};
+            BoardEvent e{static_cast<std::uint32_t>(clock.frameAt(hostNs(target)) + 0.5),
+                         16 * 400,
+                         16 * 200,
+                         20,
+                         {4000, 4000, 4000, 4000}};
             wanted.push_back({target, e.frame});
             rig.board.send(test::framed(wire::Strike{++sequence, e}), now + delay());
             nextEvent = now + 0.5;
         }
         rig.board.runUntil(now + step);
         for (const auto& byte : rig.board.received())
-            if (wire::Pong pong; wire::decode(decoder.feed(byte.value), pong)) answers.insert({static_cast<double>(byte.cycle) / 72e6 + delay(), pong});
-        for (; !answers.empty() && answers.begin()->first <= rig.board.seconds(); answers.erase(answers.begin())) {
+            if (wire::Pong pong; wire::decode(decoder.feed(byte.value), pong))
+                answers.insert({static_cast<double>(byte.cycle) / 72e6 + delay(), pong});
+        for (; !answers.empty() && answers.begin()->first <= rig.board.seconds();
+             answers.erase(answers.begin())) {
             const auto& pong = answers.begin()->second;
             clock.add(sent[pong.id], pong.frame + pong.fraction / 256.0, hostNs(answers.begin()->first));
         }
@@ -54,10 +61,12 @@ TEST(BoardClock, OnsetsAreWithinTwoMillisecondsForThirtySeconds) {
         while (n < codes.size() && codes[n][0] == 128) ++n; // the first sample of a sine is zero
         ASSERT_LT(n, codes.size());
         ASSERT_EQ(n, frame + 1);
-        worst = std::max(worst, std::abs(static_cast<double>(rig.board.io().frameCycles[n - 1]) / 72e6 - target));
+        worst =
+            std::max(worst, std::abs(static_cast<double>(rig.board.io().frameCycles[n - 1]) / 72e6 - target));
     }
     const auto t = rig.telemetry();
-    std::cout << wanted.size() << " onsets, worst " << worst * 1e3 << " ms, drift " << clock.drift() * 1e6 << " ppm\n";
+    std::cout << wanted.size() << " onsets, worst " << worst * 1e3 << " ms, drift " << clock.drift() * 1e6
+              << " ppm\n";
     EXPECT_GE(wanted.size(), 55u);
     EXPECT_LT(worst, 0.002);
     EXPECT_EQ(t.late, 0u);

@@ -13,8 +13,10 @@ TEST(BoardImage, FitsTheProcessor) {
     std::size_t flash = 0;
     for (const auto& segment : image.segments) flash += segment.bytes.size();
     const auto at = [&](const char* name) { return image.symbols.at(name).address; };
-    const auto stack = at("linkStackTop") - at("linkStackBottom"), used = at("linkStackBottom") - 0x20000000u, fast = at("linkFastEnd") - 0x10000000u;
-    std::cout << "flash " << flash << " of 65536, memory " << used << " + stack " << stack << " of 12288, beside the core " << fast << " of 4096\n";
+    const auto stack = at("linkStackTop") - at("linkStackBottom"), used = at("linkStackBottom") - 0x20000000u,
+               fast = at("linkFastEnd") - 0x10000000u;
+    std::cout << "flash " << flash << " of 65536, memory " << used << " + stack " << stack
+              << " of 12288, beside the core " << fast << " of 4096\n";
     EXPECT_LT(flash, 65536u);
     EXPECT_EQ(used + stack, 12288u);
     EXPECT_GE(stack, 1792u); // 2048 before the guard; of it 1 KB is never used (BoardLoad)
@@ -23,7 +25,8 @@ TEST(BoardImage, FitsTheProcessor) {
 
 TEST(BoardImage, HasNoHeapAndNoExceptions) {
     for (const auto& [name, symbol] : virtualboard::readElf(PHYSVIB_BOARD_IMAGE).symbols)
-        for (const char* word : {"malloc", "calloc", "_sbrk", "_Znw", "_Zna", "__cxa_throw", "__aeabi_d", "printf"})
+        for (const char* word :
+             {"malloc", "calloc", "_sbrk", "_Znw", "_Zna", "__cxa_throw", "__aeabi_d", "printf"})
             // __aeabi_d: double precision, which the processor has not
             EXPECT_FALSE(name.starts_with(word)) << name;
 }
@@ -34,7 +37,8 @@ TEST(BoardImage, SelfTestGivesTheBitsOfThisComputer) {
     const auto onBoard = *rig.ask<wire::SelfTestReply>(wire::SelfTest{});
     BoardRenderer renderer;
     const auto reply = wire::expectedSelfTest(renderer);
-    std::cout << onBoard.modes << " modes: " << onBoard.blockCycles << " of " << onBoard.cyclesPerBlock << " cycles a block\n";
+    std::cout << onBoard.modes << " modes: " << onBoard.blockCycles << " of " << onBoard.cyclesPerBlock
+              << " cycles a block\n";
     EXPECT_EQ(onBoard.hash, reply.hash);
     EXPECT_EQ(onBoard.modes, 128);
     EXPECT_LT(2 * onBoard.blockCycles, onBoard.cyclesPerBlock);

@@ -14,7 +14,8 @@ struct Load {
     wire::Telemetry telemetry;
 };
 
-// Strikes of `modes` notes in turn, compact, until all sound; then for two seconds as many as told, beside so many tones that move.
+// Strikes of `modes` notes in turn, compact, until all sound; then for two seconds as many as told, beside so
+// many tones that move.
 Load measure(int modes, double perSecond, CostModel model, int tones = 0) {
     test::Rig rig(PHYSVIB_BOARD_IMAGE, model);
     rig.connect();
@@ -37,7 +38,8 @@ Load measure(int modes, double perSecond, CostModel model, int tones = 0) {
     const auto legs = test::randomBoardLegs(tones, events[10].frame, events.back().frame, 320, 3);
     rig.play({events.begin() + 10, events.end()}, legs, events.back().frame + 100, true);
     Load load;
-    load.share = 1.0 - static_cast<double>(rig.board.idleCycles() - idle) / static_cast<double>(rig.board.cycle() - began);
+    load.share = 1.0 - static_cast<double>(rig.board.idleCycles() - idle) /
+                           static_cast<double>(rig.board.cycle() - began);
     load.telemetry = rig.telemetry();
     return load;
 }
@@ -47,8 +49,10 @@ constexpr double fullLine = 11520.0 / 16.0 * 0.99, someStrikes = 100, besideLegs
 void expectLoad(int modes, double perSecond, CostModel model, double most, int tones = 0) {
     const auto load = measure(modes, perSecond, model, tones);
     const auto& t = load.telemetry;
-    std::cout << modes << " modes, " << perSecond << " strikes/s, " << tones << " tones that move, " << (model == CostModel::optimistic ? "optimistic" : "pessimistic") << ": load " << 100 * load.share << " %, worst block "
-              << t.worstBlockCycles << " of 36000 cycles, stack free " << t.stackFree << '\n';
+    std::cout << modes << " modes, " << perSecond << " strikes/s, " << tones << " tones that move, "
+              << (model == CostModel::optimistic ? "optimistic" : "pessimistic") << ": load "
+              << 100 * load.share << " %, worst block " << t.worstBlockCycles
+              << " of 36000 cycles, stack free " << t.stackFree << '\n';
     EXPECT_LT(load.share, most);
     EXPECT_EQ(t.modes, modes);
     EXPECT_EQ(t.missedFrames + t.lost + t.dropped + t.late + t.overruns + t.stolen, 0u);
@@ -60,8 +64,12 @@ TEST(BoardLoad, AllModesOnAFullLinePessimistic) { expectLoad(128, fullLine, Cost
 TEST(BoardLoad, HalfTheModesOptimistic) { expectLoad(64, someStrikes, CostModel::optimistic, 0.25); }
 // 0.25 before the guard.
 TEST(BoardLoad, HalfTheModesPessimistic) { expectLoad(64, someStrikes, CostModel::pessimistic, 0.27); }
-TEST(BoardLoad, AllModesAndFourTonesThatMoveOptimistic) { expectLoad(128, besideLegs, CostModel::optimistic, 0.60, 4); }
-TEST(BoardLoad, AllModesAndFourTonesThatMovePessimistic) { expectLoad(128, besideLegs, CostModel::pessimistic, 0.60, 4); }
+TEST(BoardLoad, AllModesAndFourTonesThatMoveOptimistic) {
+    expectLoad(128, besideLegs, CostModel::optimistic, 0.60, 4);
+}
+TEST(BoardLoad, AllModesAndFourTonesThatMovePessimistic) {
+    expectLoad(128, besideLegs, CostModel::pessimistic, 0.60, 4);
+}
 TEST(BoardLoad, HalfTheModesOnAFullLine) { expectLoad(64, fullLine, CostModel::pessimistic, 0.34); }
 
 } // namespace

@@ -7,7 +7,9 @@
 namespace physvib {
 namespace {
 
-test::Parity play(test::Rig& rig) { return test::comparePlay(rig, {300, 2000, 28'000, 20, 0.2, 0}, 8, 30'000); }
+test::Parity play(test::Rig& rig) {
+    return test::comparePlay(rig, {300, 2000, 28'000, 20, 0.2, 0}, 8, 30'000);
+}
 std::string mutant(const std::string& name) { return PHYSVIB_MUTANTS "/" + name + "/build/physvib-f334.elf"; }
 
 TEST(BoardMutants, WithoutSetUpDelayTheConvertersTimesAreViolated) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The image's converters against this computer's renderer, code for code and bit for bit, over a million frames.
+// The image's converters against this computer's renderer, code for code and bit for bit, over a million
+// frames.
 #include "Rig.h"
 #include <gtest/gtest.h>
 #include <iostream>
@@ -8,13 +9,15 @@
 namespace physvib {
 namespace {
 
-void expectParity(const test::BoardListSettings& list, std::uint32_t seed, std::uint32_t frames, bool compact = false) {
+void expectParity(const test::BoardListSettings& list, std::uint32_t seed, std::uint32_t frames,
+                  bool compact = false) {
     test::Rig rig;
     const auto parity = test::comparePlay(rig, list, seed, frames, compact);
     const auto& t = parity.telemetry;
-    std::cout << "frames " << parity.frames << ", differing " << parity.differing << ", state " << (parity.sameState ? "equal" : "differs") << ", closed form within "
-              << parity.worstFromClosedForm << ", events " << t.played
-              << ", guard " << parity.episodes << " times\n";
+    std::cout << "frames " << parity.frames << ", differing " << parity.differing << ", state "
+              << (parity.sameState ? "equal" : "differs") << ", closed form within "
+              << parity.worstFromClosedForm << ", events " << t.played << ", guard " << parity.episodes
+              << " times\n";
     EXPECT_GE(parity.frames, frames);
     EXPECT_EQ(parity.differing, 0u);
     EXPECT_TRUE(parity.sameState);
@@ -26,13 +29,16 @@ void expectParity(const test::BoardListSettings& list, std::uint32_t seed, std::
     EXPECT_EQ(rig.board.resets() + rig.board.faults(), 0);
 }
 
-test::BoardListSettings listOf(int events, std::uint32_t span, int materials, double loudest, double gated = 0) {
+test::BoardListSettings listOf(int events, std::uint32_t span, int materials, double loudest,
+                               double gated = 0) {
     return {events, 2000, span, materials, loudest, gated};
 }
 
 // Together 1,010,000 frames.
 TEST(BoardParity, FewMaterials) { expectParity(listOf(3000, 290'000, 12, 0.3), 1, 300'000); }
-TEST(BoardParity, ManyMaterialsAndTheLinkedGain) { expectParity(listOf(4000, 150'000, 128, 0.5), 2, 160'000); }
+TEST(BoardParity, ManyMaterialsAndTheLinkedGain) {
+    expectParity(listOf(4000, 150'000, 128, 0.5), 2, 160'000);
+}
 TEST(BoardParity, Durations) { expectParity(listOf(4000, 240'000, 60, 0.2, 0.5), 3, 250'000); }
 TEST(BoardParity, TheCompactForm) { expectParity(listOf(8000, 140'000, 40, 0.1), 4, 150'000, true); }
 TEST(BoardParity, Sparse) { expectParity(listOf(300, 140'000, 300, 0.9), 5, 150'000); }
@@ -57,7 +63,8 @@ TEST(BoardParity, Legs) {
     const auto events = test::randomBoardEvents(listOf(700, 60'000, 20, 0.1, 0.2), 8);
     auto legs = test::randomBoardLegs(2, 2000, 60'000, 320, 9);
     for (const BoardLeg& leg : test::randomBoardLegs(1, 2000, 60'000, 150, 10)) legs.push_back(leg);
-    std::stable_sort(legs.begin(), legs.end(), [](const BoardLeg& a, const BoardLeg& b) { return a.frame < b.frame; });
+    std::stable_sort(legs.begin(), legs.end(),
+                     [](const BoardLeg& a, const BoardLeg& b) { return a.frame < b.frame; });
     rig.play(events, legs, 63'000);
     const auto t = rig.telemetry();
     const auto here = std::make_unique<BoardRenderer>();

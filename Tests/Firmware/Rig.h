@@ -21,8 +21,10 @@ std::vector<std::uint8_t> framed(const Message& message) {
 
 class Rig {
 public:
-    explicit Rig(const std::string& image = PHYSVIB_BOARD_IMAGE, virtualboard::CostModel model = virtualboard::CostModel::optimistic, bool hasCrystal = true)
-        : image_{virtualboard::readElf(image)}, board{image_, model, hasCrystal} {}
+    explicit Rig(const std::string& image = PHYSVIB_BOARD_IMAGE,
+                 virtualboard::CostModel model = virtualboard::CostModel::optimistic, bool hasCrystal = true)
+        : image_{virtualboard::readElf(image)}
+        , board{image_, model, hasCrystal} {}
 
 private:
     virtualboard::ElfImage image_;
@@ -35,7 +37,8 @@ public:
     /// Waits for the board to start, says hello; its answer. Throws if there is none.
     wire::HelloReply connect(int watchdogMs = wire::defaultWatchdogMs) {
         start();
-        return *ask<wire::HelloReply>(wire::Hello{wire::protocolVersion, static_cast<std::uint16_t>(watchdogMs)});
+        return *ask<wire::HelloReply>(
+            wire::Hello{wire::protocolVersion, static_cast<std::uint16_t>(watchdogMs)});
     }
 
     template <class Message>
@@ -70,22 +73,27 @@ public:
     std::uint32_t frame() { return static_cast<std::uint32_t>(board.io().frames.size()); }
     std::vector<BoardFrame>& codes() { return board.io().frames; }
 
-    /// Sends the events 60 ms before their onsets, or as soon as the line lets them, and plays on to frame `end`.
+    /// Sends the events 60 ms before their onsets, or as soon as the line lets them, and plays on to frame
+    /// `end`.
     void play(const std::vector<BoardEvent>& events, std::uint32_t end, bool compact = false) {
         for (const BoardEvent& event : events) {
             runTo(static_cast<double>(event.frame) - 480.0);
             const wire::Strike strike{++sequence_, event};
-            if (compact) send(wire::compact(strike));
-            else send(strike);
+            if (compact)
+                send(wire::compact(strike));
+            else
+                send(strike);
         }
         runTo(end);
     }
 
     /// The same with legs of what moves, 20 ms before their onsets, as the board holds only a few.
-    void play(const std::vector<BoardEvent>& events, const std::vector<BoardLeg>& legs, std::uint32_t end, bool compact = false) {
+    void play(const std::vector<BoardEvent>& events, const std::vector<BoardLeg>& legs, std::uint32_t end,
+              bool compact = false) {
         auto event = events.begin();
         for (const BoardLeg& leg : legs) {
-            const auto next = std::find_if(event, events.end(), [&](const BoardEvent& e) { return e.frame - 480 > leg.frame - 160; });
+            const auto next = std::find_if(
+                event, events.end(), [&](const BoardEvent& e) { return e.frame - 480 > leg.frame - 160; });
             play({event, next}, leg.frame - 160, compact);
             event = next;
             send(wire::Leg{++sequence_, leg});
@@ -98,7 +106,8 @@ public:
         constexpr double patience = 0.4; // less than the board's
         while (this->frame() < frame) {
             if (board.seconds() > sentAt_ + 0.9 * patience) send(wire::Ping{});
-            board.runUntil(board.seconds() + std::clamp((frame - this->frame()) / 8000, 0.0001, 0.1 * patience));
+            board.runUntil(board.seconds() +
+                           std::clamp((frame - this->frame()) / 8000, 0.0001, 0.1 * patience));
         }
     }
 
@@ -107,7 +116,8 @@ public:
         while (!board.isAsleep()) board.runUntil(board.seconds() + 0.00001);
         const auto symbol = image_.symbolLike("rendererMemory");
         static_assert(std::is_trivially_copyable_v<BoardRenderer>);
-        if (symbol.size != sizeof(BoardRenderer)) throw std::runtime_error("the renderer has another layout on the board");
+        if (symbol.size != sizeof(BoardRenderer))
+            throw std::runtime_error("the renderer has another layout on the board");
         const auto bytes = board.memory(symbol.address, symbol.size);
         BoardRenderer copy;
         std::memcpy(static_cast<void*>(&copy), bytes.data(), bytes.size());
@@ -142,7 +152,8 @@ struct Parity {
 };
 
 /// Plays a random list on both.
-inline Parity comparePlay(Rig& rig, const BoardListSettings& list, std::uint32_t seed, std::uint32_t frames, bool compact = false) {
+inline Parity comparePlay(Rig& rig, const BoardListSettings& list, std::uint32_t seed, std::uint32_t frames,
+                          bool compact = false) {
     rig.connect();
     auto events = randomBoardEvents(list, seed);
     if (compact)

@@ -11,7 +11,9 @@ namespace {
 using test::BoardFrame;
 constexpr BoardFrame silence{128, 128, 128, 128};
 
-BoardEvent tone(std::uint32_t frame, int durationMs = 0) { return {frame, 16 * 205, 16, static_cast<std::uint16_t>(durationMs), {3000, -3000, 2000, 1000}}; }
+BoardEvent tone(std::uint32_t frame, int durationMs = 0) {
+    return {frame, 16 * 205, 16, static_cast<std::uint16_t>(durationMs), {3000, -3000, 2000, 1000}};
+}
 
 // Bytes as a bad line delivers them: one in 300 flipped, dropped, doubled, or with another before it.
 std::vector<std::uint8_t> disturbed(const std::vector<std::uint8_t>& bytes, std::mt19937& random) {
@@ -67,7 +69,8 @@ TEST(BoardRobustness, ThirtySecondsOfNoiseGiveNoResetAndNoWrongCode) {
     }
     std::size_t wrong = 0;
     for (std::size_t n = 0; n < frames; ++n) wrong += expected[n] != rig.codes()[n] ? 1 : 0;
-    std::cout << "sent " << events.size() << ", accepted " << accepted << ", bad frames " << t.bad << ", lost by the sequence " << t.lost << ", wrong codes " << wrong << '\n';
+    std::cout << "sent " << events.size() << ", accepted " << accepted << ", bad frames " << t.bad
+              << ", lost by the sequence " << t.lost << ", wrong codes " << wrong << '\n';
     EXPECT_EQ(wrong, 0u);
     EXPECT_EQ(t.played, static_cast<std::uint32_t>(accepted));
     EXPECT_GT(t.bad, 300u);
@@ -122,7 +125,8 @@ TEST(BoardRobustness, NoHelloCanMakeItSoundOnForLonger) {
     EXPECT_EQ(rig.connect(65535).watchdogMs, wire::defaultWatchdogMs);
     rig.play({tone(500)}, 560);
     rig.board.runUntil(rig.board.seconds() + 1.0);
-    const std::size_t deadline = 20 + 17 + 4000 + 80; // its message came at frame 20 and took 2 ms; and those of the hello before
+    const std::size_t deadline = 20 + 17 + 4000 + 80; // its message came at frame 20 and took 2 ms; and those
+                                                      // of the hello before
     const auto& codes = rig.codes();
     ASSERT_GT(codes.size(), deadline + 1000);
     EXPECT_NE(codes[deadline - 300], silence);
@@ -159,7 +163,8 @@ TEST(BoardRobustness, StopAllIsSilenceWithinTwoMilliseconds) {
         events.push_back(e);
     }
     for (int i = 0; i < 20; ++i) {
-        for (std::size_t k = 0; k < events.size(); ++k) events[k].frame = rig.frame() + 600 + 30u * static_cast<std::uint32_t>(k);
+        for (std::size_t k = 0; k < events.size(); ++k)
+            events[k].frame = rig.frame() + 600 + 30u * static_cast<std::uint32_t>(k);
         // each time at another moment of a block
         rig.play(events, events.back().frame + 50 + static_cast<std::uint32_t>(i));
         const auto bytes = test::framed(wire::StopAll{});

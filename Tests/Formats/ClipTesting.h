@@ -23,8 +23,11 @@ inline PhantomPanner panner() {
     return {layout, PanningLaw::linear, 1.0, 1.0, 1.0};
 }
 
-inline Clip clipOf(std::span<const CollisionEvent> events, double error, const PhantomPanner& spread = panner()) {
-    StrikeClipSettings settings{error, static_cast<std::size_t>(spread.channels()), [&](const CollisionEvent& e, PhantomPanner::Gains& gains) { spread.gainsAt(e.x, e.y, gains); }};
+inline Clip clipOf(std::span<const CollisionEvent> events, double error,
+                   const PhantomPanner& spread = panner()) {
+    StrikeClipSettings settings{
+        error, static_cast<std::size_t>(spread.channels()),
+        [&](const CollisionEvent& e, PhantomPanner::Gains& gains) { spread.gainsAt(e.x, e.y, gains); }};
     return clipOfStrikes(events, settings);
 }
 
@@ -34,7 +37,12 @@ inline std::vector<CollisionEvent> hits(int count) {
     const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };
     std::vector<CollisionEvent> events;
     for (int k = 0; k < count; ++k) {
-        CollisionEvent e{static_cast<std::int64_t>(1e9 * (0.05 * k + 0.04 * share())), k % 2 ? 80.0 : 349.0, k % 2 ? 30.0 : 55.0, 0.02 + 0.2 * share(), share(), share()};
+        CollisionEvent e{static_cast<std::int64_t>(1e9 * (0.05 * k + 0.04 * share())),
+                         k % 2 ? 80.0 : 349.0,
+                         k % 2 ? 30.0 : 55.0,
+                         0.02 + 0.2 * share(),
+                         share(),
+                         share()};
         if (k % 4 == 3) e.durationNs = 31'234'567;
         events.push_back(e);
     }
@@ -42,17 +50,22 @@ inline std::vector<CollisionEvent> hits(int count) {
 }
 
 /// What Docs/events.md says that a sample is.
-inline std::vector<std::vector<double>> closedForm(std::span<const CollisionEvent> events, std::size_t frames, const PhantomPanner& spread = panner()) {
-    std::vector<std::vector<double>> out(static_cast<std::size_t>(spread.channels()), std::vector<double>(frames));
+inline std::vector<std::vector<double>> closedForm(std::span<const CollisionEvent> events, std::size_t frames,
+                                                   const PhantomPanner& spread = panner()) {
+    std::vector<std::vector<double>> out(static_cast<std::size_t>(spread.channels()),
+                                         std::vector<double>(frames));
     const FrameClock clock{rateHz};
     for (const CollisionEvent& e : events) {
         PhantomPanner::Gains gains{};
         spread.gainsAt(e.x, e.y, gains);
         const auto onset = clock.at(e.timeNs);
-        const auto end = e.durationNs > 0 ? std::min<std::int64_t>(clock.at(e.timeNs + e.durationNs).frame, static_cast<std::int64_t>(frames)) : static_cast<std::int64_t>(frames);
+        const auto end = e.durationNs > 0 ? std::min<std::int64_t>(clock.at(e.timeNs + e.durationNs).frame,
+                                                                   static_cast<std::int64_t>(frames))
+                                          : static_cast<std::int64_t>(frames);
         for (std::int64_t n = onset.frame; n < end; ++n) {
             const double t = (static_cast<double>(n - onset.frame) + onset.leadFrames) / rateHz;
-            const double x = e.amplitude * std::sin(2.0 * std::numbers::pi * e.frequencyHz * t) * std::exp(-e.decayPerSecond * t);
+            const double x = e.amplitude * std::sin(2.0 * std::numbers::pi * e.frequencyHz * t) *
+                             std::exp(-e.decayPerSecond * t);
             for (std::size_t j = 0; j < out.size(); ++j) out[j][static_cast<std::size_t>(n)] += gains[j] * x;
         }
     }
@@ -64,7 +77,8 @@ double farthest(const std::vector<A>& a, const std::vector<B>& b) {
     double most = 0.0;
     for (std::size_t j = 0; j < std::min(a.size(), b.size()); ++j)
         for (std::size_t n = 0; n < std::max(a[j].size(), b[j].size()); ++n)
-            most = std::max(most, std::abs((n < a[j].size() ? static_cast<double>(a[j][n]) : 0.0) - (n < b[j].size() ? static_cast<double>(b[j][n]) : 0.0)));
+            most = std::max(most, std::abs((n < a[j].size() ? static_cast<double>(a[j][n]) : 0.0) -
+                                           (n < b[j].size() ? static_cast<double>(b[j][n]) : 0.0)));
     return most;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// MPEG's JSON: what was written is read again and sounds the same; what others write is read or refused in one line.
+// MPEG's JSON: what was written is read again and sounds the same; what others write is read or refused in
+// one line.
+#include "Formats/HjifFile.h"
 #include "ClipTesting.h"
 #include "Formats/ClipLimits.h"
-#include "Formats/HjifFile.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -38,11 +39,16 @@ std::string refusal(const std::string& text) {
 
 /// One channel with these bands, at 1000 ticks.
 std::string file(const std::string& bands, const std::string& library = "") {
-    return R"({"version": "2023", "avatars": [], "perceptions": [{"perception_modality": "Vibrotactile", "effect_library": [)" + library +
-           R"(], "channels": [{"id": 0, "description": "left", "gain": 0.5, "mixing_coefficient": 1, "bands": [)" + bands + "]}]}]}";
+    return R"({"version": "2023", "avatars": [], "perceptions": [{"perception_modality": "Vibrotactile", "effect_library": [)" +
+           library +
+           R"(], "channels": [{"id": 0, "description": "left", "gain": 0.5, "mixing_coefficient": 1, "bands": [)" +
+           bands + "]}]}]}";
 }
 
-std::string vectorial(const std::string& effects) { return R"({"band_type": "VectorialWave", "lower_frequency_limit": 0, "upper_frequency_limit": 1000, "effects": [)" + effects + "]}"; }
+std::string vectorial(const std::string& effects) {
+    return R"({"band_type": "VectorialWave", "lower_frequency_limit": 0, "upper_frequency_limit": 1000, "effects": [)" +
+           effects + "]}";
+}
 
 TEST(HjifFile, SoundsTheSameWhenReadAgain) {
     const Clip clip = scene();
@@ -79,17 +85,20 @@ TEST(HjifFile, CarriesTransients) {
 }
 
 TEST(HjifFile, ReadsWhatOthersWrite) {
-    const Clip clip = read(file(vectorial(R"({"effect_type": "Basis", "position": 100, "phase": 1, "base_signal": "Square",
+    const Clip clip = read(file(
+        vectorial(R"({"effect_type": "Basis", "position": 100, "phase": 1, "base_signal": "Square",
         "keyframes": [{"relative_position": 0, "frequency_modulation": 60}, {"amplitude_modulation": 1, "relative_position": 50}, {"relative_position": 200, "frequency_modulation": 90}], "more": 1},
-        {"effect_type": "Reference", "position": 400, "id": 7})") + R"(, {"band_type": "Transient", "effects": [{"effect_type": "Basis", "position": 10, "keyframes": [{"relative_position": 5, "amplitude_modulation": 1, "frequency_modulation": 90}]}]})"
-        R"(, {"band_type": "Curve", "curve_type": "Cubic", "effects": [{"effect_type": "Basis", "position": 0, "keyframes": [{"relative_position": 0, "amplitude_modulation": 0}, {"relative_position": 8, "amplitude_modulation": 1}]}]})",
-                               R"({"id": 7, "effect_type": "Basis", "keyframes": [{"relative_position": 0, "amplitude_modulation": 1, "frequency_modulation": 100}, {"relative_position": 30, "amplitude_modulation": 0}]})"));
+        {"effect_type": "Reference", "position": 400, "id": 7})") +
+            R"(, {"band_type": "Transient", "effects": [{"effect_type": "Basis", "position": 10, "keyframes": [{"relative_position": 5, "amplitude_modulation": 1, "frequency_modulation": 90}]}]})"
+            R"(, {"band_type": "Curve", "curve_type": "Cubic", "effects": [{"effect_type": "Basis", "position": 0, "keyframes": [{"relative_position": 0, "amplitude_modulation": 0}, {"relative_position": 8, "amplitude_modulation": 1}]}]})",
+        R"({"id": 7, "effect_type": "Basis", "keyframes": [{"relative_position": 0, "amplitude_modulation": 1, "frequency_modulation": 100}, {"relative_position": 30, "amplitude_modulation": 0}]})"));
     ASSERT_EQ(clip.channels.size(), 1u);
     const ClipChannel& channel = clip.channels[0];
     EXPECT_EQ(channel.label, "left");
     EXPECT_FALSE(channel.place);
     ASSERT_EQ(channel.bands.size(), 2u);
-    const ClipWave first{0.1, 1.0, ClipWaveform::square, {{0.05, 0.5}, {0.2, 0.5}}, {{0.0, 60.0}, {0.2, 90.0}}};
+    const ClipWave first{
+        0.1, 1.0, ClipWaveform::square, {{0.05, 0.5}, {0.2, 0.5}}, {{0.0, 60.0}, {0.2, 90.0}}};
     const ClipWave second{0.4, 0.0, ClipWaveform::sine, {{0.0, 0.5}, {0.03, 0.0}}, {{0.0, 100.0}}};
     EXPECT_EQ(channel.bands[0].waves, (std::vector<ClipWave>{first, second}));
     // 3 s^2 - 2 s^3
@@ -132,7 +141,8 @@ TEST(HjifFile, ReadsWhatMpegsEncoderCallsOther) {
 }
 
 TEST(HjifFile, LetsAnEffectEndWhereTheNextOfItsBandBegins) {
-    const std::string effect = R"("effect_type": "Basis", "keyframes": [{"relative_position": 0, "amplitude_modulation": 1, "frequency_modulation": 100}, {"relative_position": 100, "amplitude_modulation": 0}]})";
+    const std::string effect =
+        R"("effect_type": "Basis", "keyframes": [{"relative_position": 0, "amplitude_modulation": 1, "frequency_modulation": 100}, {"relative_position": 100, "amplitude_modulation": 0}]})";
     const Clip clip = read(file(vectorial("{\"position\": 50, " + effect + ", {\"position\": 0, " + effect)));
     const auto& waves = clip.channels[0].bands[0].waves;
     ASSERT_EQ(waves.size(), 2u);
@@ -141,15 +151,28 @@ TEST(HjifFile, LetsAnEffectEndWhereTheNextOfItsBandBegins) {
 
 TEST(HjifFile, RefusesInOneLine) {
     EXPECT_EQ(refusal("{}"), "f: field \"perceptions\" is missing");
-    EXPECT_EQ(refusal(R"({"timescale": 0, "perceptions": []})"), "f: timescale: expected at least one tick per second, found 0");
-    EXPECT_EQ(refusal(R"({"perceptions": [{"perception_modality": "Temperature"}]})"), "f: perceptions: expected a vibrotactile perception with channels, found none");
-    EXPECT_EQ(refusal(file(R"({"band_type": "WaveletWave", "effects": []})")), "f: perceptions[0].channels[0].bands[0].band_type: expected waves, transients or curves, found wavelets, which are not read");
-    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Composite"})"))), "f: perceptions[0].channels[0].bands[0].effects[0].effect_type: expected one of Basis, Reference, found \"Composite\"");
-    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Reference", "id": 1})"))), "f: perceptions[0].channels[0].bands[0].effects[0].id: expected an effect of the library, found none of that number");
-    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Basis", "keyframes": [{"relative_position": 9}, {"relative_position": 8}]})"))),
-              "f: perceptions[0].channels[0].bands[0].effects[0].keyframes[1].relative_position: expected keyframes in time order");
+    EXPECT_EQ(refusal(R"({"timescale": 0, "perceptions": []})"),
+              "f: timescale: expected at least one tick per second, found 0");
+    EXPECT_EQ(refusal(R"({"perceptions": [{"perception_modality": "Temperature"}]})"),
+              "f: perceptions: expected a vibrotactile perception with channels, found none");
+    EXPECT_EQ(refusal(file(R"({"band_type": "WaveletWave", "effects": []})")),
+              "f: perceptions[0].channels[0].bands[0].band_type: expected waves, transients or curves, found "
+              "wavelets, which are not read");
+    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Composite"})"))),
+              "f: perceptions[0].channels[0].bands[0].effects[0].effect_type: expected one of Basis, "
+              "Reference, found \"Composite\"");
+    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Reference", "id": 1})"))),
+              "f: perceptions[0].channels[0].bands[0].effects[0].id: expected an effect of the library, "
+              "found none of that number");
+    EXPECT_EQ(
+        refusal(file(vectorial(
+            R"({"effect_type": "Basis", "keyframes": [{"relative_position": 9}, {"relative_position": 8}]})"))),
+        "f: perceptions[0].channels[0].bands[0].effects[0].keyframes[1].relative_position: expected "
+        "keyframes in time order");
     EXPECT_EQ(refusal(file("")), "f: perceptions: expected something to feel, found silence");
-    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Basis", "position": 1e9, "keyframes": []})"))), "f: perceptions[0].channels[0].bands[0].effects[0].position: expected a number from 0 to 6e+05, found 1000000000.0");
+    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Basis", "position": 1e9, "keyframes": []})"))),
+              "f: perceptions[0].channels[0].bands[0].effects[0].position: expected a number from 0 to "
+              "6e+05, found 1000000000.0");
 }
 
 TEST(HjifFile, RefusesAMillionKeyframes) {
@@ -157,8 +180,10 @@ TEST(HjifFile, RefusesAMillionKeyframes) {
     for (std::size_t i = 0; i <= limits::maxClipPoints; ++i) frames += "{},";
     frames.pop_back();
     EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Basis", "keyframes": [)" + frames + "]}"))),
-              "f: perceptions[0].channels[0].bands[0].effects[0].keyframes: expected at most 500000 keyframes in the file, found more");
-    EXPECT_NE(refusal(std::string(limits::maxClipFileBytes + 1, ' ')).find("expected at most 24000000 bytes"), std::string::npos);
+              "f: perceptions[0].channels[0].bands[0].effects[0].keyframes: expected at most 500000 "
+              "keyframes in the file, found more");
+    EXPECT_NE(refusal(std::string(limits::maxClipFileBytes + 1, ' ')).find("expected at most 24000000 bytes"),
+              std::string::npos);
 }
 
 } // namespace

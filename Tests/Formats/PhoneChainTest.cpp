@@ -25,7 +25,8 @@ public:
 
     HapticFolder()
         : folder_{std::filesystem::path(testing::TempDir()) /
-                  (std::string{"haptic-chain-"} + testing::UnitTest::GetInstance()->current_test_info()->name())} {
+                  (std::string{"haptic-chain-"} +
+                   testing::UnitTest::GetInstance()->current_test_info()->name())} {
         std::filesystem::create_directories(folder_);
         for (int k = 0; k < files; ++k) std::ofstream{path(k)} << fileOf(k).dump();
     }
@@ -45,9 +46,9 @@ private:
     }
 
     json amplitudesOf(int k) {
-        constexpr std::array gaps{
-            1e-5, 0.0004, 0.002, 0.011,
-            0.05, 0.3,    20.0}; // also closer than a transient lasts, and longer than an event may
+        constexpr std::array gaps{1e-5, 0.0004, 0.002, 0.011,
+                                  0.05, 0.3,    20.0}; // also closer than a transient lasts, and longer than
+                                                       // an event may
         constexpr std::array scales{0.0, 1e-4, 0.01, 0.1, 1.0};
         json list = json::array();
         double time = k % 3 == 0 ? 0.0 : share();
@@ -91,9 +92,7 @@ Clip through(const Clip& clip, ClipFormat format) {
     return std::move(again.value);
 }
 
-double decibels(double a, double b) {
-    return std::abs(20.0 * std::log10(a / b));
-}
+double decibels(double a, double b) { return std::abs(20.0 * std::log10(a / b)); }
 
 /// One to one, in time order; transients of one moment in any.
 void expectSame(const std::vector<ClipTransient>& was, std::vector<ClipTransient> is,
@@ -178,8 +177,8 @@ TEST(PhoneChain, CurvesAreNeutralAtATransientAndHaveAtMostSixteenPoints) {
                 ASSERT_LE(entry["ParameterCurve"]["ParameterCurveControlPoints"].size(), 16u);
             if (!entry.contains("Event") || entry["Event"]["EventType"] != "HapticTransient") continue;
             const double time = entry["Event"]["Time"];
-            for (const double at :
-                 {time - 5e-8, time, time + 5e-8}) { // where curves meet, programs differ in which counts
+            for (const double at : {time - 5e-8, time, time + 5e-8}) { // where curves meet, programs differ
+                                                                       // in which counts
                 ASSERT_NEAR(controlAt(pattern, "HapticIntensityControl", std::max(0.0, at), 1.0), 1.0, 0.03)
                     << folder.path(k) << " at " << time;
                 ASSERT_NEAR(controlAt(pattern, "HapticSharpnessControl", std::max(0.0, at), 0.0), 0.0, 0.03)

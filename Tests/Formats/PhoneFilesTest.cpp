@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meta's and Apple's files: their rules are kept, what both carry comes back, what breaks a rule is refused in one line.
+// Meta's and Apple's files: their rules are kept, what both carry comes back, what breaks a rule is refused
+// in one line.
 #include "ClipTesting.h"
 #include "Formats/AhapFile.h"
 #include "Formats/ClipEnvelope.h"
@@ -27,13 +28,17 @@ std::string metaFault(const std::string& text) {
     for (const json& p : envelopes["amplitude"]) {
         if (!isShare(p["amplitude"]) || p["time"] < last) return "amplitude " + p.dump();
         last = p["time"];
-        if (p.contains("emphasis") && (!isShare(p["emphasis"]["amplitude"]) || !isShare(p["emphasis"]["frequency"]) || p["emphasis"]["amplitude"] < p["amplitude"])) return "emphasis " + p.dump();
+        if (p.contains("emphasis") &&
+            (!isShare(p["emphasis"]["amplitude"]) || !isShare(p["emphasis"]["frequency"]) ||
+             p["emphasis"]["amplitude"] < p["amplitude"]))
+            return "emphasis " + p.dump();
     }
     if (envelopes["amplitude"].size() < 2 || !(last > envelopes["amplitude"][0]["time"])) return "too short";
     const double first = envelopes["amplitude"][0]["time"];
     double lastFrequency = first;
     for (const json& p : envelopes.value("frequency", json::array())) {
-        if (!isShare(p["frequency"]) || p["time"] < lastFrequency || p["time"] > last) return "frequency " + p.dump();
+        if (!isShare(p["frequency"]) || p["time"] < lastFrequency || p["time"] > last)
+            return "frequency " + p.dump();
         lastFrequency = p["time"];
     }
     return {};
@@ -50,7 +55,9 @@ std::string appleFault(const std::string& text) {
             for (const json& p : event["EventParameters"])
                 if (p["ParameterValue"] < 0.0 || p["ParameterValue"] > 1.0) return "parameter " + p.dump();
             if (event["EventType"] == "HapticTransient") continue;
-            if (event["EventType"] != "HapticContinuous" || event["EventDuration"] <= 0.0 || event["EventDuration"] > 30.0) return "event " + event.dump();
+            if (event["EventType"] != "HapticContinuous" || event["EventDuration"] <= 0.0 ||
+                event["EventDuration"] > 30.0)
+                return "event " + event.dump();
             if (event["Time"] < eventEnd - 2e-6) return "events at once";
             eventEnd = event["Time"].get<double>() + event["EventDuration"].get<double>();
         } else {
@@ -59,7 +66,9 @@ std::string appleFault(const std::string& text) {
             if (!isSharpness && curve["ParameterID"] != "HapticIntensityControl") return "curve";
             double last = 0.0;
             for (const json& p : curve["ParameterCurveControlPoints"]) {
-                if (p["Time"] < last || p["ParameterValue"] > 1.0 || p["ParameterValue"] < (isSharpness ? -1.0 : 0.0)) return "point " + p.dump();
+                if (p["Time"] < last || p["ParameterValue"] > 1.0 ||
+                    p["ParameterValue"] < (isSharpness ? -1.0 : 0.0))
+                    return "point " + p.dump();
                 last = p["Time"];
             }
             if (curve["Time"].get<double>() + last > eventEnd + 2e-6) return "beyond its event";
@@ -103,7 +112,8 @@ TEST(PhoneFiles, KeepTheirRules) {
     ClipChannel transients{"A", {}, {}, {}, {{0.0, 1.0, 100.0}, {0.5, 0.3, 5000.0}}};
     EXPECT_EQ(metaFault(metaHapticText(transients, "")), "");
     EXPECT_EQ(appleFault(ahapText(transients, "")), "");
-    ClipChannel hour{"A", {}, {}, {{{ClipWave{0.0, 0.0, {}, {{0.0, 0.5}, {100.0, 0.5}}, {{0.0, 150.0}}}}}}, {}};
+    ClipChannel hour{
+        "A", {}, {}, {{{ClipWave{0.0, 0.0, {}, {{0.0, 0.5}, {100.0, 0.5}}, {{0.0, 150.0}}}}}}, {}};
     EXPECT_EQ(appleFault(ahapText(hour, "")), "");
     EXPECT_EQ(metaFault(metaHapticText({}, "")), "");
 }
@@ -123,7 +133,8 @@ TEST(PhoneFiles, FrequenciesComeBackByTheScale) {
     CollisionEvent hit{0, 349.0, 30.0, 0.5, 0.5, 0.5};
     EnchanterLayout one;
     layoutPreset("phone1", one);
-    const ClipChannel channel = clipOf({&hit, 1}, 0.004, {one, PanningLaw::linear, 1.0, 1.0, 1.0}).channels[0];
+    const ClipChannel channel =
+        clipOf({&hit, 1}, 0.004, {one, PanningLaw::linear, 1.0, 1.0, 1.0}).channels[0];
     for (const ClipFormat format : {ClipFormat::haptic, ClipFormat::ahap}) {
         const auto again = readClip(clipBytes({"", 0, 0, {channel}}, format, wide).value, "f", format, wide);
         ASSERT_EQ(again.error, "");
@@ -152,7 +163,8 @@ TEST(PhoneFiles, ReadAppleAsAppleSays) {
         {"ParameterCurve": {"ParameterID": "HapticIntensityControl", "Time": 0.5, "ParameterCurveControlPoints": [{"Time": 0, "ParameterValue": 2}, {"Time": 0.5, "ParameterValue": 0}]}},
         {"Parameter": {"ParameterID": "HapticSharpnessControl", "Time": 1, "ParameterValue": 0.5}},
         {"Event": {"Time": 0.5, "EventType": "HapticContinuous", "EventDuration": 1, "EventParameters": [{"ParameterID": "HapticIntensity", "ParameterValue": 0.5}, {"ParameterID": "HapticSharpness", "ParameterValue": 0}]}},
-        {"Event": {"Time": 0, "EventType": "HapticTransient"}}, {"Event": {"EventType": "AudioCustom", "Time": 3}}, {"Other": 1}]})", "f", {100.0, 200.0});
+        {"Event": {"Time": 0, "EventType": "HapticTransient"}}, {"Event": {"EventType": "AudioCustom", "Time": 3}}, {"Other": 1}]})",
+                               "f", {100.0, 200.0});
     ASSERT_EQ(clip.error, "");
     const ClipChannel& channel = clip.value.channels[0];
     // assumed intensity and sharpness
@@ -178,9 +190,9 @@ TEST(PhoneFiles, ReadApplesDefaultsAndLastCommas) {
     EXPECT_EQ(clip.value.leftOut, "");
     const ClipChannel& channel = clip.value.channels[0];
     EXPECT_EQ(channel.transients, (std::vector<ClipTransient>{{40.0, 0.25, 150.0}}));
-    EXPECT_EQ(
-        channel.bands[0].waves[0].amplitude,
-        (std::vector<ClipPoint>{{0.0, 1.0}, {30.0, 1.0}})); // no end of its own: as long as a phone plays it
+    EXPECT_EQ(channel.bands[0].waves[0].amplitude,
+              (std::vector<ClipPoint>{{0.0, 1.0}, {30.0, 1.0}})); // no end of its own: as long as a phone
+                                                                  // plays it
     EXPECT_EQ(
         readAhap(
             R"({"Version": "a,]", "Pattern": [{"Event": {"EventType": "HapticTransient"}, "a\",}": 1}]})",
@@ -256,33 +268,61 @@ TEST(PhoneFiles, LastEvenIfTheWaveDoesNot) {
 }
 
 TEST(PhoneFiles, RefuseInOneLine) {
-    const auto meta = [](const std::string& amplitude) { return readMetaHaptic(R"({"version": {"major": 1, "minor": 0, "patch": 0}, "signals": {"continuous": {"envelopes": {"amplitude": [)" + amplitude + "]}}}}", "f").error; };
+    const auto meta = [](const std::string& amplitude) {
+        return readMetaHaptic(
+                   R"({"version": {"major": 1, "minor": 0, "patch": 0}, "signals": {"continuous": {"envelopes": {"amplitude": [)" +
+                       amplitude + "]}}}}",
+                   "f")
+            .error;
+    };
     const std::string at = "f: signals.continuous.envelopes.amplitude";
     EXPECT_EQ(meta(""), at + ": expected at least two points, found 0");
-    EXPECT_EQ(meta(R"({"time": 0, "amplitude": 0}, {"time": 0, "amplitude": 1})"), at + ": expected an envelope that lasts");
-    EXPECT_EQ(meta(R"({"time": 1, "amplitude": 0}, {"time": 0.5, "amplitude": 1})"), at + "[1].time: expected times in order");
-    EXPECT_EQ(meta(R"({"time": 1, "amplitude": 2}, {"time": 1, "amplitude": 1})"), at + "[0].amplitude: expected a number from 0 to 1, found 2");
-    EXPECT_EQ(meta(R"({"time": 0, "amplitude": 1, "emphasis": {"amplitude": 0.5, "frequency": 0}}, {"time": 1, "amplitude": 1})"), at + "[0].emphasis.amplitude: expected at least the envelope's amplitude");
-    EXPECT_EQ(readMetaHaptic(R"({"version": {"major": 2}})", "f").error, "f: version.major: expected version 1");
+    EXPECT_EQ(meta(R"({"time": 0, "amplitude": 0}, {"time": 0, "amplitude": 1})"),
+              at + ": expected an envelope that lasts");
+    EXPECT_EQ(meta(R"({"time": 1, "amplitude": 0}, {"time": 0.5, "amplitude": 1})"),
+              at + "[1].time: expected times in order");
+    EXPECT_EQ(meta(R"({"time": 1, "amplitude": 2}, {"time": 1, "amplitude": 1})"),
+              at + "[0].amplitude: expected a number from 0 to 1, found 2");
+    EXPECT_EQ(
+        meta(
+            R"({"time": 0, "amplitude": 1, "emphasis": {"amplitude": 0.5, "frequency": 0}}, {"time": 1, "amplitude": 1})"),
+        at + "[0].emphasis.amplitude: expected at least the envelope's amplitude");
+    EXPECT_EQ(readMetaHaptic(R"({"version": {"major": 2}})", "f").error,
+              "f: version.major: expected version 1");
     EXPECT_EQ(readAhap("{}", "f").error, "f: field \"Pattern\" is missing");
-    EXPECT_EQ(readAhap(R"({"Pattern": []})", "f").error, "f: Pattern: expected something to feel, found silence");
+    EXPECT_EQ(readAhap(R"({"Pattern": []})", "f").error,
+              "f: Pattern: expected something to feel, found silence");
     EXPECT_EQ(readAhap(R"({"Pattern": [{"Event": {"EventType": "Smell"}}]})", "f").error,
-              "f: Pattern[0].Event.EventType: expected one of HapticTransient, HapticContinuous, AudioContinuous, AudioCustom, found \"Smell\"");
+              "f: Pattern[0].Event.EventType: expected one of HapticTransient, HapticContinuous, "
+              "AudioContinuous, AudioCustom, found \"Smell\"");
     EXPECT_EQ(readAhap(R"({"Pattern": [{"Event": {"Time": 0}}]})", "f").error,
               "f: Pattern[0].Event: field \"EventType\" is missing");
     EXPECT_EQ(readAhap(R"({"Pattern": [,]})", "f").error.substr(0, 20), "f: line 1, column 14");
 }
 
 TEST(PhoneFiles, AreBoundedWhereManyEventsShareLongCurves) {
-    std::string text = R"({"Pattern": [{"ParameterCurve": {"ParameterID": "HapticIntensityControl", "ParameterCurveControlPoints": [)";
-    for (int i = 0; i < 20000; ++i) text += (i ? "," : "") + std::string(R"({"Time": )") + std::to_string(i * 1e-3) + R"(, "ParameterValue": )" + (i % 2 ? "1" : "0") + "}";
+    std::string text =
+        R"({"Pattern": [{"ParameterCurve": {"ParameterID": "HapticIntensityControl", "ParameterCurveControlPoints": [)";
+    for (int i = 0; i < 20000; ++i)
+        text += (i ? "," : "") + std::string(R"({"Time": )") + std::to_string(i * 1e-3) +
+                R"(, "ParameterValue": )" + (i % 2 ? "1" : "0") + "}";
     text += "]}}";
-    for (int i = 0; i < 200; ++i) text += R"(, {"Event": {"EventType": "HapticContinuous", "Time": 0, "EventDuration": 20}})";
-    EXPECT_EQ(readAhap(text + "]}", "f").error, "f: Pattern: expected fewer events at once on such long curves");
+    for (int i = 0; i < 200; ++i)
+        text += R"(, {"Event": {"EventType": "HapticContinuous", "Time": 0, "EventDuration": 20}})";
+    EXPECT_EQ(readAhap(text + "]}", "f").error,
+              "f: Pattern: expected fewer events at once on such long curves");
 }
 
 TEST(PhoneFiles, KeepTheirOrderWithinTheFirstRise) {
-    const ClipChannel channel{"A", {}, {}, {{{ClipWave{0.0, 0.0, {}, {{0.0, 1.0}, {1e-4, 0.5}, {0.1, 0.0}}, {{0.0, 100.0}, {1e-4, 250.0}, {0.1, 90.0}}}}}}, {}};
+    const ClipChannel channel{"A",
+                              {},
+                              {},
+                              {{{ClipWave{0.0,
+                                          0.0,
+                                          {},
+                                          {{0.0, 1.0}, {1e-4, 0.5}, {0.1, 0.0}},
+                                          {{0.0, 100.0}, {1e-4, 250.0}, {0.1, 90.0}}}}}},
+                              {}};
     for (const ClipFormat format : {ClipFormat::haptic, ClipFormat::ahap})
         EXPECT_EQ(readClip(clipBytes({"", 0, 0, {channel}}, format).value, "f", format).error, "");
 }
@@ -293,10 +333,23 @@ TEST(PhoneFiles, RefuseAMillionPoints) {
         for (std::size_t i = 0; i <= limits::maxClipPoints; ++i) text.append(i ? "," : "").append(point);
         return text + tail;
     };
-    EXPECT_EQ(readMetaHaptic(many(R"({"version": {"major": 1}, "signals": {"continuous": {"envelopes": {"amplitude": [{"time": 0, "amplitude": 0},)", R"({"time":1,"amplitude":1})", "]}}}}"), "f").error,
-              "f: signals.continuous.envelopes: expected at most 500000 points of curves, found more");
-    EXPECT_EQ(readAhap(many(R"({"Pattern": [{"ParameterCurve": {"ParameterID": "HapticIntensityControl", "ParameterCurveControlPoints": [)", R"({"Time":0,"ParameterValue":0})", "]}}]}"), "f").error,
-              "f: Pattern[0].ParameterCurve.ParameterCurveControlPoints: expected at most 500000 control points in the file, found more");
+    EXPECT_EQ(
+        readMetaHaptic(
+            many(
+                R"({"version": {"major": 1}, "signals": {"continuous": {"envelopes": {"amplitude": [{"time": 0, "amplitude": 0},)",
+                R"({"time":1,"amplitude":1})", "]}}}}"),
+            "f")
+            .error,
+        "f: signals.continuous.envelopes: expected at most 500000 points of curves, found more");
+    EXPECT_EQ(
+        readAhap(
+            many(
+                R"({"Pattern": [{"ParameterCurve": {"ParameterID": "HapticIntensityControl", "ParameterCurveControlPoints": [)",
+                R"({"Time":0,"ParameterValue":0})", "]}}]}"),
+            "f")
+            .error,
+        "f: Pattern[0].ParameterCurve.ParameterCurveControlPoints: expected at most 500000 control points in "
+        "the file, found more");
 }
 
 TEST(ClipFile, RefusesAGigabyteUnread) {
@@ -323,12 +376,31 @@ TEST(ClipFile, IsKnownByItsEnding) {
 }
 
 TEST(ClipFile, TellsWhatIsLost) {
-    Clip clip{"", 0.2, 0.1, {ClipChannel{"A", EnchanterPlace{0.0333, 0.05}, {}, {{{ClipWave{0, 0, {}, {{0, 2.0}, {1, 2.0}}, {{0, 80.5}}}}}, {{ClipWave{0, 0, {}, {{0, 1}, {1, 1}}, {{0, 349}}}}}}, {}}}};
-    EXPECT_EQ(clipLosses(clip, ClipFormat::hjif), (std::vector<std::string>{"places are moved by up to 0.70 mm, onto a grid of at most 127 points", "MPEG's own decoder cuts frequencies to whole Hz, as of 80.50 Hz; ours does not"}));
-    EXPECT_EQ(clipLosses(clip, ClipFormat::hmpg), (std::vector<std::string>{"amplitudes have 8 bits: each wave is within 0.00784 of what it was, in shares of full scale",
-                                                                        "places are moved by up to 0.70 mm, onto a grid of at most 127 points", "frequencies are whole Hz: they are moved by up to 0.50 Hz"}));
-    EXPECT_EQ(clipLosses(clip, ClipFormat::ahap), (std::vector<std::string>{"where a hit was is not carried", "modes that sound at once become one envelope, at the mean of their frequencies",
-                                                                        "1 of 2 frequencies lie outside 65 to 300 Hz and become its ends", "what is above full scale is cut to it: the strongest is 2.00"}));
+    Clip clip{"",
+              0.2,
+              0.1,
+              {ClipChannel{"A",
+                           EnchanterPlace{0.0333, 0.05},
+                           {},
+                           {{{ClipWave{0, 0, {}, {{0, 2.0}, {1, 2.0}}, {{0, 80.5}}}}},
+                            {{ClipWave{0, 0, {}, {{0, 1}, {1, 1}}, {{0, 349}}}}}},
+                           {}}}};
+    EXPECT_EQ(clipLosses(clip, ClipFormat::hjif),
+              (std::vector<std::string>{
+                  "places are moved by up to 0.70 mm, onto a grid of at most 127 points",
+                  "MPEG's own decoder cuts frequencies to whole Hz, as of 80.50 Hz; ours does not"}));
+    EXPECT_EQ(
+        clipLosses(clip, ClipFormat::hmpg),
+        (std::vector<std::string>{
+            "amplitudes have 8 bits: each wave is within 0.00784 of what it was, in shares of full scale",
+            "places are moved by up to 0.70 mm, onto a grid of at most 127 points",
+            "frequencies are whole Hz: they are moved by up to 0.50 Hz"}));
+    EXPECT_EQ(clipLosses(clip, ClipFormat::ahap),
+              (std::vector<std::string>{
+                  "where a hit was is not carried",
+                  "modes that sound at once become one envelope, at the mean of their frequencies",
+                  "1 of 2 frequencies lie outside 65 to 300 Hz and become its ends",
+                  "what is above full scale is cut to it: the strongest is 2.00"}));
 }
 
 } // namespace

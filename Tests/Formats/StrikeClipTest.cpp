@@ -11,7 +11,8 @@ using namespace test;
 
 constexpr std::int64_t forever = std::numeric_limits<std::int64_t>::max();
 
-double farthestFrom(const std::vector<ClipPoint>& curve, double amplitude, double decayPerSecond, double seconds) {
+double farthestFrom(const std::vector<ClipPoint>& curve, double amplitude, double decayPerSecond,
+                    double seconds) {
     double most = 0.0;
     for (int n = 0; n < 20000; ++n) {
         const double t = seconds * n / 20000;
@@ -25,7 +26,9 @@ TEST(DecayCurve, ChordsKeepWithinTheirErrorAndEndAtNothing) {
         for (const double decay : {0.5, 30.0, 800.0}) {
             const auto curve = decayCurve(0.7, decay, forever, error, rateHz);
             const double slack = 0.7 * decay / rateHz; // a point lies on a tick
-            EXPECT_LE(farthestFrom(curve, 0.7, decay, 12.0 / decay), 0.7 * error + std::min(slack, 0.7 * 0.2 * error)) << error << ' ' << decay;
+            EXPECT_LE(farthestFrom(curve, 0.7, decay, 12.0 / decay),
+                      0.7 * error + std::min(slack, 0.7 * 0.2 * error))
+                << error << ' ' << decay;
             EXPECT_EQ(curve.back().value, 0.0);
         }
 }
@@ -64,7 +67,8 @@ TEST(StrikeClip, HasOneWaveOfAModeAtATime) {
     for (const ClipChannel& channel : clip.channels) {
         EXPECT_LE(channel.bands.size(), 2u); // two modes
         for (const ClipBand& band : channel.bands)
-            for (std::size_t i = 0; i + 1 < band.waves.size(); ++i) EXPECT_LE(band.waves[i].endSeconds(), band.waves[i + 1].startSeconds + 1e-9);
+            for (std::size_t i = 0; i + 1 < band.waves.size(); ++i)
+                EXPECT_LE(band.waves[i].endSeconds(), band.waves[i + 1].startSeconds + 1e-9);
     }
 }
 
@@ -85,20 +89,44 @@ TEST(StrikeClip, LeavesOutWhatAnEnchanterDoesNotGet) {
 }
 
 TEST(ClipSound, PlaysEveryWaveform) {
-    constexpr double expected[5][4] = {{0.0, 1.0, 0.0, -1.0}, {1.0, 1.0, -1.0, -1.0}, {0.0, 1.0, 0.0, -1.0}, {0.0, 0.5, -1.0, -0.5}, {0.0, -0.5, 1.0, 0.5}};
+    constexpr double expected[5][4] = {{0.0, 1.0, 0.0, -1.0},
+                                       {1.0, 1.0, -1.0, -1.0},
+                                       {0.0, 1.0, 0.0, -1.0},
+                                       {0.0, 0.5, -1.0, -0.5},
+                                       {0.0, -0.5, 1.0, 0.5}};
     for (int w = 0; w < 5; ++w) {
-        Clip clip{"", 0, 0, {ClipChannel{"A", {}, {}, {{{ClipWave{0.0, 0.0, static_cast<ClipWaveform>(w), {{0.0, 1.0}, {1.0, 1.0}}, {{0.0, 1000.0}}}}}}, {}}}};
+        Clip clip{
+            "",
+            0,
+            0,
+            {ClipChannel{
+                "A",
+                {},
+                {},
+                {{{ClipWave{
+                    0.0, 0.0, static_cast<ClipWaveform>(w), {{0.0, 1.0}, {1.0, 1.0}}, {{0.0, 1000.0}}}}}},
+                {}}}};
         const auto sound = clipSound(clip, 4000);
-        for (std::size_t n = 0; n < 4; ++n) EXPECT_NEAR(sound.channels[0][n], expected[w][n], 1e-6) << w << ' ' << n;
+        for (std::size_t n = 0; n < 4; ++n)
+            EXPECT_NEAR(sound.channels[0][n], expected[w][n], 1e-6) << w << ' ' << n;
     }
 }
 
 TEST(ClipSound, FollowsAFrequencyThatGlides) {
-    Clip clip{"", 0, 0, {ClipChannel{"A", {}, {}, {{{ClipWave{0.25, 0.5, {}, {{0.0, 1.0}, {1.0, 0.5}}, {{0.1, 100.0}, {0.6, 300.0}}}}}}, {}}}};
+    Clip clip{
+        "",
+        0,
+        0,
+        {ClipChannel{"A",
+                     {},
+                     {},
+                     {{{ClipWave{0.25, 0.5, {}, {{0.0, 1.0}, {1.0, 0.5}}, {{0.1, 100.0}, {0.6, 300.0}}}}}},
+                     {}}}};
     const auto sound = clipSound(clip, 8000);
     const auto phase = [](double t) { // 100 Hz, a glide of 400 Hz per second, 300 Hz
         const double glide = std::clamp(t - 0.1, 0.0, 0.5);
-        return 0.5 + 2.0 * std::numbers::pi * (100.0 * t + 200.0 * glide * glide + 200.0 * std::max(0.0, t - 0.6));
+        return 0.5 +
+               2.0 * std::numbers::pi * (100.0 * t + 200.0 * glide * glide + 200.0 * std::max(0.0, t - 0.6));
     };
     for (std::size_t n = 2000; n < 10000; n += 37) {
         const double t = static_cast<double>(n) / 8000 - 0.25;

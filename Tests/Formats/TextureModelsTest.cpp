@@ -68,16 +68,21 @@ TEST(TextureModels, WhatIsNoneIsToldWithItsLine) {
         EXPECT_TRUE(read.value.models.empty());
     };
     expectFault("", "f.xml: expected a modelSet with a SampleRate, found none");
-    expectFault("<tapSet><numTap>1</numTap></tapSet>", "f.xml: line 1: expected a modelSet, found \"tapSet\"");
+    expectFault("<tapSet><numTap>1</numTap></tapSet>",
+                "f.xml: line 1: expected a modelSet, found \"tapSet\"");
     expectFault("<modelSet><SampleRate>10000</SampleRate></modelSet>", "expected a model, found none");
     expectFault(with("mm/s", "m/s"), "line 5: SpeedUnits: expected mm/s, found \"m/s\"");
-    expectFault(with("<numMACoeff>0", "<numMACoeff>4"), "line 12: numMACoeff: expected 0, the models at 10 kHz, found \"4\"");
-    expectFault(with("0.250000", "nan"), "line 16: var: expected a number from 0 to 1000000000, found \"nan\"");
+    expectFault(with("<numMACoeff>0", "<numMACoeff>4"),
+                "line 12: numMACoeff: expected 0, the models at 10 kHz, found \"4\"");
+    expectFault(with("0.250000", "nan"),
+                "line 16: var: expected a number from 0 to 1000000000, found \"nan\"");
     expectFault(with("<var>1.5</var>", ""), "line 17: model: expected speedMod, forceMod and var");
-    expectFault(with("<value>1</value><value>-0.5</value>", "<value>-0.5</value>"), "ARcoeff: expected 1 and at least one coefficient more");
+    expectFault(with("<value>1</value><value>-0.5</value>", "<value>-0.5</value>"),
+                "ARcoeff: expected 1 and at least one coefficient more");
     expectFault(with("</modelSet>", ""), "expected </modelSet>, found the end");
     expectFault(with("</var>", "</vat>"), "line 16: expected </var>, found </vat>");
-    expectFault("<!DOCTYPE a [<!ENTITY b \"bb\">]>" + whole, "line 1: expected elements and text alone, found \"<!DOCTYPE\"");
+    expectFault("<!DOCTYPE a [<!ENTITY b \"bb\">]>" + whole,
+                "line 1: expected elements and text alone, found \"<!DOCTYPE\"");
     std::string deep;
     for (int i = 0; i < 1000; ++i) deep += "<a>";
     expectFault(deep, "at most 16 elements within each other");
@@ -90,8 +95,12 @@ TEST(TextureModels, AnyMutationIsReadOrToldInOneLine) {
     std::mt19937 random{1};
     for (int i = 0; i < 2000; ++i) {
         const auto read = readTextureModels(mutated(whole, "<>/!?-\"'= \n0123456789e.\xff", random), "f.xml");
-        if (read) EXPECT_FALSE(read.value.models.empty());
-        else EXPECT_TRUE(read.error.starts_with("f.xml:") && read.error.size() < 600 && read.error.find('\n') == std::string::npos) << read.error;
+        if (read)
+            EXPECT_FALSE(read.value.models.empty());
+        else
+            EXPECT_TRUE(read.error.starts_with("f.xml:") && read.error.size() < 600 &&
+                        read.error.find('\n') == std::string::npos)
+                << read.error;
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the reader of actuator profiles.
-#include "Scene/ActuatorFile.h"
 #include "Fuzzing.h"
+#include "Scene/ActuatorFile.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

@@ -7,18 +7,21 @@
 
 namespace physvib::fuzz {
 
-/// Refused in one line, or a clip without a fault that every format can write and its own reader reads again, and whose samples are numbers.
+/// Refused in one line, or a clip without a fault that every format can write and its own reader reads again,
+/// and whose samples are numbers.
 inline void tryClip(std::string_view bytes, ClipFormat format) {
     const auto read = [=](std::string_view text) { return readClip(text, "f", format); };
     const auto clip = read(bytes);
     if (!clip) return demandClearRefusal(clip, clip.value == Clip{});
     demand(clipFault(clip.value).empty(), "a clip with a fault", clipFault(clip.value));
-    for (const ClipFormat other : {ClipFormat::hjif, ClipFormat::hmpg, ClipFormat::haptic, ClipFormat::ahap}) {
+    for (const ClipFormat other :
+         {ClipFormat::hjif, ClipFormat::hmpg, ClipFormat::haptic, ClipFormat::ahap}) {
         const auto bytes = clipBytes(clip.value, other);
         if (!bytes) continue; // more bands than it has numbers for
         const auto again = readClip(bytes.value, "f", other);
         // of one channel of several, or longer by a rise
-        const bool isNothing = again.error.find("silence") != std::string::npos || again.error.find("at most") != std::string::npos;
+        const bool isNothing = again.error.find("silence") != std::string::npos ||
+                               again.error.find("at most") != std::string::npos;
         demand(static_cast<bool>(again) || isNothing, "cannot read what was written", again.error);
     }
     constexpr double briefly = 1.0;

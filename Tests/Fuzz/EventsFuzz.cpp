@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the event list reader.
-#include "Scene/EventsCsv.h"
 #include "Fuzzing.h"
+#include "Scene/EventsCsv.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the layout reader.
-#include "Scene/LayoutFile.h"
 #include "Fuzzing.h"
+#include "Scene/LayoutFile.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

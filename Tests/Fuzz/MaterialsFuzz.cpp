@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the material library's reader.
-#include "Scene/MaterialTable.h"
 #include "Fuzzing.h"
+#include "Scene/MaterialTable.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

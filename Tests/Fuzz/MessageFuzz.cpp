@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of messages in lines; what is taken is played for a while.
-#include "Scene/Sessions/InputLine.h"
 #include "Fuzzing.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Session/Messages/MessageRouter.h"
 #include "SessionFuzzing.h"
 #include <array>
@@ -19,7 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     MessageRouter router{*session};
     const auto answer = router.take(*message, nullptr, fuzz::anyClip);
     fuzz::demand(answer.error.size() < 600, "too long a message", answer.error);
-    for (const char c : answer.error) fuzz::demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", answer.error);
+    for (const char c : answer.error)
+        fuzz::demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", answer.error);
     fuzz::demand(answer || session->world().size().strikes == 0, "refused, and half done", answer.error);
     for (int block = 0; block < 4; ++block) {
         std::array<float*, 4> out{};
@@ -27,7 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         session->render(out.data(), 256, RenderMode::realtime);
         session->advance();
         for (const auto& channel : samples)
-            for (const float sample : channel) fuzz::demand(sample >= -1.0f && sample <= 1.0f, "beyond full scale, or not a number");
+            for (const float sample : channel)
+                fuzz::demand(sample >= -1.0f && sample <= 1.0f, "beyond full scale, or not a number");
     }
     return 0;
 }

@@ -10,17 +10,30 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::unique_ptr<Session> session = fuzz::makeSession();
     session->prepare(8000, 256);
     MessageRouter messages{*session};
-    OscDoor door{*session, messages, {[](const LineInput& input, const OscOrigin&) { return session->take({std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}}).error; }, {}, fuzz::anyClip}};
+    OscDoor door{*session,
+                 messages,
+                 {[](const LineInput& input, const OscOrigin&) {
+                      return session
+                          ->take(
+                              {std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}})
+                          .error;
+                  },
+                  {},
+                  fuzz::anyClip}};
     OscClock clock;
     std::vector<std::vector<char>> answers;
     const std::span<const char> bytes{reinterpret_cast<const char*>(data), size};
     const auto read = readOscPacket(bytes);
     door.take(bytes, clock, answers);
     const OscCounts& counts = door.counts();
-    fuzz::demand(counts.messages == read.value.size() && counts.bad == (read ? 0u : 1u), "counted otherwise than read", counts.fault);
-    fuzz::demand(counts.refused != counts.messages || session->world().size().strikes == 0, "refused, and half done", counts.fault);
+    fuzz::demand(counts.messages == read.value.size() && counts.bad == (read ? 0u : 1u),
+                 "counted otherwise than read", counts.fault);
+    fuzz::demand(counts.refused != counts.messages || session->world().size().strikes == 0,
+                 "refused, and half done", counts.fault);
     fuzz::demand(counts.fault.size() < 600, "too long a message", counts.fault);
-    for (const char c : counts.fault) fuzz::demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", counts.fault);
-    for (const auto& answer : answers) fuzz::demand(static_cast<bool>(readOscPacket(answer)), "an answer that cannot be read");
+    for (const char c : counts.fault)
+        fuzz::demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", counts.fault);
+    for (const auto& answer : answers)
+        fuzz::demand(static_cast<bool>(readOscPacket(answer)), "an answer that cannot be read");
     return 0;
 }

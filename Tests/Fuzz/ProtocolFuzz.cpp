@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the protocol reader, and of experiments on whatever it lets through.
-#include "Study/Files/ProtocolFile.h"
-#include "Study/Files/TrialLog.h"
 #include "Fuzzing.h"
 #include "Study/Experiment.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Study/Files/TrialLog.h"
 #include "Study/SimulatedObserver.h"
 
 namespace {
@@ -16,7 +16,8 @@ void tryExperiment(const Protocol& protocol) {
     std::string text = trialHeader(protocol, participant, "0");
     for (int i = 0; i < 20 && !experiment.isDone(); ++i) {
         const Answer answer = observer.answer(experiment);
-        fuzz::demand(experiment.refusal(answer).empty(), "the observer's answer is refused", experiment.refusal(answer));
+        fuzz::demand(experiment.refusal(answer).empty(), "the observer's answer is refused",
+                     experiment.refusal(answer));
         text += trialRow(protocol, participant, experiment.take(answer));
     }
     const auto log = readTrialLog(text, "f", protocol, participant);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the scene reader: whatever it accepts can be written, read again and simulated.
-#include "Scene/SceneFile.h"
 #include "Fuzzing.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/SceneWorld.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the session reader.
-#include "Scene/Sessions/SessionFile.h"
 #include "Fuzzing.h"
+#include "Scene/Sessions/SessionFile.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;
@@ -12,6 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     fuzz::demand(isValid(session.value.panner.layout()), "not valid");
-    fuzz::demandRoundTrip(sessionJson(session.value), read, [](const SavedSession& again) { return sessionJson(again); });
+    fuzz::demandRoundTrip(sessionJson(session.value), read,
+                          [](const SavedSession& again) { return sessionJson(again); });
     return 0;
 }

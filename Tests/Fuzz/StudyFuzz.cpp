@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Fuzz target of the readers of study files, and of the analyses on whatever they let through: no number may be missing.
+// Fuzz target of the readers of study files, and of the analyses on whatever they let through: no number may
+// be missing.
+#include "Fuzzing.h"
 #include "Study/Files/LongTableCsv.h"
 #include "Study/Files/StudyCsv.h"
-#include "Fuzzing.h"
 #include "Study/InformationTransfer.h"
 #include "Study/Statistics/RankTests.h"
 #include "Study/Statistics/RepeatedMeasures.h"
@@ -15,7 +16,9 @@ using namespace physvib;
 void analyse(const StudyData<IdentificationTrial>& data) {
     for (const auto& condition : data.conditions) {
         const auto it = informationTransfer(ConfusionMatrix{withTolerance(condition.trials, 1)});
-        fuzz::demand(std::isfinite(it.bits) && std::isfinite(it.biasBits) && std::isfinite(it.leastBits) && std::isfinite(it.trialsPerCell), "a number is missing");
+        fuzz::demand(std::isfinite(it.bits) && std::isfinite(it.biasBits) && std::isfinite(it.leastBits) &&
+                         std::isfinite(it.trialsPerCell),
+                     "a number is missing");
     }
 }
 
@@ -23,54 +26,70 @@ void analyse(const StudyData<LocationTrial>& data) {
     for (const auto& condition : data.conditions) {
         const auto normals = responseNormals(condition.trials);
         if (!normals.fault.empty()) continue;
-        for (const double p : percentCounts(normals, likelihoodMap(normals, 31, 16), "c").percent) fuzz::demand(std::isfinite(p), "a number is missing");
+        for (const double p : percentCounts(normals, likelihoodMap(normals, 31, 16), "c").percent)
+            fuzz::demand(std::isfinite(p), "a number is missing");
     }
 }
 
 void analyse(const StudyData<PercentCounts>& data) {
     for (const auto& condition : data.conditions)
-        if (const auto& counts = condition.trials.front(); counts.rows < 8 && counts.columns < 8) perceptualResolution(counts);
+        if (const auto& counts = condition.trials.front(); counts.rows < 8 && counts.columns < 8)
+            perceptualResolution(counts);
 }
 
 void analyse(const StudyData<ChoiceTrial>& data) {
-    for (const auto& summary : summariseChoices(data.conditions.front().trials)) fuzz::demand(std::isfinite(summary.p.value_or(0.0)) && std::isfinite(summary.shares.front().least), "a number is missing");
+    for (const auto& summary : summariseChoices(data.conditions.front().trials))
+        fuzz::demand(std::isfinite(summary.p.value_or(0.0)) && std::isfinite(summary.shares.front().least),
+                     "a number is missing");
 }
 
 void analyse(const StudyData<LevelTrial>& data) {
-    for (const auto& summary : summariseLevels(data.conditions.front().trials)) fuzz::demand(std::isfinite(summary.estimate) && std::isfinite(summary.deviation), "a number is missing");
+    for (const auto& summary : summariseLevels(data.conditions.front().trials))
+        fuzz::demand(std::isfinite(summary.estimate) && std::isfinite(summary.deviation),
+                     "a number is missing");
 }
 
 void analyse(const RatingData& ratings) {
     for (const auto& summary : summariseRatings(ratings.data.conditions.front().trials))
-        for (const double half : summary.halfIntervals) fuzz::demand(std::isfinite(half), "a number is missing");
+        for (const double half : summary.halfIntervals)
+            fuzz::demand(std::isfinite(half), "a number is missing");
 }
 
 void analyse(const StudyData<LevelAnswer>& data) {
     const PsychometricModel model{PsychometricShape::normal};
     for (const auto& own : psychometricByParticipant(data.conditions.front().trials, model))
-        fuzz::demand(!own.fit.fault.empty() || (std::isfinite(own.fit.function.threshold) && std::isfinite(own.fit.function.width)), "a number is missing");
+        fuzz::demand(!own.fit.fault.empty() ||
+                         (std::isfinite(own.fit.function.threshold) && std::isfinite(own.fit.function.width)),
+                     "a number is missing");
 }
 
 void analyse(const LongTableData& data) {
     const Design design = Design::of(data.table);
     if (design.cells() > 16) return;
-    for (const auto test : {repeatedMeasures, alignedRanks, friedman, wilcoxon, mannWhitney, kruskalWallis, shapiroByCell})
+    for (const auto test :
+         {repeatedMeasures, alignedRanks, friedman, wilcoxon, mannWhitney, kruskalWallis, shapiroByCell})
         for (const TestLine& line : test(design).lines)
-            for (const auto& number : {line.df1, line.df2, line.statistic, line.p, line.pCorrected, line.epsilon, line.effectSize}) fuzz::demand(std::isfinite(number.value_or(0.0)), "a number is missing");
+            for (const auto& number :
+                 {line.df1, line.df2, line.statistic, line.p, line.pCorrected, line.epsilon, line.effectSize})
+                fuzz::demand(std::isfinite(number.value_or(0.0)), "a number is missing");
 }
 
 bool isEmpty(const LongTableData& data) { return data.table.rows() == 0; }
 
 template <class T>
-bool isEmpty(const StudyData<T>& data) { return data.conditions.empty(); }
+bool isEmpty(const StudyData<T>& data) {
+    return data.conditions.empty();
+}
 bool isEmpty(const RatingData& ratings) { return isEmpty(ratings.data); }
 
 template <class Read>
 void tryOne(Read read, std::string_view text) {
     const NamedText file{text, "f"};
     const auto data = read(std::span{&file, 1});
-    if (data) analyse(data.value);
-    else fuzz::demandClearRefusal(data, isEmpty(data.value));
+    if (data)
+        analyse(data.value);
+    else
+        fuzz::demandClearRefusal(data, isEmpty(data.value));
 }
 
 } // namespace
@@ -84,7 +103,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tryOne(readLevels, text);
     tryOne(readPercentCounts, text);
     tryOne([](const auto& files) { return readLevelAnswers(files, {"level_db", "correct", false}); }, text);
-    tryOne([](const auto& files) { return readLongTable(files, {"choice=RM", {"condition"}, "", ""}); }, text);
+    tryOne(
+        [](const auto& files) {
+            return readLongTable(files, {"choice=RM", {"condition"}, "", ""});
+        },
+        text);
     tryOne([](const auto& files) { return readLongTable(files, {"x", {}, "condition", ""}); }, text);
     return 0;
 }

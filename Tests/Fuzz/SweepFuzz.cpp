@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Fuzz target of the reader of designs: every task is a call that renders, reads below its folder, and does nothing else.
-#include "Study/Files/SweepFile.h"
+// Fuzz target of the reader of designs: every task is a call that renders, reads below its folder, and does
+// nothing else.
 #include "Fuzzing.h"
 #include "Study/CallWords.h"
+#include "Study/Files/SweepFile.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

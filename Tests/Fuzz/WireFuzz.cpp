@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fuzz target of the link: any bytes through the decoder; what it takes for a message is written and read again.
+// Fuzz target of the link: any bytes through the decoder; what it takes for a message is written and read
+// again.
 #include "Fuzzing.h"
 #include "Wire/FrameDecoder.h"
 
@@ -30,10 +31,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FrameDecoder decoder;
     for (std::size_t i = 0; i < size; ++i) {
         const auto payload = decoder.feed(data[i]);
-        demandRoundTrip<Hello>(payload), demandRoundTrip<HelloReply>(payload), demandRoundTrip<Strike>(payload);
-        demandRoundTrip<CompactStrike>(payload), demandRoundTrip<Leg>(payload), demandRoundTrip<Gains>(payload), demandRoundTrip<Ping>(payload);
-        demandRoundTrip<Pong>(payload), demandRoundTrip<TelemetryRequest>(payload), demandRoundTrip<Telemetry>(payload);
-        demandRoundTrip<StopAll>(payload), demandRoundTrip<SelfTest>(payload), demandRoundTrip<SelfTestReply>(payload);
+        demandRoundTrip<Hello>(payload), demandRoundTrip<HelloReply>(payload),
+            demandRoundTrip<Strike>(payload);
+        demandRoundTrip<CompactStrike>(payload), demandRoundTrip<Leg>(payload),
+            demandRoundTrip<Gains>(payload), demandRoundTrip<Ping>(payload);
+        demandRoundTrip<Pong>(payload), demandRoundTrip<TelemetryRequest>(payload),
+            demandRoundTrip<Telemetry>(payload);
+        demandRoundTrip<StopAll>(payload), demandRoundTrip<SelfTest>(payload),
+            demandRoundTrip<SelfTestReply>(payload);
     }
     return 0;
 }

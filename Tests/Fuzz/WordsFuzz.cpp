@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the reader of words that participants read.
-#include "Study/Files/Words.h"
 #include "Fuzzing.h"
+#include "Study/Files/Words.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;
@@ -10,6 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::demandClearRefusal(words, words.value.texts.empty());
         return 0;
     }
-    for (const auto& [english, text] : words.value.texts) fuzz::demand(words.value.of(english) == text, "a text that is not found");
+    for (const auto& [english, text] : words.value.texts)
+        fuzz::demand(words.value.of(english) == text, "a text that is not found");
     return 0;
 }

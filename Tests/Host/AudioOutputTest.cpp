@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// AudioOutput on interfaces that vanish, change and misbehave: no other device, no loud moment, no event missing.
+// AudioOutput on interfaces that vanish, change and misbehave: no other device, no loud moment, no event
+// missing.
 #include "Host/Devices/AudioOutput.h"
 #include "FakeAudioDevice.h"
-#include "Session/FakeHost.h"
 #include "Scene/World/SceneRun.h"
+#include "Session/FakeHost.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <thread>
@@ -19,7 +20,8 @@ constexpr int hands = 8; // enchanters of these sessions
 // A preset, or "circle8".
 PhantomPanner pannerOn(const std::string& layout, const Scene& scene) {
     EnchanterLayout places{1, 1, hands, {}};
-    for (std::size_t j = 0; j < hands; ++j) places.places[j] = {0.5 + 0.5 * std::cos(0.8 * double(j)), 0.5 + 0.5 * std::sin(0.8 * double(j))};
+    for (std::size_t j = 0; j < hands; ++j)
+        places.places[j] = {0.5 + 0.5 * std::cos(0.8 * double(j)), 0.5 + 0.5 * std::sin(0.8 * double(j))};
     if (layout != "circle8") layoutPreset(layout, places);
     return {places, PanningLaw::linear, 1, scene.fieldWidthMetres, scene.fieldHeightMetres};
 }
@@ -42,7 +44,9 @@ struct Rig {
         : setup{wanted} {
         speakers.name = "speakers";
     }
-    std::string open(std::vector<int> map = {}, float level = 1.0f) { return output.open({"hands", std::move(map), 0, 0, level}); }
+    std::string open(std::vector<int> map = {}, float level = 1.0f) {
+        return output.open({"hands", std::move(map), 0, 0, level});
+    }
 
     /// Blocks of `frames`, `seconds` long; what came out, per connected output.
     std::vector<std::vector<float>> play(double seconds, int frames) {
@@ -51,7 +55,8 @@ struct Rig {
             session.advance();
             const auto block = interface.play(frames);
             all.resize(block.size());
-            for (std::size_t k = 0; k < block.size(); ++k) all[k].insert(all[k].end(), block[k].begin(), block[k].end());
+            for (std::size_t k = 0; k < block.size(); ++k)
+                all[k].insert(all[k].end(), block[k].begin(), block[k].end());
             for (const auto& e : drain(session)) log.push_back(e);
         }
         return all;
@@ -60,7 +65,8 @@ struct Rig {
         ASSERT_GT(log.size(), 10u);
         session.readLog(made);
         EXPECT_TRUE(log == runTakes(made.takes, setup.run(), log.back().timeNs + 1).events);
-        EXPECT_EQ(session.status().render.untold + session.status().render.rejected + session.world().drops(), 0u);
+        EXPECT_EQ(session.status().render.untold + session.status().render.rejected + session.world().drops(),
+                  0u);
     }
 
     FakeInterface interface, speakers;
@@ -74,7 +80,8 @@ struct Rig {
 
 TEST(AudioOutput, OpensTheDeviceThatIsNamedAndNoOther) {
     Rig rig;
-    EXPECT_EQ(rig.output.open({"feet"}), "feet: no such device (see physvib devices); nothing else is played on");
+    EXPECT_EQ(rig.output.open({"feet"}),
+              "feet: no such device (see physvib devices); nothing else is played on");
     EXPECT_EQ(rig.output.open({"Other:hands"}).substr(0, 11), "Other:hands");
     EXPECT_EQ(rig.interface.timesOpened + rig.speakers.timesOpened, 0);
     EXPECT_EQ(rig.output.open({"Fake:hands"}), "");
@@ -101,8 +108,10 @@ TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt)
         alone.advance();
         alone.render(at.data(), 64, RenderMode::realtime);
         const auto played = rig.interface.play(64);
-        for (std::size_t j = 0; j < wanted.size(); ++j) ASSERT_EQ(played[j], wanted[j]) << "block " << block << ", channel " << j;
-        for (std::size_t j = wanted.size(); j < played.size(); ++j) ASSERT_EQ(loudest(played[j]), 0.0f) << "of the one that is lent there is none";
+        for (std::size_t j = 0; j < wanted.size(); ++j)
+            ASSERT_EQ(played[j], wanted[j]) << "block " << block << ", channel " << j;
+        for (std::size_t j = wanted.size(); j < played.size(); ++j)
+            ASSERT_EQ(loudest(played[j]), 0.0f) << "of the one that is lent there is none";
         for (const auto& channel : played) most = std::max(most, loudest(channel));
     }
     EXPECT_GT(most, 0.01f);
@@ -145,12 +154,15 @@ TEST(AudioOutput, SwitchesAMotorAsTheConverterSays) {
     const auto all = plain.play(3.0, 64), switched = motor.play(3.0, 64);
     OnOffSteps steps(static_cast<int>(plain.interface.rate), settings.onOffThreshold);
     std::size_t on = 0, others = 0;
-    for (std::size_t n = static_cast<std::size_t>(plain.interface.rate / 100); n < all[2].size(); ++n) on += switched[2][n] == 1.0f, others += switched[2][n] != 0.0f && switched[2][n] != 1.0f;
+    for (std::size_t n = static_cast<std::size_t>(plain.interface.rate / 100); n < all[2].size(); ++n)
+        on += switched[2][n] == 1.0f, others += switched[2][n] != 0.0f && switched[2][n] != 1.0f;
     EXPECT_EQ(others, 0u);
     std::size_t expected = 0;
     for (const float sample : all[2]) steps.take(sample, [](long long, bool) {}), expected += steps.isOn();
     EXPECT_GT(expected, 0u);
-    EXPECT_NEAR(static_cast<double>(on), static_cast<double>(expected), 0.01 * static_cast<double>(plain.interface.rate)) << "the first samples come up in a ramp";
+    EXPECT_NEAR(static_cast<double>(on), static_cast<double>(expected),
+                0.01 * static_cast<double>(plain.interface.rate))
+        << "the first samples come up in a ramp";
     EXPECT_EQ(switched[0], all[0]) << "the others are what they were";
 }
 
@@ -158,10 +170,10 @@ TEST(AudioOutput, AnotherDriverWithADeviceOfThatNameIsAnotherDevice) {
     FakeInterface ours, theirs;
     Session session{eightHands()};
     AudioOutput output{session, [&] {
-        auto types = fakeTypes({&ours}, "Ours")();
-        types.push_back(std::move(fakeTypes({&theirs}, "Mine")().front()));
-        return types;
-    }};
+                           auto types = fakeTypes({&ours}, "Ours")();
+                           types.push_back(std::move(fakeTypes({&theirs}, "Mine")().front()));
+                           return types;
+                       }};
     ASSERT_EQ(output.open({"hands"}), "");
     ours.unplug(true);
     EXPECT_NE(output.maintain(), "");
@@ -181,13 +193,16 @@ TEST(AudioOutput, WhatRingsFadesBeforeADeviceIsClosedAndOneThatIsGoneIsNotWaited
     EXPECT_GT(loudest(rig.play(1.0, 64)[corner]), 0.01f);
     std::vector<float> heard;
     std::atomic<bool> stop{false};
-    std::thread interface{[&] {
-        while (!stop) {
-            rig.session.advance();
-            if (const auto block = rig.interface.play(64); !block.empty()) heard.insert(heard.end(), block[corner].begin(), block[corner].end());
-            std::this_thread::sleep_for(1ms);
+    std::thread interface {
+        [&] {
+            while (!stop) {
+                rig.session.advance();
+                if (const auto block = rig.interface.play(64); !block.empty())
+                    heard.insert(heard.end(), block[corner].begin(), block[corner].end());
+                std::this_thread::sleep_for(1ms);
+            }
         }
-    }};
+    };
     std::this_thread::sleep_for(30ms);
     rig.output.close();
     stop = true;
@@ -208,11 +223,13 @@ TEST(AudioOutput, ALostDeviceMeansSilenceAMessageAndNoOtherDeviceAndNothingMissi
         rig.play(3.0, 64);
         rig.interface.unplug(tells);
         if (tells) {
-            for (const auto& channel : rig.interface.play(64)) EXPECT_EQ(loudest(channel), 0.0f) << "after an error";
+            for (const auto& channel : rig.interface.play(64))
+                EXPECT_EQ(loudest(channel), 0.0f) << "after an error";
         }
         auto now = AudioOutput::Clock::now();
         rig.output.maintain(now); // whoever says nothing is found out by his silence
-        const std::string gone = "Fake:hands: no such device (see physvib devices); nothing else is played on";
+        const std::string gone =
+            "Fake:hands: no such device (see physvib devices); nothing else is played on";
         for (int second = 0; second < 3; ++second) rig.output.maintain(now += 1s);
         EXPECT_EQ(rig.output.maintain(now += 1s), gone);
         EXPECT_FALSE(rig.output.status().isRunning);
@@ -252,22 +269,28 @@ TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
         setup.limiterEnabled = limits;
         Rig rig{setup};
         std::array<float, hands> most{};
-        for (const auto& [rate, block, layout] : {std::tuple{44100.0, 32, "phone1"}, {96000.0, 2048, "phone4"}, {48000.0, 512, "circle8"},
-                                                  {44100.0, 2048, "phone2"}, {192000.0, 32, "phone4"}}) {
+        for (const auto& [rate, block, layout] : {std::tuple{44100.0, 32, "phone1"},
+                                                  {96000.0, 2048, "phone4"},
+                                                  {48000.0, 512, "circle8"},
+                                                  {44100.0, 2048, "phone2"},
+                                                  {192000.0, 32, "phone4"}}) {
             rig.interface.unplug(true);
             rig.interface.isPlugged = true;
             rig.interface.rate = rate;
             rig.interface.block = block;
             ASSERT_EQ(rig.output.status().blocks == 0 ? rig.open() : rig.output.maintain(), "");
             EXPECT_EQ(rig.output.sampleRateHz(), static_cast<int>(rate));
-            EXPECT_TRUE(rig.session.take({RenderControl{.kind = RenderControl::Kind::panner, .panner = pannerOn(layout, setup.scene)}}));
+            EXPECT_TRUE(rig.session.take({RenderControl{.kind = RenderControl::Kind::panner,
+                                                        .panner = pannerOn(layout, setup.scene)}}));
             const auto out = rig.play(4.0, block);
             for (std::size_t k = 0; k < hands; ++k) most[k] = std::max(most[k], loudest(out[k]));
         }
         for (std::size_t k = 0; k < hands; ++k) EXPECT_LE(most[k], setup.ceilings[k]) << k;
-        for (std::size_t k = 0; k < 4; ++k) EXPECT_GT(most[k], 0.9f * setup.ceilings[k]) << "loud enough for a test";
+        for (std::size_t k = 0; k < 4; ++k)
+            EXPECT_GT(most[k], 0.9f * setup.ceilings[k]) << "loud enough for a test";
         for (std::size_t k = 4; k < hands; ++k) EXPECT_GT(most[k], 0.01f) << "played at all";
-        EXPECT_LT(rig.session.world().slippedNs(), 50'000'000) << "a longer block is no stall; a change that makes L shorter is one";
+        EXPECT_LT(rig.session.world().slippedNs(), 50'000'000)
+            << "a longer block is no stall; a change that makes L shorter is one";
         EXPECT_LT(rig.session.status().render.late, 10u) << "the same";
         rig.expectTheLogIsWhole();
     }
@@ -382,7 +405,9 @@ TEST(AudioOutput, ADeviceThatComesBackIsFadedInWithinFiveMilliseconds) {
     ASSERT_EQ(rig.output.maintain(), "");
     const auto out = rig.play(0.05, 64), expected = steady.play(0.05, 64);
     for (std::size_t n = 0; n < out[0].size(); ++n)
-        EXPECT_NEAR(out[0][n], expected[0][n] * std::min(0.5f, static_cast<float>(n + 1) / (0.005f * hostRate)), 1e-6f) << n;
+        EXPECT_NEAR(out[0][n],
+                    expected[0][n] * std::min(0.5f, static_cast<float>(n + 1) / (0.005f * hostRate)), 1e-6f)
+            << n;
 }
 
 TEST(AudioOutput, TheSilenceSwitchActsWithinABlockAndComesBackInARamp) {
@@ -400,7 +425,10 @@ TEST(AudioOutput, TheSilenceSwitchActsWithinABlockAndComesBackInARamp) {
         rig.output.setSilent(false);
         const auto out = rig.play(0.1, block), expected = steady.play(0.1, block);
         for (std::size_t n = 0; n < out[0].size(); ++n)
-            EXPECT_NEAR(out[0][n], expected[0][n] * std::min(1.0f, static_cast<float>(n + 1) / (0.005f * hostRate)), 1e-6f) << n;
+            EXPECT_NEAR(out[0][n],
+                        expected[0][n] * std::min(1.0f, static_cast<float>(n + 1) / (0.005f * hostRate)),
+                        1e-6f)
+                << n;
     }
 }
 
@@ -441,12 +469,14 @@ TEST(AudioOutput, ASignalIsSilenceBeforeAnythingEnds) {
         EXPECT_EQ(rig.play(1.0 / hostRate, block)[0].back(), 0.0f) << block;
         for (const auto& channel : rig.play(0.1, block)) EXPECT_EQ(loudest(channel), 0.0f) << block;
         rig.output.setSilent(false);
-        for (const auto& channel : rig.play(0.1, block)) EXPECT_EQ(loudest(channel), 0.0f) << "nobody undoes it";
+        for (const auto& channel : rig.play(0.1, block))
+            EXPECT_EQ(loudest(channel), 0.0f) << "nobody undoes it";
     }
 }
 
 TEST(AudioOutput, LevelsStartLowAndNeverExceedOne) {
-    EXPECT_FLOAT_EQ(AudioOutputSettings{}.level, static_cast<float>(std::pow(10.0, safeStartDecibels / 20.0)));
+    EXPECT_FLOAT_EQ(AudioOutputSettings{}.level,
+                    static_cast<float>(std::pow(10.0, safeStartDecibels / 20.0)));
     Rig rig, loud;
     ASSERT_EQ(rig.open(), "");
     ASSERT_EQ(loud.open({}, 40.0f), "");

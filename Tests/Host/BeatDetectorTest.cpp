@@ -13,10 +13,12 @@ namespace {
 using test::BeatSong;
 using test::Drum;
 
-std::vector<BandOnset> onsetsOf(BeatDetector& detector, std::span<const float> samples, std::size_t piece = 4096) {
+std::vector<BandOnset> onsetsOf(BeatDetector& detector, std::span<const float> samples,
+                                std::size_t piece = 4096) {
     std::vector<BandOnset> onsets;
     for (std::size_t at = 0; at < samples.size(); at += piece)
-        detector.take(samples.subspan(at, std::min(piece, samples.size() - at)), [&](const BandOnset& onset) { onsets.push_back(onset); });
+        detector.take(samples.subspan(at, std::min(piece, samples.size() - at)),
+                      [&](const BandOnset& onset) { onsets.push_back(onset); });
     return onsets;
 }
 
@@ -25,23 +27,33 @@ struct Score {
     double medianSeconds = 0.0;
 };
 
-/// Of the hits of these drums, those found in the band, or (-1) in any, within 10 ms; and onsets 30 ms and more from any hit.
-Score scoreOf(const std::vector<BandOnset>& onsets, const BeatSong& song, int rateHz, int band, const std::vector<Drum>& drums) {
+/// Of the hits of these drums, those found in the band, or (-1) in any, within 10 ms; and onsets 30 ms and
+/// more from any hit.
+Score scoreOf(const std::vector<BandOnset>& onsets, const BeatSong& song, int rateHz, int band,
+              const std::vector<Drum>& drums) {
     Score score;
     std::vector<double> errors;
     const auto isOf = [&](const BandOnset& onset) { return band < 0 || onset.band == band; };
-    const auto errorOf = [&](const BandOnset& onset, const test::DrumHit& hit) { return static_cast<double>(onset.frame) / rateHz - hit.seconds; };
+    const auto errorOf = [&](const BandOnset& onset, const test::DrumHit& hit) {
+        return static_cast<double>(onset.frame) / rateHz - hit.seconds;
+    };
     for (const auto& hit : song.hits) {
         if (std::ranges::find(drums, hit.drum) == drums.end()) continue;
         ++score.hits;
         double nearest = 1.0;
         for (const BandOnset& onset : onsets)
-            if (isOf(onset) && std::abs(errorOf(onset, hit)) < std::abs(nearest)) nearest = errorOf(onset, hit);
+            if (isOf(onset) && std::abs(errorOf(onset, hit)) < std::abs(nearest))
+                nearest = errorOf(onset, hit);
         score.found += std::abs(nearest) <= 0.01 ? 1 : 0;
         errors.push_back(nearest);
     }
     for (const BandOnset& onset : onsets)
-        score.strange += isOf(onset) && std::ranges::none_of(song.hits, [&](const auto& hit) { return std::abs(errorOf(onset, hit)) < 0.03; }) ? 1 : 0;
+        score.strange += isOf(onset) && std::ranges::none_of(song.hits,
+                                                             [&](const auto& hit) {
+                                                                 return std::abs(errorOf(onset, hit)) < 0.03;
+                                                             })
+                             ? 1
+                             : 0;
     std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2));
     score.medianSeconds = errors[errors.size() / 2];
     return score;
@@ -55,7 +67,8 @@ TEST(BeatDetector, FindsTheBeatsOfASongWithinTenMilliseconds) {
         const Score all = scoreOf(onsets, song, rateHz, -1, {Drum::kick, Drum::snare, Drum::hat});
         EXPECT_GE(all.found * 100, all.hits * 95) << rateHz;
         EXPECT_LE(all.strange * 100, onsets.size() * 5) << rateHz;
-        const Score kicks = scoreOf(onsets, song, rateHz, 0, {Drum::kick}), snares = scoreOf(onsets, song, rateHz, 1, {Drum::snare}),
+        const Score kicks = scoreOf(onsets, song, rateHz, 0, {Drum::kick}),
+                    snares = scoreOf(onsets, song, rateHz, 1, {Drum::snare}),
                     hats = scoreOf(onsets, song, rateHz, 2, {Drum::snare, Drum::hat});
         for (const Score& score : {kicks, snares, hats}) {
             EXPECT_GE(score.found * 100, score.hits * 90) << rateHz;
@@ -97,7 +110,8 @@ TEST(BeatDetector, TellsEachWithinItsDelay) {
 TEST(BeatDetector, HearsNothingInSilenceOrInWhatStays) {
     BeatDetector detector{48000};
     std::vector<float> tone(96000);
-    for (std::size_t i = 0; i < tone.size(); ++i) tone[i] = 0.5f * static_cast<float>(std::sin(0.0288 * static_cast<double>(i)));
+    for (std::size_t i = 0; i < tone.size(); ++i)
+        tone[i] = 0.5f * static_cast<float>(std::sin(0.0288 * static_cast<double>(i)));
     EXPECT_EQ(onsetsOf(detector, std::vector<float>(48000)).size(), 0u);
     EXPECT_LE(onsetsOf(detector, tone).size(), beatBands.size()); // where it begins
     EXPECT_LE(onsetsOf(detector, tone).size(), beatBands.size()); // where it steps
@@ -106,7 +120,8 @@ TEST(BeatDetector, HearsNothingInSilenceOrInWhatStays) {
 TEST(BeatDetector, ASensitiveOneHearsMore) {
     const BeatSong song{8.0, 48000, 5};
     BeatDetector dull{48000, 0.0}, usual{48000}, sharp{48000, 1.0};
-    const auto few = onsetsOf(dull, song.samples).size(), some = onsetsOf(usual, song.samples).size(), many = onsetsOf(sharp, song.samples).size();
+    const auto few = onsetsOf(dull, song.samples).size(), some = onsetsOf(usual, song.samples).size(),
+               many = onsetsOf(sharp, song.samples).size();
     EXPECT_LT(few, some);
     EXPECT_LT(some, many);
 }
@@ -134,7 +149,8 @@ TEST(BeatStrikes, GoToTheEnchantersOfTheirBand) {
     BeatVoices voices;
     voices.enchanters = usualBeatEnchanters(4);
     std::vector<CollisionEvent> strikes;
-    strikeBeat({480, 1, 0.5}, 10'000'000, voices, layout, 2.0, 1.0, [&](const CollisionEvent& e) { strikes.push_back(e); });
+    strikeBeat({480, 1, 0.5}, 10'000'000, voices, layout, 2.0, 1.0,
+               [&](const CollisionEvent& e) { strikes.push_back(e); });
     ASSERT_EQ(strikes.size(), 2u); // B upper right, C lower left
     EXPECT_EQ(std::pair(strikes[0].x, strikes[0].y), std::pair(2.0, 1.0));
     EXPECT_EQ(std::pair(strikes[1].x, strikes[1].y), std::pair(0.0, 0.0));
@@ -146,7 +162,9 @@ TEST(BandPass, PassesItsBandAndNothingElse) {
     const auto gainAt = [](double hz) {
         BandPass pass{BandPass::usual, 48000};
         std::vector<float> tone(48000);
-        for (std::size_t i = 0; i < tone.size(); ++i) tone[i] = static_cast<float>(std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / 48000.0));
+        for (std::size_t i = 0; i < tone.size(); ++i)
+            tone[i] =
+                static_cast<float>(std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / 48000.0));
         pass.process(tone);
         return std::ranges::max(std::span{tone}.subspan(24000));
     };

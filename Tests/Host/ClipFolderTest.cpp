@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a message may have read, and what a saved session says of a clip that has changed.
 #include "Host/Recordings/ClipFolder.h"
-#include "Io/Disk/ContentHash.h"
-#include "Io/Disk/ReadFile.h"
 #include "Formats/ClipFile.h"
 #include "Host/Recordings/ReadRecording.h"
+#include "Io/Disk/ContentHash.h"
+#include "Io/Disk/ReadFile.h"
 #include "Support/WavBytes.h"
 #include <algorithm>
 #include <cmath>
@@ -17,17 +17,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* knock = R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
+constexpr const char* knock =
+    R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
     {"relative_position": 0, "amplitude_modulation": 0.5, "frequency_modulation": 100}, {"relative_position": 100, "amplitude_modulation": 0}]}]}]}]}]})";
 
 struct ClipFolderTest : testing::Test {
     // Each test has its own: they run side by side.
-    fs::path top = fs::path{testing::TempDir()} / (std::string{"clip-folder-"} + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::path top =
+        fs::path{testing::TempDir()} /
+        (std::string{"clip-folder-"} + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::path folder = top / "clips";
     void SetUp() override {
         fs::remove_all(top);
         fs::create_directories(folder / "more");
-        for (const fs::path& path : {top / "outside.hjif", folder / "a.hjif", folder / "more" / "b.hjif"}) std::ofstream{path} << knock;
+        for (const fs::path& path : {top / "outside.hjif", folder / "a.hjif", folder / "more" / "b.hjif"})
+            std::ofstream{path} << knock;
         fs::create_symlink(top / "outside.hjif", folder / "link.hjif");
     }
     void TearDown() override { fs::remove_all(top); }
@@ -51,7 +55,8 @@ void expectTheSameInParts(const fs::path& path, const std::vector<EnchanterPlace
     const auto sound = readRecording(path);
     const std::string hash = contentHash(readFile(path, 1'000'000).value);
     std::vector<ContactRecording> channels;
-    for (const auto& samples : sound.value.channels) channels.push_back({0.0, sound.value.sampleRateHz, samples, {.path = path.string(), .hash = hash}});
+    for (const auto& samples : sound.value.channels)
+        channels.push_back({0.0, sound.value.sampleRateHz, samples, {.path = path.string(), .hash = hash}});
     EXPECT_EQ(clip.value.channels, channels) << path;
     ASSERT_EQ(clip.value.shares.size(), shares.size()) << path;
     for (std::size_t j = 0; j < shares.size(); ++j) {
@@ -61,11 +66,21 @@ void expectTheSameInParts(const fs::path& path, const std::vector<EnchanterPlace
 }
 
 TEST_F(ClipFolderTest, SamplesHashAndPlacesAreThoseOfTheFile) {
-    const auto channelAt = [](std::optional<EnchanterPlace> place, double hz) { return ClipChannel{.label = "A", .place = place, .bands = {{{{.amplitude = {{0.0, 0.5}, {0.1, 0.0}}, .frequencyHz = {{0.0, hz}}}}}}}; };
-    const Clip placed{"", 0.2, 0.1, {channelAt(EnchanterPlace{0.05, 0.1}, 100.0), channelAt(EnchanterPlace{0.2, 0.0}, 150.0)}};
+    const auto channelAt = [](std::optional<EnchanterPlace> place, double hz) {
+        return ClipChannel{
+            .label = "A",
+            .place = place,
+            .bands = {{{{.amplitude = {{0.0, 0.5}, {0.1, 0.0}}, .frequencyHz = {{0.0, hz}}}}}}};
+    };
+    const Clip placed{
+        "",
+        0.2,
+        0.1,
+        {channelAt(EnchanterPlace{0.05, 0.1}, 100.0), channelAt(EnchanterPlace{0.2, 0.0}, 150.0)}};
     Clip half = placed;
     half.channels[1].place.reset();
-    for (const auto& [name, clip] : {std::pair{"placed.hjif", placed}, {"half.hjif", half}}) std::ofstream{folder / name} << clipBytes(clip, ClipFormat::hjif).value;
+    for (const auto& [name, clip] : {std::pair{"placed.hjif", placed}, {"half.hjif", half}})
+        std::ofstream{folder / name} << clipBytes(clip, ClipFormat::hjif).value;
     std::ofstream{folder / "sampled.wav", std::ios::binary} << test::wavBytes({.channels = 2}, "abcdefgh");
     expectTheSameInParts(folder / "placed.hjif", {{0.25, 1.0}, {1.0, 0.0}});
     expectTheSameInParts(folder / "half.hjif", {});
@@ -74,7 +89,8 @@ TEST_F(ClipFolderTest, SamplesHashAndPlacesAreThoseOfTheFile) {
 }
 
 std::string floatWav(const std::vector<float>& samples) {
-    return test::wavBytes({.format = 3, .channels = 1, .rateHz = 8000, .bits = 32}, {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(float)});
+    return test::wavBytes({.format = 3, .channels = 1, .rateHz = 8000, .bits = 32},
+                          {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(float)});
 }
 
 TEST_F(ClipFolderTest, WhatWouldHoldACoilAtDirectCurrentIsTakenAwayAndTold) {
@@ -86,7 +102,8 @@ TEST_F(ClipFolderTest, WhatWouldHoldACoilAtDirectCurrentIsTakenAwayAndTold) {
     std::ofstream{folder / "tone.wav", std::ios::binary} << floatWav(tone);
     std::ofstream{folder / "offset.wav", std::ios::binary} << floatWav(offset);
     std::ofstream{folder / "constant.wav", std::ios::binary} << floatWav(std::vector<float>(8000, 1.0f));
-    constexpr const char* slow = R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
+    constexpr const char* slow =
+        R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
         {"relative_position": 0, "amplitude_modulation": 1, "frequency_modulation": 1}, {"relative_position": 10000, "amplitude_modulation": 1}]}]}]}]}]})";
     std::ofstream{folder / "slow.hjif"} << slow;
     const auto load = [&](const char* name) { return loadWholeClip(folder / name).value.channels.at(0); };
@@ -94,10 +111,12 @@ TEST_F(ClipFolderTest, WhatWouldHoldACoilAtDirectCurrentIsTakenAwayAndTold) {
     EXPECT_EQ(load("tone.wav").note, "");
     const auto without = load("offset.wav"), nothing = load("constant.wav"), drawn = load("slow.hjif");
     for (std::size_t n = 0; n < tone.size(); ++n) ASSERT_NEAR(without.samples[n], tone[n], 0.01);
-    EXPECT_EQ(without.note, (folder / "offset.wav").string() + ": what lies below 5 Hz is not played: a mean of 0.25, of full scale");
+    EXPECT_EQ(without.note, (folder / "offset.wav").string() +
+                                ": what lies below 5 Hz is not played: a mean of 0.25, of full scale");
     EXPECT_TRUE(std::ranges::all_of(nothing.samples, [](float x) { return x == 0.0f; }));
     EXPECT_NE(nothing.note.find("a mean of 1.00"), std::string::npos);
-    for (std::size_t n = drawn.samples.size() / 10; n < drawn.samples.size() * 9 / 10; ++n) ASSERT_LT(std::abs(drawn.samples[n]), 0.04);
+    for (std::size_t n = drawn.samples.size() / 10; n < drawn.samples.size() * 9 / 10; ++n)
+        ASSERT_LT(std::abs(drawn.samples[n]), 0.04);
     EXPECT_NE(drawn.note.find("up to 0.9"), std::string::npos) << drawn.note;
 }
 
@@ -115,7 +134,9 @@ TEST_F(ClipFolderTest, WhatCannotBeReadIsToldAsByReadRecording) {
 
 TEST_F(ClipFolderTest, ReadsNothingElse) {
     const ClipFolder clips{folder};
-    for (const std::string& name : std::vector<std::string>{"../outside.hjif", "link.hjif", (folder / "a.hjif").string(), "/etc/passwd", "", "more/../../outside.hjif"}) {
+    for (const std::string& name :
+         std::vector<std::string>{"../outside.hjif", "link.hjif", (folder / "a.hjif").string(), "/etc/passwd",
+                                  "", "more/../../outside.hjif"}) {
         const auto clip = clips(name);
         EXPECT_FALSE(clip) << name;
         EXPECT_NE(clip.error.find("or below"), std::string::npos) << clip.error;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is heard beside what is felt: on its outputs, at its level, in sync, and nowhere else.
 #include "FakeAudioDevice.h"
-#include "Session/FakeHost.h"
 #include "Host/Devices/AudioOutput.h"
+#include "Session/FakeHost.h"
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,8 @@ struct Rig {
             session.advance();
             const auto block = interface.play(blockFrames);
             all.resize(block.size());
-            for (std::size_t k = 0; k < block.size(); ++k) all[k].insert(all[k].end(), block[k].begin(), block[k].end());
+            for (std::size_t k = 0; k < block.size(); ++k)
+                all[k].insert(all[k].end(), block[k].begin(), block[k].end());
             drain(session);
         }
         return all;
@@ -127,7 +128,8 @@ TEST(Listening, ContactSoundsAreInSyncToTheSampleWithWhatIsFelt) {
 
 /// First frame that is not silent.
 std::size_t onsetOf(const std::vector<float>& x) {
-    return static_cast<std::size_t>(std::ranges::find_if(x, [](float s) { return std::abs(s) > 1e-7f; }) - x.begin());
+    return static_cast<std::size_t>(std::ranges::find_if(x, [](float s) { return std::abs(s) > 1e-7f; }) -
+                                    x.begin());
 }
 
 TEST(Listening, ARecordingIsHeardWhereThereIsOneFromTheFrameOfTheEnchantersOnset) {
@@ -147,7 +149,8 @@ TEST(Listening, ARecordingIsHeardWhereThereIsOneFromTheFrameOfTheEnchantersOnset
     ASSERT_LT(onsetOf(out[2]), out[2].size()) << "lower left: enchanter C";
     EXPECT_EQ(onsetOf(out[felt]), onsetOf(out[2]));
     EXPECT_NEAR(peakOf(out[felt]), 0.05f, 1e-6f);
-    EXPECT_EQ(out[felt][onsetOf(out[felt]) + 479], out[felt][onsetOf(out[felt])]) << "the recording, not a sine";
+    EXPECT_EQ(out[felt][onsetOf(out[felt]) + 479], out[felt][onsetOf(out[felt])])
+        << "the recording, not a sine";
     hit.frequencyHz = 80.0;
     ASSERT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
     out = rig.play(1.0);
@@ -197,14 +200,19 @@ TEST(Listening, NoneOfManyStopsIsLost) {
 TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
     Rig rig{setupOn("phone4", false)};
     EXPECT_EQ(rig.open(noiseOn({3}, -40.0)), "output 4 is an actuator's; expected another one to listen to");
-    EXPECT_EQ(rig.open(noiseOn({8}, -40.0)), "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
+    EXPECT_EQ(rig.open(noiseOn({8}, -40.0)),
+              "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
     EXPECT_EQ(rig.open(contactsOn({5}, -20.0)), "expected a session that makes contact sounds, found none");
-    EXPECT_EQ(rig.open(noiseOn({0, 1, 2, 3, 4, 5, 6, 7, 8}, -40.0)), "expected at most 8 outputs to listen to, found 9");
+    EXPECT_EQ(rig.open(noiseOn({0, 1, 2, 3, 4, 5, 6, 7, 8}, -40.0)),
+              "expected at most 8 outputs to listen to, found 9");
     EXPECT_EQ(rig.interface.timesStarted, 0) << "nothing half-done";
     ASSERT_EQ(rig.open(noiseOn({4}, -40.0)), "");
-    EXPECT_EQ(rig.output.assign({0, 1, 2, 4}, 4), "output 5 is an actuator's; expected another one to listen to");
-    EXPECT_EQ(rig.output.hear(noiseOn({2}, -40.0)), "output 3 is an actuator's; expected another one to listen to");
-    EXPECT_EQ(rig.output.hear(noiseOn({11}, -40.0)), "Fake:hands: has 8 outputs; expected one of them to listen to or for marks, found output 12");
+    EXPECT_EQ(rig.output.assign({0, 1, 2, 4}, 4),
+              "output 5 is an actuator's; expected another one to listen to");
+    EXPECT_EQ(rig.output.hear(noiseOn({2}, -40.0)),
+              "output 3 is an actuator's; expected another one to listen to");
+    EXPECT_EQ(rig.output.hear(noiseOn({11}, -40.0)),
+              "Fake:hands: has 8 outputs; expected one of them to listen to or for marks, found output 12");
     rig.play(3.0);
     EXPECT_NEAR(rmsDb(rig.play(6.0)[felt], 0), -40.0, 0.5) << "all is as before";
 }
@@ -233,7 +241,8 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
     const auto [left, right] = heardAt(0.5 * width);
     EXPECT_NEAR(left, leftOnly * std::sqrt(0.5f), 1e-4f);
     EXPECT_NEAR(left, right, 1e-6f);
-    PhantomPanner wider{setup.panner.layout(), PanningLaw::linear, 1, 2.0 * width, setup.scene.fieldHeightMetres};
+    PhantomPanner wider{setup.panner.layout(), PanningLaw::linear, 1, 2.0 * width,
+                        setup.scene.fieldHeightMetres};
     ASSERT_TRUE(rig.session.take({RenderControl{0, RenderControl::Kind::panner, 0, 0.0f, wider}}));
     rig.play(0.2);
     const auto [leftOfWider, rightOfWider] = heardAt(width);
@@ -304,7 +313,8 @@ TEST(Listening, MarksAreNeitherFeltNorHeard) {
     both.marks = {4};
     EXPECT_EQ(rig.open(both), "output 5 is listened to; expected another one for marks");
     EXPECT_EQ(without.open(marksOn({4})), "expected a session that marks its onsets, found none");
-    EXPECT_EQ(rig.open(marksOn({8})), "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
+    EXPECT_EQ(rig.open(marksOn({8})),
+              "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
     ASSERT_EQ(rig.open(marksOn({4})), "");
     EXPECT_EQ(rig.output.assign({4}, 1), "output 5 is an actuator's; expected another one for marks");
 }

@@ -12,7 +12,8 @@ namespace physvib::test {
 
 /// Runs the message loop until `isTrue`, at most `seconds`; whether it became true.
 inline bool runUntil(const std::function<bool()>& isTrue, double seconds = 20.0) {
-    for (const double end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds; juce::Time::getMillisecondCounterHiRes() < end;) {
+    for (const double end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds;
+         juce::Time::getMillisecondCounterHiRes() < end;) {
         if (isTrue()) return true;
         if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
     }

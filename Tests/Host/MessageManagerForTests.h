@@ -17,6 +17,7 @@ public:
 private:
     std::optional<juce::ScopedJuceInitialiser_GUI> initialised_;
 };
-inline testing::Environment* const messageManagerForTests = testing::AddGlobalTestEnvironment(new MessageManagerForTests);
+inline testing::Environment* const messageManagerForTests =
+    testing::AddGlobalTestEnvironment(new MessageManagerForTests);
 
 } // namespace physvib::test

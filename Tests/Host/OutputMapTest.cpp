@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An enchanter that rings while it gets another output is never cut off, and never heard with another one.
 #include "Host/Devices/OutputMap.h"
-#include <gtest/gtest.h>
 #include <array>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <vector>
 
 namespace physvib {
@@ -33,7 +33,8 @@ public:
                 std::vector<float> samples(static_cast<std::size_t>(frames_), j == 0 ? 1.0f : 0.5f);
                 const int k = map_.play(j, samples.data(), frames_);
                 if (k < 0) continue;
-                for (const float x : block[static_cast<std::size_t>(k)]) EXPECT_EQ(x, 0.0f) << "two on one output";
+                for (const float x : block[static_cast<std::size_t>(k)])
+                    EXPECT_EQ(x, 0.0f) << "two on one output";
                 block[static_cast<std::size_t>(k)] = samples;
             }
             for (std::size_t k = 0; k < outputs; ++k)
@@ -60,7 +61,8 @@ TEST_P(AnOutputMap, FadesWhatIsAssignedElsewhere) {
     using Levels = std::array<float, outputs>;
     Player player{GetParam()};
     player.play(0.1);
-    EXPECT_EQ(player.levels, (Levels{1.0f, 0.5f, 0.0f, 0.0f})) << "at once where it was placed from the start";
+    EXPECT_EQ(player.levels, (Levels{1.0f, 0.5f, 0.0f, 0.0f}))
+        << "at once where it was placed from the start";
     player.assign({2, 1});
     player.play(0.3);
     EXPECT_EQ(player.levels, (Levels{0.0f, 0.5f, 1.0f, 0.0f}));

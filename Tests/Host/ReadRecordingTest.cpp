@@ -40,9 +40,11 @@ protected:
         juce::AudioFormat& format = *formats.findFormatForFileExtension(fs::path{name}.extension().string());
         juce::AudioBuffer<float> sound(channels, static_cast<int>(seconds * 44100.0));
         for (int j = 0; j < channels; ++j)
-            for (int n = 0; n < sound.getNumSamples(); ++n) sound.setSample(j, n, 0.7f * std::sin(0.01f * static_cast<float>((j + 1) * n)));
+            for (int n = 0; n < sound.getNumSamples(); ++n)
+                sound.setSample(j, n, 0.7f * std::sin(0.01f * static_cast<float>((j + 1) * n)));
         auto stream = std::make_unique<juce::FileOutputStream>(juce::File{(folder / name).string()});
-        const std::unique_ptr<juce::AudioFormatWriter> writer{format.createWriterFor(stream.get(), 44100.0, static_cast<unsigned>(channels), bits, {}, 0)};
+        const std::unique_ptr<juce::AudioFormatWriter> writer{
+            format.createWriterFor(stream.get(), 44100.0, static_cast<unsigned>(channels), bits, {}, 0)};
         EXPECT_NE(writer, nullptr);
         stream.release();
         writer->writeFromAudioSampleBuffer(sound, 0, sound.getNumSamples());
@@ -51,11 +53,14 @@ protected:
     static SampledSound asJuceReads(const fs::path& path) {
         juce::AudioFormatManager formats;
         formats.registerBasicFormats();
-        const std::unique_ptr<juce::AudioFormatReader> reader{formats.createReaderFor(juce::File{path.string()})};
-        juce::AudioBuffer<float> all(static_cast<int>(reader->numChannels), static_cast<int>(reader->lengthInSamples));
+        const std::unique_ptr<juce::AudioFormatReader> reader{
+            formats.createReaderFor(juce::File{path.string()})};
+        juce::AudioBuffer<float> all(static_cast<int>(reader->numChannels),
+                                     static_cast<int>(reader->lengthInSamples));
         reader->read(&all, 0, all.getNumSamples(), 0, true, true);
         SampledSound sound{static_cast<int>(reader->sampleRate), {}};
-        for (int j = 0; j < all.getNumChannels(); ++j) sound.channels.emplace_back(all.getReadPointer(j), all.getReadPointer(j) + all.getNumSamples());
+        for (int j = 0; j < all.getNumChannels(); ++j)
+            sound.channels.emplace_back(all.getReadPointer(j), all.getReadPointer(j) + all.getNumSamples());
         return sound;
     }
     static void expectAsJuceReads(const fs::path& path) {
@@ -79,8 +84,10 @@ TEST_F(ReadRecording, TakesARegularFileOnly) {
     EXPECT_EQ(readRecording(folder).error, folder.string() + why);
     EXPECT_EQ(readRecording("/dev/zero").error, "/dev/zero" + why);
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-    EXPECT_EQ(readRecording(folder / "pipe").error, (folder / "pipe").string() + why) << "nobody writes to it: opening it would wait";
-    EXPECT_EQ(readRecording(folder / "no.wav").error, (folder / "no.wav").string() + ": cannot be read: No such file or directory");
+    EXPECT_EQ(readRecording(folder / "pipe").error, (folder / "pipe").string() + why)
+        << "nobody writes to it: opening it would wait";
+    EXPECT_EQ(readRecording(folder / "no.wav").error,
+              (folder / "no.wav").string() + ": cannot be read: No such file or directory");
 }
 
 TEST_F(ReadRecording, RefusesAFileThatIsTooLongBeforeReadingIt) {
@@ -96,7 +103,8 @@ TEST_F(ReadRecording, SaysWhatIsExpected) {
 
 TEST_F(ReadRecording, NamesAFileInCleanWords) {
     const fs::path path = folder / "\xff\x1b[2J\n.wav";
-    EXPECT_EQ(readRecording(path).error, folder.string() + "/\\xff\\x1b[2J\\x0a.wav: cannot be read: No such file or directory");
+    EXPECT_EQ(readRecording(path).error,
+              folder.string() + "/\\xff\\x1b[2J\\x0a.wav: cannot be read: No such file or directory");
     write(path.filename().string(), test::wavBytes({}, std::string(2000, '\1')));
     EXPECT_EQ(readRecording(path).error, "") << "a name that is no UTF-8 is no fault of what it holds";
 }
@@ -109,10 +117,12 @@ TEST_F(ReadRecording, ReadsWhatIsCompressed) {
 TEST_F(ReadRecording, TellsThatAFlacEndsEarly) {
     const std::string whole = bytesOf(writeWith("a.flac", 16, 5.0));
     const auto path = write("cut.flac", whole.substr(0, whole.size() / 2));
-    EXPECT_EQ(readRecording(path).error, path.string() + ": expected 220500 samples in each channel, as its header says: it ends early");
+    EXPECT_EQ(readRecording(path).error,
+              path.string() + ": expected 220500 samples in each channel, as its header says: it ends early");
 }
 
-/// With another number of samples in its description: 36 bits, the last five bytes but the upper half of the first.
+/// With another number of samples in its description: 36 bits, the last five bytes but the upper half of the
+/// first.
 std::string flacOfLength(std::string bytes, std::uint64_t samples) {
     bytes[21] = static_cast<char>((bytes[21] & 0xf0) | (samples >> 32 & 15));
     for (std::size_t i = 0; i < 4; ++i) bytes[22 + i] = static_cast<char>(samples >> (24 - 8 * i) & 255);
@@ -127,9 +137,12 @@ TEST_F(ReadRecording, DoesNotBelieveTheLengthOfAFlac) {
         return error.substr(std::min(path.string().size(), error.size()));
     };
     EXPECT_EQ(fault(22050), "");
-    EXPECT_EQ(fault(15'000'000), ": expected 15000000 samples in each channel, as its header says: it ends early");
+    EXPECT_EQ(fault(15'000'000),
+              ": expected 15000000 samples in each channel, as its header says: it ends early");
     EXPECT_EQ(fault(25'000'000), ": expected at most 32000000 samples in all channels, found 50000000");
-    EXPECT_EQ(fault((1ull << 32) + 22050), ": expected at most 4294967295 samples in each channel, found 4294989346") << "JUCE would take the lower 32 bits";
+    EXPECT_EQ(fault((1ull << 32) + 22050),
+              ": expected at most 4294967295 samples in each channel, found 4294989346")
+        << "JUCE would take the lower 32 bits";
     EXPECT_EQ(fault(0), ": expected a FLAC file that says how long it is");
 }
 
@@ -142,8 +155,10 @@ TEST_F(ReadRecording, RefusesSeveralDescriptionsInOneFlac) {
 }
 
 TEST_F(ReadRecording, RefusesSeveralStreamsInOneOgg) {
-    const auto path = write("two.ogg", bytesOf(writeWith("a.ogg", 16, 1.0, 2)) + bytesOf(writeWith("b.ogg", 16, 1.0, 1)));
-    EXPECT_EQ(readRecording(path).error, path.string() + ": expected one stream of sound, found several") << "JUCE would read a second channel that is not there";
+    const auto path =
+        write("two.ogg", bytesOf(writeWith("a.ogg", 16, 1.0, 2)) + bytesOf(writeWith("b.ogg", 16, 1.0, 1)));
+    EXPECT_EQ(readRecording(path).error, path.string() + ": expected one stream of sound, found several")
+        << "JUCE would read a second channel that is not there";
 }
 
 } // namespace

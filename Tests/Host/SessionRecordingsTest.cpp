@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recorded contacts: at a level that is known, in a live session, and in the session that is rendered again from its file.
-#include "Io/Wav/WavSink.h"
-#include "Session/FakeHost.h"
-#include "Host/Recordings/ReadRecording.h"
-#include "Session/SessionJournal.h"
+// Recorded contacts: at a level that is known, in a live session, and in the session that is rendered again
+// from its file.
 #include "Host/Recordings/LoadContact.h"
 #include "Host/Recordings/LoadRecordings.h"
+#include "Host/Recordings/ReadRecording.h"
 #include "Host/Recordings/SessionWav.h"
+#include "Io/Wav/WavSink.h"
+#include "Session/FakeHost.h"
+#include "Session/SessionJournal.h"
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -28,7 +29,8 @@ protected:
     void TearDown() override { std::filesystem::remove_all(folder); }
     std::string writeHit(const std::string& name, std::uint32_t seed, float level) const {
         auto samples = std::vector<float>(2400);
-        for (const float x : loadContact({300.0, "synthetic-" + std::to_string(seed), 30.0}).value.samples) samples.push_back(level * x);
+        for (const float x : loadContact({300.0, "synthetic-" + std::to_string(seed), 30.0}).value.samples)
+            samples.push_back(level * x);
         const float* at = samples.data();
         WavSink sink{(folder / name).string(), 1, 48000};
         for (std::size_t done = 0; done < samples.size(); done += 4800) {
@@ -43,20 +45,24 @@ protected:
 
 double rms(const std::vector<float>& x, double rate) {
     double sum = 0.0;
-    for (std::size_t n = 0; n < std::min(x.size(), static_cast<std::size_t>(matchedSeconds * rate)); ++n) sum += double{x[n]} * x[n];
+    for (std::size_t n = 0; n < std::min(x.size(), static_cast<std::size_t>(matchedSeconds * rate)); ++n)
+        sum += double{x[n]} * x[n];
     return std::sqrt(sum / (matchedSeconds * rate));
 }
 
 TEST_F(Recordings, AreAsHighAsTheModeOrAsStrong) {
     const std::string path = writeHit("hit.wav", 3, 0.2f);
     for (const double decay : {12.0, 35.0, 107.0}) {
-        const auto high = loadContact({349.0, path, decay, false}), strong = loadContact({349.0, path, decay, true});
+        const auto high = loadContact({349.0, path, decay, false}),
+                   strong = loadContact({349.0, path, decay, true});
         ASSERT_TRUE(high) << high.error;
         float peak = 0.0f;
         for (const float x : high.value.samples) peak = std::max(peak, std::abs(x));
         EXPECT_EQ(peak, 1.0f);
-        // of e^(-decay t) sin(2 pi f t): half the envelope's energy, but for the little that the sine's phase leaves
-        const double expected = std::sqrt((1.0 - std::exp(-2.0 * decay * matchedSeconds)) / (4.0 * decay) / matchedSeconds);
+        // of e^(-decay t) sin(2 pi f t): half the envelope's energy, but for the little that the sine's phase
+        // leaves
+        const double expected =
+            std::sqrt((1.0 - std::exp(-2.0 * decay * matchedSeconds)) / (4.0 * decay) / matchedSeconds);
         EXPECT_NEAR(rms(strong.value.samples, 48000) / expected, 1.0, 0.02) << decay;
     }
 }
@@ -67,21 +73,24 @@ TEST_F(Recordings, OfAContactWhatLiesBelow5HzIsTakenAwayAndTold) {
     const std::string path = (folder / "leaning.wav").string();
     std::vector<float> samples(2400);
     // an accelerometer that the hit has turned
-    for (int n = 0; n < 24000; ++n) samples.push_back(static_cast<float>(0.3 * std::sin(0.04 * n) * std::exp(-n / 4000.0) - 0.1));
+    for (int n = 0; n < 24000; ++n)
+        samples.push_back(static_cast<float>(0.3 * std::sin(0.04 * n) * std::exp(-n / 4000.0) - 0.1));
     const float* at = samples.data();
     WavSink sink{path, 1, 48000};
     sink.write(&at, static_cast<int>(samples.size()));
     ASSERT_EQ(sink.finish(), "");
     const auto contact = loadContact({300.0, path, 30.0});
     ASSERT_EQ(contact.error, "");
-    EXPECT_EQ(contact.value.note.find(path + ": what lies below 5 Hz is not played: a mean of 0."), 0u) << contact.value.note;
+    EXPECT_EQ(contact.value.note.find(path + ": what lies below 5 Hz is not played: a mean of 0."), 0u)
+        << contact.value.note;
     double sum = 0.0;
     for (const float x : contact.value.samples) sum += x;
     EXPECT_LT(std::abs(sum / static_cast<double>(contact.value.samples.size())), 0.01);
 }
 
 TEST_F(Recordings, WhatIsSyntheticIsTheSameForTheSameSeedOnly) {
-    const auto a = loadContact({80.0, "synthetic-1", 34.0}), again = loadContact({80.0, "synthetic-1", 34.0}), b = loadContact({80.0, "synthetic-2", 34.0});
+    const auto a = loadContact({80.0, "synthetic-1", 34.0}), again = loadContact({80.0, "synthetic-1", 34.0}),
+               b = loadContact({80.0, "synthetic-2", 34.0});
     ASSERT_TRUE(a && again && b);
     EXPECT_EQ(a.value.samples, again.value.samples);
     EXPECT_NE(a.value.samples, b.value.samples);
@@ -102,7 +111,8 @@ TEST_F(Recordings, WhatHasNoneIsRejectedAndWhereThereAreNoneItPlaysItsMode) {
             const auto before = session.status().render.rejected;
             EXPECT_TRUE(session.take({Strikes{{&strike, 1}}}));
             Block block;
-            for (int i = 0; i < 40; ++i) session.advance(), session.render(block.at.data(), 256, RenderMode::realtime);
+            for (int i = 0; i < 40; ++i)
+                session.advance(), session.render(block.at.data(), 256, RenderMode::realtime);
             EXPECT_EQ(drain(session).size(), session.status().render.rejected == before ? 1u : 0u);
             return session.status().render.rejected > before;
         };
@@ -116,13 +126,18 @@ TEST_F(Recordings, WhatHasNoneIsRejectedAndWhereThereAreNoneItPlaysItsMode) {
 }
 
 /// Two seconds of it, with other recordings in the middle and modes at the end.
-Interleaved playExchanging(Session& session, const std::vector<ContactRecording>& others, std::int64_t frames) {
+Interleaved playExchanging(Session& session, const std::vector<ContactRecording>& others,
+                           std::int64_t frames) {
     Block block;
     Interleaved signal;
     session.prepare(hostRate, 256);
     for (std::int64_t done = 0; done < frames; done += 250) {
-        if (done == frames / 4) { EXPECT_TRUE(session.take({PlayedRecordings{others}})); }
-        if (done == frames * 3 / 4) { EXPECT_TRUE(session.take({PlayedRecordings{{}}})); }
+        if (done == frames / 4) {
+            EXPECT_TRUE(session.take({PlayedRecordings{others}}));
+        }
+        if (done == frames * 3 / 4) {
+            EXPECT_TRUE(session.take({PlayedRecordings{{}}}));
+        }
         session.advance();
         session.render(block.at.data(), 250, RenderMode::realtime);
         append(signal, block.at.data(), 250);
@@ -137,7 +152,8 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
     const auto load = [&](const std::string& path) {
         std::vector<ContactRecording> all;
         for (const Material& m : setup.scene.materials)
-            if (m.frequencyHz > 0.0) all.push_back(loadContact({m.frequencyHz, path, m.decayPerSecond, true}).value);
+            if (m.frequencyHz > 0.0)
+                all.push_back(loadContact({m.frequencyHz, path, m.decayPerSecond, true}).value);
         return all;
     };
     setup.recordings = load(first);
@@ -154,31 +170,41 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
     }
     std::ifstream text{file};
     const std::string json{std::istreambuf_iterator<char>{text}, {}};
-    EXPECT_NE(json.find("\"file\": \"first.wav\""), std::string::npos) << "beside the session: the folder may move";
+    EXPECT_NE(json.find("\"file\": \"first.wav\""), std::string::npos)
+        << "beside the session: the folder may move";
 
     std::filesystem::create_directory(folder / "moved");
-    for (const char* name : {"first.wav", "second.wav", "monday.json"}) std::filesystem::rename(folder / name, folder / "moved" / name);
+    for (const char* name : {"first.wav", "second.wav", "monday.json"})
+        std::filesystem::rename(folder / name, folder / "moved" / name);
     const auto saved = loadSession(folder / "moved" / "monday.json");
     ASSERT_TRUE(saved) << saved.error;
     ASSERT_EQ(saved.value.log.recordings.size(), 3u);
     const std::string wav = (folder / "again.wav").string();
     const std::int64_t rendered = frames - session.timeline().playOutFrames();
-    ASSERT_EQ(renderSessionWav(saved.value, {hostRate, static_cast<double>(rendered) / hostRate, [](double) { return true; }}, wav, ""), "");
+    ASSERT_EQ(renderSessionWav(
+                  saved.value,
+                  {hostRate, static_cast<double>(rendered) / hostRate, [](double) { return true; }}, wav, ""),
+              "");
     const auto again = readRecording(wav);
     ASSERT_TRUE(again) << again.error;
     float loudest = 0.0f;
     for (std::int64_t n = 0; n < rendered; ++n)
         for (std::size_t j = 0; j < hostChannels; ++j) {
-            const float now = felt[static_cast<std::size_t>((n + session.timeline().playOutFrames()) * hostChannels) + j];
+            const float now =
+                felt[static_cast<std::size_t>((n + session.timeline().playOutFrames()) * hostChannels) + j];
             loudest = std::max(loudest, std::abs(now));
-            ASSERT_EQ(again.value.channels[j][static_cast<std::size_t>(n)], now) << "frame " << n << " of channel " << j;
+            ASSERT_EQ(again.value.channels[j][static_cast<std::size_t>(n)], now)
+                << "frame " << n << " of channel " << j;
         }
     EXPECT_GT(loudest, 0.01f);
 
     writeHit("moved/second.wav", 9, 0.5f);
     const auto changed = loadRecordings(saved.value.log);
-    EXPECT_NE(changed.error.find("second.wav: expected the recording with the hash "), std::string::npos) << changed.error;
-    EXPECT_NE(renderSessionWav(saved.value, {hostRate, 1.0, [](double) { return true; }}, wav, "").find("it has changed since"), std::string::npos);
+    EXPECT_NE(changed.error.find("second.wav: expected the recording with the hash "), std::string::npos)
+        << changed.error;
+    EXPECT_NE(renderSessionWav(saved.value, {hostRate, 1.0, [](double) { return true; }}, wav, "")
+                  .find("it has changed since"),
+              std::string::npos);
     std::filesystem::remove(folder / "moved" / "second.wav");
     EXPECT_NE(loadRecordings(saved.value.log).error.find("second.wav: cannot be read"), std::string::npos);
 }

@@ -39,7 +39,9 @@ TEST(SinkTable, MoreEnchantersThanASinkHasAreRefused) {
 TEST(SinkTable, MoreSinksThanFindRoomAreRefusedAndNoneIsOpened) {
     const std::vector<SinkName> nine(mostNamedSinks + 1, {"BOARD", "nowhere"});
     Sinks opened;
-    EXPECT_EQ(openSinks(nine, {}, [] { return false; }, opened), "expected at most 8 outputs beside the device, found 9");
+    EXPECT_EQ(openSinks(
+                  nine, {}, [] { return false; }, opened),
+              "expected at most 8 outputs beside the device, found 9");
     EXPECT_TRUE(opened.empty());
 }
 

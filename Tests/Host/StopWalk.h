@@ -42,8 +42,8 @@ public:
         std::function<void()> prepare; ///< before each step, as a change that closing would lose
         std::function<bool()> isSilent;
         std::function<void()> lift;
-        std::function<bool(const juce::StringArray& steps)>
-            isTheEnd; ///< these steps would end the test itself
+        std::function<bool(const juce::StringArray& steps)> isTheEnd; ///< these steps would end the test
+                                                                      ///< itself
     };
     explicit StopWalk(Program program)
         : program_{std::move(program)} {}

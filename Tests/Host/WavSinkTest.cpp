@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Io/Wav/WavFile.h"
 #include "Io/Wav/WavSink.h"
+#include "Host/Recordings/PlayedRecorder.h"
+#include "Io/Wav/WavFile.h"
 #include "Support/FileTesting.h"
 #include "Support/FullDisk.h"
-#include "Host/Recordings/PlayedRecorder.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -218,7 +218,8 @@ void expectOneLineWith(const std::string& message, const std::string& part) {
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
-/// A disk that takes so many bytes of a file, a part of the last write, and no more: the limit on a file's size behaves like that.
+/// A disk that takes so many bytes of a file, a part of the last write, and no more: the limit on a file's
+/// size behaves like that.
 std::string writeWithRoomFor(rlim_t bytes, const std::string& path, int channels, int frames) {
     const FileSizeLimit full(bytes);
     return writeBlocks(path, channels, frames, 512);
@@ -231,8 +232,10 @@ TEST(WavSink, AFullDiskLeavesTheOldFileWhereverItFills) {
     const auto whole = static_cast<std::int64_t>(bytesOf(path).size());
     ASSERT_EQ(writeBlocks(path, 1, 10, 10), "");
     const auto old = bytesOf(path);
-    for (const std::int64_t bytes : {std::int64_t{0}, std::int64_t{1}, std::int64_t{50}, std::int64_t{100'000}, std::int64_t{1 << 18}, whole - 1}) {
-        expectOneLineWith(writeWithRoomFor(static_cast<rlim_t>(bytes), path, channels, frames), path + ": cannot be written: File too large");
+    for (const std::int64_t bytes : {std::int64_t{0}, std::int64_t{1}, std::int64_t{50},
+                                     std::int64_t{100'000}, std::int64_t{1 << 18}, whole - 1}) {
+        expectOneLineWith(writeWithRoomFor(static_cast<rlim_t>(bytes), path, channels, frames),
+                          path + ": cannot be written: File too large");
         EXPECT_EQ(bytesOf(path), old) << bytes;
     }
     EXPECT_EQ(writeWithRoomFor(static_cast<rlim_t>(whole), path, channels, frames), "");

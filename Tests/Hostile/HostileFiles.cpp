@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mutated files of every kind through the program: physvib-hostile PROGRAM COUNT [SEED [SECONDS]]. Each call leaves with 0, or with 1 or 2
-// after one clean line, takes at most 300 MB and SECONDS of processor, and leaves nothing half-done. Ends with a table; the inputs of failures stay.
+// Mutated files of every kind through the program: physvib-hostile PROGRAM COUNT [SEED [SECONDS]]. Each call
+// leaves with 0, or with 1 or 2 after one clean line, takes at most 300 MB and SECONDS of processor, and
+// leaves nothing half-done. Ends with a table; the inputs of failures stay.
 #include "Io/Text/CleanText.h"
 #include "Support/Mutations.h"
 #include "Support/WavBytes.h"
@@ -30,9 +31,9 @@ constexpr long mostKilobytes = 300'000;
 
 struct Kind {
     std::string name;
-    std::string ending;                     ///< of its files
-    std::vector<std::string> wholes;        ///< files that are read
-    std::vector<std::string> calls;         ///< FILE is the mutated one
+    std::string ending;              ///< of its files
+    std::vector<std::string> wholes; ///< files that are read
+    std::vector<std::string> calls;  ///< FILE is the mutated one
 };
 
 struct Outcome {
@@ -62,9 +63,13 @@ std::string knock(const std::string& ending, const fs::path& folder) {
     formats.registerBasicFormats();
     const auto path = folder / ("knock." + ending);
     juce::AudioBuffer<float> sound(1, 22050);
-    for (int n = 0; n < sound.getNumSamples(); ++n) sound.setSample(0, n, n < 2000 ? 0.0f : static_cast<float>(0.8 * std::sin(0.03 * n) * std::exp(-0.001 * (n - 2000))));
+    for (int n = 0; n < sound.getNumSamples(); ++n)
+        sound.setSample(
+            0, n,
+            n < 2000 ? 0.0f : static_cast<float>(0.8 * std::sin(0.03 * n) * std::exp(-0.001 * (n - 2000))));
     auto stream = std::make_unique<juce::FileOutputStream>(juce::File{path.string()});
-    std::unique_ptr<juce::AudioFormatWriter> writer{formats.findFormatForFileExtension(ending)->createWriterFor(stream.get(), 44100.0, 1u, 16, {}, 0)};
+    std::unique_ptr<juce::AudioFormatWriter> writer{
+        formats.findFormatForFileExtension(ending)->createWriterFor(stream.get(), 44100.0, 1u, 16, {}, 0)};
     if (!writer) throw std::runtime_error("no writer for " + ending);
     stream.release();
     writer->writeFromAudioSampleBuffer(sound, 0, sound.getNumSamples());
@@ -76,22 +81,61 @@ std::string knock(const std::string& ending, const fs::path& folder) {
 
 std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
     const fs::path corpus = source / "Tests/Fuzz/corpus";
-    const std::vector<std::string> recordingCalls{"material FILE", "material --texture FILE --speed 0.3", "attenuation FILE FILE", "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav", "render drop --seconds 0.5 --method SV --sound 80=FILE --sound 349=FILE --sound 430=FILE --out o.wav"};
-    const std::vector<std::string> clipCalls{"render FILE --out o.wav --picture p.png", "render FILE --layout ring3 --out o.wav", "export FILE --to o.hjif", "export FILE --to o.hmpg", "export FILE --to o.haptic", "export FILE --to o.ahap",
+    const std::vector<std::string> recordingCalls{"material FILE", "material --texture FILE --speed 0.3",
+                                                  "attenuation FILE FILE",
+                                                  "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav",
+                                                  "render drop --seconds 0.5 --method SV --sound 80=FILE "
+                                                  "--sound 349=FILE --sound 430=FILE --out o.wav"};
+    const std::vector<std::string> clipCalls{"render FILE --out o.wav --picture p.png",
+                                             "render FILE --layout ring3 --out o.wav",
+                                             "export FILE --to o.hjif",
+                                             "export FILE --to o.hmpg",
+                                             "export FILE --to o.haptic",
+                                             "export FILE --to o.ahap",
                                              "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav"};
     auto scenes = filesIn(corpus / "scene");
     for (auto& scene : filesIn(source / "Source/Scene/Scenes")) scenes.push_back(std::move(scene));
     const std::string table = " FILE --export e.csv --picture p.png";
-    return {{"scene", "json", scenes, {"render FILE --seconds 0.1 --out o.wav --events e.csv", "render FILE --seconds 0.1 --picture p.png"}},
-            {"session", "json", filesIn(corpus / "session"), {"render FILE --seconds 0.1 --out o.wav", "render FILE --seconds 0.1 --layout ring2 --events e.csv"}},
-            {"events", "csv", filesIn(corpus / "events"), {"render --from-events FILE --seconds 0.1 --out o.wav --picture p.png"}},
-            {"layout", "json", filesIn(corpus / "layout"), {"render shake-the-box --seconds 0.1 --layout FILE --out o.wav --picture p.png", "stimulus phantom --at 0.2,0.3 --layout FILE --out o.wav"}},
-            {"actuator", "json", filesIn(corpus / "actuator"), {"render shake-the-box --seconds 0.1 --actuator FILE --out o.wav", "render shake-the-box --seconds 0.1 --actuator FILE --remap on --out o.wav"}},
-            {"coupling", "json", filesIn(corpus / "coupling"), {"render shake-the-box --seconds 0.1 --layout phone2 --coupling FILE --out o.wav"}},
-            {"protocol", "json", filesIn(corpus / "protocol"), {"study show FILE", "study run FILE --observer simulated --participant P --out ."}},
-            {"study", "csv", filesIn(corpus / "study"),
-             {"analyse confusion" + table, "analyse resolution" + table, "analyse percent-counts" + table, "analyse choices" + table, "analyse ratings" + table, "analyse levels" + table,
-              "analyse anova FILE --measure choice=RM --within condition --export e.csv", "analyse kruskal-wallis FILE --measure x --between condition --export e.csv", "analyse psychometric FILE --level x --measure y --export e.csv"}},
+    return {{"scene",
+             "json",
+             scenes,
+             {"render FILE --seconds 0.1 --out o.wav --events e.csv",
+              "render FILE --seconds 0.1 --picture p.png"}},
+            {"session",
+             "json",
+             filesIn(corpus / "session"),
+             {"render FILE --seconds 0.1 --out o.wav",
+              "render FILE --seconds 0.1 --layout ring2 --events e.csv"}},
+            {"events",
+             "csv",
+             filesIn(corpus / "events"),
+             {"render --from-events FILE --seconds 0.1 --out o.wav --picture p.png"}},
+            {"layout",
+             "json",
+             filesIn(corpus / "layout"),
+             {"render shake-the-box --seconds 0.1 --layout FILE --out o.wav --picture p.png",
+              "stimulus phantom --at 0.2,0.3 --layout FILE --out o.wav"}},
+            {"actuator",
+             "json",
+             filesIn(corpus / "actuator"),
+             {"render shake-the-box --seconds 0.1 --actuator FILE --out o.wav",
+              "render shake-the-box --seconds 0.1 --actuator FILE --remap on --out o.wav"}},
+            {"coupling",
+             "json",
+             filesIn(corpus / "coupling"),
+             {"render shake-the-box --seconds 0.1 --layout phone2 --coupling FILE --out o.wav"}},
+            {"protocol",
+             "json",
+             filesIn(corpus / "protocol"),
+             {"study show FILE", "study run FILE --observer simulated --participant P --out ."}},
+            {"study",
+             "csv",
+             filesIn(corpus / "study"),
+             {"analyse confusion" + table, "analyse resolution" + table, "analyse percent-counts" + table,
+              "analyse choices" + table, "analyse ratings" + table, "analyse levels" + table,
+              "analyse anova FILE --measure choice=RM --within condition --export e.csv",
+              "analyse kruskal-wallis FILE --measure x --between condition --export e.csv",
+              "analyse psychometric FILE --level x --measure y --export e.csv"}},
             {"hjif", "hjif", filesIn(corpus / "hjif"), clipCalls},
             {"hmpg", "hmpg", filesIn(corpus / "hmpg"), clipCalls},
             {"haptic", "haptic", filesIn(corpus / "haptic"), clipCalls},
@@ -116,15 +160,19 @@ Outcome run(const std::string& program, const fs::path& folder, const std::strin
         const rlimit processor{30, 30}; // what spins ends
         setrlimit(RLIMIT_CPU, &processor);
         unsetenv("DISPLAY");
-        const bool isReady = chdir(folder.c_str()) == 0 && std::freopen("/dev/null", "r", stdin) && std::freopen("/dev/null", "w", stdout) && std::freopen(err.c_str(), "w", stderr);
+        const bool isReady = chdir(folder.c_str()) == 0 && std::freopen("/dev/null", "r", stdin) &&
+                             std::freopen("/dev/null", "w", stdout) && std::freopen(err.c_str(), "w", stderr);
         if (isReady) execv(arguments[0], arguments.data());
         _exit(127);
     }
     int status = 0;
     rusage used{};
     wait4(child, &status, 0, &used);
-    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), seconds(used.ru_utime) + seconds(used.ru_stime), used.ru_maxrss, bytesOf(err)};
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+            seconds(used.ru_utime) + seconds(used.ru_stime), used.ru_maxrss, bytesOf(err)};
 }
 
 /// Empty, or what is wrong with how the program left.
@@ -132,7 +180,8 @@ std::string faultOf(const Outcome& outcome, const fs::path& folder, double mostS
     std::istringstream lines{outcome.err};
     int reasons = 0;
     for (std::string line; std::getline(lines, line);) {
-        if (cleanLine(line) != line || !line.starts_with("physvib: ")) return "not a clean line: " + cleanLine(line);
+        if (cleanLine(line) != line || !line.starts_with("physvib: "))
+            return "not a clean line: " + cleanLine(line);
         reasons += !line.starts_with("physvib: warning: ");
     }
     if (outcome.exitCode < 0 || outcome.exitCode > 2) return "ended by " + std::to_string(outcome.exitCode);
@@ -140,7 +189,9 @@ std::string faultOf(const Outcome& outcome, const fs::path& folder, double mostS
     if (outcome.kilobytes > mostKilobytes) return "took " + std::to_string(outcome.kilobytes / 1000) + " MB";
     if (outcome.seconds > mostSeconds) return "took " + std::to_string(outcome.seconds) + " s";
     for (const auto& entry : fs::directory_iterator{folder})
-        if (entry.path().extension().string().starts_with(".part") || (outcome.exitCode > 0 && entry.path().stem() == "o")) return "left " + entry.path().filename().string();
+        if (entry.path().extension().string().starts_with(".part") ||
+            (outcome.exitCode > 0 && entry.path().stem() == "o"))
+            return "left " + entry.path().filename().string();
     return {};
 }
 
@@ -162,14 +213,16 @@ int runAll(const std::string& program, int count, unsigned seed, double mostSeco
         std::string bytes = kind.wholes[anyIndex(random, kind.wholes.size())];
         const bool isExtreme = random() % 2 == 0; // one accident, so that some still are what they were
         if (isExtreme) bytes = withExtreme(std::move(bytes), random);
-        if (!isExtreme || random() % 4 == 0) bytes = mutated(std::move(bytes), "{}[]\",:.-+eE0123456789\n\xff\x80\x1b", random);
+        if (!isExtreme || random() % 4 == 0)
+            bytes = mutated(std::move(bytes), "{}[]\",:.-+eE0123456789\n\xff\x80\x1b", random);
         const fs::path folder = base / "run";
         fs::remove_all(folder);
         fs::create_directories(folder);
         const std::string name = "f." + kind.ending;
         std::ofstream{folder / name, std::ios::binary} << bytes;
         std::string words = kind.calls[anyIndex(random, kind.calls.size())];
-        for (std::size_t at = words.find("FILE"); at != std::string::npos; at = words.find("FILE")) words.replace(at, 4, name);
+        for (std::size_t at = words.find("FILE"); at != std::string::npos; at = words.find("FILE"))
+            words.replace(at, 4, name);
         const Outcome outcome = run(program, folder, words);
         Tally& tally = tallies[kind.name];
         ++tally.calls;
@@ -185,7 +238,9 @@ int runAll(const std::string& program, int count, unsigned seed, double mostSeco
     fs::remove_all(base / "run");
     if (failures == 0) fs::remove_all(base);
     std::printf("kind       calls  done  refused  most MB  most s of processor\n");
-    for (const auto& [name, t] : tallies) std::printf("%-9s %6d %5d %8d %8.0f %8.2f\n", name.c_str(), t.calls, t.done, t.refused, static_cast<double>(t.kilobytes) * 1e-3, t.seconds);
+    for (const auto& [name, t] : tallies)
+        std::printf("%-9s %6d %5d %8d %8.0f %8.2f\n", name.c_str(), t.calls, t.done, t.refused,
+                    static_cast<double>(t.kilobytes) * 1e-3, t.seconds);
     std::printf("%d calls, %d failed (seed %u)\n", count, failures, seed);
     return failures == 0 ? 0 : 1;
 }
@@ -195,5 +250,7 @@ int runAll(const std::string& program, int count, unsigned seed, double mostSeco
 
 int main(int argc, char** argv) {
     if (argc < 3) return std::fputs("physvib-hostile PROGRAM COUNT [SEED [SECONDS]]\n", stderr), 2;
-    return physvib::runAll(std::filesystem::absolute(argv[1]).string(), std::stoi(argv[2]), argc > 3 ? static_cast<unsigned>(std::stoul(argv[3])) : 1u, argc > 4 ? std::stod(argv[4]) : HUGE_VAL);
+    return physvib::runAll(std::filesystem::absolute(argv[1]).string(), std::stoi(argv[2]),
+                           argc > 3 ? static_cast<unsigned>(std::stoul(argv[3])) : 1u,
+                           argc > 4 ? std::stod(argv[4]) : HUGE_VAL);
 }

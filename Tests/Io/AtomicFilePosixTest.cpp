@@ -39,7 +39,9 @@ TEST_F(AtomicFilePosixTest, ALinkInTheWayLeadsNowhere) {
     fs::create_hard_link(folder / "victim", left);
     EXPECT_EQ(writeFile(folder / "out.csv", "new"), "");
     fs::create_symlink("victim", left);
-    EXPECT_TRUE(writeFile(folder / "out.csv", "newer").starts_with((folder / "out.csv").string() + ": cannot be written: another program is writing it, or left"));
+    EXPECT_TRUE(writeFile(folder / "out.csv", "newer")
+                    .starts_with((folder / "out.csv").string() +
+                                 ": cannot be written: another program is writing it, or left"));
     EXPECT_EQ(contentOf(folder / "victim"), "mine");
     EXPECT_EQ(contentOf(folder / "out.csv"), "new");
 }
@@ -50,7 +52,8 @@ TEST_F(AtomicFilePosixTest, ALinkPutInBetweenIsNotWrittenThrough) {
     fs::remove(file.temporaryPath());
     fs::create_symlink("victim", file.temporaryPath());
     file.write("new");
-    EXPECT_EQ(file.commit(), (folder / "out.csv").string() + ": cannot be written: its temporary file was replaced by another");
+    EXPECT_EQ(file.commit(), (folder / "out.csv").string() +
+                                 ": cannot be written: its temporary file was replaced by another");
     EXPECT_EQ(contentOf(folder / "victim"), "mine");
     EXPECT_FALSE(fs::exists(folder / "out.csv"));
 }
@@ -154,7 +157,8 @@ TEST_F(AtomicFilePosixTest, ASignalThatEndsTheProgramRemovesWhatIsBeingWritten) 
 TEST_F(AtomicFilePosixTest, CommitFailsIfTheTemporaryIsGone) {
     AtomicFile file(folder / "out.csv");
     fs::remove(file.temporaryPath());
-    EXPECT_EQ(file.commit(), (folder / "out.csv").string() + ": cannot be written: No such file or directory");
+    EXPECT_EQ(file.commit(),
+              (folder / "out.csv").string() + ": cannot be written: No such file or directory");
     EXPECT_EQ(filesInFolder(), 0u);
 }
 

@@ -25,7 +25,8 @@ TEST_F(AtomicFileTest, NamesAreWrittenInAnyAlphabet) {
 
 TEST_F(AtomicFileTest, AFolderIsNotReplaced) {
     fs::create_directory(folder / "sub");
-    for (const fs::path& path : {folder / "sub", folder / "sub/", fs::path("")}) EXPECT_TRUE(writeFile(path, "x").starts_with(path.string() + ": cannot be written: "));
+    for (const fs::path& path : {folder / "sub", folder / "sub/", fs::path("")})
+        EXPECT_TRUE(writeFile(path, "x").starts_with(path.string() + ": cannot be written: "));
     EXPECT_TRUE(fs::is_directory(folder / "sub"));
     EXPECT_EQ(filesInFolder(), 1u);
 }
@@ -58,10 +59,13 @@ TEST_F(AtomicFileTest, OnePathHasOneWriterHoweverItIsSpelled) {
     fs::create_directory(folder / "sub");
     std::vector<fs::path> spellings{folder / "out.csv", folder / "sub" / ".." / "out.csv"};
     std::error_code hasNoLinks; // Wine
-    if (fs::create_symlink("out.csv", folder / "link.csv", hasNoLinks); !hasNoLinks) spellings.push_back(folder / "link.csv");
+    if (fs::create_symlink("out.csv", folder / "link.csv", hasNoLinks); !hasNoLinks)
+        spellings.push_back(folder / "link.csv");
     AtomicFile first(folder / "out.csv");
     for (const fs::path& path : spellings)
-        EXPECT_EQ(writeFile(path, "second"), path.string() + ": cannot be written: it is being written already, here or by another program");
+        EXPECT_EQ(writeFile(path, "second"),
+                  path.string() +
+                      ": cannot be written: it is being written already, here or by another program");
     EXPECT_TRUE(AtomicFile(folder / "out.csv").isTaken());
     first.write("first");
     EXPECT_EQ(first.commit(), "");

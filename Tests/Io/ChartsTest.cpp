@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Charts as SVG: nothing of a file becomes markup, series are told apart without colours, simulated data say so.
-#include "Io/Charts/ChartAxis.h"
+// Charts as SVG: nothing of a file becomes markup, series are told apart without colours, simulated data say
+// so.
 #include "Io/Charts/Charts.h"
+#include "Io/Charts/ChartAxis.h"
 #include "Io/Charts/Svg.h"
 #include <algorithm>
 #include <array>
@@ -15,14 +16,20 @@ namespace {
 
 std::size_t countOf(const std::string& text, const std::string& what) {
     std::size_t n = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++n;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size()))
+        ++n;
     return n;
 }
 
 /// One of each kind, with these words wherever words can be.
 std::vector<std::string> chartsWith(const std::string& words, bool isSimulated) {
     const ChartFrame frame{"c", words, isSimulated};
-    BarChart bars{frame, words, words, {words, "b"}, {{words, {ChartValue{40, 30, 50}, std::nullopt}, {words}}, {"two", {ChartValue{60, 60, 60}, ChartValue{20, 10, 30}}}}};
+    BarChart bars{frame,
+                  words,
+                  words,
+                  {words, "b"},
+                  {{words, {ChartValue{40, 30, 50}, std::nullopt}, {words}},
+                   {"two", {ChartValue{60, 60, 60}, ChartValue{20, 10, 30}}}}};
     bars.brackets = {{0, 1, words}};
     bars.reference = {50.0, words};
     bars.ceilings = {90.0, 95.0};
@@ -32,7 +39,12 @@ std::vector<std::string> chartsWith(const std::string& words, bool isSimulated) 
     lines.threshold = {1.5, 1.2, 1.8};
     lines.thresholdWords = words;
     GridChart grid{frame, words, words, {words, "2"}, {"1", words}, {1.0, 0.5, std::nullopt, 0.0}};
-    PlaceChart places{frame, 1, 2, {{0, 0.2, 0.2}, {1, 0.7, 0.6}}, {{0, 0.3, 0.3, 0.01, 0.02, 0.005}}, {{0.25, 0.5}, {0.75, 0.5}}};
+    PlaceChart places{frame,
+                      1,
+                      2,
+                      {{0, 0.2, 0.2}, {1, 0.7, 0.6}},
+                      {{0, 0.3, 0.3, 0.01, 0.02, 0.005}},
+                      {{0.25, 0.5}, {0.75, 0.5}}};
     places.territory = {0, 1, 0, 1};
     places.mapColumns = 2;
     return {barChart(bars), lineChart(lines), gridChart(grid), placeChart(places)};
@@ -49,7 +61,8 @@ TEST(Charts, NothingOfAFileBecomesMarkup) {
 
 TEST(Charts, SimulatedOnesAreWatermarkedAndOthersAreNot) {
     for (const std::string& svg : chartsWith("x", true)) EXPECT_EQ(countOf(svg, ">SIMULATED<"), 1u);
-    for (const std::string& svg : chartsWith("x", false)) EXPECT_EQ(countOf(svg, "SIMULATED") + countOf(svg, "simulated"), 0u);
+    for (const std::string& svg : chartsWith("x", false))
+        EXPECT_EQ(countOf(svg, "SIMULATED") + countOf(svg, "simulated"), 0u);
 }
 
 TEST(Charts, TheSameInputGivesTheSameBytesWithoutAnyNetwork) {
@@ -57,7 +70,8 @@ TEST(Charts, TheSameInputGivesTheSameBytesWithoutAnyNetwork) {
     EXPECT_EQ(first, again);
     for (const std::string& svg : first) {
         EXPECT_EQ(countOf(svg, "http"), 1u) << "the name of SVG alone";
-        for (const char* bad : {"nan", "inf", "href", "@import", "url(h"}) EXPECT_EQ(svg.find(bad), std::string::npos) << bad;
+        for (const char* bad : {"nan", "inf", "href", "@import", "url(h"})
+            EXPECT_EQ(svg.find(bad), std::string::npos) << bad;
     }
 }
 
@@ -71,7 +85,8 @@ TEST(Charts, SeriesAreToldApartWithoutColours) {
         const std::string drawn = bar.finish("", false), marked = marker.finish("", false);
         const std::size_t at = drawn.find("<path d=");
         hatches.insert(at == std::string::npos ? "plain" : drawn.substr(at, drawn.find("stroke", at) - at));
-        markers.insert(marked.substr(marked.find("<rect"), marked.find("fill", marked.find("<rect") + 60) - marked.find("<rect")));
+        markers.insert(marked.substr(marked.find("<rect"),
+                                     marked.find("fill", marked.find("<rect") + 60) - marked.find("<rect")));
         dashes.insert(seriesDash(s));
         colours.insert(seriesColour(s));
     }
@@ -104,23 +119,38 @@ Triple lightOf(std::string_view words) {
 /// CIE L*a*b*, in which 2.3 is a difference that is just seen.
 Triple labOf(Triple light) {
     for (double& c : light) c = std::clamp(c, 0.0, 1.0);
-    const Triple xyz = mixed({{{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}}, light), white{0.9505, 1.0, 1.089};
+    const Triple xyz = mixed({{{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}},
+                             light),
+                 white{0.9505, 1.0, 1.089};
     Triple f{};
-    for (std::size_t i = 0; i < 3; ++i) f[i] = xyz[i] / white[i] > 0.008856 ? std::cbrt(xyz[i] / white[i]) : 7.787 * xyz[i] / white[i] + 16.0 / 116.0;
+    for (std::size_t i = 0; i < 3; ++i)
+        f[i] = xyz[i] / white[i] > 0.008856 ? std::cbrt(xyz[i] / white[i])
+                                            : 7.787 * xyz[i] / white[i] + 16.0 / 116.0;
     return {116.0 * f[1] - 16.0, 500.0 * (f[0] - f[1]), 200.0 * (f[1] - f[2])};
 }
 
 TEST(Charts, ColourBlindReadersSeeEveryColourAsAnother) {
-    const std::pair<const char*, Mixing> eyes[] = { // Machado and others 2009, complete
-        {"without red", {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}}},
-        {"without green", {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}}},
-        {"without blue", {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}},
+    const std::pair<const char*, Mixing> eyes[] = {
+        // Machado and others 2009, complete
+        {"without red",
+         {{{0.152286, 1.052583, -0.204868},
+           {0.114503, 0.786281, 0.099216},
+           {-0.003882, -0.048116, 1.051998}}}},
+        {"without green",
+         {{{0.367322, 0.860646, -0.227968},
+           {0.280085, 0.672501, 0.047413},
+           {-0.011820, 0.042940, 0.968881}}}},
+        {"without blue",
+         {{{1.255528, -0.076749, -0.178779},
+           {-0.078411, 0.930809, 0.147602},
+           {0.004733, 0.691367, 0.303900}}}},
     };
     for (const auto& [words, eye] : eyes) {
         double least = 1000.0;
         for (std::size_t a = 0; a < chartStyles; ++a)
             for (std::size_t b = 0; b < a; ++b) {
-                const Triple one = labOf(mixed(eye, lightOf(seriesColour(a)))), other = labOf(mixed(eye, lightOf(seriesColour(b))));
+                const Triple one = labOf(mixed(eye, lightOf(seriesColour(a)))),
+                             other = labOf(mixed(eye, lightOf(seriesColour(b))));
                 least = std::min(least, std::hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]));
             }
         EXPECT_GT(least, 15.0) << words;
@@ -133,7 +163,8 @@ TEST(Charts, AxesHaveRoundTicksAroundAllValues) {
     EXPECT_EQ(axis.most, 100.0);
     EXPECT_EQ(axis.tickWords, (std::vector<std::string>{"0", "20", "40", "60", "80", "100"}));
     EXPECT_DOUBLE_EQ(axis.share(25.0), 0.25);
-    EXPECT_EQ(ChartAxis::around(-0.031, 0.042).tickWords, (std::vector<std::string>{"-0.04", "-0.02", "0.00", "0.02", "0.04", "0.06"}));
+    EXPECT_EQ(ChartAxis::around(-0.031, 0.042).tickWords,
+              (std::vector<std::string>{"-0.04", "-0.02", "0.00", "0.02", "0.04", "0.06"}));
     const ChartAxis same = ChartAxis::around(7.0, 7.0);
     EXPECT_LT(same.least, 7.0);
     EXPECT_GT(same.most, 7.0);
@@ -144,7 +175,16 @@ TEST(Charts, AxesHaveRoundTicksAroundAllValues) {
 
 TEST(Charts, BarsAreAsHighAsTheirValues) {
     const auto heightOf = [](double value) {
-        const std::string svg = barChart({{"c", "t", false}, "x", "y", {"g"}, {{"", {ChartValue{value, value, value}}}}, {}, {}, {}, {}, 100.0});
+        const std::string svg = barChart({{"c", "t", false},
+                                          "x",
+                                          "y",
+                                          {"g"},
+                                          {{"", {ChartValue{value, value, value}}}},
+                                          {},
+                                          {},
+                                          {},
+                                          {},
+                                          100.0});
         const std::size_t at = svg.find("height=", svg.find("fill=\"#0072B2\"") - 40) + 8;
         return std::stod(svg.substr(at));
     };
@@ -154,7 +194,12 @@ TEST(Charts, BarsAreAsHighAsTheirValues) {
 
 TEST(Charts, BracketsDoNotCross) {
     const auto bottoms = [](const std::vector<ChartBracket>& brackets) {
-        BarChart chart{{"c", "t", false}, "x", "y", {"a", "b", "c"}, {{"", {ChartValue{1, 1, 1}, ChartValue{1, 1, 1}, ChartValue{1, 1, 1}}}}, brackets};
+        BarChart chart{{"c", "t", false},
+                       "x",
+                       "y",
+                       {"a", "b", "c"},
+                       {{"", {ChartValue{1, 1, 1}, ChartValue{1, 1, 1}, ChartValue{1, 1, 1}}}},
+                       brackets};
         const std::string svg = barChart(chart);
         std::set<std::string> rows; // of the marks
         for (std::size_t at = svg.find(">@<"); at != std::string::npos; at = svg.find(">@<", at + 1)) {

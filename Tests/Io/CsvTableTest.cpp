@@ -7,7 +7,9 @@ namespace physvib {
 namespace {
 
 TEST(CsvTable, CellsWithCommasStandInQuotes) {
-    const auto table = readCsvTable("\xEF\xBB\xBF# physvib 1 seed=2\r\n\r\nstimulus,response\r\n\"1,2\" , \"say \"\"hi\"\"\"\r\n a ,\r\n\r\n", "t.csv");
+    const auto table = readCsvTable("\xEF\xBB\xBF# physvib 1 seed=2\r\n\r\nstimulus,response\r\n\"1,2\" , "
+                                    "\"say \"\"hi\"\"\"\r\n a ,\r\n\r\n",
+                                    "t.csv");
     ASSERT_TRUE(table) << table.error;
     EXPECT_EQ(table.value.comments, std::vector<std::string>{"physvib 1 seed=2"});
     EXPECT_EQ(table.value.columns, (std::vector<std::string>{"stimulus", "response"}));
@@ -24,8 +26,10 @@ TEST(CsvTable, FaultsAreNamedByLine) {
     EXPECT_EQ(fault(""), "t.csv:1: expected a header line, found the end of the file");
     EXPECT_EQ(fault("a,a\n1,2\n"), "t.csv:1: column a appears twice");
     EXPECT_EQ(fault("a,\n1,2\n"), "t.csv:1: expected a name for every column");
-    EXPECT_EQ(fault("a,b\n1,2,3\n"), "t.csv:2: expected 2 cells, found 3 (a cell with a comma stands in quotes)");
-    EXPECT_EQ(fault("a,b\n1,2\n\n1,2\n"), "t.csv:3: expected 2 cells, found 0 (a cell with a comma stands in quotes)");
+    EXPECT_EQ(fault("a,b\n1,2,3\n"),
+              "t.csv:2: expected 2 cells, found 3 (a cell with a comma stands in quotes)");
+    EXPECT_EQ(fault("a,b\n1,2\n\n1,2\n"),
+              "t.csv:3: expected 2 cells, found 0 (a cell with a comma stands in quotes)");
     EXPECT_EQ(fault("a\n\"1\n"), "t.csv:2: expected quotes around whole cells, and in pairs");
     EXPECT_EQ(fault("a\n\"1\"2\n"), "t.csv:2: expected quotes around whole cells, and in pairs");
     EXPECT_EQ(fault("a\n1\"2\n"), "t.csv:2: expected quotes around whole cells, and in pairs");
@@ -33,7 +37,8 @@ TEST(CsvTable, FaultsAreNamedByLine) {
 }
 
 TEST(CsvTable, WrittenCellsAreReadBack) {
-    for (const std::string words : {"plain", "1,2", "say \"hi\"", " blanks ", "#no comment", "", "=1+1", "-1+1", "@SUM(a)", "+a", "'=1", "''", "'a", "-5", "-"}) {
+    for (const std::string words : {"plain", "1,2", "say \"hi\"", " blanks ", "#no comment", "", "=1+1",
+                                    "-1+1", "@SUM(a)", "+a", "'=1", "''", "'a", "-5", "-"}) {
         std::string line;
         appendCell(line, words);
         const auto table = readCsvTable("a,b\n" + line + ",1\n", "t.csv");

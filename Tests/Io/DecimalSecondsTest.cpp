@@ -64,8 +64,8 @@ TEST(DecimalSeconds, EndAtTheLimit) {
     EXPECT_EQ(parseSeconds("100000000"), limits::maxTimeNs);
     EXPECT_EQ(parseSeconds("1e8"), limits::maxTimeNs);
     EXPECT_EQ(parseSeconds("100000000.0000000005"), limits::maxTimeNs);
-    for (const char* text :
-         {"100000000.000000001", "999999999.999999999", "1e9", "1e2147483647", "99999999999999999999999999", "9e18"})
+    for (const char* text : {"100000000.000000001", "999999999.999999999", "1e9", "1e2147483647",
+                             "99999999999999999999999999", "9e18"})
         EXPECT_EQ(parseSeconds(text), std::nullopt) << text;
 }
 

@@ -23,7 +23,9 @@ struct FileClash : FolderTest {
 };
 
 TEST_F(FileClash, FilesThatAreThereAreComparedByTheSystem) {
-    for (const char* spelling : {"there.json", "./there.json", "sub/../there.json", "sub//..//there.json", "link.json", "hard.json"}) EXPECT_TRUE(same("there.json", spelling)) << spelling;
+    for (const char* spelling :
+         {"there.json", "./there.json", "sub/../there.json", "sub//..//there.json", "link.json", "hard.json"})
+        EXPECT_TRUE(same("there.json", spelling)) << spelling;
     EXPECT_FALSE(same("there.json", "sub"));
     EXPECT_FALSE(same("there.json", "new.json"));
     EXPECT_FALSE(same("there.json", "sub/there.json"));
@@ -42,10 +44,15 @@ TEST_F(FileClash, NewFilesAreComparedByFolderAndName) {
 }
 
 TEST_F(FileClash, IsToldWithBothSpellings) {
-    const std::string there = folder / "there.json", link = folder / "link.json", out = folder / "out.wav", again = folder / "sub/../out.wav";
-    const auto clash = [](std::vector<std::string> outputs, std::vector<std::string> inputs) { return fileClash(outputs, inputs); };
-    EXPECT_EQ(clash({out, "", there}, {"", link}), there + ": expected another file to write, this is the input " + link);
-    EXPECT_EQ(clash({out, "", again}, {link}), again + ": expected another file to write, this is the output " + out);
+    const std::string there = folder / "there.json", link = folder / "link.json", out = folder / "out.wav",
+                      again = folder / "sub/../out.wav";
+    const auto clash = [](std::vector<std::string> outputs, std::vector<std::string> inputs) {
+        return fileClash(outputs, inputs);
+    };
+    EXPECT_EQ(clash({out, "", there}, {"", link}),
+              there + ": expected another file to write, this is the input " + link);
+    EXPECT_EQ(clash({out, "", again}, {link}),
+              again + ": expected another file to write, this is the output " + out);
     EXPECT_EQ(clash({out, "", there}, {"", "phone4", "0.5"}), "");
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A file is read whole, up to a limit, or the reason is named.
 #include "Io/Disk/ReadFile.h"
-#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Support/FileTesting.h"
 
 namespace physvib {
 namespace {
@@ -28,9 +28,7 @@ TEST_F(ReadFileTest, RefusesAFileAboveTheLimit) {
 }
 
 #if !defined(_WIN32)
-TEST_F(ReadFileTest, EndsAtTheLimitOfAnEndlessDevice) {
-    EXPECT_FALSE(readFile("/dev/zero", 1'000'000));
-}
+TEST_F(ReadFileTest, EndsAtTheLimitOfAnEndlessDevice) { EXPECT_FALSE(readFile("/dev/zero", 1'000'000)); }
 #endif
 
 TEST_F(ReadFileTest, NamesAMissingFile) {

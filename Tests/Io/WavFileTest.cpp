@@ -9,8 +9,8 @@
 namespace physvib {
 namespace {
 
-using test::WavHeader;
 using test::wavBytes;
+using test::WavHeader;
 
 Result<SampledSound> readBytes(const std::string& bytes) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
@@ -35,7 +35,8 @@ TEST(WavFile, GivesSamplesOfEveryWidth) {
 TEST(WavFile, KeepsChannelsApartAcrossBlocks) {
     std::string samples;
     for (int n = 0; n < 10'000; ++n)
-        for (const int value : {n, -n}) samples.append({static_cast<char>(value & 255), static_cast<char>(value >> 8)});
+        for (const int value : {n, -n})
+            samples.append({static_cast<char>(value & 255), static_cast<char>(value >> 8)});
     const auto sound = readBytes(wavBytes({.channels = 2}, samples));
     ASSERT_EQ(sound.error, "");
     ASSERT_EQ(sound.value.channels.size(), 2u);
@@ -61,12 +62,17 @@ TEST(WavFile, TakesWhatIsThereOfALengthThatWasNotKnown) {
 
 TEST(WavFile, RefusesByTheLimit) {
     const std::string second(96'000, '\1');
-    EXPECT_EQ(readBytes(wavBytes({.rateHz = 1'000'000'000}, second)).error, "expected a rate of 100 to 768000 Hz, found 1000000000 Hz");
-    EXPECT_EQ(readBytes(wavBytes({.rateHz = 0}, second)).error, "expected a rate of 100 to 768000 Hz, found 0 Hz");
-    EXPECT_EQ(readBytes(wavBytes({.rateHz = 0x80000000u}, second)).error, "expected a rate of 100 to 768000 Hz, found 2147483648 Hz");
+    EXPECT_EQ(readBytes(wavBytes({.rateHz = 1'000'000'000}, second)).error,
+              "expected a rate of 100 to 768000 Hz, found 1000000000 Hz");
+    EXPECT_EQ(readBytes(wavBytes({.rateHz = 0}, second)).error,
+              "expected a rate of 100 to 768000 Hz, found 0 Hz");
+    EXPECT_EQ(readBytes(wavBytes({.rateHz = 0x80000000u}, second)).error,
+              "expected a rate of 100 to 768000 Hz, found 2147483648 Hz");
     EXPECT_EQ(readBytes(wavBytes({.channels = 200}, second)).error, "expected 1 to 64 channels, found 200");
-    EXPECT_EQ(readBytes(wavBytes({.rateHz = 100, .bits = 8}, std::string(60'101, '\1'))).error, "expected at most 600 s, found 601 s");
-    EXPECT_EQ(soundFault({192'000, 2, 16'000'001}), "expected at most 32000000 samples in all channels, found 32000002");
+    EXPECT_EQ(readBytes(wavBytes({.rateHz = 100, .bits = 8}, std::string(60'101, '\1'))).error,
+              "expected at most 600 s, found 601 s");
+    EXPECT_EQ(soundFault({192'000, 2, 16'000'001}),
+              "expected at most 32000000 samples in all channels, found 32000002");
     EXPECT_EQ(soundFault({48'000, 1, 600 * 48'000}), "");
 }
 
@@ -76,18 +82,24 @@ TEST(WavFile, RefusesWhatIsNoWav) {
     EXPECT_EQ(readBytes(whole.substr(0, 11)).error, "expected a WAV file");
     EXPECT_EQ(readBytes(whole.substr(0, 20)).error, "expected PCM of 8, 16, 24 or 32 bits, or float of 32");
     EXPECT_EQ(readBytes(whole.substr(0, 40)).error, "expected samples, found none");
-    EXPECT_EQ(readBytes(wavBytes({.bits = 12}, "1234")).error, "expected PCM of 8, 16, 24 or 32 bits, or float of 32");
-    EXPECT_EQ(readBytes(wavBytes({.channels = 0}, "1234")).error, "expected PCM of 8, 16, 24 or 32 bits, or float of 32");
+    EXPECT_EQ(readBytes(wavBytes({.bits = 12}, "1234")).error,
+              "expected PCM of 8, 16, 24 or 32 bits, or float of 32");
+    EXPECT_EQ(readBytes(wavBytes({.channels = 0}, "1234")).error,
+              "expected PCM of 8, 16, 24 or 32 bits, or float of 32");
     EXPECT_EQ(readBytes(wavBytes({}, "")).error, "expected samples, found none");
-    EXPECT_EQ(readBytes(whole.substr(0, 12) + whole.substr(36)).error, "expected a format before the samples");
+    EXPECT_EQ(readBytes(whole.substr(0, 12) + whole.substr(36)).error,
+              "expected a format before the samples");
 }
 
 TEST(WavFile, PassesOverChunksThatItDoesNotKnow) {
     const std::string whole = wavBytes({}, "\1\2\3\4");
-    const auto with = [&](const std::string& chunk) { return readBytes(whole.substr(0, 36) + chunk + whole.substr(36)); };
+    const auto with = [&](const std::string& chunk) {
+        return readBytes(whole.substr(0, 36) + chunk + whole.substr(36));
+    };
     using namespace std::string_literals;
     EXPECT_EQ(with("LIST\3\0\0\0abc\0"s).error, "") << "of an odd length";
-    EXPECT_EQ(with("LIST\xff\xff\xff\xff"s).error, "expected samples, found none") << "that is longer than the file";
+    EXPECT_EQ(with("LIST\xff\xff\xff\xff"s).error, "expected samples, found none")
+        << "that is longer than the file";
     EXPECT_EQ(with("LIST\0\0\0\0"s).error, "");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tells whether a recording is the render, block by block, but for the breaks that the server's own xruns explain.
-// Usage: physvib-compare-recording RECORDING.raw RENDER.raw CHANNELS BLOCK_FRAMES XRUNS
+// Tells whether a recording is the render, block by block, but for the breaks that the server's own xruns
+// explain. Usage: physvib-compare-recording RECORDING.raw RENDER.raw CHANNELS BLOCK_FRAMES XRUNS
 #include "RecordingRuns.h"
 #include <cstdio>
 #include <cstdlib>
@@ -37,13 +37,16 @@ int main(int argc, char** argv) {
         return 1;
     }
     const auto count = static_cast<int>(result.breaks.size());
-    std::printf("recording: %lld of %lld blocks of %d frames bit-equal to the render, %lld frames later, in %d run%s\n",
-                static_cast<long long>(result.equal), static_cast<long long>(result.blocks), block, static_cast<long long>(result.offset),
-                count + 1, count == 0 ? "" : "s");
+    std::printf("recording: %lld of %lld blocks of %d frames bit-equal to the render, %lld frames later, in "
+                "%d run%s\n",
+                static_cast<long long>(result.equal), static_cast<long long>(result.blocks), block,
+                static_cast<long long>(result.offset), count + 1, count == 0 ? "" : "s");
     if (count > 0 || xruns > 0)
-        std::printf("recording: %d breaks (%d blocks skipped, %d too many, %d blank or torn); server: %d xruns\n", count,
-                    sum(result.breaks, [](const Break& b) { return std::max(b.skipped, 0); }),
-                    sum(result.breaks, [](const Break& b) { return std::max(-b.skipped, 0); }), sum(result.breaks, [](const Break& b) { return b.foreign; }), xruns);
+        std::printf(
+            "recording: %d breaks (%d blocks skipped, %d too many, %d blank or torn); server: %d xruns\n",
+            count, sum(result.breaks, [](const Break& b) { return std::max(b.skipped, 0); }),
+            sum(result.breaks, [](const Break& b) { return std::max(-b.skipped, 0); }),
+            sum(result.breaks, [](const Break& b) { return b.foreign; }), xruns);
     const bool isExplained = count <= xruns;
     if (!isExplained) std::puts("recording: more breaks than xruns");
     return isExplained && result.equal > 0 ? 0 : 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A JACK client that is an actuator with its accelerometer: what comes in at `in` is felt at `out`, a cycle later or more.
-// Usage: physvib-jack-actuator RESONANCE_HZ Q GAIN DELAY_FRAMES; runs until it is killed.
+// A JACK client that is an actuator with its accelerometer: what comes in at `in` is felt at `out`, a cycle
+// later or more. Usage: physvib-jack-actuator RESONANCE_HZ Q GAIN DELAY_FRAMES; runs until it is killed.
 #include "Core/Actuators/SimulatedActuator.h"
 #include <chrono>
 #include <cstdio>
@@ -38,12 +38,16 @@ int main(int argc, char** argv) {
     Actuator actuator;
     jack_client_t* const client = jack_client_open("actuator", JackNoStartServer, nullptr);
     if (client == nullptr) return 1;
-    actuator.resonator = std::make_unique<physvib::SimulatedActuator>(physvib::Resonator{std::atof(argv[1]), std::atof(argv[2])}, jack_get_sample_rate(client));
+    actuator.resonator = std::make_unique<physvib::SimulatedActuator>(
+        physvib::Resonator{std::atof(argv[1]), std::atof(argv[2])}, jack_get_sample_rate(client));
     actuator.gain = std::atof(argv[3]);
     actuator.line.resize(static_cast<std::size_t>(std::atoi(argv[4])));
     actuator.in = jack_port_register(client, "in", JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput, 0);
     actuator.out = jack_port_register(client, "out", JACK_DEFAULT_AUDIO_TYPE, JackPortIsOutput, 0);
-    jack_set_process_callback(client, [](jack_nframes_t frames, void* self) { return static_cast<Actuator*>(self)->process(frames); }, &actuator);
+    jack_set_process_callback(
+        client,
+        [](jack_nframes_t frames, void* self) { return static_cast<Actuator*>(self)->process(frames); },
+        &actuator);
     jack_activate(client);
     std::puts("ready");
     std::fflush(stdout);

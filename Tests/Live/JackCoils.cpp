@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A JACK client that is called as a DualSense's sound device is and has its four inputs; says "ready", and the peak of each when its
-// standard input ends.
-// Usage: physvib-jack-coils NAME INPUTS
+// A JACK client that is called as a DualSense's sound device is and has its four inputs; says "ready", and
+// the peak of each when its standard input ends. Usage: physvib-jack-coils NAME INPUTS
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -36,12 +35,16 @@ int main(int argc, char** argv) {
     static Coils coils;
     const std::array names{"playback_FL", "playback_FR", "playback_RL", "playback_RR"};
     for (std::size_t k = 0; k < std::min<std::size_t>(4, static_cast<std::size_t>(std::atoi(argv[2]))); ++k)
-        coils.ports[k] = jack_port_register(client, names[k], JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput | JackPortIsPhysical, 0);
-    jack_set_process_callback(client, [](jack_nframes_t frames, void* self) { return static_cast<Coils*>(self)->process(frames); }, &coils);
+        coils.ports[k] = jack_port_register(client, names[k], JACK_DEFAULT_AUDIO_TYPE,
+                                            JackPortIsInput | JackPortIsPhysical, 0);
+    jack_set_process_callback(
+        client, [](jack_nframes_t frames, void* self) { return static_cast<Coils*>(self)->process(frames); },
+        &coils);
     if (jack_activate(client) != 0) return 1;
     std::puts("ready");
     std::fflush(stdout);
-    while (std::getchar() != EOF) {}
+    while (std::getchar() != EOF) {
+    }
     for (auto& peak : coils.peaks) std::printf("%.4f ", static_cast<double>(peak.load()));
     std::puts("");
     jack_client_close(client);

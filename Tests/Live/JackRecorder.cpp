@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A JACK client that records the outputs of `physvib`, from the moment they appear, as raw interleaved floats, and
-// counts the server's xruns meanwhile (a line on stdout).
-// Usage: physvib-jack-recorder FILE CHANNELS SECONDS [SOURCE_PORTS (physvib:out_)]
+// A JACK client that records the outputs of `physvib`, from the moment they appear, as raw interleaved
+// floats, and counts the server's xruns meanwhile (a line on stdout). Usage: physvib-jack-recorder FILE
+// CHANNELS SECONDS [SOURCE_PORTS (physvib:out_)]
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -61,10 +61,15 @@ int main(int argc, char** argv) {
     if (recorder.client == nullptr) return 1;
     const auto rate = jack_get_sample_rate(recorder.client);
     for (int j = 0; j < channels; ++j)
-        recorder.ports.push_back(jack_port_register(recorder.client, ("in_" + std::to_string(j + 1)).c_str(), JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput, 0));
+        recorder.ports.push_back(jack_port_register(recorder.client, ("in_" + std::to_string(j + 1)).c_str(),
+                                                    JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput, 0));
     recorder.samples.resize(static_cast<std::size_t>(seconds * rate) * static_cast<std::size_t>(channels));
-    jack_set_process_callback(recorder.client, [](jack_nframes_t frames, void* self) { return static_cast<Recorder*>(self)->process(frames); }, &recorder);
-    jack_set_xrun_callback(recorder.client, [](void* self) { return static_cast<Recorder*>(self)->countXrun(); }, &recorder);
+    jack_set_process_callback(
+        recorder.client,
+        [](jack_nframes_t frames, void* self) { return static_cast<Recorder*>(self)->process(frames); },
+        &recorder);
+    jack_set_xrun_callback(
+        recorder.client, [](void* self) { return static_cast<Recorder*>(self)->countXrun(); }, &recorder);
     jack_activate(recorder.client);
     std::puts("ready");
     std::fflush(stdout);
@@ -76,7 +81,8 @@ int main(int argc, char** argv) {
     std::printf("xruns %d\n", recorder.xruns.load());
     std::FILE* file = std::fopen(argv[1], "wb");
     if (file == nullptr) return 1;
-    const bool written = std::fwrite(recorder.samples.data(), sizeof(float), recorder.used, file) == recorder.used;
+    const bool written =
+        std::fwrite(recorder.samples.data(), sizeof(float), recorder.used, file) == recorder.used;
     jack_client_close(recorder.client);
     return std::fclose(file) == 0 && written ? 0 : 1;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A JACK client that is a device with a song at its one input: it plays the song of a seed once it is connected, and listens to the last
-// of its outputs, on which high beats are felt. JACK closes such a loop by handing what is played on a cycle later.
-// Prints for each hit with a high beat: its second, and that at which the output was touched for the first time since it was silent, or -1.
-// Usage: physvib-jack-song OUTPUTS SECONDS SEED
+// A JACK client that is a device with a song at its one input: it plays the song of a seed once it is
+// connected, and listens to the last of its outputs, on which high beats are felt. JACK closes such a loop by
+// handing what is played on a cycle later. Prints for each hit with a high beat: its second, and that at
+// which the output was touched for the first time since it was silent, or -1. Usage: physvib-jack-song
+// OUTPUTS SECONDS SEED
 #include "Support/BeatSong.h"
 #include <atomic>
 #include <chrono>
@@ -61,12 +62,17 @@ int main(int argc, char** argv) {
     song.samples = made.samples;
     song.felt.resize(song.samples.size());
     song.out = jack_port_register(client, "out", JACK_DEFAULT_AUDIO_TYPE, JackPortIsOutput, 0);
-    for (int k = 1; k <= std::atoi(argv[1]); ++k) song.last = jack_port_register(client, ("in_" + std::to_string(k)).c_str(), JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput, 0);
-    jack_set_process_callback(client, [](jack_nframes_t frames, void* self) { return static_cast<Song*>(self)->process(frames); }, &song);
+    for (int k = 1; k <= std::atoi(argv[1]); ++k)
+        song.last = jack_port_register(client, ("in_" + std::to_string(k)).c_str(), JACK_DEFAULT_AUDIO_TYPE,
+                                       JackPortIsInput, 0);
+    jack_set_process_callback(
+        client, [](jack_nframes_t frames, void* self) { return static_cast<Song*>(self)->process(frames); },
+        &song);
     jack_activate(client);
     std::puts("ready");
     std::fflush(stdout);
-    while (jack_port_connected(song.out) == 0 || jack_port_connected(song.last) == 0) std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    while (jack_port_connected(song.out) == 0 || jack_port_connected(song.last) == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds{20});
     std::this_thread::sleep_for(std::chrono::milliseconds{300}); // nobody shall miss its beginning
     song.plays = true;
     while (song.at < song.samples.size()) std::this_thread::sleep_for(std::chrono::milliseconds{20});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Measures how long after its contact a collision comes out of a JACK server: a session on it, and in the same process
-// a client that records what it plays and notes which frame of the session each cycle is. Prints a row of a table.
-// Usage: physvib-latency-meter message|thread SECONDS
-#include "Scene/SceneCatalogue.h"
+// Measures how long after its contact a collision comes out of a JACK server: a session on it, and in the
+// same process a client that records what it plays and notes which frame of the session each cycle is. Prints
+// a row of a table. Usage: physvib-latency-meter message|thread SECONDS
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SimulationDriver.h"
-#include "Scene/World/SceneRun.h"
 #include "MeterClient.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/World/SceneRun.h"
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -41,10 +41,12 @@ int main(int argc, char** argv) {
     const SessionSetup setup = setupFor(driverName);
     Session session{setup};
     AudioOutput output{session};
-    if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty()) return std::puts(error.c_str()), 1;
+    if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty())
+        return std::puts(error.c_str()), 1;
     const auto driver = start(driverName, session, setup.stepsPerSecond);
     test::MeterClient client{session, seconds};
-    juce::Timer::callAfterDelay(static_cast<int>(seconds * 1000) + 200, [] { juce::MessageManager::getInstance()->stopDispatchLoop(); });
+    juce::Timer::callAfterDelay(static_cast<int>(seconds * 1000) + 200,
+                                [] { juce::MessageManager::getInstance()->stopDispatchLoop(); });
     juce::MessageManager::getInstance()->runDispatchLoop();
     client.stop();
     SessionLog log; // stalls, if there were any
@@ -55,9 +57,11 @@ int main(int argc, char** argv) {
     if (!result.isAligned) return std::puts("the recording is not the render"), 1;
     const auto ms = [&](std::int64_t frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
     const std::int64_t measured = client.firstFrame + result.offset, law = session.timeline().playOutFrames();
-    std::printf("| `%s` | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu |\n", driverName.c_str(), client.block, static_cast<long long>(law),
-                ms(law), static_cast<long long>(measured), ms(measured), client.playbackLatencyFrames(), ms(client.playbackLatencyFrames()),
-                ms(measured + client.playbackLatencyFrames()), static_cast<unsigned long long>(session.status().render.late),
+    std::printf("| `%s` | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu |\n",
+                driverName.c_str(), client.block, static_cast<long long>(law), ms(law),
+                static_cast<long long>(measured), ms(measured), client.playbackLatencyFrames(),
+                ms(client.playbackLatencyFrames()), ms(measured + client.playbackLatencyFrames()),
+                static_cast<unsigned long long>(session.status().render.late),
                 static_cast<unsigned long long>(session.status().render.played));
     return measured == law ? 0 : 1;
 }

@@ -12,11 +12,13 @@ TEST(LiveCalls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
     test::expectBegunWithin(physvib_live_settings_init);
     test::expectBegunWithin(physvib_live_status_init);
     physvib_live_settings settings;
-    constexpr std::size_t size = offsetof(physvib_live_settings, save), told = offsetof(physvib_live_status, board);
+    constexpr std::size_t size = offsetof(physvib_live_settings, save),
+                          told = offsetof(physvib_live_status, board);
     std::memset(&settings, 0xAB, sizeof settings); // which would be a path
     ASSERT_EQ(physvib_live_settings_init(&settings, size), PHYSVIB_OK);
     physvib_live live = nullptr;
-    ASSERT_EQ(physvib_live_open("None:no device", nullptr, &settings, &live), PHYSVIB_OK) << physvib_live_error();
+    ASSERT_EQ(physvib_live_open("None:no device", nullptr, &settings, &live), PHYSVIB_OK)
+        << physvib_live_error();
     physvib_live_status status;
     std::memset(&status, 0xAB, sizeof status);
     ASSERT_EQ(physvib_live_status_init(&status, told), PHYSVIB_OK);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A JACK client in the session's own process: records what it plays and notes which frame of the session each cycle is.
+// A JACK client in the session's own process: records what it plays and notes which frame of the session each
+// cycle is.
 #pragma once
+#include "RecordingRuns.h"
 #include "Session/OfflineRender.h"
 #include "Session/Session.h"
-#include "RecordingRuns.h"
 #include <atomic>
 #include <cmath>
 #include <jack/jack.h>
@@ -25,11 +26,18 @@ public:
         block = static_cast<int>(jack_get_buffer_size(client_));
         recording.samples.reserve(static_cast<std::size_t>(seconds * rate) * channels);
         for (int j = 0; j < channels; ++j)
-            ports_.push_back(jack_port_register(client_, ("in_" + std::to_string(j + 1)).c_str(), JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput, 0));
-        jack_set_process_callback(client_, [](jack_nframes_t frames, void* self) { return static_cast<MeterClient*>(self)->process(frames); }, this);
+            ports_.push_back(jack_port_register(client_, ("in_" + std::to_string(j + 1)).c_str(),
+                                                JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput, 0));
+        jack_set_process_callback(
+            client_,
+            [](jack_nframes_t frames, void* self) {
+                return static_cast<MeterClient*>(self)->process(frames);
+            },
+            this);
         jack_activate(client_);
         for (int j = 0; j < channels; ++j)
-            jack_connect(client_, ("physvib:out_" + std::to_string(j + 1)).c_str(), jack_port_name(ports_[static_cast<std::size_t>(j)]));
+            jack_connect(client_, ("physvib:out_" + std::to_string(j + 1)).c_str(),
+                         jack_port_name(ports_[static_cast<std::size_t>(j)]));
         isConnected_ = true;
     }
     ~MeterClient() {
@@ -38,7 +46,8 @@ public:
     void stop() { jack_deactivate(client_); }
     int playbackLatencyFrames() const {
         jack_latency_range_t range{};
-        jack_port_get_latency_range(jack_port_by_name(client_, "system:playback_1"), JackPlaybackLatency, &range);
+        jack_port_get_latency_range(jack_port_by_name(client_, "system:playback_1"), JackPlaybackLatency,
+                                    &range);
         return static_cast<int>(range.max);
     }
 
@@ -52,15 +61,18 @@ private:
     int process(jack_nframes_t count) {
         const int frames = static_cast<int>(count);
         const auto at = recording.samples.size();
-        if (!isConnected_ || at + static_cast<std::size_t>(frames * channels) > recording.samples.capacity()) return 0;
+        if (!isConnected_ || at + static_cast<std::size_t>(frames * channels) > recording.samples.capacity())
+            return 0;
         const auto now = FrameClock{rate}.at(session_.status().sessionNs).frame;
         if (now == 0) return 0; // time has not begun
         if (firstFrame < 0) firstFrame = now - frames;
         sessionFrame = now;
         recording.samples.resize(at + static_cast<std::size_t>(frames * channels));
         for (int j = 0; j < channels; ++j) {
-            const auto* in = static_cast<const float*>(jack_port_get_buffer(ports_[static_cast<std::size_t>(j)], count));
-            for (int n = 0; n < frames; ++n) recording.samples[at + static_cast<std::size_t>(n * channels + j)] = in[n];
+            const auto* in =
+                static_cast<const float*>(jack_port_get_buffer(ports_[static_cast<std::size_t>(j)], count));
+            for (int n = 0; n < frames; ++n)
+                recording.samples[at + static_cast<std::size_t>(n * channels + j)] = in[n];
         }
         return 0;
     }
@@ -72,9 +84,11 @@ private:
 };
 
 /// What the events give, rendered.
-inline Recording rendered(const std::vector<CollisionEvent>& events, const SessionSetup& s, int rate, double seconds) {
+inline Recording rendered(const std::vector<CollisionEvent>& events, const SessionSetup& s, int rate,
+                          double seconds) {
     Recording signal{{}, MeterClient::channels};
-    const OfflineSettings settings{{rate, MeterClient::channels, s.panner, s.limiterEnabled}, std::llround(seconds * rate), 256};
+    const OfflineSettings settings{
+        {rate, MeterClient::channels, s.panner, s.limiterEnabled}, std::llround(seconds * rate), 256};
     renderOffline(events, settings, [&](const float* const* out, int frames) {
         for (int n = 0; n < frames; ++n)
             for (int j = 0; j < MeterClient::channels; ++j) signal.samples.push_back(out[j][n]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Measures how long after one's own push the hit comes out of a JACK server. A ball between two walls, 4 mm of way: each
-// push is a hit within the step. Prints a line; fails unless every hit is heard exactly L after its contact.
-// Usage: physvib-own-action-meter PUSHES
+// Measures how long after one's own push the hit comes out of a JACK server. A ball between two walls, 4 mm
+// of way: each push is a hit within the step. Prints a line; fails unless every hit is heard exactly L after
+// its contact. Usage: physvib-own-action-meter PUSHES
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "MeterClient.h"
@@ -20,7 +20,8 @@ std::vector<std::int64_t> push(Session& session, const test::MeterClient& client
     for (int i = 0; i < times; ++i) {
         std::this_thread::sleep_for(std::chrono::microseconds{80'000 + random() % 40'000});
         frames.push_back(client.sessionFrame);
-        if (const auto fault = session.take({test::pushOfBall(i)}).error; !fault.empty()) std::puts(fault.c_str());
+        if (const auto fault = session.take({test::pushOfBall(i)}).error; !fault.empty())
+            std::puts(fault.c_str());
     }
     return frames;
 }
@@ -34,7 +35,8 @@ int main(int argc, char** argv) {
     const SessionSetup setup = test::setupOfWalls();
     Session session{setup};
     AudioOutput output{session};
-    if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty()) return std::puts(error.c_str()), 1;
+    if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty())
+        return std::puts(error.c_str()), 1;
     std::vector<std::int64_t> pushed;
     const double seconds = 0.13 * pushes + 1.0;
     test::MeterClient client{session, seconds};
@@ -50,17 +52,23 @@ int main(int argc, char** argv) {
     const auto render = test::rendered(made.events, setup, client.rate, seconds);
     const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
     const bool isWhole = result.isAligned && static_cast<int>(made.events.size()) == pushes;
-    if (!isWhole) return std::printf("%zu hits after %d pushes, or they are not what was recorded\n", made.events.size(), pushes), 1;
+    if (!isWhole)
+        return std::printf("%zu hits after %d pushes, or they are not what was recorded\n",
+                           made.events.size(), pushes),
+               1;
     const std::int64_t law = session.timeline().playOutFrames(), measured = client.firstFrame + result.offset;
     std::int64_t sum = 0, most = 0;
     for (int i = 0; i < pushes; ++i) {
-        const auto heard = FrameClock{client.rate}.at(made.events[static_cast<std::size_t>(i)].timeNs).frame + measured;
+        const auto heard =
+            FrameClock{client.rate}.at(made.events[static_cast<std::size_t>(i)].timeNs).frame + measured;
         const auto after = heard - pushed[static_cast<std::size_t>(i)];
         sum += after;
         most = std::max(most, after);
     }
     const auto ms = [&](auto frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
-    std::printf("%d pushes, blocks of %d: L %.2f ms, heard %.2f ms after their contacts; after the pushes %.2f ms on average, %.2f ms at most; %llu late\n",
-                pushes, client.block, ms(law), ms(measured), ms(sum) / pushes, ms(most), static_cast<unsigned long long>(session.status().render.late));
+    std::printf("%d pushes, blocks of %d: L %.2f ms, heard %.2f ms after their contacts; after the pushes "
+                "%.2f ms on average, %.2f ms at most; %llu late\n",
+                pushes, client.block, ms(law), ms(measured), ms(sum) / pushes, ms(most),
+                static_cast<unsigned long long>(session.status().render.late));
     return measured == law ? 0 : 1;
 }

@@ -20,7 +20,8 @@ struct Recording {
 struct Break {
     std::int64_t frame = 0; ///< of the recording: the first block that differs
     int foreign = 0;        ///< blocks from there on that are nowhere near in the render (blank, or torn)
-    int skipped = 0;        ///< blocks of the render that are missing; negative: the recording has that many too many
+    int skipped = 0; ///< blocks of the render that are missing; negative: the recording has that many too
+                     ///< many
 };
 
 struct Comparison {
@@ -32,7 +33,8 @@ struct Comparison {
 
 class RecordingRuns {
 public:
-    /// Blocks of `block` frames, cut as the recorder was given them; the render is silent before its beginning.
+    /// Blocks of `block` frames, cut as the recorder was given them; the render is silent before its
+    /// beginning.
     RecordingRuns(const Recording& recording, const Recording& render, int block)
         : recording_{recording}
         , render_{render}
@@ -44,12 +46,15 @@ public:
         if (!result.isAligned) return result;
         result.offset = -shift_;
         bool isBroken = false;
-        for (std::int64_t at = 0; at + block_ <= recording_.frames() && at + shift_ + block_ <= render_.frames(); at += block_) {
+        for (std::int64_t at = 0;
+             at + block_ <= recording_.frames() && at + shift_ + block_ <= render_.frames(); at += block_) {
             ++result.blocks;
             const int skipped = blocksToSkip(at);
             if (!isBroken && skipped != 0) result.breaks.push_back({at});
-            if (skipped == nowhere) ++result.breaks.back().foreign;
-            else if (skipped != 0) result.breaks.back().skipped += skipped;
+            if (skipped == nowhere)
+                ++result.breaks.back().foreign;
+            else if (skipped != 0)
+                result.breaks.back().skipped += skipped;
             isBroken = skipped == nowhere;
             if (isBroken) continue;
             shift_ += static_cast<std::int64_t>(skipped) * block_;
@@ -70,7 +75,8 @@ private:
         // frames before the render begins
         const auto before = static_cast<int>(std::clamp<std::int64_t>(-there, 0, block_));
         const float* recorded = recording_.at(at);
-        if (!std::all_of(recorded, recording_.at(at + before), [](float x) { return x == 0.0f; })) return false;
+        if (!std::all_of(recorded, recording_.at(at + before), [](float x) { return x == 0.0f; }))
+            return false;
         const auto bytes = static_cast<std::size_t>((block_ - before) * render_.channels) * sizeof(float);
         return bytes == 0 || std::memcmp(recording_.at(at + before), render_.at(there + before), bytes) == 0;
     }
@@ -86,7 +92,8 @@ private:
         }
         return false;
     }
-    // 0: it goes on; how many blocks of the render are missing before it; or `nowhere`. Silence tells nothing.
+    // 0: it goes on; how many blocks of the render are missing before it; or `nowhere`. Silence tells
+    // nothing.
     int blocksToSkip(std::int64_t at) const {
         if (isEqual(at, at + shift_)) return 0;
         if (isSilent(at)) return nowhere;

@@ -12,7 +12,8 @@ constexpr int block = 64, channels = 2;
 Recording noise(int frames) {
     Random random{5};
     Recording s{{}, channels};
-    for (int i = 0; i < frames * channels; ++i) s.samples.push_back(static_cast<float>(random.uniform(-1, 1)));
+    for (int i = 0; i < frames * channels; ++i)
+        s.samples.push_back(static_cast<float>(random.uniform(-1, 1)));
     return s;
 }
 
@@ -51,8 +52,8 @@ TEST(RecordingRuns, BlocksLeftOutAreSkips) {
 TEST(RecordingRuns, BlankTornAndRepeatedBlocksAreOneBreakEach) {
     const auto render = noise(100 * block);
     auto recording = recorded(render, 17);
-    std::fill(at(recording, 20), at(recording, 21), 0.0f);                                  // blank
-    at(recording, 40)[30] += 0.5f;                                                          // torn
+    std::fill(at(recording, 20), at(recording, 21), 0.0f); // blank
+    at(recording, 40)[30] += 0.5f;                         // torn
     // repeated, then goes on
     recording.samples.insert(at(recording, 60), at(recording, 59), at(recording, 60));
     const auto result = RecordingRuns{recording, render, block}.compare();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What no unbiased estimator gets below: the Cramer-Rao bound of hits of known make in white noise (Kay 1993, ch. 3).
+// What no unbiased estimator gets below: the Cramer-Rao bound of hits of known make in white noise (Kay 1993,
+// ch. 3).
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -26,7 +27,8 @@ inline std::vector<double> inverseDiagonal(std::vector<double> m, std::size_t n)
         for (std::size_t c = 0; c < n; ++c) m[p * n + c] /= pivot, right[p * n + c] /= pivot;
         for (std::size_t r = 0; r < n; ++r) {
             const double factor = m[r * n + p];
-            for (std::size_t c = 0; c < n && r != p; ++c) m[r * n + c] -= factor * m[p * n + c], right[r * n + c] -= factor * right[p * n + c];
+            for (std::size_t c = 0; c < n && r != p; ++c)
+                m[r * n + c] -= factor * m[p * n + c], right[r * n + c] -= factor * right[p * n + c];
         }
     }
     std::vector<double> diagonal;
@@ -34,8 +36,9 @@ inline std::vector<double> inverseDiagonal(std::vector<double> m, std::size_t n)
     return diagonal;
 }
 
-/// Tones of Eq. 5.1 that begin together at a moment that nobody tells, seen for `seconds` after it; noise of standard deviation
-/// `noise` per sample. Derivatives are taken in shares of each number, so that the matrix keeps its digits.
+/// Tones of Eq. 5.1 that begin together at a moment that nobody tells, seen for `seconds` after it; noise of
+/// standard deviation `noise` per sample. Derivatives are taken in shares of each number, so that the matrix
+/// keeps its digits.
 inline HitBound boundOf(const std::vector<HitTone>& tones, double noise, double rateHz, double seconds) {
     const std::size_t n = 1 + 3 * tones.size();
     std::vector<double> information(n * n), row(n);
@@ -43,7 +46,8 @@ inline HitBound boundOf(const std::vector<HitTone>& tones, double noise, double 
         row[0] = 0.0;
         for (std::size_t k = 0; k < tones.size(); ++k) {
             const auto& [hz, tau, amplitude] = tones[k];
-            const double omega = 2.0 * std::numbers::pi * hz, e = amplitude * std::exp(-tau * t), c = e * std::cos(omega * t), s = e * std::sin(omega * t);
+            const double omega = 2.0 * std::numbers::pi * hz, e = amplitude * std::exp(-tau * t),
+                         c = e * std::cos(omega * t), s = e * std::sin(omega * t);
             row[0] += (tau * s - omega * c) / tones.front().decayPerSecond;
             row[1 + 3 * k] = omega * t * c;
             row[2 + 3 * k] = -tau * t * s;

@@ -12,15 +12,19 @@ namespace {
 
 std::vector<float> sine(double hz, int rateHz, double amplitude, int frames) {
     std::vector<float> x(static_cast<std::size_t>(frames));
-    for (std::size_t n = 0; n < x.size(); ++n) x[n] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(n) / rateHz));
+    for (std::size_t n = 0; n < x.size(); ++n)
+        x[n] = static_cast<float>(amplitude *
+                                  std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(n) / rateHz));
     return x;
 }
 
-std::vector<double> sharesOf(PowerSpectrum& spectrum, const std::vector<std::vector<float>>& channels, int block) {
+std::vector<double> sharesOf(PowerSpectrum& spectrum, const std::vector<std::vector<float>>& channels,
+                             int block) {
     for (std::size_t at = 0; at < channels.front().size(); at += static_cast<std::size_t>(block)) {
         std::vector<const float*> from;
         for (const auto& channel : channels) from.push_back(channel.data() + at);
-        spectrum.add(from.data(), static_cast<int>(std::min(static_cast<std::size_t>(block), channels.front().size() - at)));
+        spectrum.add(from.data(), static_cast<int>(std::min(static_cast<std::size_t>(block),
+                                                            channels.front().size() - at)));
     }
     return spectrum.finish();
 }
@@ -35,7 +39,10 @@ double shareAround(const std::vector<double>& shares, double hz, double binHz) {
 TEST(PowerSpectrum, TellsTheEnergiesOfChannelsApartByTheirFrequencies) {
     for (const int rateHz : {5000, 8000, 44100, 48000, 192000}) {
         PowerSpectrum spectrum{rateHz, 3};
-        const auto shares = sharesOf(spectrum, {sine(100.0, rateHz, 0.3, rateHz), sine(250.0, rateHz, 0.4, rateHz), sine(600.0, rateHz, 0.5, rateHz)}, 1000);
+        const auto shares = sharesOf(spectrum,
+                                     {sine(100.0, rateHz, 0.3, rateHz), sine(250.0, rateHz, 0.4, rateHz),
+                                      sine(600.0, rateHz, 0.5, rateHz)},
+                                     1000);
         EXPECT_GE(spectrum.binHz(), 7.9);
         EXPECT_LE(spectrum.binHz(), 16.0);
         EXPECT_NEAR(shareAround(shares, 100.0, spectrum.binHz()), 0.18, 0.01) << rateHz;
@@ -46,7 +53,8 @@ TEST(PowerSpectrum, TellsTheEnergiesOfChannelsApartByTheirFrequencies) {
 }
 
 TEST(PowerSpectrum, IsTheSameInBlocksOfAnySize) {
-    const std::vector<std::vector<float>> channels{sine(80.0, 48000, 0.3, 20'000), sine(160.0, 48000, 0.2, 20'000)};
+    const std::vector<std::vector<float>> channels{sine(80.0, 48000, 0.3, 20'000),
+                                                   sine(160.0, 48000, 0.2, 20'000)};
     PowerSpectrum whole{48000, 2}, parts{48000, 2};
     EXPECT_EQ(sharesOf(whole, channels, 20'000), sharesOf(parts, channels, 7));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Textures from scrapes: what our own engine was given comes out of what it plays; what is no scrape is told.
-#include "Contacts/LastingContacts.h"
 #include "Measure/TextureExtractor.h"
+#include "Contacts/LastingContacts.h"
 #include "Study/SeededRandom.h"
 #include "Support/Rendering.h"
 #include <algorithm>
@@ -17,14 +17,16 @@ constexpr int rate = 48'000;
 constexpr double massKg = 5.0, newtons = 2.0;
 
 /// What slides over a surface, as one enchanter plays it.
-std::vector<float> scrape(const Texture& texture, double metresPerSecond, double frequencyHz, double decayPerSecond, double length = 2.0) {
+std::vector<float> scrape(const Texture& texture, double metresPerSecond, double frequencyHz,
+                          double decayPerSecond, double length = 2.0) {
     HapticFixture ground{frequencyHz, decayPerSecond, true, massKg};
     ground.texture = texture;
     BodyFacts still, moving;
     still.body = 1;
     moving.body = 2;
     FixtureTable table;
-    const std::int32_t surface = table.know(std::uint64_t{11}, still), slider = table.know(std::uint64_t{12}, moving);
+    const std::int32_t surface = table.know(std::uint64_t{11}, still),
+                       slider = table.know(std::uint64_t{12}, moving);
     table.set(surface, ground, {});
     LastingContacts lasting{table};
     std::vector<CollisionEvent> events;
@@ -61,17 +63,20 @@ std::vector<float> scrape(const Texture& texture, double metresPerSecond, double
 void addNoise(std::vector<float>& samples, double decibels) {
     SeededRandom random{1, "scrape"};
     double power = 0.0;
-    for (const float x : samples) power += static_cast<double>(x) * static_cast<double>(x) / static_cast<double>(samples.size());
+    for (const float x : samples)
+        power += static_cast<double>(x) * static_cast<double>(x) / static_cast<double>(samples.size());
     const double rms = std::sqrt(power) * std::pow(10.0, decibels / 20.0);
     for (float& x : samples) x += static_cast<float>(rms * random.normal());
 }
 
-/// Within 5 % of the spacing and 10 % of the roughness; where it is told, 2 % of the frequency and a quarter of the decay.
+/// Within 5 % of the spacing and 10 % of the roughness; where it is told, 2 % of the frequency and a quarter
+/// of the decay.
 void expectFound(const Texture& texture, double speed, double hz, double tau, double noiseDecibels) {
     auto samples = scrape(texture, speed, hz, tau);
     addNoise(samples, noiseDecibels);
     const auto found = extractTexture(samples, rate, {speed, newtons, massKg});
-    const auto where = testing::Message() << texture.grainMetres << " m, " << speed << " m/s, " << hz << " Hz, " << tau << " /s, " << noiseDecibels << " dB";
+    const auto where = testing::Message() << texture.grainMetres << " m, " << speed << " m/s, " << hz
+                                          << " Hz, " << tau << " /s, " << noiseDecibels << " dB";
     ASSERT_TRUE(found) << found.error << ": " << where;
     EXPECT_EQ(found.value.texture.pattern, texture.pattern) << where;
     const bool isRegular = texture.pattern == GrainPattern::regular;
@@ -110,7 +115,8 @@ TEST(TextureExtractor, APauseLeavesRidgesEven) {
 
 TEST(TextureExtractor, TwiceTheLoadTellsHalfTheRoughness) {
     const auto samples = scrape({0.002, 1.0}, 0.4, 349.0, 106.99);
-    const auto once = extractTexture(samples, rate, {0.4, newtons, massKg}), twice = extractTexture(samples, rate, {0.4, 2.0 * newtons, massKg});
+    const auto once = extractTexture(samples, rate, {0.4, newtons, massKg}),
+               twice = extractTexture(samples, rate, {0.4, 2.0 * newtons, massKg});
     EXPECT_NEAR(once.value.texture.roughness, 2.0 * twice.value.texture.roughness, 1e-9);
     EXPECT_EQ(once.value.strength, twice.value.strength);
 }
@@ -125,7 +131,8 @@ TEST(TextureExtractor, WhatWasRecordedUpsideDownIsTheSame) {
     EXPECT_EQ(up.value.counted, down.value.counted);
 }
 
-// A partial of 0.3 of the height makes grains look rougher, not more; at 10 a second its ringing is not counted.
+// A partial of 0.3 of the height makes grains look rougher, not more; at 10 a second its ringing is not
+// counted.
 TEST(TextureExtractor, ASecondPartialLeavesTheSpacing) {
     for (const double speed : {0.02, 0.1, 0.4}) {
         auto samples = scrape({0.002, 1.0}, speed, 349.0, 107.0, 3.0);
@@ -151,9 +158,13 @@ TEST(TextureExtractor, WhatIsNoScrapeIsTold) {
     expectFault(noise, "expected a scrape whose grains stand out or repeat, found none that do");
     // a material that noise shakes
     const double r = std::exp(-50.0 / rate), turn = 2.0 * r * std::cos(2.0 * std::numbers::pi * 300.0 / rate);
-    for (std::size_t n = 2; n < ringing.size(); ++n) ringing[n] = noise[n] * 0.01f + static_cast<float>(turn) * ringing[n - 1] - static_cast<float>(r * r) * ringing[n - 2];
+    for (std::size_t n = 2; n < ringing.size(); ++n)
+        ringing[n] = noise[n] * 0.01f + static_cast<float>(turn) * ringing[n - 1] -
+                     static_cast<float>(r * r) * ringing[n - 2];
     expectFault(ringing, "found none that do");
-    for (std::size_t n = 0; n < ringing.size(); ++n) ringing[n] = static_cast<float>(0.5 * std::sin(0.03 * static_cast<double>(n)) * std::exp(-5.0 * static_cast<double>(n) / rate));
+    for (std::size_t n = 0; n < ringing.size(); ++n)
+        ringing[n] = static_cast<float>(0.5 * std::sin(0.03 * static_cast<double>(n)) *
+                                        std::exp(-5.0 * static_cast<double>(n) / rate));
     expectFault(ringing, "found none that do"); // one hit
     noise[4800] = std::numeric_limits<float>::quiet_NaN();
     expectFault(noise, "expected finite samples, found NaN at 0.1000 s");
@@ -167,7 +178,8 @@ TEST(TextureExtractor, WhatIsNoScrapeIsTold) {
 /// Two poles at this frequency and decay, of this rms.
 AutoregressiveModel model(double hz, double tau, double rms) {
     constexpr double modelRate = 10'000.0;
-    const double r = std::exp(-tau / modelRate), angle = 2.0 * std::numbers::pi * hz / modelRate, a1 = -2.0 * r * std::cos(angle), a2 = r * r;
+    const double r = std::exp(-tau / modelRate), angle = 2.0 * std::numbers::pi * hz / modelRate,
+                 a1 = -2.0 * r * std::cos(angle), a2 = r * r;
     // power of y for noise of 1
     const double gain = (1.0 + a2) / ((1.0 - a2) * ((1.0 + a2) * (1.0 + a2) - a1 * a1));
     return {modelRate, rms * rms / gain, {a1, a2}};
@@ -179,13 +191,18 @@ TEST(TextureOfAModel, IsFeltAsTheModelIs) {
     for (const auto& [hz, tau] : {std::pair{250.0, 100.0}, {120.0, 30.0}, {500.0, 300.0}}) {
         const auto found = textureOf(model(hz, tau, rms), {speed, newtons, massKg});
         ASSERT_TRUE(found) << found.error;
-        EXPECT_NEAR(found.value.frequencyHz, std::sqrt(hz * hz - std::pow(tau / 2.0 / std::numbers::pi, 2.0)), 0.02 * hz);
+        EXPECT_NEAR(found.value.frequencyHz, std::sqrt(hz * hz - std::pow(tau / 2.0 / std::numbers::pi, 2.0)),
+                    0.02 * hz);
         EXPECT_NEAR(found.value.decayPerSecond, tau, 0.1 * tau);
         EXPECT_NEAR(found.value.texture.grainMetres, speed / 2.0 / found.value.frequencyHz, 1e-12);
-        const auto samples = scrape(found.value.texture, speed, found.value.frequencyHz, found.value.decayPerSecond, 4.0);
+        const auto samples =
+            scrape(found.value.texture, speed, found.value.frequencyHz, found.value.decayPerSecond, 4.0);
         double power = 0.0; // of J / m; an acceleration is omega times as much
-        for (std::size_t n = rate / 2; n < samples.size(); ++n) power += std::pow(2.0 * std::numbers::pi * hz * static_cast<double>(samples[n]), 2.0);
-        EXPECT_NEAR(10.0 * std::log10(power / static_cast<double>(samples.size() - rate / 2) / (rms * rms)), 0.0, 2.0) << hz;
+        for (std::size_t n = rate / 2; n < samples.size(); ++n)
+            power += std::pow(2.0 * std::numbers::pi * hz * static_cast<double>(samples[n]), 2.0);
+        EXPECT_NEAR(10.0 * std::log10(power / static_cast<double>(samples.size() - rate / 2) / (rms * rms)),
+                    0.0, 2.0)
+            << hz;
     }
 }
 
@@ -195,7 +212,8 @@ TEST(TextureOfAModel, WhatGrowsOrIsNotFeltIsTold) {
     EXPECT_NE(textureOf(grows, {0.1}).error.find("expected a model that comes to rest"), std::string::npos);
     AutoregressiveModel still = model(250.0, 100.0, 0.0);
     EXPECT_NE(textureOf(still, {0.1}).error.find("expected a model that is felt"), std::string::npos);
-    EXPECT_NE(textureOf({30.0, 1.0, {}}, {0.1}).error.find("expected a model that is felt"), std::string::npos);
+    EXPECT_NE(textureOf({30.0, 1.0, {}}, {0.1}).error.find("expected a model that is felt"),
+              std::string::npos);
 }
 
 } // namespace

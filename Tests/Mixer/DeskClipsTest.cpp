@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file that is dropped on the field, a badge or a strip: felt there, saved with the session, or refused in one line.
+// A file that is dropped on the field, a badge or a strip: felt there, saved with the session, or refused in
+// one line.
 #include "Core/ClipNumber.h"
 #include "Host/Recordings/LoadRecordings.h"
 #include "MixerTesting.h"
@@ -9,7 +10,8 @@ namespace {
 
 using namespace test;
 
-constexpr const char* knock = R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
+constexpr const char* knock =
+    R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
     {"relative_position": 0, "amplitude_modulation": 0.5, "frequency_modulation": 100}, {"relative_position": 100, "amplitude_modulation": 0}]}]}]}]}]})";
 
 struct DeskClipsTest : testing::Test {
@@ -24,14 +26,17 @@ struct DeskClipsTest : testing::Test {
         folder("knock.hjif").replaceWithText(knock);
         desk.setSlowness(0); // nothing else is to be felt
     }
-    void drop(juce::FileDragAndDropTarget& target, const juce::StringArray& files, juce::Point<float> at = {}) {
+    void drop(juce::FileDragAndDropTarget& target, const juce::StringArray& files,
+              juce::Point<float> at = {}) {
         const auto place = at.toInt();
         ASSERT_TRUE(target.isInterestedInFileDrag(files));
         target.fileDragEnter(files, place.x, place.y);
         target.fileDragMove(files, place.x, place.y);
         target.filesDropped(files, place.x, place.y);
     }
-    juce::FileDragAndDropTarget& strip(const char* title) { return dynamic_cast<juce::FileDragAndDropTarget&>(*find(view, title)); }
+    juce::FileDragAndDropTarget& strip(const char* title) {
+        return dynamic_cast<juce::FileDragAndDropTarget&>(*find(view, title));
+    }
     /// The clip that is felt next, whoever has looked: the view does by itself.
     CollisionEvent felt() {
         std::vector<CollisionEvent> clips;
@@ -68,7 +73,8 @@ TEST_F(DeskClipsTest, InTheFieldAClipIsFeltAtThatPlace) {
 }
 
 TEST_F(DeskClipsTest, OnABadgeOrAStripItIsFeltOnThatEnchanterAlone) {
-    const double width = desk.world().scene().fieldWidthMetres, height = desk.world().scene().fieldHeightMetres;
+    const double width = desk.world().scene().fieldWidthMetres,
+                 height = desk.world().scene().fieldHeightMetres;
     drop(field, knocks, field.placeOfEnchanter(1) + juce::Point<float>{5.0f, 5.0f});
     const auto onB = felt();
     EXPECT_EQ(onB.course.spread, Spread::alone);
@@ -89,7 +95,8 @@ TEST_F(DeskClipsTest, RefusalsAreOneLine) {
     EXPECT_EQ(refused(), "Expected one clip, found 2 files");
     drop(strip("Strip A"), {folder("gone.ahap").getFullPathName()});
     EXPECT_TRUE(refused().contains("gone.ahap"));
-    for (juce::FileDragAndDropTarget* target : {static_cast<juce::FileDragAndDropTarget*>(&field), &strip("Strip A")})
+    for (juce::FileDragAndDropTarget* target :
+         {static_cast<juce::FileDragAndDropTarget*>(&field), &strip("Strip A")})
         EXPECT_FALSE(target->isInterestedInFileDrag({"session.json"})) << "documents are the window's";
     EXPECT_TRUE(desk.saved().log.clips.empty());
     SessionSetup setup;
@@ -105,7 +112,8 @@ TEST_F(DeskClipsTest, RefusalsAreOneLine) {
 TEST_F(DeskClipsTest, ASavedSessionHasThem) {
     drop(field, knocks, field.placeOfShare({0.5, 0.5}));
     felt();
-    folder("session.json").replaceWithText(sessionJson(desk.saved(), folder.folder.getFullPathName().toStdString()));
+    folder("session.json")
+        .replaceWithText(sessionJson(desk.saved(), folder.folder.getFullPathName().toStdString()));
     const auto read = loadSession(folder("session.json").getFullPathName().toStdString());
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(read.value.log.strikes.size(), 1u);
@@ -117,8 +125,12 @@ TEST_F(DeskClipsTest, ASavedSessionHasThem) {
 }
 
 TEST_F(DeskClipsTest, WhereItWouldBeFeltIsShownWhileItIsDragged) {
-    const auto pixel = [&](juce::Component& c, juce::Point<float> at) { return c.createComponentSnapshot(c.getLocalBounds(), true, 1.0f).getPixelAt(juce::roundToInt(at.x), juce::roundToInt(at.y)); };
-    const auto shown = [&](juce::FileDragAndDropTarget& target, juce::Point<float> mouse, juce::Point<float> seen) {
+    const auto pixel = [&](juce::Component& c, juce::Point<float> at) {
+        return c.createComponentSnapshot(c.getLocalBounds(), true, 1.0f)
+            .getPixelAt(juce::roundToInt(at.x), juce::roundToInt(at.y));
+    };
+    const auto shown = [&](juce::FileDragAndDropTarget& target, juce::Point<float> mouse,
+                           juce::Point<float> seen) {
         auto& component = dynamic_cast<juce::Component&>(target);
         const auto before = pixel(component, seen);
         target.fileDragEnter(knocks, juce::roundToInt(mouse.x), juce::roundToInt(mouse.y));

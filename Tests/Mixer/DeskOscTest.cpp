@@ -44,7 +44,9 @@ TEST(DeskOsc, IsSwitchedInTheOutputTab) {
     send(desk, "/physvib/strike", {{"level", 2.0}});
     ASSERT_TRUE(runUntil([&] { return desk.inputs().status()->counts.messages == 2; }));
     const Fact& told = messagesOf(tab, desk);
-    EXPECT_TRUE(told.value.startsWith(utf8(desk.inputs().status()->address) + ": 1 good, 1 bad, 0 late; 127.0.0.1:")) << told.value;
+    EXPECT_TRUE(
+        told.value.startsWith(utf8(desk.inputs().status()->address) + ": 1 good, 1 bad, 0 late; 127.0.0.1:"))
+        << told.value;
     EXPECT_EQ(told.shade, Shade::now);
     box.setSelectedItemIndex(0, juce::sendNotificationSync);
     EXPECT_EQ(desk.inputs().choice().use, OscUse::off);
@@ -56,7 +58,10 @@ TEST(DeskOsc, WhatStrikesIsFeltAndSaved) {
     desk.look();
     const auto edits = desk.edits();
     send(desk, "/physvib/strike", {{"frequency_hz", 123.0}, {"decay_per_s", 30.0}});
-    EXPECT_TRUE(runUntil([&] { return std::ranges::any_of(desk.look().hits, [](const auto& hit) { return hit.frequencyHz == 123.0; }); }));
+    EXPECT_TRUE(runUntil([&] {
+        return std::ranges::any_of(desk.look().hits,
+                                   [](const auto& hit) { return hit.frequencyHz == 123.0; });
+    }));
     EXPECT_GT(desk.edits(), edits) << "the document has to be saved";
     ASSERT_EQ(desk.saved().log.strikes.size(), 1U);
 }
@@ -94,8 +99,9 @@ TEST(DeskOsc, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
         ASSERT_TRUE(comes([&] { return desk.inputs().status()->counts.messages == k + 100; }));
     }
     ASSERT_EQ(desk.inputs().status()->counts.refused, 200U);
-    EXPECT_EQ(desk.inputs().status()->counts.fault.substr(desk.inputs().status()->counts.fault.find(": ") + 2),
-              "too many inputs at once");
+    EXPECT_EQ(
+        desk.inputs().status()->counts.fault.substr(desk.inputs().status()->counts.fault.find(": ") + 2),
+        "too many inputs at once");
     EXPECT_TRUE(socket.value.send(oscPacket("/physvib/silence", {"", {{"on", 1.0}}})));
     EXPECT_TRUE(comes([&] { return desk.output().isSilent(); }));
     ASSERT_TRUE(comes([&] { return desk.inputs().status()->counts.messages == 1201; }));
@@ -109,7 +115,8 @@ TEST(DeskOsc, WhatTheDeskRefusesIsToldToItsSender) {
     ASSERT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
     auto socket = OscSocket::connected(desk.inputs().status()->address);
     using namespace std::string_literals;
-    ASSERT_TRUE(socket.value.send(oscPacket("/physvib/impulse", {"", {{"body", "nobody"s}, {"impulse_ns", std::vector{0.0, 1.0}}}})));
+    ASSERT_TRUE(socket.value.send(
+        oscPacket("/physvib/impulse", {"", {{"body", "nobody"s}, {"impulse_ns", std::vector{0.0, 1.0}}}})));
     ASSERT_TRUE(runUntil([&] { return socket.value.wait(0); }));
     const auto error = readOscPacket(*socket.value.receive()).value.at(0);
     EXPECT_EQ(error.address, oscErrorAddress);
@@ -122,7 +129,8 @@ TEST(DeskOsc, WhatAPersonSilencedIsLiftedAtTheMachineAlone) {
     ASSERT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
     const auto taken = [&](std::uint64_t messages) {
         return runUntil([&] {
-            return desk.inputs().status()->counts.messages == messages && desk.inputs().status()->counts.refused == messages - 1;
+            return desk.inputs().status()->counts.messages == messages &&
+                   desk.inputs().status()->counts.refused == messages - 1;
         });
     };
     desk.setSilent(true);
@@ -175,19 +183,23 @@ TEST(DeskOsc, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
             for (const OscMessage& message : readOscPacket(*packet).value) told.push_back(message);
         return std::ranges::find(told, address, &OscMessage::address) != told.end();
     };
-    ASSERT_TRUE(runUntil([&] { return hasTold("/physvib/answer/status"); })) << "which says when a session time is";
+    ASSERT_TRUE(runUntil([&] { return hasTold("/physvib/answer/status"); }))
+        << "which says when a session time is";
     told.clear();
     ASSERT_TRUE(runUntil([&] { return hasTold("/physvib/hit"); })) << "without a window that looks";
     const auto hit = std::ranges::find(told, "/physvib/hit", &OscMessage::address);
     EXPECT_NE(hit->tag, oscNow) << "when hands feel it";
     EXPECT_EQ(std::get<std::string>(hit->values[2]), "frequency_hz");
     const auto hz = static_cast<float>(std::get<double>(hit->values[3]));
-    EXPECT_TRUE(std::ranges::any_of(desk.look().hits, [hz](const CollisionEvent& e) { return static_cast<float>(e.frequencyHz) == hz; })) << "what was told is still shown";
+    EXPECT_TRUE(std::ranges::any_of(desk.look().hits, [hz](const CollisionEvent& e) {
+        return static_cast<float>(e.frequencyHz) == hz;
+    })) << "what was told is still shown";
     EXPECT_TRUE(messagesOf(tab, desk).value.startsWith("to 127.0.0.1:")) << messagesOf(tab, desk).value;
     box.setSelectedItemIndex(0, juce::sendNotificationSync);
     EXPECT_FALSE(desk.inputs().status().has_value());
     box.setSelectedItemIndex(1, juce::sendNotificationSync);
-    EXPECT_EQ(desk.inputs().choice().receiver, "127.0.0.1:" + std::to_string(receiver.value.port())) << "it stays in the list";
+    EXPECT_EQ(desk.inputs().choice().receiver, "127.0.0.1:" + std::to_string(receiver.value.port()))
+        << "it stays in the list";
 }
 
 TEST(DeskOsc, AWrongReceiverIsRefusedAndAllIsAsBefore) {

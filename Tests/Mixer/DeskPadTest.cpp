@@ -23,14 +23,16 @@ TEST(DeskPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
     EXPECT_EQ(list->getItemText(2), "mixed");
     list->setSelectedItemIndex(2);
     ASSERT_TRUE(runUntil([&] { return window.desk().device().choice().pad == "mixed"; }));
-    EXPECT_NEAR(window.desk().device().playOutSeconds(), before + 0.03, 0.006) << "its lead, in the limiter's place";
+    EXPECT_NEAR(window.desk().device().playOutSeconds(), before + 0.03, 0.006)
+        << "its lead, in the limiter's place";
     ASSERT_TRUE(runUntil([&] { return !pad.told().empty(); })) << "shake the box shakes it";
     window.desk().setSilent(true);
     ASSERT_TRUE(runUntil([&] { return pad.isAtRest(); }));
     window.desk().setSilent(false);
 
     pad.detach();
-    ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains("mixed is gone; it is looked for"); })) << window.desk().trouble();
+    ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains("mixed is gone; it is looked for"); }))
+        << window.desk().trouble();
     pad.attach();
     ASSERT_TRUE(runUntil([&] { return window.desk().trouble().isEmpty(); })) << window.desk().trouble();
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The desk without a window: what is set on it reaches the session, comes back by undo, and is in the saved session.
+// The desk without a window: what is set on it reaches the session, comes back by undo, and is in the saved
+// session.
 #include "Host/FakeAudioDevice.h"
 #include "MixerTesting.h"
 #include "Scene/SceneCatalogue.h"
@@ -74,7 +75,9 @@ TEST(Desk, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
 
 TEST(Desk, AHeldFaderIsOneThingToUndo) {
     Desk desk{onlyNoDevice(), noDevice};
-    for (int k = 0; k < 20; ++k) desk.change("Gain of A", [k](Mix& mix) { mix.strips[0].gainDb = -0.5 * k; }, k > 0);
+    for (int k = 0; k < 20; ++k)
+        desk.change(
+            "Gain of A", [k](Mix& mix) { mix.strips[0].gainDb = -0.5 * k; }, k > 0);
     EXPECT_EQ(desk.mix().strips[0].gainDb, -9.5);
     desk.undoManager().undo();
     EXPECT_EQ(desk.mix().strips[0].gainDb, 0.0);
@@ -99,7 +102,8 @@ TEST(Desk, BodiesComeGoAndChangeAndAllOfItCanBeUndone) {
         const auto moment = desk.look();
         return !moment.poses.empty() && !moment.poses.back().isPresent;
     }));
-    EXPECT_NE(desk.world().edit("Material", MaterialAction{"floor", everyFixture, 99}), "") << "what cannot be is told, not done";
+    EXPECT_NE(desk.world().edit("Material", MaterialAction{"floor", everyFixture, 99}), "")
+        << "what cannot be is told, not done";
     EXPECT_FALSE(desk.undoManager().canUndo());
 }
 
@@ -109,7 +113,8 @@ TEST(Desk, AThousandEditsLaterEverythingCanBeUndone) {
     for (int k = 0; k < 30; ++k) {
         desk.attach(0.01 * k, 0.5);
         desk.change("Law", [k](Mix& mix) { mix.law = static_cast<PanningLaw>(k % 4); });
-        desk.change("Mute", [k](Mix& mix) { mix.strips[static_cast<std::size_t>(k % 4)].isMuted = k % 2 == 0; });
+        desk.change("Mute",
+                    [k](Mix& mix) { mix.strips[static_cast<std::size_t>(k % 4)].isMuted = k % 2 == 0; });
         desk.detach(k % desk.mix().count());
     }
     while (desk.undoManager().canUndo()) desk.undoManager().undo();
@@ -161,7 +166,8 @@ TEST(Desk, ADeviceThatVanishesIsToldAndTakenUpAgain) {
     Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}};
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
     hands.unplug(true);
-    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("no such device"); })) << desk.trouble();
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("no such device"); }))
+        << desk.trouble();
     EXPECT_FALSE(desk.look().device.isRunning);
     hands.isPlugged = true;
     EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().isEmpty(); })) << desk.trouble();
@@ -176,12 +182,14 @@ TEST(Desk, TheMonitorIsHeardWhereNoEnchanterIsAndGivesWayToOne) {
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble() << ": an enchanter is there, and is felt";
     EXPECT_TRUE(desk.device().listening().settings().contacts.empty());
     EXPECT_TRUE(desk.device().listening().settings().marks.empty());
-    EXPECT_EQ(desk.device().listening().monitor({4, 3}, -20.0), "output 4 is an actuator's; expected another one to listen to");
+    EXPECT_EQ(desk.device().listening().monitor({4, 3}, -20.0),
+              "output 4 is an actuator's; expected another one to listen to");
     EXPECT_EQ(desk.device().listening().mark(2), "output 3 is an actuator's; expected another one for marks");
     ASSERT_EQ(desk.device().listening().monitor({4, 5}, -10.0), "");
     EXPECT_EQ(desk.device().listening().mark(5), "output 6 is listened to; expected another one for marks");
     desk.change("Output", [](Mix& mix) { mix.strips[1].output = 6; });
-    EXPECT_EQ(desk.device().listening().settings().marks, std::vector{1}) << "it was wanted there, and may be now";
+    EXPECT_EQ(desk.device().listening().settings().marks, std::vector{1})
+        << "it was wanted there, and may be now";
 }
 
 TEST(Desk, TheMonitorIsChosenHeardSavedWithTheDeviceAndUndoneForHands) {
@@ -225,7 +233,8 @@ TEST(Desk, OnTwoOutputsOneListensInsteadOfFeeling) {
     FakeInterface speakers;
     speakers.outputs = 2;
     Desk desk{fakeTypes({&speakers}), {"Fake:hands", 0, 0}};
-    EXPECT_EQ(desk.device().listening().monitor({0, 1}, -20.0), "output 1 is an actuator's; expected another one to listen to");
+    EXPECT_EQ(desk.device().listening().monitor({0, 1}, -20.0),
+              "output 1 is an actuator's; expected another one to listen to");
     ASSERT_EQ(desk.monitorInstead({0, 1}, -20.0), "");
     EXPECT_EQ(desk.mix().strips[0].output, -1);
     EXPECT_EQ(desk.mix().strips[1].output, -1);
@@ -244,9 +253,11 @@ TEST(Desk, WhatFindsNoRoomInTheSessionIsToldWhenThereIsRoom) {
             if (c.kind == Kind::gain && c.channel == 1) gain = c.value;
         return gain;
     };
-    for (int k = 1; k <= 400; ++k) desk.change("Gain of B", [k](Mix& mix) { mix.strips[1].gainDb = -0.1 * k; });
+    for (int k = 1; k <= 400; ++k)
+        desk.change("Gain of B", [k](Mix& mix) { mix.strips[1].gainDb = -0.1 * k; });
     EXPECT_NE(lastGain(), channelGain(desk.mix().strips[1]));
-    EXPECT_TRUE(runUntil([&] { return hands.play(64), desk.look(), lastGain() == channelGain(desk.mix().strips[1]); }));
+    EXPECT_TRUE(runUntil(
+        [&] { return hands.play(64), desk.look(), lastGain() == channelGain(desk.mix().strips[1]); }));
     const auto told = desk.saved().log.channels.size();
     for (int k = 0; k < 10; ++k) desk.look();
     EXPECT_EQ(desk.saved().log.channels.size(), told) << "once";
@@ -265,7 +276,8 @@ TEST(Desk, TwoHundredBodiesForAWhile) {
     mix.scene = std::make_shared<const Scene>(crowd);
     Desk desk{onlyNoDevice(), noDevice, mix};
     MixerView view{desk};
-    EXPECT_TRUE(runUntil([&] { return view.refresh(), desk.look().session.sessionNs > 3'000'000'000; }, 60.0));
+    EXPECT_TRUE(
+        runUntil([&] { return view.refresh(), desk.look().session.sessionNs > 3'000'000'000; }, 60.0));
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
     EXPECT_EQ(view.createComponentSnapshot(view.getLocalBounds()).getWidth(), view.getWidth());
 }

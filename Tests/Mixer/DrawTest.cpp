@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drawing by mouse and keys, and the first start, in the mixer's view: what they do is in the world, in the saved session, and comes back by undo.
+// Drawing by mouse and keys, and the first start, in the mixer's view: what they do is in the world, in the
+// saved session, and comes back by undo.
 #include "Host/Devices/LikelyDevices.h"
-#include "MixerTesting.h"
 #include "Mixer/Desk/PaceWatch.h"
 #include "Mixer/Window/FirstStart.h"
+#include "MixerTesting.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/World/Simulation.h"
@@ -23,19 +24,39 @@ struct Board {
     Board() {
         view.setSize(1440, 900);
         desk.setSlowness(0);
-        desk.change("New scene", [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(newScene(*mix.scene, SceneGround::floor)); });
+        desk.change("New scene", [&](Mix& mix) {
+            mix.scene = std::make_shared<const Scene>(newScene(*mix.scene, SceneGround::floor));
+        });
         settle();
     }
     void settle() {
         desk.dispatchPendingMessages();
         runFor(0.15); // the view shows the world as it is felt, L later: until then poses of the scene before
-        runUntil([&] { return view.refresh(), std::ranges::all_of(drawn().bodies, [&](const BodyDescription& b) { return world.poseOfBody(b.name).has_value(); }); });
+        runUntil([&] {
+            return view.refresh(), std::ranges::all_of(drawn().bodies, [&](const BodyDescription& b) {
+                       return world.poseOfBody(b.name).has_value();
+                   });
+        });
     }
     const Scene& drawn() { return desk.world().drawing().drawn(); }
     Vector share(double x, double y) { return {x * drawn().fieldWidthMetres, y * drawn().fieldHeightMetres}; }
     juce::MouseEvent mouse(Vector at, Vector pressedAt) {
         const auto now = juce::Time::getCurrentTime();
-        return {juce::Desktop::getInstance().getMainMouseSource(), world.placeOfMetres(at), juce::ModifierKeys::leftButtonModifier, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, &pane, &pane, now, world.placeOfMetres(pressedAt), now, 1, at != pressedAt};
+        return {juce::Desktop::getInstance().getMainMouseSource(),
+                world.placeOfMetres(at),
+                juce::ModifierKeys::leftButtonModifier,
+                0.0f,
+                0.0f,
+                0.0f,
+                0.0f,
+                0.0f,
+                &pane,
+                &pane,
+                now,
+                world.placeOfMetres(pressedAt),
+                now,
+                1,
+                at != pressedAt};
     }
     void drag(Vector from, Vector to) {
         pane.mouseDown(mouse(from, from));
@@ -43,7 +64,10 @@ struct Board {
         pane.mouseUp(mouse(to, from));
         settle();
     }
-    void key(juce::juce_wchar c) { view.world().keyPressed(KeyPress{static_cast<int>(juce::CharacterFunctions::toUpperCase(c)), {}, c}), settle(); }
+    void key(juce::juce_wchar c) {
+        view.world().keyPressed(KeyPress{static_cast<int>(juce::CharacterFunctions::toUpperCase(c)), {}, c}),
+            settle();
+    }
     void key(const KeyPress& press) { view.world().keyPressed(press), settle(); }
 };
 
@@ -58,13 +82,15 @@ TEST(Drawing, BallsBoxesAndWallsAreDrawnAndUndone) {
     board.drag(board.share(0.1, 0.3), board.share(0.4, 0.2));
     ASSERT_EQ(board.drawn().bodies.size(), before + 3);
     EXPECT_EQ(board.desk.world().drawing().find("ball 1")->type, BodyType::dynamicBody);
-    EXPECT_TRUE(board.desk.world().drawing().find("ball 1")->fixtures[0].isCamera) << "the first that moves is felt";
+    EXPECT_TRUE(board.desk.world().drawing().find("ball 1")->fixtures[0].isCamera)
+        << "the first that moves is felt";
     EXPECT_EQ(board.desk.world().drawing().find("wall 1")->type, BodyType::staticBody);
     for (int k = 0; k < 3; ++k) board.desk.undoManager().undo();
     EXPECT_EQ(board.drawn().bodies.size(), before);
     for (int k = 0; k < 3; ++k) board.desk.undoManager().redo();
     EXPECT_EQ(board.drawn().bodies.size(), before + 3);
-    EXPECT_EQ(sceneAsLeft(board.desk.saved().log.takes.back()).bodies.size(), before + 3) << "in the session that is saved";
+    EXPECT_EQ(sceneAsLeft(board.desk.saved().log.takes.back()).bodies.size(), before + 3)
+        << "in the session that is saved";
 }
 
 TEST(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
@@ -77,7 +103,8 @@ TEST(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
     board.key(KeyPress{KeyPress::rightKey});
     EXPECT_GT(ball().positionMetres.x, start.positionMetres.x);
     board.key('+');
-    EXPECT_GT(std::get<CircleShape>(ball().fixtures[0].shape).radiusMetres, std::get<CircleShape>(start.fixtures[0].shape).radiusMetres);
+    EXPECT_GT(std::get<CircleShape>(ball().fixtures[0].shape).radiusMetres,
+              std::get<CircleShape>(start.fixtures[0].shape).radiusMetres);
     board.key(KeyPress{'d', juce::ModifierKeys::commandModifier, 0});
     EXPECT_EQ(board.pane.chosen(), (std::vector<std::string>{"ball 2"}));
     board.key(KeyPress{KeyPress::deleteKey});
@@ -99,7 +126,8 @@ TEST(Drawing, ASeesawIsPinnedToTheFieldAndStartsAnewAsItWasDrawn) {
     board.settle();
     const auto pose = board.world.poseOfBody("box 1");
     ASSERT_TRUE(pose);
-    EXPECT_NEAR(pose->yMetres, board.share(0.5, 0.42).y, 0.05 * board.drawn().fieldHeightMetres) << "it hangs on its pin";
+    EXPECT_NEAR(pose->yMetres, board.share(0.5, 0.42).y, 0.05 * board.drawn().fieldHeightMetres)
+        << "it hangs on its pin";
     board.key('e');
     board.drag(board.share(0.5, 0.42), board.share(0.5, 0.42));
     EXPECT_TRUE(board.drawn().joints.empty());
@@ -111,15 +139,19 @@ TEST(Drawing, AHandleSizesWhereTheBodyStays) {
     board.drag(board.share(0.4, 0.4), board.share(0.6, 0.6));
     board.key('s');
     board.pane.choose({"box 1"});
-    const auto box = [&] { return std::get<BoxShape>(board.desk.world().drawing().find("box 1")->fixtures[0].shape); };
+    const auto box = [&] {
+        return std::get<BoxShape>(board.desk.world().drawing().find("box 1")->fixtures[0].shape);
+    };
     const auto before = box();
     board.drag(board.share(0.6, 0.6), board.share(0.7, 0.6));
     EXPECT_NEAR(box().widthMetres, 2.0 * before.widthMetres, 0.1 * before.widthMetres);
     EXPECT_NEAR(box().heightMetres, before.heightMetres, 0.1 * before.heightMetres);
     const auto place = board.desk.world().drawing().find("box 1")->positionMetres;
     board.drag(board.share(0.5, 0.5), board.share(0.4, 0.7));
-    EXPECT_NEAR(board.desk.world().drawing().find("box 1")->positionMetres.x, place.x - 0.1 * board.drawn().fieldWidthMetres, 0.01 * board.drawn().fieldWidthMetres);
-    board.pane.changeChosen("Bounce", [](const Scene&, BodyDescription& body) { body.fixtures[0].restitution = 0.9; });
+    EXPECT_NEAR(board.desk.world().drawing().find("box 1")->positionMetres.x,
+                place.x - 0.1 * board.drawn().fieldWidthMetres, 0.01 * board.drawn().fieldWidthMetres);
+    board.pane.changeChosen("Bounce",
+                            [](const Scene&, BodyDescription& body) { body.fixtures[0].restitution = 0.9; });
     EXPECT_EQ(board.desk.world().drawing().find("box 1")->fixtures[0].restitution, 0.9);
     board.desk.undoManager().undo();
     EXPECT_FALSE(board.desk.world().drawing().find("box 1")->fixtures[0].restitution);
@@ -216,10 +248,15 @@ TEST(PaceWatch, SaysTwiceASecondWhatShareOfRealTimeAWorldKeeps) {
 }
 
 TEST(FirstStart, TheInterfaceComesFirstAndNoDeviceLast) {
-    const auto ordered = byLikelihood({{"None", "no device", 0}, {"ALSA", "HDMI 0", 8}, {"ALSA", "Default ALSA Output", 32}, {"JACK", "system", 8}, {"ALSA", "USB Audio", 8}});
+    const auto ordered = byLikelihood({{"None", "no device", 0},
+                                       {"ALSA", "HDMI 0", 8},
+                                       {"ALSA", "Default ALSA Output", 32},
+                                       {"JACK", "system", 8},
+                                       {"ALSA", "USB Audio", 8}});
     std::vector<std::string> names;
     for (const auto& device : ordered) names.push_back(device.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"system", "USB Audio", "Default ALSA Output", "HDMI 0", "no device"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"system", "USB Audio", "Default ALSA Output", "HDMI 0",
+                                               "no device"}));
 }
 
 TEST(FirstStart, ABoardIsOfferedBeforeControllersAndOtherSerialPortsAreNot) {
@@ -246,7 +283,8 @@ TEST(FirstStart, OneClickToTheFirstPulseThenEachActuatorInTurn) {
     card.louder();
     EXPECT_EQ(desk.mix().levelDb, FirstStart::firstDb + FirstStart::louderDb);
     card.feltAt(0.5, 0.25);
-    EXPECT_NEAR(desk.mix().layout.geometry.places[0].xMetres, 0.5 * desk.mix().layout.geometry.extentWidthMetres, 1e-12);
+    EXPECT_NEAR(desk.mix().layout.geometry.places[0].xMetres,
+                0.5 * desk.mix().layout.geometry.extentWidthMetres, 1e-12);
     card.keyPressed(KeyPress{KeyPress::returnKey});
     EXPECT_EQ(card.tested(), 2);
     card.keyPressed(KeyPress{'N', {}, 'n'});

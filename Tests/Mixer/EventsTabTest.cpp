@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is chosen in the list of events, dragged out or saved: those contacts alone, from the first on, on the enchanters that are there.
+// What is chosen in the list of events, dragged out or saved: those contacts alone, from the first on, on the
+// enchanters that are there.
+#include "Mixer/Output/EventsTab.h"
 #include "Core/ClipNumber.h"
 #include "Host/Recordings/ReadRecording.h"
-#include "Mixer/Output/EventsTab.h"
 #include "MixerTesting.h"
 #include <cmath>
 #include <numbers>
@@ -28,8 +29,11 @@ protected:
     EventsTabTest() { view.scope().choose("Events"); }
 
     void strike(double shareX, double shareY) {
-        const auto sounds = std::ranges::find_if(desk.world().scene().materials, [](const Material& m) { return m.frequencyHz > 0.0; });
-        ASSERT_EQ(desk.strikes().audition(static_cast<int>(sounds - desk.world().scene().materials.begin()), shareX, shareY), "");
+        const auto sounds = std::ranges::find_if(desk.world().scene().materials,
+                                                 [](const Material& m) { return m.frequencyHz > 0.0; });
+        ASSERT_EQ(desk.strikes().audition(static_cast<int>(sounds - desk.world().scene().materials.begin()),
+                                          shareX, shareY),
+                  "");
     }
     /// One after the other, so that each is later than the one before.
     void strikeInTurn(std::initializer_list<juce::Point<double>> shares) {
@@ -42,7 +46,8 @@ protected:
     std::vector<juce::File> drag() {
         juce::StringArray addresses;
         bool mayBeMoved = true;
-        const juce::DragAndDropTarget::SourceDetails details{list.getModel()->getDragSourceDescription(list.getSelectedRows()), &list, {}};
+        const juce::DragAndDropTarget::SourceDetails details{
+            list.getModel()->getDragSourceDescription(list.getSelectedRows()), &list, {}};
         const bool hasFiles = view.shouldDropFilesWhenDraggedExternally(details, addresses, mayBeMoved);
         EXPECT_EQ(hasFiles, !addresses.isEmpty());
         EXPECT_TRUE(!hasFiles || !mayBeMoved);
@@ -57,11 +62,15 @@ protected:
         double sum = 0.0;
         for (const int row : rows) {
             const CollisionEvent& e = recent[static_cast<std::size_t>(row)].event;
-            const double t = static_cast<double>(frame) / 48000.0 - 1e-9 * static_cast<double>(e.timeNs - first);
+            const double t =
+                static_cast<double>(frame) / 48000.0 - 1e-9 * static_cast<double>(e.timeNs - first);
             PhantomPanner::Gains gains{};
             desk.mix().panner().gainsAt(e.x, e.y, gains);
-            const bool rings = t >= 0.0 && (e.durationNs == 0 || t < 1e-9 * static_cast<double>(e.durationNs));
-            if (rings) sum += e.amplitude * gains[channel] * std::sin(2.0 * std::numbers::pi * e.frequencyHz * t) * std::exp(-e.decayPerSecond * t);
+            const bool rings =
+                t >= 0.0 && (e.durationNs == 0 || t < 1e-9 * static_cast<double>(e.durationNs));
+            if (rings)
+                sum += e.amplitude * gains[channel] * std::sin(2.0 * std::numbers::pi * e.frequencyHz * t) *
+                       std::exp(-e.decayPerSecond * t);
         }
         return sum;
     }
@@ -69,10 +78,14 @@ protected:
         double most = 0.0;
         for (std::size_t j = 0; j < sound.channels.size(); ++j)
             for (std::size_t i = 0; i < sound.channels[j].size(); ++i)
-                most = std::max(most, std::abs(sound.channels[j][i] - valueAt(rows, j, static_cast<std::int64_t>(i))));
+                most = std::max(
+                    most, std::abs(sound.channels[j][i] - valueAt(rows, j, static_cast<std::int64_t>(i))));
         return most;
     }
-    void chooseFormat(const juce::String& ending) { dynamic_cast<juce::ComboBox&>(*find(view, "Dragged as")).setSelectedItemIndex(hitEndings().indexOf(ending), juce::sendNotificationSync); }
+    void chooseFormat(const juce::String& ending) {
+        dynamic_cast<juce::ComboBox&>(*find(view, "Dragged as"))
+            .setSelectedItemIndex(hitEndings().indexOf(ending), juce::sendNotificationSync);
+    }
     EventsTab& tab() { return dynamic_cast<EventsTab&>(*view.scope().find("Events")); }
 
     Desk desk{onlyNoDevice(), noDevice, emptyBox()};
@@ -111,7 +124,8 @@ TEST_F(EventsTabTest, AClipHasTheSameWithChannelsAndPlaces) {
         EXPECT_NEAR(clip.value.channels[1].place->xMetres, 0.12, 1e-3) << "of a grid of whole millimetres";
         const auto sound = readRecording(path);
         ASSERT_TRUE(sound) << sound.error;
-        EXPECT_LT(farthest(sound.value, {0, 1}), 0.02) << ending << ": 2 hits of at most 0.5, 0.004 of it each, and 8 bits";
+        EXPECT_LT(farthest(sound.value, {0, 1}), 0.02)
+            << ending << ": 2 hits of at most 0.5, 0.004 of it each, and 8 bits";
     }
 }
 
@@ -124,12 +138,16 @@ TEST_F(EventsTabTest, WhatIsChosenStaysChosenHoweverManyFollow) {
     EXPECT_EQ(list.getSelectedRow(), 2);
     EXPECT_EQ(list.getModel()->getNameForRow(2), name);
     for (int k = 0; k < static_cast<int>(RecentContacts::most); ++k) strike(0.5, 0.5);
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), list.getSelectedRow() == static_cast<int>(RecentContacts::most) + 2; })) << "behind the last hundred";
+    ASSERT_TRUE(runUntil([&] {
+        return view.refresh(), list.getSelectedRow() == static_cast<int>(RecentContacts::most) + 2;
+    })) << "behind the last hundred";
     EXPECT_EQ(list.getModel()->getNameForRow(list.getSelectedRow()), name);
     EXPECT_EQ(drag().size(), 1U);
     list.deselectAllRows();
     strike(0.5, 0.5);
-    EXPECT_TRUE(runUntil([&] { return view.refresh(), list.getModel()->getNumRows() == static_cast<int>(RecentContacts::most); }));
+    EXPECT_TRUE(runUntil([&] {
+        return view.refresh(), list.getModel()->getNumRows() == static_cast<int>(RecentContacts::most);
+    }));
 }
 
 TEST_F(EventsTabTest, IsSavedInEveryFormatOrRefusedInALine) {
@@ -141,13 +159,15 @@ TEST_F(EventsTabTest, IsSavedInEveryFormatOrRefusedInALine) {
         EXPECT_TRUE(desk.isNews()) << desk.trouble();
         const auto files = folder.folder.findChildFiles(juce::File::findFiles, false, "one*" + ending);
         EXPECT_EQ(files.isEmpty(), false) << ending;
-        for (const auto& file : files) EXPECT_TRUE(readRecording(file.getFullPathName().toStdString())) << file.getFileName();
+        for (const auto& file : files)
+            EXPECT_TRUE(readRecording(file.getFullPathName().toStdString())) << file.getFileName();
     }
     EXPECT_TRUE(folder("one-A.haptic").existsAsFile()) << "one channel each";
     tab().saveTo(folder("one.haptic"));
     EXPECT_TRUE(desk.trouble().contains("is there already")) << desk.trouble();
     tab().saveTo(folder("one.mp3"));
-    EXPECT_TRUE(desk.trouble().endsWith("expected a name that ends in .wav, .hjif, .hmpg, .haptic, .ahap")) << desk.trouble();
+    EXPECT_TRUE(desk.trouble().endsWith("expected a name that ends in .wav, .hjif, .hmpg, .haptic, .ahap"))
+        << desk.trouble();
     EXPECT_FALSE(folder("one.mp3").exists());
     chooseFormat(".hjif");
     tab().saveTo(folder("two"));
@@ -162,7 +182,8 @@ TEST(HitFiles, AClipIsNoHitAndNothingIsWritten) {
     clip.frequencyHz = clipFrequencyHz(3);
     const auto written = writeHits({clip}, Desk::firstMix(), 48000, folder("a.wav"));
     EXPECT_EQ(written.error, "Chosen contacts: expected hits, found a clip, which is a file already");
-    EXPECT_EQ(writeHits({}, Desk::firstMix(), 48000, folder("a.wav")).error, "Chosen contacts: expected one whose grains are still kept");
+    EXPECT_EQ(writeHits({}, Desk::firstMix(), 48000, folder("a.wav")).error,
+              "Chosen contacts: expected one whose grains are still kept");
     EXPECT_FALSE(folder("a.wav").exists());
 }
 
@@ -172,7 +193,8 @@ TEST_F(EventsTabTest, NothingChosenAndOtherDragsLeaveNoFiles) {
     list.selectRow(0);
     juce::StringArray files;
     bool mayBeMoved = false;
-    EXPECT_FALSE(view.shouldDropFilesWhenDraggedExternally({WorldView::newEnchanter, &list, {}}, files, mayBeMoved));
+    EXPECT_FALSE(
+        view.shouldDropFilesWhenDraggedExternally({WorldView::newEnchanter, &list, {}}, files, mayBeMoved));
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
 }
 

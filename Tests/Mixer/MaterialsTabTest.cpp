@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The materials: edited and taken back, measured from recordings, felt at a spot, saved and rendered again.
+#include "Mixer/Materials/MaterialsTab.h"
+#include "Host/Recordings/SessionWav.h"
 #include "Io/Wav/WavSink.h"
+#include "Mixer/Materials/MaterialShots.h"
 #include "MixerTesting.h"
 #include "Scene/Sessions/SessionFile.h"
-#include "Host/Recordings/SessionWav.h"
-#include "Mixer/Materials/MaterialShots.h"
-#include "Mixer/Materials/MaterialsTab.h"
 
 namespace physvib {
 namespace {
@@ -36,7 +36,8 @@ struct Materials : testing::Test {
     const Material& now() const { return desk.world().scene().materials[wood]; }
     juce::Slider& slider(const juce::String& title) { return dynamic_cast<juce::Slider&>(*find(tab, title)); }
     const std::vector<LiveInput>& inputs() { return desk.saved().log.takes.back().inputs; }
-    /// Whether such a hit has been played, whoever has looked: the view does by itself, and what one look shows the next does not.
+    /// Whether such a hit has been played, whoever has looked: the view does by itself, and what one look
+    /// shows the next does not.
     bool isPlayed(const std::function<bool(const CollisionEvent&)>& is) {
         desk.look();
         return std::ranges::any_of(desk.recent().newestFirst(), is, &RecentContact::event);
@@ -50,7 +51,10 @@ TEST_F(Materials, AreSetWhileTheyArePlayedAndTakenBack) {
     EXPECT_EQ(now().decayPerSecond, 30.0);
     ASSERT_EQ(inputs().size(), 2u);
     EXPECT_EQ(std::get<SoundAction>(inputs()[1].action), (SoundAction{wood, 205.0, 30.0}));
-    EXPECT_TRUE(runUntil([&] { return isPlayed([](const CollisionEvent& e) { return e.frequencyHz == 205.0 && e.decayPerSecond == 30.0; }); })) << "hits of the world sound as it says";
+    EXPECT_TRUE(runUntil([&] {
+        return isPlayed(
+            [](const CollisionEvent& e) { return e.frequencyHz == 205.0 && e.decayPerSecond == 30.0; });
+    })) << "hits of the world sound as it says";
     desk.undoManager().undo();
     EXPECT_EQ(now().decayPerSecond, 106.99);
     desk.undoManager().undo();
@@ -88,11 +92,13 @@ TEST_F(Materials, SurfacesAreMadeRoughAndTakenBack) {
     EXPECT_EQ(desk.world().scene().materials[0].texture().grainMetres, 0.0);
     EXPECT_EQ(desk.world().scene().materials[0].texture().rolling, 0.2);
     EXPECT_EQ(desk.world().edit("Grain", TextureAction{0, 11.0}), "grain_m: expected 0 to 10, found 11");
-    EXPECT_EQ(desk.world().edit("Grain", TextureAction{99, 0.1}), "material: expected one of the 6 materials of the scene");
+    EXPECT_EQ(desk.world().edit("Grain", TextureAction{99, 0.1}),
+              "material: expected one of the 6 materials of the scene");
 }
 
 TEST_F(Materials, ASurfaceThatIsTurnedIsOneThingToUndo) {
-    for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.world().edit("Grain", TextureAction{wood, 0.001 * k}, k > 1), "");
+    for (int k = 1; k <= 20; ++k)
+        EXPECT_EQ(desk.world().edit("Grain", TextureAction{wood, 0.001 * k}, k > 1), "");
     EXPECT_EQ(now().grainMetres, 0.02);
     desk.undoManager().undo();
     EXPECT_EQ(now().grainMetres, 0.0);
@@ -100,7 +106,8 @@ TEST_F(Materials, ASurfaceThatIsTurnedIsOneThingToUndo) {
 }
 
 TEST_F(Materials, ASliderThatIsHeldIsOneThingToUndo) {
-    for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.world().edit("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
+    for (int k = 1; k <= 20; ++k)
+        EXPECT_EQ(desk.world().edit("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
     EXPECT_EQ(now().frequencyHz, 120.0);
     desk.undoManager().undo();
     EXPECT_EQ(inputs().size(), 21u) << "one more, not the twenty in turn";
@@ -116,9 +123,12 @@ TEST_F(Materials, StayWhenTheSceneStartsAnewAndGoWithAnother) {
     EXPECT_EQ(now().frequencyHz, 205.0);
     desk.restart(7);
     EXPECT_EQ(now().frequencyHz, 205.0);
-    EXPECT_TRUE(runUntil([&] { return desk.saved().log.takes.size() > 1 && desk.saved().log.takes.back().seed == 7; }));
-    EXPECT_EQ(desk.saved().log.takes.back().scene->materials[wood].frequencyHz, 205.0) << "it is so from the first hit on";
-    desk.change("Scene", [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*Desk::firstMix().scene); });
+    EXPECT_TRUE(runUntil(
+        [&] { return desk.saved().log.takes.size() > 1 && desk.saved().log.takes.back().seed == 7; }));
+    EXPECT_EQ(desk.saved().log.takes.back().scene->materials[wood].frequencyHz, 205.0)
+        << "it is so from the first hit on";
+    desk.change("Scene",
+                [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*Desk::firstMix().scene); });
     EXPECT_EQ(now().frequencyHz, 349.0);
 }
 
@@ -151,7 +161,8 @@ TEST_F(Materials, ARecordingThatIsDroppedOnARowIsOfThatMaterial) {
     auto& list = dynamic_cast<juce::ListBox&>(*find(tab, "List of materials"));
     tab.filesDropped({folder("knock.wav").getFullPathName()}, 20, list.getY() + list.getRowHeight() / 2);
     tab.finishMeasuring();
-    EXPECT_NEAR(desk.world().scene().materials[3].frequencyHz, 352.0, 0.5) << "concrete, the first that sounds";
+    EXPECT_NEAR(desk.world().scene().materials[3].frequencyHz, 352.0, 0.5)
+        << "concrete, the first that sounds";
     EXPECT_EQ(now().frequencyHz, 349.0);
 }
 
@@ -164,7 +175,8 @@ TEST_F(Materials, FlacAndOggAreReadAsWell) {
         auto* format = formats.findFormatForFileExtension(ending);
         ASSERT_NE(format, nullptr) << ending;
         const std::unique_ptr<juce::AudioFormatReader> wav{formats.createReaderFor(folder("knock.wav"))};
-        std::unique_ptr<juce::AudioFormatWriter> writer{format->createWriterFor(new juce::FileOutputStream{file}, 48000.0, 1, 16, {}, format->getQualityOptions().size() - 1)};
+        std::unique_ptr<juce::AudioFormatWriter> writer{format->createWriterFor(
+            new juce::FileOutputStream{file}, 48000.0, 1, 16, {}, format->getQualityOptions().size() - 1)};
         ASSERT_NE(writer, nullptr) << ending;
         writer->writeFromAudioReader(*wav, 0, wav->lengthInSamples);
         writer.reset();
@@ -205,7 +217,8 @@ TEST_F(Materials, WhatIsNoHitIsToldInOneLineAndChangesNothing) {
     std::vector<float> samples(24'000, 0.0f);
     write(folder("silent.wav"), samples);
     expect(folder("silent.wav"), "found silence");
-    for (std::size_t i = 2400; i < samples.size(); ++i) samples[i] = std::clamp(3.0f * std::sin(0.02f * static_cast<float>(i)), -1.0f, 1.0f);
+    for (std::size_t i = 2400; i < samples.size(); ++i)
+        samples[i] = std::clamp(3.0f * std::sin(0.02f * static_cast<float>(i)), -1.0f, 1.0f);
     write(folder("clipped.wav"), samples);
     expect(folder("clipped.wav"), "not clipped");
     samples.resize(100);
@@ -230,7 +243,10 @@ TEST_F(Materials, AnAuditionIsAHitOfTheMaterialAtTheSpot) {
     EXPECT_LE(strikes[0].amplitude, 0.5) << "hands are attached";
     EXPECT_EQ(strikes[0].x, 0.25 * desk.world().scene().fieldWidthMetres);
     EXPECT_EQ(strikes[0].y, 0.75 * desk.world().scene().fieldHeightMetres);
-    EXPECT_TRUE(runUntil([&] { return isPlayed([&](const CollisionEvent& e) { return e.frequencyHz == 349.0 && e.x == strikes[0].x; }); }));
+    EXPECT_TRUE(runUntil([&] {
+        return isPlayed(
+            [&](const CollisionEvent& e) { return e.frequencyHz == 349.0 && e.x == strikes[0].x; });
+    }));
     slider("Spot from the left").setValue(100.0, juce::sendNotificationSync);
     dynamic_cast<juce::Button&>(*find(tab, "Feel the material at the spot")).onClick();
     EXPECT_EQ(desk.saved().log.strikes.back().x, desk.world().scene().fieldWidthMetres);
@@ -261,7 +277,9 @@ TEST_F(Materials, ASavedSessionHasThemAndRendersTheSameBytes) {
     EXPECT_EQ(mixOf(read.value).scene->materials[wood].frequencyHz, 205.0);
     EXPECT_EQ(mixOf(read.value).scene->materials[wood].grainMetres, 0.01);
     for (const auto& [session, name] : {std::pair{&saved, "one.wav"}, {&read.value, "two.wav"}})
-        EXPECT_EQ(renderSessionWav(*session, {48000, 1.5, [](double) { return true; }}, folder(name).getFullPathName().toStdString(), "test"), "");
+        EXPECT_EQ(renderSessionWav(*session, {48000, 1.5, [](double) { return true; }},
+                                   folder(name).getFullPathName().toStdString(), "test"),
+                  "");
     juce::MemoryBlock one, two;
     folder("one.wav").loadFileAsData(one);
     folder("two.wav").loadFileAsData(two);

@@ -2,8 +2,8 @@
 // The desk and its window in tests: a clock instead of a device, and JUCE's message loop for a while.
 #pragma once
 #include "Host/MessageManagerForTests.h"
-#include "Mixer/Window/MixerView.h"
 #include "Mixer/OnlyNoDevice.h"
+#include "Mixer/Window/MixerView.h"
 #include <gtest/gtest.h>
 #include <juce_audio_formats/juce_audio_formats.h>
 
@@ -30,7 +30,21 @@ inline juce::Component* find(juce::Component& root, const juce::String& title) {
 /// The left button at a place of `c`.
 inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at) {
     const auto now = juce::Time::getCurrentTime();
-    return {juce::Desktop::getInstance().getMainMouseSource(), at, juce::ModifierKeys::leftButtonModifier, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, &c, &c, now, at, now, 1, false};
+    return {juce::Desktop::getInstance().getMainMouseSource(),
+            at,
+            juce::ModifierKeys::leftButtonModifier,
+            0.0f,
+            0.0f,
+            0.0f,
+            0.0f,
+            0.0f,
+            &c,
+            &c,
+            now,
+            at,
+            now,
+            1,
+            false};
 }
 
 } // namespace physvib::test

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window's components without a display: names and the keyboard for every control, sizes, looks, and what clicks do.
+// The window's components without a display: names and the keyboard for every control, sizes, looks, and what
+// clicks do.
 #include "MixerTesting.h"
-#include "Scene/Sessions/StripGroups.h"
 #include "Scene/SceneCatalogue.h"
+#include "Scene/Sessions/StripGroups.h"
 #include "Scene/World/BodyMass.h"
 #include <cmath>
 #include <set>
@@ -14,7 +15,9 @@ using namespace test;
 
 bool isControl(const juce::Component& c) {
     const auto* label = dynamic_cast<const juce::Label*>(&c);
-    return dynamic_cast<const juce::Button*>(&c) != nullptr || dynamic_cast<const juce::Slider*>(&c) != nullptr || dynamic_cast<const juce::ComboBox*>(&c) != nullptr ||
+    return dynamic_cast<const juce::Button*>(&c) != nullptr ||
+           dynamic_cast<const juce::Slider*>(&c) != nullptr ||
+           dynamic_cast<const juce::ComboBox*>(&c) != nullptr ||
            dynamic_cast<const juce::ListBox*>(&c) != nullptr || (label != nullptr && label->isEditable());
 }
 
@@ -45,13 +48,17 @@ TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
             if (!isControl(c) || isPartOfControl(c)) return;
             ++controls;
             const auto title = c.getTitle().isNotEmpty() ? c.getTitle() : c.getName();
-            EXPECT_TRUE(title.isNotEmpty()) << typeid(c).name() << " in " << (c.getParentComponent() ? c.getParentComponent()->getTitle() : juce::String{}) << " of " << tab;
+            EXPECT_TRUE(title.isNotEmpty())
+                << typeid(c).name() << " in "
+                << (c.getParentComponent() ? c.getParentComponent()->getTitle() : juce::String{}) << " of "
+                << tab;
             if (c.isEnabled()) EXPECT_TRUE(c.getWantsKeyboardFocus()) << title;
             EXPECT_TRUE(c.hasFocusOutline()) << title << ": focus has to be seen";
             EXPECT_TRUE(c.isAccessible()) << title;
             titles.insert(title);
         });
-        for (const auto& title : titles) EXPECT_EQ(titles.count(title), 1u) << title << " is the name of several controls of " << tab;
+        for (const auto& title : titles)
+            EXPECT_EQ(titles.count(title), 1u) << title << " is the name of several controls of " << tab;
     }
     EXPECT_GT(controls, 60);
 }
@@ -121,14 +128,16 @@ TEST(MixerView, TheTabKeyComesToEveryControl) {
     const auto traverser = view.createKeyboardFocusTraverser();
     for (auto* c : traverser->getAllComponents(&view)) reached.insert(c);
     walk(view, [&](juce::Component& c) {
-        if (isControl(c) && !isPartOfControl(c) && c.isEnabled() && c.isShowing()) EXPECT_EQ(reached.count(&c), 1u) << c.getTitle();
+        if (isControl(c) && !isPartOfControl(c) && c.isEnabled() && c.isShowing())
+            EXPECT_EQ(reached.count(&c), 1u) << c.getTitle();
     });
 }
 
 TEST(MixerView, EveryTextFitsAndEveryControlHasASizeAtTheSmallestWindow) {
     Desk desk{onlyNoDevice(), noDevice};
     MixerView view{desk};
-    for (const auto& size : {std::pair{MixerView::leastWidth, MixerView::leastHeight}, {1440, 900}, {3000, 1800}}) {
+    for (const auto& size :
+         {std::pair{MixerView::leastWidth, MixerView::leastHeight}, {1440, 900}, {3000, 1800}}) {
         view.setSize(size.first, size.second);
         for (int k = 0; const auto& tab : view.tabs().names()) {
             view.tabs().choose(tab);
@@ -144,22 +153,29 @@ TEST(MixerView, EveryTextFitsAndEveryControlHasASizeAtTheSmallestWindow) {
 
 double contrast(juce::Colour a, juce::Colour b) {
     const auto luminance = [](juce::Colour c) {
-        const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
-        return 0.2126 * linear(c.getFloatRed()) + 0.7152 * linear(c.getFloatGreen()) + 0.0722 * linear(c.getFloatBlue());
+        const auto linear = [](double v) {
+            return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+        };
+        return 0.2126 * linear(c.getFloatRed()) + 0.7152 * linear(c.getFloatGreen()) +
+               0.0722 * linear(c.getFloatBlue());
     };
     const auto [low, high] = std::minmax({luminance(a), luminance(b)});
     return (high + 0.05) / (low + 0.05);
 }
 
-TEST(MixerView, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 for text, 3 for what is large or drawn
+TEST(MixerView, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 for text, 3 for what is large or
+                                                    // drawn
     Desk desk{onlyNoDevice(), noDevice};
     MixerView view{desk};
     for (const auto ground : {Ground::dark, Ground::light}) {
         view.setGround(ground);
         for (const auto on : {Shade::panel, Shade::ground, Shade::well, Shade::raised})
             for (const auto what : {Shade::text, Shade::muted, Shade::now, Shade::limit, Shade::accent})
-                EXPECT_GE(contrast(shade(view, what), shade(view, on)), 4.5) << static_cast<int>(what) << " on " << static_cast<int>(on) << (ground == Ground::dark ? " dark" : " light");
-        for (int j = 0; j < 64; ++j) EXPECT_GE(contrast(enchanterColour(view, j), shade(view, Shade::panel)), 3.0) << j;
+                EXPECT_GE(contrast(shade(view, what), shade(view, on)), 4.5)
+                    << static_cast<int>(what) << " on " << static_cast<int>(on)
+                    << (ground == Ground::dark ? " dark" : " light");
+        for (int j = 0; j < 64; ++j)
+            EXPECT_GE(contrast(enchanterColour(view, j), shade(view, Shade::panel)), 3.0) << j;
     }
 }
 
@@ -191,8 +207,8 @@ TEST(MixerView, WhatIsDisabledCanBeRead) {
             c->setSize(140, 30);
             c->setEnabled(false);
             EXPECT_GE(drawnContrast(view, *c), 4.0)
-                << typeid(*c).name()
-                << (ground == Ground::dark ? " dark" : " light"); // 4.5 but for the edges of letters
+                << typeid(*c).name() << (ground == Ground::dark ? " dark" : " light"); // 4.5 but for the
+                                                                                       // edges of letters
             view.removeChildComponent(c);
         }
     }
@@ -227,7 +243,8 @@ TEST(MixerView, WhatComesLaterCanBeReadAsWell) {
             const auto* label = dynamic_cast<juce::Label*>(&c);
             if (label == nullptr || label->getText().isEmpty()) return;
             ++labels;
-            EXPECT_GE(contrast(label->findColour(juce::Label::textColourId), shade(view, Shade::panel)), 3.0) << label->getText() << " of " << tab;
+            EXPECT_GE(contrast(label->findColour(juce::Label::textColourId), shade(view, Shade::panel)), 3.0)
+                << label->getText() << " of " << tab;
         });
     }
     EXPECT_GT(labels, 20);
@@ -289,7 +306,8 @@ TEST(MixerView, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
     ceiling->setValue(-20.0, juce::sendNotificationSync);
     desk.dispatchPendingMessages();
     EXPECT_EQ(desk.mix().strips[1].ceilingDb, -20.0);
-    EXPECT_EQ(ceiling->getTextFromValue(-20.0), "at most " + number(-20.0, 1) + " dB, 0.03 g") << "behind a master at -12 dB";
+    EXPECT_EQ(ceiling->getTextFromValue(-20.0), "at most " + number(-20.0, 1) + " dB, 0.03 g")
+        << "behind a master at -12 dB";
     const auto* shown = dynamic_cast<juce::Label*>(find(view, "Ceiling of B in g"));
     ASSERT_NE(shown, nullptr);
     EXPECT_EQ(shown->getText(), "/ 0.03 g");
@@ -322,7 +340,8 @@ TEST(MixerView, ADragPushesByItsStrengthWhateverItPulls) {
     ASSERT_EQ(inputs.size(), 1u);
     EXPECT_EQ(std::get<ImpulseAction>(inputs[0].action).newtonSeconds, (Vector{160.0, 0.0}));
     world.onPull("small rubber ball", {0.0, 0.5}, {});
-    EXPECT_EQ(std::get<ImpulseAction>(desk.saved().log.takes.back().inputs[1].action).newtonSeconds, (Vector{0.0, 4000.0}));
+    EXPECT_EQ(std::get<ImpulseAction>(desk.saved().log.takes.back().inputs[1].action).newtonSeconds,
+              (Vector{0.0, 4000.0}));
     desk.undoManager().undo();
     desk.dispatchPendingMessages();
     EXPECT_EQ(strength->getValue(), 32'000.0);
@@ -351,7 +370,8 @@ TEST(MixerView, APresetIsKnownByItsPlaces) {
     const auto* preset = dynamic_cast<juce::ComboBox*>(find(view, "Preset"));
     ASSERT_NE(preset, nullptr);
     EXPECT_EQ(preset->getText(), "PHONE4");
-    desk.change("Move A", [](Mix& m) { m.layout.geometry.places[0].xMetres = 0.01, m.layout.name = "phone4"; });
+    desk.change("Move A",
+                [](Mix& m) { m.layout.geometry.places[0].xMetres = 0.01, m.layout.name = "phone4"; });
     desk.dispatchPendingMessages();
     EXPECT_EQ(preset->getSelectedItemIndex(), -1);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes that are played in the mixer: a basket is moved by keys, mouse and tilt, a car is driven by keys, and the scene's script leaves it to them.
-#include "Scene/SceneCatalogue.h"
+// Scenes that are played in the mixer: a basket is moved by keys, mouse and tilt, a car is driven by keys,
+// and the scene's script leaves it to them.
 #include "MixerTesting.h"
+#include "Scene/SceneCatalogue.h"
 #include <algorithm>
 
 namespace physvib {
@@ -17,7 +18,9 @@ struct Played {
 
     explicit Played(const std::string& scene) {
         view.setSize(1440, 900);
-        desk.change("Scene", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(findScene(scene).value); });
+        desk.change("Scene", [&scene](Mix& mix) {
+            mix.scene = std::make_shared<const Scene>(findScene(scene).value);
+        });
     }
     float x(const std::string& body) { return view.refresh(), panel.view().placeOfBody(body).x; }
     bool isSeen(const std::function<bool()>& is) { return runUntil(is); }
@@ -28,7 +31,9 @@ struct Played {
     template <class A>
     A last() {
         const auto& inputs = desk.saved().log.takes.back().inputs;
-        return !inputs.empty() && std::holds_alternative<A>(inputs.back().action) ? std::get<A>(inputs.back().action) : A{};
+        return !inputs.empty() && std::holds_alternative<A>(inputs.back().action)
+                   ? std::get<A>(inputs.back().action)
+                   : A{};
     }
 };
 
@@ -36,8 +41,13 @@ TEST(ScenePlay, ABasketGoesWhileAKeyIsHeldAndToWhereTheMouseIs) {
     Played played{"fruit-basket"};
     ASSERT_TRUE(played.isSeen([&] { return played.x("basket") > 0.0f; }));
     played.press(KeyPress::rightKey);
-    EXPECT_TRUE(played.isSeen([&] { return played.view.refresh(), played.last<VelocityAction>().metresPerSecond.x == ScenePlayer::mostMetresPerSecond; }));
-    EXPECT_TRUE(std::ranges::none_of(played.desk.mix().scene->script, [](const ScriptInput& input) { return std::holds_alternative<VelocityAction>(input.action); }));
+    EXPECT_TRUE(played.isSeen([&] {
+        return played.view.refresh(),
+               played.last<VelocityAction>().metresPerSecond.x == ScenePlayer::mostMetresPerSecond;
+    }));
+    EXPECT_TRUE(std::ranges::none_of(played.desk.mix().scene->script, [](const ScriptInput& input) {
+        return std::holds_alternative<VelocityAction>(input.action);
+    }));
     const float start = played.x("basket");
     EXPECT_TRUE(played.isSeen([&] { return played.x("basket") > start + 60.0f; }));
     played.panel.keyStateChanged(false);
@@ -45,18 +55,23 @@ TEST(ScenePlay, ABasketGoesWhileAKeyIsHeldAndToWhereTheMouseIs) {
     auto& world = played.panel.view();
     const auto to = world.placeOfShare({0.25, 0.5});
     played.panel.mouseDrag(mouseAt(world, to));
-    EXPECT_TRUE(played.isSeen([&] { return std::abs(played.x("basket") - to.x) < 12.0f; })) << played.x("basket") << " for " << to.x;
+    EXPECT_TRUE(played.isSeen([&] { return std::abs(played.x("basket") - to.x) < 12.0f; }))
+        << played.x("basket") << " for " << to.x;
     played.panel.mouseUp(mouseAt(world, to));
     EXPECT_EQ(played.last<VelocityAction>().metresPerSecond.x, 0.0);
     played.desk.undoManager().undo();
-    EXPECT_TRUE(std::ranges::any_of(played.desk.mix().scene->script, [](const ScriptInput& input) { return std::holds_alternative<VelocityAction>(input.action); })) << "the script plays again";
+    EXPECT_TRUE(std::ranges::any_of(played.desk.mix().scene->script, [](const ScriptInput& input) {
+        return std::holds_alternative<VelocityAction>(input.action);
+    })) << "the script plays again";
 }
 
 TEST(ScenePlay, ABasketStopsAtTheFieldsEdge) {
     Played played{"fruit-basket"};
     ASSERT_TRUE(played.isSeen([&] { return played.x("basket") > 0.0f; }));
     played.press(KeyPress::leftKey);
-    EXPECT_TRUE(played.isSeen([&] { return played.x("basket") > 0.0f && played.last<VelocityAction>().metresPerSecond.x == 0.0; })) << "nobody lets the key go";
+    EXPECT_TRUE(played.isSeen([&] {
+        return played.x("basket") > 0.0f && played.last<VelocityAction>().metresPerSecond.x == 0.0;
+    })) << "nobody lets the key go";
     EXPECT_GT(played.x("basket"), played.panel.view().placeOfShare({0.0, 0.0}).x);
 }
 
@@ -64,7 +79,10 @@ TEST(ScenePlay, ACarGoesAStepFasterWithEachKey) {
     Played played{"driving"};
     ASSERT_TRUE(played.isSeen([&] { return played.x("car") > 0.0f; }));
     played.press(KeyPress::rightKey);
-    EXPECT_TRUE(played.isSeen([&] { return played.view.refresh(), played.last<MotorAction>().radiansPerSecond == -ScenePlayer::stepRadiansPerSecond; }));
+    EXPECT_TRUE(played.isSeen([&] {
+        return played.view.refresh(),
+               played.last<MotorAction>().radiansPerSecond == -ScenePlayer::stepRadiansPerSecond;
+    }));
     const float start = played.x("car");
     played.press(KeyPress::rightKey);
     EXPECT_EQ(played.last<MotorAction>().radiansPerSecond, -2.0 * ScenePlayer::stepRadiansPerSecond);

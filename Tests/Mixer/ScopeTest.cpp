@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Spectra, events and telemetry: what is played is what they show.
-#include "MixerTesting.h"
 #include "Host/FakeAudioDevice.h"
-#include "Mixer/Strips/SpectrumView.h"
 #include "Mixer/Output/TelemetryTab.h"
+#include "Mixer/Strips/SpectrumView.h"
+#include "MixerTesting.h"
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +12,9 @@ namespace {
 
 using namespace test;
 
-double peakHz(const SpectrumLevels& levels) { return FrequencyAxis::hzOf(static_cast<int>(std::ranges::max_element(levels) - levels.begin())); }
+double peakHz(const SpectrumLevels& levels) {
+    return FrequencyAxis::hzOf(static_cast<int>(std::ranges::max_element(levels) - levels.begin()));
+}
 
 float highestOf(const SpectrumLevels& levels) { return *std::ranges::max_element(levels); }
 
@@ -22,14 +24,17 @@ TEST(SpectrumTrace, ASineIsAPeakOfItsLevelInItsChannelAlone) {
             SpectrumTrace trace;
             trace.setRate(rate);
             std::vector<float> sine(static_cast<std::size_t>(rate) / 2), silence(sine.size());
-            for (std::size_t i = 0; i < sine.size(); ++i) sine[i] = static_cast<float>(0.5 * std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / rate));
+            for (std::size_t i = 0; i < sine.size(); ++i)
+                sine[i] = static_cast<float>(
+                    0.5 * std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / rate));
             for (int done = 0, frames = static_cast<int>(sine.size()); done < frames; done += 130) {
                 const float* channels[]{silence.data() + done, sine.data() + done};
                 trace.add(channels, 2, std::min(130, frames - done));
             }
             EXPECT_NEAR(peakHz(trace.levels(1)), hz, 0.03 * hz) << rate;
             EXPECT_NEAR(highestOf(trace.levels(1)), -6.0, 0.5) << rate << " Hz, " << hz;
-            EXPECT_LT(trace.levels(1)[static_cast<std::size_t>(hz < 300.0 ? 150 : 40)], -60.0f) << "far from it there is nothing";
+            EXPECT_LT(trace.levels(1)[static_cast<std::size_t>(hz < 300.0 ? 150 : 40)], -60.0f)
+                << "far from it there is nothing";
             EXPECT_EQ(highestOf(trace.levels(0)), FrequencyAxis::floorDb);
         }
 }
@@ -71,8 +76,12 @@ struct Scope : testing::Test {
 TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
     desk.setSlowness(0);
     auto& spectrum = dynamic_cast<SpectrumView&>(*find(view, "Spectra"));
-    const auto isQuiet = [&](int channel) { return highestOf(spectrum.shown(channel)) == FrequencyAxis::floorDb; };
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().session.render.pending == 0 && isQuiet(0) && isQuiet(2); })) << "what was struck before";
+    const auto isQuiet = [&](int channel) {
+        return highestOf(spectrum.shown(channel)) == FrequencyAxis::floorDb;
+    };
+    ASSERT_TRUE(runUntil([&] {
+        return view.refresh(), view.latest().session.render.pending == 0 && isQuiet(0) && isQuiet(2);
+    })) << "what was struck before";
     desk.strikes().testPulse(2);
     double seenHz = 0.0;
     float highest = FrequencyAxis::floorDb;
@@ -91,9 +100,11 @@ TEST_F(Scope, PlayedEventsAreListedTheNewestFirst) {
     auto& list = dynamic_cast<juce::ListBox&>(*find(view, "List of played events"));
     ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.recent().newestFirst().size() >= 5; }));
     ASSERT_TRUE(runUntil([&] { return view.refresh(), list.getModel()->getNumRows() >= 5; }));
-    EXPECT_TRUE(std::ranges::is_sorted(desk.recent().newestFirst(), std::greater{}, [](const RecentContact& c) { return c.event.timeNs; }));
+    EXPECT_TRUE(std::ranges::is_sorted(desk.recent().newestFirst(), std::greater{},
+                                       [](const RecentContact& c) { return c.event.timeNs; }));
     EXPECT_TRUE(list.getModel()->getNameForRow(0).contains("wall at ")) << list.getModel()->getNameForRow(0);
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.look().session.render.played > RecentContacts::most + 20; }, 60.0));
+    ASSERT_TRUE(runUntil(
+        [&] { return view.refresh(), desk.look().session.render.played > RecentContacts::most + 20; }, 60.0));
     EXPECT_EQ(desk.recent().newestFirst().size(), RecentContacts::most);
 }
 
@@ -105,8 +116,11 @@ juce::String valueOf(const std::vector<Fact>& facts, const juce::String& name) {
 TEST_F(Scope, TelemetrySaysWhatTheSessionCounts) {
     view.scope().choose("Telemetry");
     ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().session.render.played > 5; }));
-    auto& shown = dynamic_cast<FactList&>(*find(*view.scope().find("Telemetry")->getChildComponent(0), "Telemetry"));
-    EXPECT_TRUE(runUntil([&] { return view.refresh(), valueOf(shown.facts(), "Clock").contains("48000 Hz"); })) << shown.getDescription();
+    auto& shown =
+        dynamic_cast<FactList&>(*find(*view.scope().find("Telemetry")->getChildComponent(0), "Telemetry"));
+    EXPECT_TRUE(runUntil([&] {
+        return view.refresh(), valueOf(shown.facts(), "Clock").contains("48000 Hz");
+    })) << shown.getDescription();
     EXPECT_TRUE(shown.getDescription().contains("Late: ")) << shown.getDescription();
 
     DeskMoment moment = view.latest();
@@ -124,7 +138,8 @@ TEST_F(Scope, TelemetrySaysWhatTheSessionCounts) {
     EXPECT_EQ(valueOf(facts, "Render call"), "median 12.5 %, worst 125.0 %");
     EXPECT_EQ(valueOf(facts, "Xruns"), "4");
     EXPECT_EQ(valueOf(facts, "Board"), "none");
-    for (const auto* name : {"Late", "Refused", "Margin", "Render call", "Xruns"}) EXPECT_EQ(std::ranges::find(facts, juce::String{name}, &Fact::name)->shade, Shade::now) << name;
+    for (const auto* name : {"Late", "Refused", "Margin", "Render call", "Xruns"})
+        EXPECT_EQ(std::ranges::find(facts, juce::String{name}, &Fact::name)->shade, Shade::now) << name;
 }
 
 TEST(Telemetry, ADeviceThatHasGoneIsNoClock) {

@@ -18,7 +18,9 @@ TEST(WorldView, ABodyIsSeenWhereItIsWhenThatIsFelt) {
         view.update({{BodyPose{5e-9 * static_cast<double>(now), 5.0}}, now, aheadNs, {}, {}});
         // the last step before what is felt
         const std::int64_t felt = std::max<std::int64_t>(0, (now - aheadNs) / stepNs * stepNs);
-        EXPECT_NEAR(view.placeOfBody("ball").x, view.placeOfShare({0.5e-9 * static_cast<double>(felt), 0.5}).x, 1e-3) << "at " << now / ms << " ms";
+        EXPECT_NEAR(view.placeOfBody("ball").x,
+                    view.placeOfShare({0.5e-9 * static_cast<double>(felt), 0.5}).x, 1e-3)
+            << "at " << now / ms << " ms";
     }
 }
 

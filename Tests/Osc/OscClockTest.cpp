@@ -2,16 +2,19 @@
 // Time tags: what they say, and that two of them lie as far apart in the session as with their sender.
 #include "Host/Osc/OscClock.h"
 #include "Support/ClosedForm.h"
-#include <gtest/gtest.h>
 #include <cmath>
+#include <gtest/gtest.h>
 
 namespace physvib {
 namespace {
 
-constexpr std::int64_t unixAhead = 1'700'000'000'000'000'000, blockNs = 10'666'667, playOutNs = 50'000'000, deviceNs = 21'333'333;
+constexpr std::int64_t unixAhead = 1'700'000'000'000'000'000, blockNs = 10'666'667, playOutNs = 50'000'000,
+                       deviceNs = 21'333'333;
 
 /// The block that begins at session time `sessionNs`, asked for `delayNs` after `steadyNs`.
-FeltMoment blockAt(std::int64_t sessionNs, std::int64_t steadyNs, std::int64_t delayNs) { return {sessionNs - playOutNs, steadyNs + delayNs + deviceNs, playOutNs + deviceNs}; }
+FeltMoment blockAt(std::int64_t sessionNs, std::int64_t steadyNs, std::int64_t delayNs) {
+    return {sessionNs - playOutNs, steadyNs + delayNs + deviceNs, playOutNs + deviceNs};
+}
 
 /// Blocks for `seconds` of a device that runs `ppm` too slow, each asked for up to `mostDelayNs` late.
 struct Device {
@@ -19,16 +22,24 @@ struct Device {
     test::Random random{5};
     std::int64_t block = 1000;
     void play(double seconds, double ppm, int mostDelayNs) {
-        for (const std::int64_t end = block + static_cast<std::int64_t>(seconds * 1e9) / blockNs; block < end; ++block)
-            clock.follow(blockAt(block * blockNs, 7'000'000'000 + std::llround(static_cast<double>(block * blockNs) * (1 + 1e-6 * ppm)), random.below(mostDelayNs + 1)), unixAhead);
+        for (const std::int64_t end = block + static_cast<std::int64_t>(seconds * 1e9) / blockNs; block < end;
+             ++block)
+            clock.follow(
+                blockAt(block * blockNs,
+                        7'000'000'000 + std::llround(static_cast<double>(block * blockNs) * (1 + 1e-6 * ppm)),
+                        random.below(mostDelayNs + 1)),
+                unixAhead);
     }
 };
 
 TEST(OscClocks, TagsAreSecondsSince1900) {
     EXPECT_EQ(unixNsOf(OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32), 0);
-    EXPECT_EQ(unixNsOf((OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32) + 0x8000'0000u), 500'000'000);
+    EXPECT_EQ(unixNsOf((OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32) + 0x8000'0000u),
+              500'000'000);
     // the last is behind 2036
-    for (const std::int64_t ns : {std::int64_t{0}, std::int64_t{1}, unixAhead + 123'456'789, std::int64_t{999'999'999}, std::int64_t{2'500'000'000'999'999'999}}) EXPECT_EQ(unixNsOf(tagOf(ns)), ns);
+    for (const std::int64_t ns : {std::int64_t{0}, std::int64_t{1}, unixAhead + 123'456'789,
+                                  std::int64_t{999'999'999}, std::int64_t{2'500'000'000'999'999'999}})
+        EXPECT_EQ(unixNsOf(tagOf(ns)), ns);
 }
 
 TEST(OscClocks, WhatIsTaggedIsMeantForThePresentAndFeltLater) {
@@ -53,7 +64,9 @@ TEST(OscClocks, ADriftingDeviceIsFollowed) {
     Device device;
     device.play(600.0, 80.0, 100'000);
     const auto now = static_cast<double>(device.block * blockNs);
-    EXPECT_NEAR(static_cast<double>(device.clock.presentUnixNs(device.block * blockNs) - unixAhead - 7'000'000'000), now * (1 + 80e-6), 1'200'000);
+    EXPECT_NEAR(
+        static_cast<double>(device.clock.presentUnixNs(device.block * blockNs) - unixAhead - 7'000'000'000),
+        now * (1 + 80e-6), 1'200'000);
 }
 
 TEST(OscClocks, AnotherDeviceIsAnotherBeginning) {
@@ -63,7 +76,9 @@ TEST(OscClocks, AnotherDeviceIsAnotherBeginning) {
     EXPECT_EQ(device.clock.sessionNs(unixAhead + 90'000'000'000), 0);
 }
 
-TEST(OscClocks, TheSystemsClockIsReadAgainTheSame) { EXPECT_LT(std::abs(unixAheadNs() - unixAheadNs()), 100'000'000); }
+TEST(OscClocks, TheSystemsClockIsReadAgainTheSame) {
+    EXPECT_LT(std::abs(unixAheadNs() - unixAheadNs()), 100'000'000);
+}
 
 } // namespace
 } // namespace physvib

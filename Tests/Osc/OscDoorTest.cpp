@@ -32,20 +32,30 @@ struct Open {
 
     explicit Open(Direct direct = Direct::no, const ClipSource& clips = {})
         : session{quietSetup(direct)}
-        , door{session, messages, {[this](const LineInput& input, const OscOrigin&) { return acted.push_back(input), std::string{}; }, [this] { return closed; }, clips}} {
+        , door{session,
+               messages,
+               {[this](const LineInput& input, const OscOrigin&) {
+                    return acted.push_back(input), std::string{};
+                },
+                [this] { return closed; }, clips}} {
         session.prepare(hostRate, 512);
     }
-    /// Half a second at 48 kHz, told to the clock as if the session had begun at 1 s of the steady clock, which is the system's.
+    /// Half a second at 48 kHz, told to the clock as if the session had begun at 1 s of the steady clock,
+    /// which is the system's.
     void play(int blocks = 47) {
         for (int k = 0; k < blocks; ++k) {
-            clock.follow({session.timeline().presentNs() - 1, 1'000'000'000 + session.timeline().presentNs(), 1}, 0);
+            clock.follow(
+                {session.timeline().presentNs() - 1, 1'000'000'000 + session.timeline().presentNs(), 1}, 0);
             session.advance();
             session.render(block.at.data(), 512, RenderMode::realtime);
             append(signal, block.at.data(), 512);
         }
     }
     void take(const std::vector<char>& bytes) { door.take(bytes, clock, answers); }
-    void strike(double level, OscTag tag) { take(oscBundle("/physvib/strike", {"strike", {{"frequency_hz", 200.0}, {"decay_per_s", 20.0}, {"level", level}}}, tag)); }
+    void strike(double level, OscTag tag) {
+        take(oscBundle("/physvib/strike",
+                       {"strike", {{"frequency_hz", 200.0}, {"decay_per_s", 20.0}, {"level", level}}}, tag));
+    }
     std::vector<CollisionEvent> struck() {
         SessionLog log;
         session.advance();
@@ -76,8 +86,10 @@ TEST(OscDoors, ATagIsFeltToTheFrameInADirectSessionAsWell) {
         // 5,000 frames and a half from now
         open.strike(0.5, tagOf(1'000'000'000 + (now * 2 + 10'001) * 500'000'000 / hostRate));
         open.play();
-        const auto delay = direct == Direct::no ? open.session.timeline().playOutFrames() : 512 + HapticRenderer::latencyFramesAt(hostRate);
-        const auto first = std::find_if(open.signal.begin(), open.signal.end(), [](float sample) { return std::abs(sample) > 1e-5f; });
+        const auto delay = direct == Direct::no ? open.session.timeline().playOutFrames()
+                                                : 512 + HapticRenderer::latencyFramesAt(hostRate);
+        const auto first = std::find_if(open.signal.begin(), open.signal.end(),
+                                        [](float sample) { return std::abs(sample) > 1e-5f; });
         EXPECT_EQ((first - open.signal.begin()) / hostChannels, now + 5001 + delay);
         EXPECT_EQ(open.door.counts().late + open.door.counts().refused, 0U);
     }
@@ -99,7 +111,9 @@ TEST(OscDoors, LateOnesAreCountedAndFeltAtOnce) {
 TEST(OscDoors, ATagAndATimeOfItsOwnAreTwo) {
     Open open;
     open.play();
-    open.take(oscBundle("/physvib/strike", {"strike", {{"frequency_hz", 200.0}, {"seconds", 0.1}, {"in", 2.0}}}, tagOf(3'000'000'000)));
+    open.take(oscBundle("/physvib/strike",
+                        {"strike", {{"frequency_hz", 200.0}, {"seconds", 0.1}, {"in", 2.0}}},
+                        tagOf(3'000'000'000)));
     open.strike(0.5, tagOf(1'000'000'000 + std::int64_t{100'000} * 1'000'000'000));
     EXPECT_EQ(open.door.counts().refused, 2U);
     EXPECT_EQ(open.door.counts().fault, "strike: time tag: expected at most 86400 s from now");
@@ -123,12 +137,14 @@ TEST(OscDoors, QueriesAreAnswered) {
     open.take(oscPacket("/physvib/layout", {}));
     open.take(oscPacket("/physvib/status", {}));
     ASSERT_EQ(open.answers.size(), 2U);
-    const auto layout = readOscPacket(open.answers[0]).value.at(0), status = readOscPacket(open.answers[1]).value.at(0);
+    const auto layout = readOscPacket(open.answers[0]).value.at(0),
+               status = readOscPacket(open.answers[1]).value.at(0);
     EXPECT_EQ(layout.address, "/physvib/answer/layout");
     EXPECT_EQ(std::get<std::string>(layout.values.at(1)), "linear");
     const auto plain = plainOf("status", status.values);
     EXPECT_EQ(plain.value.values.front().name, "session_s");
-    EXPECT_NEAR(std::get<double>(plain.value.values.front().value), 1e-9 * static_cast<double>(open.session.timeline().presentNs()), 1e-6);
+    EXPECT_NEAR(std::get<double>(plain.value.values.front().value),
+                1e-9 * static_cast<double>(open.session.timeline().presentNs()), 1e-6);
     EXPECT_EQ(plain.value.values.at(5), (NamedValue{"osc_packets", 2.0}));
     open.take(open.answers[0]); // to itself
     EXPECT_EQ(open.answers.size(), 2U) << "an answer is never answered";
@@ -159,11 +175,15 @@ TEST(OscDoors, RefusalsSayWhy) {
         open.take(oscPacket(address, {"", std::move(values)}));
         return open.door.counts().fault;
     };
-    EXPECT_EQ(refusal("/physvib/strike", {{"level", 2.0}, {"frequency_hz", 200.0}, {"seconds", 1.0}}), "strike: level: expected 0 to 1, found 2");
-    EXPECT_EQ(refusal("/physvib/gain", {{"channel", 9.0}, {"value", 1.0}}), "gain: channel: expected a channel from 1 to 4, found 9");
+    EXPECT_EQ(refusal("/physvib/strike", {{"level", 2.0}, {"frequency_hz", 200.0}, {"seconds", 1.0}}),
+              "strike: level: expected 0 to 1, found 2");
+    EXPECT_EQ(refusal("/physvib/gain", {{"channel", 9.0}, {"value", 1.0}}),
+              "gain: channel: expected a channel from 1 to 4, found 9");
     EXPECT_EQ(refusal("/physvib/tilt", {{"angle", 1.0}}).substr(0, 5), "tilt:");
-    EXPECT_EQ(refusal("/physvib/jump", {}), "\"jump\": expected the name of a message, an input or a control");
-    EXPECT_EQ(refusal("/jump", {}), "\"/jump\": expected an address that begins with /physvib/, or one of a sensor program");
+    EXPECT_EQ(refusal("/physvib/jump", {}),
+              "\"jump\": expected the name of a message, an input or a control");
+    EXPECT_EQ(refusal("/jump", {}),
+              "\"/jump\": expected an address that begins with /physvib/, or one of a sensor program");
     EXPECT_EQ(open.door.counts().refused, 5U);
     EXPECT_EQ(open.door.counts().bad, 0U);
     EXPECT_TRUE(open.struck().empty());
@@ -171,7 +191,8 @@ TEST(OscDoors, RefusalsSayWhy) {
 }
 
 /// A packet with one message, its types and the bytes of its values as they are.
-std::vector<char> rawMessage(const std::string& address, const std::string& types, const std::string& values) {
+std::vector<char> rawMessage(const std::string& address, const std::string& types,
+                             const std::string& values) {
     const auto padded = [](std::string text) { return text.append(4 - text.size() % 4, '\0'); };
     const std::string all = padded(address) + padded("," + types) + values;
     return {all.begin(), all.end()};
@@ -180,23 +201,29 @@ std::vector<char> rawMessage(const std::string& address, const std::string& type
 // Each says where, and what was expected.
 TEST(OscDoors, EveryWrongMessageIsRefusedWithItsAddressAndReason) {
     Open open{Direct::no};
-    const auto plain = [](const std::string& address, std::vector<NamedValue> values) { return oscPacket(address, {"", std::move(values)}); };
+    const auto plain = [](const std::string& address, std::vector<NamedValue> values) {
+        return oscPacket(address, {"", std::move(values)});
+    };
     const std::string strike = "/physvib/strike";
     const struct {
         std::vector<char> packet;
         std::string address, reason;
     } wrong[] = {
-        {plain("/physvib/jump", {}), "/physvib/jump", "expected the name of a message, an input or a control"},
+        {plain("/physvib/jump", {}), "/physvib/jump",
+         "expected the name of a message, an input or a control"},
         {plain("/jump", {}), "/jump", "expected an address that begins with /physvib/"},
         {plain(strike, {{"loudness", 1.0}}), strike, "loudness"},
-        {plain(strike, {{"frequency_hz", 200.0}, {"seconds", 1.0}, {"level", 2.0}}), strike, "strike: level: expected 0 to 1, found 2"},
+        {plain(strike, {{"frequency_hz", 200.0}, {"seconds", 1.0}, {"level", 2.0}}), strike,
+         "strike: level: expected 0 to 1, found 2"},
         {plain(strike, {{"frequency_hz", 200.0}}), strike, "strike: seconds: expected a length"},
         {plain(strike, {{"level", "loud"s}}), strike, "strike: level: expected"},
         {rawMessage(strike, "f", "\x3f\0\0\0"s), strike, "strike: expected a name before 0.5"},
         {rawMessage(strike, "s", "level\0\0\0"s), strike, "strike: level: expected a value"},
-        {rawMessage(strike, "sb", "level\0\0\0\0\0\0\4abcd"s), strike, "expected numbers and words, found one of type \"b\""},
+        {rawMessage(strike, "sb", "level\0\0\0\0\0\0\4abcd"s), strike,
+         "expected numbers and words, found one of type \"b\""},
         {rawMessage(strike, "sf", "level\0\0\0\x7f\xc0\0\0"s), strike, "expected numbers that are finite"},
-        {plain("/physvib/gain", {{"channel", 9.0}, {"value", 1.0}}), "/physvib/gain", "gain: channel: expected a channel from 1 to 4, found 9"},
+        {plain("/physvib/gain", {{"channel", 9.0}, {"value", 1.0}}), "/physvib/gain",
+         "gain: channel: expected a channel from 1 to 4, found 9"},
         {plain("/phone/gravity", {}), "/phone/gravity", "expected 3 numbers"},
         {plain("/physvib/clip", {{"file", "knock.wav"s}}), "/physvib/clip", "no folder was given"},
         {{'n', 'o', 'n', 'e'}, "", "expected an OSC message"},
@@ -205,7 +232,8 @@ TEST(OscDoors, EveryWrongMessageIsRefusedWithItsAddressAndReason) {
         open.take(one.packet);
         ASSERT_EQ(open.door.refusals().size(), 1U) << one.reason;
         EXPECT_EQ(open.door.refusals()[0].address, one.address);
-        EXPECT_NE(open.door.refusals()[0].reason.find(one.reason), std::string::npos) << open.door.refusals()[0].reason;
+        EXPECT_NE(open.door.refusals()[0].reason.find(one.reason), std::string::npos)
+            << open.door.refusals()[0].reason;
     }
     open.closed = "a study is running";
     open.strike(0.5, oscNow);
@@ -218,7 +246,8 @@ TEST(OscDoors, EveryWrongMessageIsRefusedWithItsAddressAndReason) {
 // Two programs that refuse each other's refusals would never end.
 TEST(OscDoors, WhatIsAReplyIsCountedAndNotRefused) {
     Open open;
-    open.take(oscWords(std::string(oscErrorAddress), {"/physvib/strike", "strike: level: expected 0 to 1, found 2"}));
+    open.take(oscWords(std::string(oscErrorAddress),
+                       {"/physvib/strike", "strike: level: expected 0 to 1, found 2"}));
     open.take(oscPacket("/physvib/answer/status", {"", {{"session_s", 1.0}}}));
     open.take(oscPacket(std::string(oscHitAddress), {"", {{"session_s", 1.0}}}));
     open.take(rawMessage(std::string(oscErrorAddress), "b", ""));
@@ -229,13 +258,16 @@ TEST(OscDoors, WhatIsAReplyIsCountedAndNotRefused) {
 TEST(OscDoors, ClipsAreReadWhereTheDoorHasAFolder) {
     Open closed;
     closed.take(oscPacket("/physvib/clip", {"", {{"file", "knock.wav"s}, {"place", "A"s}}}));
-    EXPECT_EQ(closed.door.counts().fault, "clip: file: expected no clips here: no folder was given to read them from");
+    EXPECT_EQ(closed.door.counts().fault,
+              "clip: file: expected no clips here: no folder was given to read them from");
     EXPECT_TRUE(closed.struck().empty());
-    Open open{Direct::no, [](const std::string& name) {
-        LoadedClip clip;
-        clip.channels.push_back({0.0, hostRate, std::vector<float>(4800, 0.1f), {.path = name, .hash = "0123456789abcdef"}});
-        return Result<LoadedClip>{clip};
-    }};
+    Open open{
+        Direct::no, [](const std::string& name) {
+            LoadedClip clip;
+            clip.channels.push_back(
+                {0.0, hostRate, std::vector<float>(4800, 0.1f), {.path = name, .hash = "0123456789abcdef"}});
+            return Result<LoadedClip>{clip};
+        }};
     open.take(oscPacket("/physvib/clip", {"", {{"file", "knock.wav"s}, {"place", "A"s}}}));
     EXPECT_EQ(open.door.counts().fault, "");
     ASSERT_EQ(open.struck().size(), 1U);
@@ -244,7 +276,8 @@ TEST(OscDoors, ClipsAreReadWhereTheDoorHasAFolder) {
 TEST(OscDoors, NothingOfABadPacketIsDone) {
     Open open;
     open.play();
-    auto bytes = oscBundle("/physvib/strike", {"strike", {{"frequency_hz", 200.0}, {"seconds", 0.1}}}, oscNow);
+    auto bytes =
+        oscBundle("/physvib/strike", {"strike", {{"frequency_hz", 200.0}, {"seconds", 0.1}}}, oscNow);
     for (const char c : "\0\0\0\7broken"s) bytes.push_back(c);
     open.take(bytes);
     EXPECT_EQ(open.door.counts().bad, 1U);

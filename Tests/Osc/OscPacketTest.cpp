@@ -9,7 +9,9 @@ namespace {
 
 using namespace std::string_literals;
 
-Result<std::vector<OscMessage>> read(const std::string& bytes) { return readOscPacket({bytes.data(), bytes.size()}); }
+Result<std::vector<OscMessage>> read(const std::string& bytes) {
+    return readOscPacket({bytes.data(), bytes.size()});
+}
 
 const std::string strike = "/physvib/strike\0,sfsN\0\0\0"s;
 
@@ -18,11 +20,19 @@ std::string words(const std::string& address, const std::string& name, const std
     return {bytes.begin(), bytes.end()};
 }
 
-std::string element(const std::string& bytes) { return {std::string{0, 0, 0, static_cast<char>(bytes.size())} + bytes}; }
-std::string bundle(const std::string& tag, const std::string& elements) { return "#bundle\0"s + tag + elements; }
+std::string element(const std::string& bytes) {
+    return {std::string{0, 0, 0, static_cast<char>(bytes.size())} + bytes};
+}
+std::string bundle(const std::string& tag, const std::string& elements) {
+    return "#bundle\0"s + tag + elements;
+}
 
 TEST(OscPackets, WhatIsWrittenIsRead) {
-    const PlainMessage message{"x", {{"word", std::string("A")}, {"number", 0.25}, {"list", std::vector{1.0, 2.0, 0.5}}, {"session_s", 1234.5}}};
+    const PlainMessage message{"x",
+                               {{"word", std::string("A")},
+                                {"number", 0.25},
+                                {"list", std::vector{1.0, 2.0, 0.5}},
+                                {"session_s", 1234.5}}};
     const auto bytes = oscPacket("/physvib/x", message);
     EXPECT_EQ(bytes.size() % 4, 0U);
     const auto all = readOscPacket(bytes);
@@ -36,7 +46,8 @@ TEST(OscPackets, WhatIsWrittenIsRead) {
 }
 
 TEST(OscPackets, EveryNumberAndWordIsTaken) {
-    const auto all = read("/n\0\0,ifhdTFsS\0\0\0"s + "\0\0\0\7"s + "\x3f\0\0\0"s + "\0\0\0\0\0\0\0\x9"s + "\x3f\xe0\0\0\0\0\0\0"s + "A\0\0\0B\0\0\0"s);
+    const auto all = read("/n\0\0,ifhdTFsS\0\0\0"s + "\0\0\0\7"s + "\x3f\0\0\0"s + "\0\0\0\0\0\0\0\x9"s +
+                          "\x3f\xe0\0\0\0\0\0\0"s + "A\0\0\0B\0\0\0"s);
     ASSERT_EQ(all.error, "");
     EXPECT_EQ(all.value[0].values, (std::vector<OscValue>{7.0, 0.5, 9.0, 0.5, 1.0, 0.0, "A"s, "B"s}));
 }
@@ -56,9 +67,17 @@ TEST(OscPackets, TheInnermostTagCounts) {
 TEST(OscPackets, WhatIsWrongIsNothing) {
     const std::string now = "\0\0\0\0\0\0\0\1"s, one = words("/a", "n", "w");
     std::string deep = element(one);
-    for (int i = 0; i <= deepestBundle; ++i) deep = "\0\0"s + std::string{static_cast<char>(bundle(now, deep).size() >> 8), static_cast<char>(bundle(now, deep).size())} + bundle(now, deep);
-    for (const std::string& bytes : {""s, "abc"s, "abcd"s, "/a\0\0"s, "/a\0\0,f\0\0"s, "/a\0\0,f\0\0\0\0"s, "/a\0\0,f\0\0\x7f\xc0\0\0"s, "/a\0\0,f\0\0\xff\x80\0\0"s, "/a\0\0,q\0\0\0\0\0\0"s, "/a\0\0,b\0\0\0\0\0\0"s, strike, "#bundle\0"s, "#bundle\0\0\0\0\1"s,
-                                     bundle(now, "\0\0\0\x7f"s + one), bundle(now, "\0\0\0\3abc"s), bundle(now, element(one) + element("/b\0\0"s)), bundle(now, "\xff\xff\xff\xfc"s + one), deep.substr(4)}) {
+    for (int i = 0; i <= deepestBundle; ++i)
+        deep = "\0\0"s +
+               std::string{static_cast<char>(bundle(now, deep).size() >> 8),
+                           static_cast<char>(bundle(now, deep).size())} +
+               bundle(now, deep);
+    for (const std::string& bytes :
+         {""s, "abc"s, "abcd"s, "/a\0\0"s, "/a\0\0,f\0\0"s, "/a\0\0,f\0\0\0\0"s, "/a\0\0,f\0\0\x7f\xc0\0\0"s,
+          "/a\0\0,f\0\0\xff\x80\0\0"s, "/a\0\0,q\0\0\0\0\0\0"s, "/a\0\0,b\0\0\0\0\0\0"s, strike, "#bundle\0"s,
+          "#bundle\0\0\0\0\1"s, bundle(now, "\0\0\0\x7f"s + one), bundle(now, "\0\0\0\3abc"s),
+          bundle(now, element(one) + element("/b\0\0"s)), bundle(now, "\xff\xff\xff\xfc"s + one),
+          deep.substr(4)}) {
         const auto all = read(bytes);
         EXPECT_FALSE(all) << bytes;
         EXPECT_TRUE(all.value.empty());
@@ -66,7 +85,8 @@ TEST(OscPackets, WhatIsWrongIsNothing) {
 }
 
 TEST(OscPackets, EveryCutOfAPacketIsNothing) {
-    const std::string one = words("/physvib/strike", "material", "wood"), all = bundle("\0\0\0\0\0\0\0\1"s, element(one) + element(one));
+    const std::string one = words("/physvib/strike", "material", "wood"),
+                      all = bundle("\0\0\0\0\0\0\0\1"s, element(one) + element(one));
     for (std::size_t n = 0; n < all.size(); ++n) {
         if (n == 16 || n == 20 + one.size()) continue; // a bundle of none, or of one
         EXPECT_FALSE(read(all.substr(0, n))) << n;
@@ -74,8 +94,10 @@ TEST(OscPackets, EveryCutOfAPacketIsNothing) {
 }
 
 TEST(OscPackets, ValuesHaveNames) {
-    EXPECT_EQ(plainOf("path", {"places"s, 0.0, 0.5, 2.0, 0.5, "law"s, "energy"s, "seconds"s, 1.0}).value,
-              (PlainMessage{"path", {{"places", std::vector{0.0, 0.5, 2.0, 0.5}}, {"law", "energy"s}, {"seconds", 1.0}}}));
+    EXPECT_EQ(
+        plainOf("path", {"places"s, 0.0, 0.5, 2.0, 0.5, "law"s, "energy"s, "seconds"s, 1.0}).value,
+        (PlainMessage{"path",
+                      {{"places", std::vector{0.0, 0.5, 2.0, 0.5}}, {"law", "energy"s}, {"seconds", 1.0}}}));
     EXPECT_EQ(plainOf("strike", {0.5}).error, "strike: expected a name before 0.5");
     EXPECT_EQ(plainOf("strike", {"level"s}).error, "strike: level: expected a value");
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Docs/osc.md and Docs/osc-phone.md have the addresses that are taken.
-#include "Scene/Sessions/ControlJson.h"
+#include "Host/Osc/OscPort.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
-#include "Host/Osc/OscPort.h"
 #include "Scene/SceneFields.h"
+#include "Scene/Sessions/ControlJson.h"
 #include "TestPlaces.h"
 #include <functional>
 #include <gtest/gtest.h>
@@ -23,9 +23,13 @@ std::string page() {
     return both;
 }
 
-void expectOnThePage(const std::string& table) { EXPECT_NE(page().find(table), std::string::npos) << "expected in Docs/osc.md or osc-phone.md:\n\n" << table; }
+void expectOnThePage(const std::string& table) {
+    EXPECT_NE(page().find(table), std::string::npos) << "expected in Docs/osc.md or osc-phone.md:\n\n"
+                                                     << table;
+}
 
-// Every message has an address (OscDoors.EveryMessageOfTheTableHasAnAddress), and every address of the page is one.
+// Every message has an address (OscDoors.EveryMessageOfTheTableHasAnAddress), and every address of the page
+// is one.
 TEST(OscPage, ItsAddressesAreTakenOrSent) {
     std::set<std::string, std::less<>> known{"answer", "error", "hit", "silence"};
     for (const auto& message : messageTable) known.emplace(message.name);
@@ -33,9 +37,11 @@ TEST(OscPage, ItsAddressesAreTakenOrSent) {
     for (const auto& control : controlTable) known.emplace(control.name);
     const std::string text = page();
     int addresses = 0;
-    for (std::size_t at = text.find(oscPrefix); at != std::string::npos; at = text.find(oscPrefix, at + 1), ++addresses) {
+    for (std::size_t at = text.find(oscPrefix); at != std::string::npos;
+         at = text.find(oscPrefix, at + 1), ++addresses) {
         const std::size_t begin = at + oscPrefix.size();
-        const std::string name = text.substr(begin, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz", begin) - begin);
+        const std::string name =
+            text.substr(begin, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz", begin) - begin);
         EXPECT_TRUE(name.empty() || known.contains(name)) << oscPrefix << name;
     }
     EXPECT_GE(addresses, 10);
@@ -54,7 +60,9 @@ std::string partOf(const SensorFormat& format) {
 
 TEST(OscPage, HasTheSensorPrograms) {
     std::string table = "| address | numbers | times |\n| --- | --- | --- |\n";
-    for (const auto& format : sensorFormats) table += "| `" + std::string(format.address) + "` | " + partOf(format) + " | " + numberText(format.toPull) + " |\n";
+    for (const auto& format : sensorFormats)
+        table += "| `" + std::string(format.address) + "` | " + partOf(format) + " | " +
+                 numberText(format.toPull) + " |\n";
     expectOnThePage(table);
 }
 

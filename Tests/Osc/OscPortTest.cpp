@@ -25,7 +25,9 @@ struct Played {
     FakeOutput output;
     Played() { session.prepare(hostRate, 512); }
     std::unique_ptr<OscPort> open(const OscSettings& settings) {
-        return std::make_unique<OscPort>(settings, session, messages, output, OscHooks{[](const LineInput&, const OscOrigin&) { return std::string{}; }, {}});
+        return std::make_unique<OscPort>(
+            settings, session, messages, output,
+            OscHooks{[](const LineInput&, const OscOrigin&) { return std::string{}; }, {}});
     }
 };
 
@@ -44,7 +46,10 @@ bool comes(const std::function<bool()>& isTrue) {
     return false;
 }
 
-OscSocket senderTo(const OscPort& port) { return std::move(OscSocket::connected(std::string(oscThisComputer) + ":" + std::to_string(port.port())).value); }
+OscSocket senderTo(const OscPort& port) {
+    return std::move(
+        OscSocket::connected(std::string(oscThisComputer) + ":" + std::to_string(port.port())).value);
+}
 
 TEST(OscPorts, EightAtOnceHaveAPortEach) {
     Played played;
@@ -176,7 +181,8 @@ TEST(OscPorts, WhoSaysSomethingWrongIsToldSo) {
     Played played;
     const auto port = played.open(anyPort());
     auto says = senderTo(*port);
-    ASSERT_TRUE(says.send(oscPacket("/physvib/strike", {"", {{"frequency_hz", 200.0}, {"seconds", 1.0}, {"level", 2.0}}})));
+    ASSERT_TRUE(says.send(
+        oscPacket("/physvib/strike", {"", {{"frequency_hz", 200.0}, {"seconds", 1.0}, {"level", 2.0}}})));
     ASSERT_TRUE(says.wait(60'000));
     const auto error = readOscPacket(*says.receive()).value.at(0);
     EXPECT_EQ(error.address, oscErrorAddress);
@@ -190,7 +196,9 @@ TEST(OscPorts, WhatCouldNotBeDoneAfterAllIsToldToItsSender) {
     Played played;
     OscHooks hooks;
     std::promise<OscOrigin> taken;
-    hooks.act = [&taken](const LineInput&, const OscOrigin& origin) { return taken.set_value(origin), std::string{}; };
+    hooks.act = [&taken](const LineInput&, const OscOrigin& origin) {
+        return taken.set_value(origin), std::string{};
+    };
     OscPort port{anyPort(), played.session, played.messages, played.output, std::move(hooks)};
     auto says = senderTo(port);
     ASSERT_TRUE(says.send(oscPacket("/physvib/tilt", {"", {{"angle_rad", 0.5}}})));
@@ -212,7 +220,9 @@ TEST(OscPorts, NobodyGetsMuchMoreThanHeSends) {
     const auto begin = std::chrono::steady_clock::now();
     for (std::uint64_t k = 0; k < each; ++k) ASSERT_TRUE(asks.send(status));
     ASSERT_TRUE(comes([&] { return port->status().counts.packets == each; }));
-    const auto seconds = 1 + std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin).count();
+    const auto seconds =
+        1 +
+        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin).count();
     std::size_t bytes = 0, answers = 0;
     for (; asks.wait(100); ++answers) bytes += asks.receive()->size();
     EXPECT_GT(answers, 0U);
@@ -242,7 +252,8 @@ TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {
     port->played({hit, 0, false}, hostRate);
     const OscMessage told = next();
     EXPECT_EQ(told.address, oscHitAddress);
-    EXPECT_LT(std::abs(unixNsOf(told.tag) - unixAheadNs() - 2'500'000'000), 1'000'000) << "session time is the steady clock's there";
+    EXPECT_LT(std::abs(unixNsOf(told.tag) - unixAheadNs() - 2'500'000'000), 1'000'000)
+        << "session time is the steady clock's there";
     const auto plain = plainOf("hit", told.values);
     EXPECT_EQ(plain.value.values.at(0), (NamedValue{"session_s", 2.5}));
     EXPECT_EQ(plain.value.values.at(1), (NamedValue{"frequency_hz", 250.0}));

@@ -9,7 +9,8 @@
 namespace physvib {
 namespace {
 
-std::optional<GravityAction> pullOf(PhoneSensors& phone, const std::string& address, std::vector<OscValue> values) {
+std::optional<GravityAction> pullOf(PhoneSensors& phone, const std::string& address,
+                                    std::vector<OscValue> values) {
     const auto* format = sensorFormat(address);
     if (format == nullptr) return std::nullopt;
     const auto read = phone.take(*format, {address, std::move(values), oscNow});
@@ -52,10 +53,16 @@ TEST(PhoneSensors, APhoneMayBeHeldOnItsSide) {
 }
 
 TEST(PhoneSensors, OthersAreNoSensors) {
-    for (const char* address : {"/physvib/strike", "/gravity", "/a/b/gravity", "/gyrosc/quat", "", "/"}) EXPECT_EQ(sensorFormat(address), nullptr) << address;
+    for (const char* address : {"/physvib/strike", "/gravity", "/a/b/gravity", "/gyrosc/quat", "", "/"})
+        EXPECT_EQ(sensorFormat(address), nullptr) << address;
     PhoneSensors phone;
-    for (const auto& values : {std::vector<OscValue>{}, {1.0, 2.0}, {1.0, std::string("a"), 2.0}, {1.0, NAN, 2.0}, {INFINITY, 1.0, 1.0}})
-        EXPECT_EQ(phone.take(*sensorFormat("/accelerometer"), {"/accelerometer", values, oscNow}).error, "/accelerometer: expected 3 numbers");
+    for (const auto& values : {std::vector<OscValue>{},
+                               {1.0, 2.0},
+                               {1.0, std::string("a"), 2.0},
+                               {1.0, NAN, 2.0},
+                               {INFINITY, 1.0, 1.0}})
+        EXPECT_EQ(phone.take(*sensorFormat("/accelerometer"), {"/accelerometer", values, oscNow}).error,
+                  "/accelerometer: expected 3 numbers");
 }
 
 // 100 readings a second, turned slowly with a trembling hand, and back again.
@@ -65,10 +72,12 @@ TEST(PhoneSensors, TenMinutesDoNotDrift) {
     GravityAction now{};
     int told = 0;
     for (int k = 0; k < 60'000; ++k) {
-        const double angle = 1.2 * std::sin(2 * std::numbers::pi * k / 6000.0), x = 9.81 * std::sin(angle), y = 9.81 * std::cos(angle);
+        const double angle = 1.2 * std::sin(2 * std::numbers::pi * k / 6000.0), x = 9.81 * std::sin(angle),
+                     y = 9.81 * std::cos(angle);
         const double tremble = 1e-4 * (random.below(201) - 100);
         if (const auto pull = pullOf(phone, "/accelerometer", {x + tremble, y, 0.0})) now = *pull, ++told;
-        ASSERT_LT(std::hypot(now.metresPerSecond2.x + x + tremble, now.metresPerSecond2.y + y), PhoneSensors::leastChange);
+        ASSERT_LT(std::hypot(now.metresPerSecond2.x + x + tremble, now.metresPerSecond2.y + y),
+                  PhoneSensors::leastChange);
     }
     EXPECT_LT(told, 30'000) << "what does not matter is not logged";
     now = *pullOf(phone, "/accelerometer", {0.0, 9.0, 0.0});

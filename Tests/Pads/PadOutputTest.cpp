@@ -42,7 +42,9 @@ public:
             atBlock(sessionNs());
         }
     }
-    void run(std::int64_t untilNs) { run(untilNs, [](std::int64_t) {}); }
+    void run(std::int64_t untilNs) {
+        run(untilNs, [](std::int64_t) {});
+    }
 
     static std::int64_t now() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
     const std::int64_t beganNs = now();
@@ -76,7 +78,8 @@ TEST_F(Pads, WhatTheMotorsAreToldIsTheModelToTheCommand) {
     PadOutput& output = following.output;
     EXPECT_DOUBLE_EQ(output.latencySeconds(), 0.03);
     std::vector<CollisionEvent> events;
-    for (int i = 0; i < 12; ++i) events.push_back(hit((200 + 90 * i) * ms, i % 2 ? 50.0 : 220.0, 0.05 * (1 + i % 7 * 3), i / 11.0));
+    for (int i = 0; i < 12; ++i)
+        events.push_back(hit((200 + 90 * i) * ms, i % 2 ? 50.0 : 220.0, 0.05 * (1 + i % 7 * 3), i / 11.0));
     std::size_t made = 0;
     device.run(1800 * ms, [&](std::int64_t ns) {
         for (; made < events.size() && events[made].timeNs < ns + 100 * ms; ++made) output.made(events[made]);
@@ -90,7 +93,9 @@ TEST_F(Pads, WhatTheMotorsAreToldIsTheModelToTheCommand) {
     // A machine that is busy sends a command too late for it to count; everything else is there, in order.
     std::size_t at = 1;
     for (const auto& one : told) {
-        const auto isIt = [&](const PadCommand& c) { return std::abs(c.low - one.low) < 1e-4 && std::abs(c.high - one.high) < 1e-4; };
+        const auto isIt = [&](const PadCommand& c) {
+            return std::abs(c.low - one.low) < 1e-4 && std::abs(c.high - one.high) < 1e-4;
+        };
         while (at < model.size() && !isIt(model[at])) ++at;
         ASSERT_LT(at, model.size()) << "not the model's: " << one.low << ' ' << one.high;
         EXPECT_GE(one.steadyNs, device.beganNs + model[at].timeNs - ms) << "before its time";
@@ -111,7 +116,10 @@ TEST_F(Pads, SilenceAndLevelZeroAreRestAtOnceAndWhatRingsComesBack) {
     tone.decayPerSecond = 0.0;
     tone.durationNs = 60'000 * ms;
     output.made(tone);
-    EXPECT_TRUE(soon([&] { device.block(); return !pad.isAtRest(); }));
+    EXPECT_TRUE(soon([&] {
+        device.block();
+        return !pad.isAtRest();
+    }));
     device.setSilent(true);
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
     device.run(device.sessionNs() + 100 * ms);
@@ -177,12 +185,17 @@ TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
     ASSERT_EQ(first.awaitReady(always), "");
     ASSERT_EQ(second.awaitReady(always), "");
     PadOutput third{anyPad, phone()};
-    EXPECT_EQ(third.awaitReady([] { return false; }), "no game controller with motors is there (see physvib pads)");
-    EXPECT_EQ((PadOutput{"three", phone()}.awaitReady([] { return false; })), "no game controller with motors is called \"three\" (see physvib pads)");
-    EXPECT_EQ((PadOutput{"one@pad-atari", phone()}.awaitReady(always)).rfind("no controller profile \"pad-atari\"", 0), 0u);
+    EXPECT_EQ(third.awaitReady([] { return false; }),
+              "no game controller with motors is there (see physvib pads)");
+    EXPECT_EQ((PadOutput{"three", phone()}.awaitReady([] { return false; })),
+              "no game controller with motors is called \"three\" (see physvib pads)");
+    EXPECT_EQ((PadOutput{"one@pad-atari", phone()}.awaitReady(always))
+                  .rfind("no controller profile \"pad-atari\"", 0),
+              0u);
 }
 
-TEST_F(Pads, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // a command is over after 200 ms unless it is sent again
+TEST_F(Pads, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // a command is over after 200 ms unless it is sent
+                                                          // again
     VirtualPad pad{"long"};
     Following following{"long"};
     ASSERT_EQ(following.fault, "");

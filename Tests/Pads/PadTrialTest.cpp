@@ -38,11 +38,13 @@ public:
         }
         if (std::lround(1e3 * seconds_) % 4 != 0) return;
         const auto noise = [&] { return 0.05 * (static_cast<double>(random_()) / 2147483648.0 - 1.0); };
-        told_ = {static_cast<float>(along + noise()), static_cast<float>(9.81 + noise()), static_cast<float>(0.5 * along + noise())};
+        told_ = {static_cast<float>(along + noise()), static_cast<float>(9.81 + noise()),
+                 static_cast<float>(0.5 * along + noise())};
     }
     double strongest() const { return std::max(commands_[0], commands_[1]); }
     PadTrialTime time(double endSeconds = 1e9) {
-        return {[this] { return seconds_; }, [this] { tick(); }, [this, endSeconds] { return seconds_ < endSeconds; }};
+        return {[this] { return seconds_; }, [this] { tick(); },
+                [this, endSeconds] { return seconds_ < endSeconds; }};
     }
 
     GamePadInfo info_;
@@ -81,7 +83,8 @@ TEST(PadTrial, ATrialThatCannotBeMeasuredSaysWhyAndLeavesMotorsAtRest) {
     EXPECT_EQ(recordMotor(pad, true, pad.time()).error, "numbers is gone");
     pad.isAttached_ = true;
     pad.info_.hasAccelerometer = false;
-    EXPECT_EQ(recordMotor(pad, true, pad.time()).error, "numbers: it does not tell its acceleration; DualSense, DualShock 4 and Switch controllers do");
+    EXPECT_EQ(recordMotor(pad, true, pad.time()).error,
+              "numbers: it does not tell its acceleration; DualSense, DualShock 4 and Switch controllers do");
 
     PadMotor dead;
     dead.threshold = 2.0; // nothing turns it

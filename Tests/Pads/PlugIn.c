@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Preloaded into a program, it plugs a virtual controller in once the program knows of controllers, and writes what its motors are told
- * to the file PHYSVIB_PAD_LOG: "MILLISECONDS low high", of the steady clock. PHYSVIB_PAD_EVERY=SECONDS: unplugged and plugged in by turns.
- * PHYSVIB_PADS=N: so many of them (1). PHYSVIB_PAD_FIRST: it is there before the program asks. */
+ * Preloaded into a program, it plugs a virtual controller in once the program knows of controllers, and
+ * writes what its motors are told to the file PHYSVIB_PAD_LOG: "MILLISECONDS low high", of the steady clock.
+ * PHYSVIB_PAD_EVERY=SECONDS: unplugged and plugged in by turns. PHYSVIB_PADS=N: so many of them (1).
+ * PHYSVIB_PAD_FIRST: it is there before the program asks. */
 #include <SDL2/SDL.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -71,8 +72,10 @@ static void* run(void* unused) {
     for (int isIn = 1; every; isIn = !isIn) {
         usleep((useconds_t)(1e6 * atof(every)));
         if (!SDL(WasInit)(SDL_INIT_GAMECONTROLLER)) return unused;
-        if (isIn) pullOut(last), note("pulled out");
-        else last = plugIn(1), note("plugged in");
+        if (isIn)
+            pullOut(last), note("pulled out");
+        else
+            last = plugIn(1), note("plugged in");
     }
     return unused;
 }

@@ -33,16 +33,22 @@ public:
         description.nbuttons = 15;
         description.name = name_.c_str();
         description.userdata = this;
-        description.Rumble = [](void* self, Uint16 low, Uint16 high) { return static_cast<VirtualPad*>(self)->note(low, high); };
-        const auto attachNow = reinterpret_cast<decltype(&SDL_JoystickAttachVirtualEx)>(of("SDL_JoystickAttachVirtualEx"));
-        const auto idOf = reinterpret_cast<decltype(&SDL_JoystickGetDeviceInstanceID)>(of("SDL_JoystickGetDeviceInstanceID"));
+        description.Rumble = [](void* self, Uint16 low, Uint16 high) {
+            return static_cast<VirtualPad*>(self)->note(low, high);
+        };
+        const auto attachNow =
+            reinterpret_cast<decltype(&SDL_JoystickAttachVirtualEx)>(of("SDL_JoystickAttachVirtualEx"));
+        const auto idOf = reinterpret_cast<decltype(&SDL_JoystickGetDeviceInstanceID)>(
+            of("SDL_JoystickGetDeviceInstanceID"));
         id_ = idOf(attachNow(&description));
     }
     void detach() {
         const auto count = reinterpret_cast<decltype(&SDL_NumJoysticks)>(of("SDL_NumJoysticks"))();
-        const auto idOf = reinterpret_cast<decltype(&SDL_JoystickGetDeviceInstanceID)>(of("SDL_JoystickGetDeviceInstanceID"));
+        const auto idOf = reinterpret_cast<decltype(&SDL_JoystickGetDeviceInstanceID)>(
+            of("SDL_JoystickGetDeviceInstanceID"));
         for (int i = 0; i < count; ++i)
-            if (idOf(i) == id_) reinterpret_cast<decltype(&SDL_JoystickDetachVirtual)>(of("SDL_JoystickDetachVirtual"))(i);
+            if (idOf(i) == id_)
+                reinterpret_cast<decltype(&SDL_JoystickDetachVirtual)>(of("SDL_JoystickDetachVirtual"))(i);
         id_ = -1;
     }
     std::vector<Told> told() const {
@@ -59,7 +65,8 @@ private:
     int note(std::uint16_t low, std::uint16_t high) {
         const std::lock_guard lock{mutex_};
         const auto now = std::chrono::steady_clock::now().time_since_epoch();
-        told_.push_back({std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), low / 65535.0, high / 65535.0});
+        told_.push_back({std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), low / 65535.0,
+                         high / 65535.0});
         return 0;
     }
 

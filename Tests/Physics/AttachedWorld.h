@@ -72,12 +72,8 @@ protected:
     Attachment attachment{world, unity()};
 };
 
-inline double seconds(const CollisionEvent& event) {
-    return static_cast<double>(event.timeNs) * 1.0e-9;
-}
+inline double seconds(const CollisionEvent& event) { return static_cast<double>(event.timeNs) * 1.0e-9; }
 
-inline double massKg(const b2Fixture& fixture) {
-    return static_cast<double>(fixture.GetBody()->GetMass());
-}
+inline double massKg(const b2Fixture& fixture) { return static_cast<double>(fixture.GetBody()->GetMass()); }
 
 } // namespace physvib

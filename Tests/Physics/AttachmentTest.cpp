@@ -323,18 +323,21 @@ TEST(Attachment, StepsOfDifferentLengthsAddUpToTheTime) {
     EXPECT_NEAR(seconds(events[0]), std::sqrt(2.0 * fall / 9.8), 0.006); // Box2D falls half a step ahead
 }
 
-/// Two bodies that move sink into each other in the step before the one that tells of it, which may be a long one.
+/// Two bodies that move sink into each other in the step before the one that tells of it, which may be a long
+/// one.
 TEST_F(AttachedWorld, HitsOfTwoMovingBodiesAreTimedInStepsOfAnyLength) {
     constexpr int count = 40;
     for (int i = 0; i < count; ++i) {
-        (void)attachment.set(ball(-2.0F - 0.01F * static_cast<float>(i), static_cast<float>(i), 3.0F, 0.0F), camera, i);
+        (void)attachment.set(ball(-2.0F - 0.01F * static_cast<float>(i), static_cast<float>(i), 3.0F, 0.0F),
+                             camera, i);
         (void)attachment.set(ball(2.0F, static_cast<float>(i), -2.0F, 0.0F), object, count + i);
     }
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 80; ++i) attachment.step(i % 2 == 0 ? 0.004F : 0.033F);
     attachment.take(events);
     ASSERT_EQ(events.size(), static_cast<std::size_t>(count));
-    for (const CollisionEvent& event : events) EXPECT_NEAR(seconds(event), (3.5 + 0.01 * event.source.fixture) / 5.0, 1.0e-5);
+    for (const CollisionEvent& event : events)
+        EXPECT_NEAR(seconds(event), (3.5 + 0.01 * event.source.fixture) / 5.0, 1.0e-5);
 }
 
 TEST(Attachment, StepsThatTakeNoTimeDoNothing) {

@@ -42,14 +42,17 @@ TEST_F(Blows, HeadOfAPoleThatTopplesIsFelt) {
     double headSpeed = 0.0;
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 400 && events.empty(); ++i) {
-        headSpeed = std::max(headSpeed, -static_cast<double>(pole.GetBody()->GetLinearVelocityFromLocalPoint({0.0F, 0.5F * length}).y));
+        headSpeed = std::max(
+            headSpeed,
+            -static_cast<double>(pole.GetBody()->GetLinearVelocityFromLocalPoint({0.0F, 0.5F * length}).y));
         attachment.step(0.01F);
         attachment.take(events);
     }
     ASSERT_EQ(events.size(), 1U);
     EXPECT_GT(headSpeed, 5.0);
     EXPECT_NEAR(events[0].x, length, 0.3); // at the head, not at the foot
-    // About the foot: I w = J l, I = m l^2 / 3; gravity adds 3/2 g dt to the head in the step, and half the weight.
+    // About the foot: I w = J l, I = m l^2 / 3; gravity adds 3/2 g dt to the head in the step, and half the
+    // weight.
     const double expected = massKg(pole) * ((headSpeed + 1.5 * 10.0 * 0.01) / 3.0 + 0.5 * 10.0 * 0.01);
     EXPECT_NEAR(events[0].source.impulseNewtonSeconds, expected, 0.05 * expected);
 }
@@ -58,7 +61,7 @@ TEST_F(Blows, TippedCrateThatFallsBackIsFelt) {
     (void)attachment.set(floor(), camera);
     b2Fixture& crate = block({0.0F, 0.5F}, {0.5F, 0.5F});
     (void)attachment.set(crate, object);
-    EXPECT_TRUE(run(50).empty()); // it was created at rest
+    EXPECT_TRUE(run(50).empty());                      // it was created at rest
     crate.GetBody()->ApplyAngularImpulse(12.0F, true); // one corner lifts
     const auto events = run(150);
     ASSERT_GE(events.size(), 1U);
@@ -80,18 +83,21 @@ TEST_F(Blows, EveryDominoIsFeltToFallOnce) {
     double struckAt = 0.0;
     for (int i = 1; i < count; ++i) { // each is struck by the one before it
         const auto isFall = [&](const CollisionEvent& event) {
-            return event.source.fixture == ids[static_cast<std::size_t>(i)] && event.source.other == ids[static_cast<std::size_t>(i - 1)];
+            return event.source.fixture == ids[static_cast<std::size_t>(i)] &&
+                   event.source.other == ids[static_cast<std::size_t>(i - 1)];
         };
         const auto fall = std::find_if(events.begin(), events.end(), isFall);
         ASSERT_NE(fall, events.end()) << i;
         EXPECT_GT(seconds(*fall), struckAt) << i; // one after the other
         struckAt = seconds(*fall);
-        // Once: what follows within a tenth of a second is a faint rattle; later both come to lie, which is another blow.
+        // Once: what follows within a tenth of a second is a faint rattle; later both come to lie, which is
+        // another blow.
         for (auto later = fall + 1; later != events.end(); ++later)
             if (isFall(*later) && seconds(*later) < struckAt + 0.1)
                 EXPECT_LT(later->source.impulseNewtonSeconds, 0.5 * fall->source.impulseNewtonSeconds) << i;
     }
-    EXPECT_TRUE(std::any_of(events.begin(), events.end(), [&](const CollisionEvent& event) { return event.source.fixture == ground; }));
+    EXPECT_TRUE(std::any_of(events.begin(), events.end(),
+                            [&](const CollisionEvent& event) { return event.source.fixture == ground; }));
 }
 
 /// Lets bodies pass a platform until told otherwise.
@@ -185,7 +191,8 @@ INSTANTIATE_TEST_SUITE_P(GravityScales, BlowsOnAChain, testing::Values(1.0F, 3.0
 
 TEST_F(Blows, WhatIsCreatedAtRestIsNotFelt) {
     (void)attachment.set(floor(), camera);
-    for (int i = 0; i < 5; ++i) (void)attachment.set(block({0.0F, 0.505F + 1.01F * static_cast<float>(i)}, {0.5F, 0.5F}), camera);
+    for (int i = 0; i < 5; ++i)
+        (void)attachment.set(block({0.0F, 0.505F + 1.01F * static_cast<float>(i)}, {0.5F, 0.5F}), camera);
     EXPECT_TRUE(run(200).empty());
 }
 
@@ -220,7 +227,8 @@ TEST_P(BlowsBesideAMachine, SmallStrikeDoesNotHandOnItsHumming) {
     }
     for (int i = 0; i < 60; ++i) { // it shakes the floor by 60 N s
         machine.GetBody()->ApplyLinearImpulseToCenter({0.0F, i % 2 == 0 ? -60.0F : 30.0F}, true);
-        for (const CollisionEvent& event : run(0)) EXPECT_LT(event.source.impulseNewtonSeconds, 1.05 * pebbles);
+        for (const CollisionEvent& event : run(0))
+            EXPECT_LT(event.source.impulseNewtonSeconds, 1.05 * pebbles);
     }
 }
 INSTANTIATE_TEST_SUITE_P(, BlowsBesideAMachine, testing::Values(ImpactTiming::onset, ImpactTiming::release));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Worlds whose owners break the one rule: fixtures are destroyed by DestroyFixture without a word, and their bodies then, so that Box2D
-// says nothing of either. That may cost values, never memory: the address sanitizer watches, see PlainMemoryTest.cpp. How many worlds
-// and steps: PHYSVIB_SEEDS and PHYSVIB_STEPS of the environment; Tests/Physics/freed.sh runs 200 of 1,500 with Box2D built for it.
+// Worlds whose owners break the one rule: fixtures are destroyed by DestroyFixture without a word, and their
+// bodies then, so that Box2D says nothing of either. That may cost values, never memory: the address
+// sanitizer watches, see PlainMemoryTest.cpp. How many worlds and steps: PHYSVIB_SEEDS and PHYSVIB_STEPS of
+// the environment; Tests/Physics/freed.sh runs 200 of 1,500 with Box2D built for it.
 #include "AttachedWorld.h"
 #include <algorithm>
 #include <cstdlib>
@@ -31,7 +32,8 @@ TEST_F(AttachedWorld, AStaticBodyThatWentUnheardWeighsNothing) {
 TEST_F(AttachedWorld, AnIdBelowZeroAndADecayThatIsMissingAreRefusedAndNothingIsChanged) {
     b2Fixture& fixture = ball(0.0F, 0.0F, 0.0F, 0.0F);
     EXPECT_EQ(attachment.set(fixture, camera, -5).refusal, "id: expected a number from 0 on");
-    EXPECT_EQ(attachment.set(fixture, {.frequencyHz = 200.0, .isCamera = true}).refusal.substr(0, 6), "decay:");
+    EXPECT_EQ(attachment.set(fixture, {.frequencyHz = 200.0, .isCamera = true}).refusal.substr(0, 6),
+              "decay:");
     EXPECT_EQ(attachment.find(fixture), nullptr);
     EXPECT_TRUE(attachment.set(fixture, camera, 5));
 }
@@ -40,14 +42,16 @@ TEST_F(AttachedWorld, WhyNothingIsFeltIsSaid) {
     b2Fixture& slow = ball(0.0F, 0.3F, 0.0F, -0.05F);
     floor();
     (void)run(150);
-    EXPECT_NE(attachment.explain().find("haptic source: set is_camera"), std::string::npos) << attachment.explain();
+    EXPECT_NE(attachment.explain().find("haptic source: set is_camera"), std::string::npos)
+        << attachment.explain();
     EXPECT_EQ(attachment.counts().withoutSource, attachment.counts().contacts);
     (void)attachment.set(slow, camera);
     slow.GetBody()->SetTransform({0.0F, 0.3F}, 0.0F);
     slow.GetBody()->SetLinearVelocity({0.0F, -0.05F});
     EXPECT_TRUE(run(150).empty());
     EXPECT_EQ(attachment.counts().belowThreshold, 1U);
-    EXPECT_NE(attachment.explain().find("slower than the threshold of 0.15 m/s"), std::string::npos) << attachment.explain();
+    EXPECT_NE(attachment.explain().find("slower than the threshold of 0.15 m/s"), std::string::npos)
+        << attachment.explain();
 }
 
 /// Everything is made, changed and destroyed at any time, told and untold.
@@ -96,18 +100,33 @@ private:
             b2Body* const body = any();
             b2Fixture* const fixture = body != nullptr ? body->GetFixtureList() : nullptr;
             switch (choose(12)) {
-            case 0: case 1: case 2: add(); break;
-            case 3: if (body != nullptr) addFixture(*body); break;
-            case 4: case 5: if (fixture != nullptr) body->DestroyFixture(fixture); break; // without a word
+            case 0:
+            case 1:
+            case 2: add(); break;
+            case 3:
+                if (body != nullptr) addFixture(*body);
+                break;
+            case 4:
+            case 5:
+                if (fixture != nullptr) body->DestroyFixture(fixture);
+                break; // without a word
             case 6:
                 if (body == nullptr) break;
                 while (b2Fixture* each = body->GetFixtureList()) body->DestroyFixture(each);
                 world_.DestroyBody(body);
                 break;
-            case 7: if (body != nullptr && world_.GetBodyCount() > 10) world_.DestroyBody(body); break;
-            case 8: if (body != nullptr) body->SetType(static_cast<b2BodyType>(choose(3))); break;
-            case 9: if (body != nullptr) body->SetEnabled(!body->IsEnabled()); break;
-            case 10: if (fixture != nullptr) attachment_.remove(*fixture); break;
+            case 7:
+                if (body != nullptr && world_.GetBodyCount() > 10) world_.DestroyBody(body);
+                break;
+            case 8:
+                if (body != nullptr) body->SetType(static_cast<b2BodyType>(choose(3)));
+                break;
+            case 9:
+                if (body != nullptr) body->SetEnabled(!body->IsEnabled());
+                break;
+            case 10:
+                if (fixture != nullptr) attachment_.remove(*fixture);
+                break;
             default: join(body, any()); break;
             }
         }
@@ -131,7 +150,8 @@ private:
         const b2Shape& shape = choose(2) == 0 ? static_cast<const b2Shape&>(circle) : box;
         b2Fixture& fixture = *body.CreateFixture(&shape, 1.0F + static_cast<float>(choose(5)));
         fixture.SetRestitution(0.1F * static_cast<float>(choose(10)));
-        HapticFixture values{100.0 + choose(300), 20.0, choose(2) == 0, static_cast<double>(choose(100)), Voice::both};
+        HapticFixture values{100.0 + choose(300), 20.0, choose(2) == 0, static_cast<double>(choose(100)),
+                             Voice::both};
         if (choose(3) == 0) values.texture = {.grainMetres = 0.005};
         if (choose(4) != 0) (void)attachment_.set(fixture, values);
     }
@@ -158,7 +178,9 @@ TEST(BrokenRules, CostValuesAndNoMemory) {
         Rampage rampage(static_cast<unsigned>(seed));
         rampage.run(steps);
         EXPECT_FALSE(rampage.events.empty()) << seed;
-        const auto isSound = [](const CollisionEvent& event) { return std::isfinite(event.amplitude) && std::isfinite(event.x) && std::isfinite(event.y); };
+        const auto isSound = [](const CollisionEvent& event) {
+            return std::isfinite(event.amplitude) && std::isfinite(event.x) && std::isfinite(event.y);
+        };
         EXPECT_TRUE(std::all_of(rampage.events.begin(), rampage.events.end(), isSound)) << seed;
     }
 }

@@ -172,7 +172,9 @@ TEST_F(CollisionCatcherWorld, WeakestContactsAreLeftOutWhereThereIsNoRoomAndCoun
     constexpr int balls = static_cast<int>(CollisionCatcher::maxDirectBlows) + 10;
     (void)attachment.set(floor(), camera);
     for (int i = 0; i < balls; ++i)
-        (void)attachment.set(ball(-90.0F + 0.16F * static_cast<float>(i), 0.24F, 0.0F, i % 100 == 7 && i / 100 < 10 ? -1.0F : -2.0F), object);
+        (void)attachment.set(ball(-90.0F + 0.16F * static_cast<float>(i), 0.24F, 0.0F,
+                                  i % 100 == 7 && i / 100 < 10 ? -1.0F : -2.0F),
+                             object);
     b2Filter apart;
     apart.groupIndex = -1;
     for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
@@ -180,7 +182,8 @@ TEST_F(CollisionCatcherWorld, WeakestContactsAreLeftOutWhereThereIsNoRoomAndCoun
     const auto events = run(1);
     EXPECT_EQ(events.size(), CollisionCatcher::maxDirectBlows);
     EXPECT_EQ(attachment.drops(), 10U);
-    for (const CollisionEvent& event : events) EXPECT_GT(event.source.impulseNewtonSeconds, 1.5 * massKg(*world.GetBodyList()->GetFixtureList()));
+    for (const CollisionEvent& event : events)
+        EXPECT_GT(event.source.impulseNewtonSeconds, 1.5 * massKg(*world.GetBodyList()->GetFixtureList()));
 }
 
 TEST_F(CollisionCatcherWorld, ContactsOfOthersDoNotTakeTheRoomOfCameras) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A body that is destroyed some time after it was disabled leaves all others as they are, to the bit: worlds may drop what
-// is gone, and sessions that were saved while it only lay disabled play as before.
+// A body that is destroyed some time after it was disabled leaves all others as they are, to the bit: worlds
+// may drop what is gone, and sessions that were saved while it only lay disabled play as before.
 #include "Physics/Attachment.h"
 #include <deque>
 #include <gtest/gtest.h>
@@ -21,7 +21,8 @@ public:
         const b2Vec2 corners[] = {{0.0F, 0.0F}, {0.0F, 4.0F}, {4.0F, 4.0F}, {4.0F, 0.0F}};
         b2ChainShape chain;
         chain.CreateLoop(corners, 4);
-        (void)attachment_.set(*world_.CreateBody(&ground)->CreateFixture(&chain, 0.0F), {300.0, 50.0, true, 100.0, Voice::both}, next_++);
+        (void)attachment_.set(*world_.CreateBody(&ground)->CreateFixture(&chain, 0.0F),
+                              {300.0, 50.0, true, 100.0, Voice::both}, next_++);
         for (int i = 0; i < 20; ++i) add(0.3F + 0.17F * static_cast<float>(i), 0.5F);
     }
 
@@ -87,7 +88,8 @@ TEST_P(DestroyedBodies, LeaveTheMotionAndTheHitsOfAllOthersAsTheyAre) {
     ASSERT_EQ(destroying.events.size(), disabling.events.size());
     EXPECT_TRUE(destroying.events == disabling.events);
 }
-INSTANTIATE_TEST_SUITE_P(Timings, DestroyedBodies, testing::Values(ImpactTiming::onset, ImpactTiming::release));
+INSTANTIATE_TEST_SUITE_P(Timings, DestroyedBodies,
+                         testing::Values(ImpactTiming::onset, ImpactTiming::release));
 
 } // namespace
 } // namespace physvib

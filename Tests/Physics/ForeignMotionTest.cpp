@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random worlds, with and without an attachment: they must move alike to the bit, whatever is done to them; and what is
-// handed on in random clusters is never more than what struck.
+// Random worlds, with and without an attachment: they must move alike to the bit, whatever is done to them;
+// and what is handed on in random clusters is never more than what struck.
 #include "AttachedWorld.h"
 #include <algorithm>
 #include <memory>
@@ -10,10 +10,12 @@
 namespace physvib {
 namespace {
 
-/// Bodies of all kinds, joints, sensors, bullets, filters, and a player who makes, destroys, pushes and pauses.
+/// Bodies of all kinds, joints, sensors, bullets, filters, and a player who makes, destroys, pushes and
+/// pauses.
 class RandomWorld {
 public:
-    explicit RandomWorld(unsigned seed) : random_(seed) {
+    explicit RandomWorld(unsigned seed)
+        : random_(seed) {
         world.SetSubStepping(choose(4) == 0);
         const b2BodyDef def;
         b2Body* const ground = world.CreateBody(&def);
@@ -32,7 +34,9 @@ public:
         world.SetGravity({static_cast<float>(choose(21) - 10), -9.8F});
         if (choose(10) == 0) add();
         if (choose(12) == 0 && bodies_.size() > 4) destroy();
-        if (choose(6) == 0) bodies_[choose(bodies_.size())]->ApplyLinearImpulseToCenter({static_cast<float>(choose(9)) - 4.0F, 3.0F}, true);
+        if (choose(6) == 0)
+            bodies_[choose(bodies_.size())]->ApplyLinearImpulseToCenter(
+                {static_cast<float>(choose(9)) - 4.0F, 3.0F}, true);
         return choose(15) == 0;
     }
     void destroy() {
@@ -50,7 +54,8 @@ private:
         b2BodyDef def;
         def.type = choose(8) == 0 ? b2_kinematicBody : b2_dynamicBody;
         def.bullet = choose(4) == 0;
-        def.position = {1.0F + 0.5F * static_cast<float>(choose(12)), 1.0F + 0.5F * static_cast<float>(choose(8))};
+        def.position = {1.0F + 0.5F * static_cast<float>(choose(12)),
+                        1.0F + 0.5F * static_cast<float>(choose(8))};
         def.linearVelocity = {static_cast<float>(choose(41) - 20), static_cast<float>(choose(41) - 20)};
         def.gravityScale = choose(5) == 0 ? 3.0F : 1.0F;
         b2CircleShape circle;
@@ -74,7 +79,8 @@ private:
 bool moveAlike(const b2World& one, const b2World& two) {
     const b2Body *a = one.GetBodyList(), *b = two.GetBodyList();
     for (; a != nullptr && b != nullptr; a = a->GetNext(), b = b->GetNext())
-        if (a->GetPosition() != b->GetPosition() || a->GetAngle() != b->GetAngle() || a->GetLinearVelocity() != b->GetLinearVelocity() ||
+        if (a->GetPosition() != b->GetPosition() || a->GetAngle() != b->GetAngle() ||
+            a->GetLinearVelocity() != b->GetLinearVelocity() ||
             a->GetAngularVelocity() != b->GetAngularVelocity())
             return false;
     return a == b;
@@ -94,7 +100,8 @@ TEST(ForeignMotion, IsTheSameToTheBitInTwoHundredRandomWorlds) {
             felt.play();
             const float seconds = stands ? 0.0F : 0.01F;
             for (const b2Body* body = felt.world.GetBodyList(); body != nullptr; body = body->GetNext())
-                if (!attachment.find(*body->GetFixtureList())) (void)attachment.set(*body->GetFixtureList(), camera);
+                if (!attachment.find(*body->GetFixtureList()))
+                    (void)attachment.set(*body->GetFixtureList(), camera);
             plain.world.Step(seconds, 8, 3);
             if (step % 11 == 10) {
                 felt.world.Step(seconds, 8, 3); // not told
@@ -113,15 +120,21 @@ TEST(ForeignMotion, IsTheSameToTheBitInTwoHundredRandomWorlds) {
     EXPECT_GT(events, 2000U);
 }
 
-/// Those of a cluster that meet after they have been struck: what bounces strikes again, and these are blows of their own.
+/// Those of a cluster that meet after they have been struck: what bounces strikes again, and these are blows
+/// of their own.
 struct SecondBlows : b2ContactListener {
-    void BeginContact(b2Contact* contact) override { met.emplace_back(contact->GetFixtureA(), contact->GetFixtureB()); }
+    void BeginContact(b2Contact* contact) override {
+        met.emplace_back(contact->GetFixtureA(), contact->GetFixtureB());
+    }
     void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
         const b2Fixture *a = contact->GetFixtureA(), *b = contact->GetFixtureB();
-        if (a != striker && b != striker && have(a, b)) newtonSeconds += static_cast<double>(impulse->normalImpulses[0]);
+        if (a != striker && b != striker && have(a, b))
+            newtonSeconds += static_cast<double>(impulse->normalImpulses[0]);
     }
     bool have(const b2Fixture* a, const b2Fixture* b) const {
-        return std::any_of(met.begin(), met.end(), [&](const auto& pair) { return pair == std::pair{a, b} || pair == std::pair{b, a}; });
+        return std::any_of(met.begin(), met.end(), [&](const auto& pair) {
+            return pair == std::pair{a, b} || pair == std::pair{b, a};
+        });
     }
 
     const b2Fixture* striker = nullptr;
@@ -150,7 +163,8 @@ TEST_P(RandomClusters, HandOnNoMoreThanWhatStruck) {
             def.linearVelocity = {vx, 0.0F};
             b2CircleShape circle;
             circle.m_radius = 0.25F;
-            b2Fixture& fixture = *world.CreateBody(&def)->CreateFixture(&circle, 1.0F + static_cast<float>(random() % 20));
+            b2Fixture& fixture =
+                *world.CreateBody(&def)->CreateFixture(&circle, 1.0F + static_cast<float>(random() % 20));
             fixture.SetRestitution(0.1F * static_cast<float>(random() % 10));
             const auto id = static_cast<std::size_t>(attachment.set(fixture, camera).id);
             EXPECT_EQ(id, fixtures.size());
@@ -159,27 +173,35 @@ TEST_P(RandomClusters, HandOnNoMoreThanWhatStruck) {
         };
         for (int row = 0; row < 3; ++row) // touching, as oranges in a crate
             for (int column = 0; column < 4; ++column)
-                if (random() % 4 != 0) add(0.499F * (static_cast<float>(column) + 0.5F * static_cast<float>(row % 2)), 0.432F * static_cast<float>(row), 0.0F);
+                if (random() % 4 != 0)
+                    add(0.499F * (static_cast<float>(column) + 0.5F * static_cast<float>(row % 2)),
+                        0.432F * static_cast<float>(row), 0.0F);
         for (int i = 0; i < 5; ++i) attachment.step(0.01F);
         std::vector<CollisionEvent> events;
         attachment.flush(events);
         events.clear();
-        b2Fixture& fixture = *add(-1.5F, 0.1F * static_cast<float>(random() % 10), 2.0F + static_cast<float>(random() % 10));
+        b2Fixture& fixture =
+            *add(-1.5F, 0.1F * static_cast<float>(random() % 10), 2.0F + static_cast<float>(random() % 10));
         const std::int32_t striker = attachment.set(fixture, camera).id;
         second.striker = &fixture;
         second.met.clear();
         const b2Vec2 before = fixture.GetBody()->GetLinearVelocity();
-        const auto isDirect = [&](const CollisionEvent& e) { return e.source.fixture == striker || e.source.other == striker; };
+        const auto isDirect = [&](const CollisionEvent& e) {
+            return e.source.fixture == striker || e.source.other == striker;
+        };
         for (int i = 0; i < 100 && std::none_of(events.begin(), events.end(), isDirect); ++i) {
             attachment.step(0.01F);
             attachment.flush(events);
         }
         for (int i = 0; i < stepsToCome; ++i) attachment.step(0.01F);
         attachment.flush(events);
-        const double struck = massKg(fixture) * static_cast<double>((fixture.GetBody()->GetLinearVelocity() - before).Length());
+        const double struck =
+            massKg(fixture) * static_cast<double>((fixture.GetBody()->GetLinearVelocity() - before).Length());
         for (const CollisionEvent& event : events) {
             const auto fixtureOf = [&](std::int32_t id) { return fixtures[static_cast<std::size_t>(id)]; };
-            if (isDirect(event) || second.have(fixtureOf(event.source.fixture), fixtureOf(event.source.other))) continue;
+            if (isDirect(event) ||
+                second.have(fixtureOf(event.source.fixture), fixtureOf(event.source.other)))
+                continue;
             ++handedOn;
             EXPECT_LE(event.source.impulseNewtonSeconds, 1.05 * (struck + second.newtonSeconds)) << round;
         }

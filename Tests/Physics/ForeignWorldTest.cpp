@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What games do to their worlds, and what must not break them: listeners, lives and addresses that come and go.
+// What games do to their worlds, and what must not break them: listeners, lives and addresses that come and
+// go.
 #include "AttachedWorld.h"
 #include <limits>
 #include <memory>
@@ -43,11 +44,21 @@ TEST_F(ForeignWorld, ListenerSetLaterIsCalledAndTheWorldIsFelt) {
 /// Hands every call on to the listener it found, as we do.
 class Forwarding : public b2ContactListener {
 public:
-    explicit Forwarding(b2World& world) : behind(world.GetContactManager().m_contactListener) { world.SetContactListener(this); }
-    void BeginContact(b2Contact* contact) override { ++begins; behind->BeginContact(contact); }
+    explicit Forwarding(b2World& world)
+        : behind(world.GetContactManager().m_contactListener) {
+        world.SetContactListener(this);
+    }
+    void BeginContact(b2Contact* contact) override {
+        ++begins;
+        behind->BeginContact(contact);
+    }
     void EndContact(b2Contact* contact) override { behind->EndContact(contact); }
-    void PreSolve(b2Contact* contact, const b2Manifold* before) override { behind->PreSolve(contact, before); }
-    void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override { behind->PostSolve(contact, impulse); }
+    void PreSolve(b2Contact* contact, const b2Manifold* before) override {
+        behind->PreSolve(contact, before);
+    }
+    void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
+        behind->PostSolve(contact, impulse);
+    }
     b2ContactListener* behind;
     int begins = 0;
 };
@@ -98,7 +109,8 @@ TEST_P(DestroyedBeforeTheEnd, FixturesAndBodiesAreFeltByWhatTheStepKnew) {
         EXPECT_EQ(run(10).size(), 1U) << round;
     }
 }
-INSTANTIATE_TEST_SUITE_P(Timings, DestroyedBeforeTheEnd, testing::Values(ImpactTiming::onset, ImpactTiming::release));
+INSTANTIATE_TEST_SUITE_P(Timings, DestroyedBeforeTheEnd,
+                         testing::Values(ImpactTiming::onset, ImpactTiming::release));
 
 TEST(ForeignWorldLife, WorldMayEndBeforeItsAttachment) {
     auto world = std::make_unique<b2World>(b2Vec2{0.0F, -10.0F});
@@ -172,9 +184,12 @@ TEST_F(ForeignWorld, AddressUsedAgainInheritsNothing) {
         world.SetDestructionListener(nullptr);
         if (i % 2 == 0) run(0); // notices what happened to the listener, or not
         b2Body* const body = first.GetBody();
-        if (i % 3 == 0) body->DestroyFixture(&first);
-        else if (i % 2 == 0) world.DestroyBody(body);
-        else continue; // without a step in between nobody could know
+        if (i % 3 == 0)
+            body->DestroyFixture(&first);
+        else if (i % 2 == 0)
+            world.DestroyBody(body);
+        else
+            continue; // without a step in between nobody could know
         const b2Fixture& heir = ball(0.0F, 7.0F, 0.0F, 0.0F);
         EXPECT_EQ(attachment.find(heir), nullptr) << i;
     }
@@ -183,8 +198,13 @@ TEST_F(ForeignWorld, AddressUsedAgainInheritsNothing) {
 TEST_F(ForeignWorld, RefusesWhatCannotBePlayed) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const b2Fixture& ground = floor();
-    for (const HapticFixture& bad : {HapticFixture{nan, 10.0}, {-5.0, 10.0}, {1.0e6, 10.0}, {100.0, nan}, {100.0, 5000.0},
-                                     {100.0, 10.0, true, nan}, {100.0, 10.0, true, -1.0}}) {
+    for (const HapticFixture& bad : {HapticFixture{nan, 10.0},
+                                     {-5.0, 10.0},
+                                     {1.0e6, 10.0},
+                                     {100.0, nan},
+                                     {100.0, 5000.0},
+                                     {100.0, 10.0, true, nan},
+                                     {100.0, 10.0, true, -1.0}}) {
         const SetResult result = attachment.set(ground, bad);
         EXPECT_FALSE(result);
         EXPECT_EQ(result.id, -1);

@@ -25,7 +25,8 @@ protected:
     }
     b2Fixture& slope(double degrees, const HapticFixture& values) {
         const auto angle = static_cast<float>(-degrees * std::numbers::pi / 180.0);
-        b2Fixture& fixture = edge({-20.0F * std::cos(angle), -20.0F * std::sin(angle)}, {80.0F * std::cos(angle), 80.0F * std::sin(angle)});
+        b2Fixture& fixture = edge({-20.0F * std::cos(angle), -20.0F * std::sin(angle)},
+                                  {80.0F * std::cos(angle), 80.0F * std::sin(angle)});
         along = {std::cos(angle), std::sin(angle)};
         fixture.SetFriction(1.0F);
         (void)attachment.set(fixture, values);
@@ -49,7 +50,8 @@ protected:
 double missedMetres(const Grains& grains, double metres, double grainMetres) {
     const auto near = static_cast<std::int64_t>(std::floor(metres / grainMetres));
     double least = 1.0;
-    for (std::int64_t i = near - 1; i <= near + 1; ++i) least = std::min(least, std::abs(grains.metresOf(i) - metres));
+    for (std::int64_t i = near - 1; i <= near + 1; ++i)
+        least = std::min(least, std::abs(grains.metresOf(i) - metres));
     return least;
 }
 
@@ -98,7 +100,8 @@ TEST_F(Lasting, RidgesGiveTheirTone) {
     ballOnSlope(0.0F).GetBody()->SetLinearVelocity({0.4F, 0.0F});
     const std::vector<CollisionEvent> events = lasting(200);
     ASSERT_GT(events.size(), 300U);
-    for (std::size_t i = 1; i < events.size(); ++i) EXPECT_NEAR(seconds(events[i]) - seconds(events[i - 1]), 1.0 / 200.0, 2.0e-6);
+    for (std::size_t i = 1; i < events.size(); ++i)
+        EXPECT_NEAR(seconds(events[i]) - seconds(events[i - 1]), 1.0 / 200.0, 2.0e-6);
 }
 
 TEST_F(Lasting, SlidesThenRollsThenRests) {
@@ -110,7 +113,8 @@ TEST_F(Lasting, SlidesThenRollsThenRests) {
     const double friction = std::sqrt(0.2), v = 2.0, spin = 8.0 * 0.25;
     const double slides = (v + spin) / (3.0 * friction * g), rolling = v - friction * g * slides;
     const std::vector<CollisionEvent> events = lasting(100);
-    const auto firstRoll = std::ranges::find(events, ContactKind::roll, [](const CollisionEvent& e) { return e.source.kind; });
+    const auto firstRoll =
+        std::ranges::find(events, ContactKind::roll, [](const CollisionEvent& e) { return e.source.kind; });
     ASSERT_NE(firstRoll, events.end());
     // slips half as fast as it goes
     EXPECT_NEAR(seconds(*firstRoll), (0.5 * v + spin) / (2.5 * friction * g), 0.01);
@@ -135,7 +139,8 @@ TEST_F(Lasting, ThrownWithBackSpinItTurnsBackAndRolls) {
     for (const CollisionEvent& event : events) {
         const double t = seconds(event);
         EXPECT_LT(event.x, furthest + 0.001) << t;
-        if (std::abs(t - rolls) > 0.015) EXPECT_EQ(event.source.kind, t < rolls ? ContactKind::slide : ContactKind::roll) << t;
+        if (std::abs(t - rolls) > 0.015)
+            EXPECT_EQ(event.source.kind, t < rolls ? ContactKind::slide : ContactKind::roll) << t;
         // half a step behind what was thrown at once
         const double slid = (v - 0.5 * deceleration * t) * t - 0.5 * 0.01 * v;
         if (t < rolls - 0.02) EXPECT_NEAR(event.x, slid, 0.001) << t;
@@ -233,7 +238,8 @@ TEST_F(Lasting, SeamsOfAChainAreNotHeard) {
     ball.SetFriction(0.0F);
     const std::vector<CollisionEvent> events = lasting(500);
     ASSERT_GT(events.size(), 950U);
-    for (std::size_t i = 1; i < events.size(); ++i) EXPECT_NEAR(seconds(events[i]) - seconds(events[i - 1]), 0.005, 1.0e-5) << seconds(events[i]);
+    for (std::size_t i = 1; i < events.size(); ++i)
+        EXPECT_NEAR(seconds(events[i]) - seconds(events[i - 1]), 0.005, 1.0e-5) << seconds(events[i]);
 }
 
 } // namespace

@@ -49,15 +49,18 @@ double power(std::span<const float> samples) {
     return sum;
 }
 
-/// Where four channels' levels put the phantom: gains of the linear law sum to one, squares of the energy law's do.
+/// Where four channels' levels put the phantom: gains of the linear law sum to one, squares of the energy
+/// law's do.
 b2Vec2 centroid(const test::Channels& channels, PanningLaw law, double from, double to) {
     std::array<double, 4> share{};
     for (std::size_t j = 0; j < 4; ++j) {
-        const double p = power(std::span{channels[j]}.subspan(static_cast<std::size_t>(from * rate), static_cast<std::size_t>((to - from) * rate)));
+        const double p = power(std::span{channels[j]}.subspan(static_cast<std::size_t>(from * rate),
+                                                              static_cast<std::size_t>((to - from) * rate)));
         share[j] = law == PanningLaw::energy ? p : std::sqrt(p);
     }
     const double all = share[0] + share[1] + share[2] + share[3]; // A and C are left, A and B are up
-    return {static_cast<float>(fieldWidth * (share[1] + share[3]) / all), static_cast<float>(fieldHeight * (share[0] + share[1]) / all)};
+    return {static_cast<float>(fieldWidth * (share[1] + share[3]) / all),
+            static_cast<float>(fieldHeight * (share[0] + share[1]) / all)};
 }
 
 TEST_F(LastingFelt, PhantomFollowsARollingBall) {
@@ -93,7 +96,8 @@ TEST_F(LastingFelt, RidgesPeakAtSpeedBySpacing) {
     const std::vector<double> samples(channels[0].begin() + rate / 2, channels[0].end()); // 2 s
     const std::vector<double> bins = magnitudes(samples);
     const double perBin = 0.5 * rate / static_cast<double>(bins.size() - 1);
-    const auto highest = std::ranges::max_element(bins.begin() + static_cast<std::ptrdiff_t>(20.0 / perBin), bins.end());
+    const auto highest =
+        std::ranges::max_element(bins.begin() + static_cast<std::ptrdiff_t>(20.0 / perBin), bins.end());
     EXPECT_NEAR(static_cast<double>(highest - bins.begin()) * perBin, 200.0, 2.0);
 }
 

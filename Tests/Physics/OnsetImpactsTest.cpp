@@ -232,7 +232,8 @@ TEST_P(OnsetImpactsDestroyed, BodyOfTheRowTakesWhatIsHandedOnAlongUnlessItIsKept
 }
 INSTANTIATE_TEST_SUITE_P(StrikerNeighbourCamera, OnsetImpactsDestroyed, testing::Values(0, 1, 2));
 
-/// Five pendulums that touch; the first falls from 57 degrees. Box2D solves the row at once: the others leave together.
+/// Five pendulums that touch; the first falls from 57 degrees. Box2D solves the row at once: the others leave
+/// together.
 TEST_F(OnsetImpactsWorld, LastPendulumOfANewtonsCradleFeelsItsOwnImpulseOnce) {
     constexpr float length = 2.0F, radius = 0.25F;
     world.SetGravity({0.0F, -10.0F});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Box2D keeps blocks of its own, in which what has been destroyed can still be read unnoticed. Where the address sanitizer
-// watches, all tests of this program get plain memory instead, so that a look at something that is gone is seen.
+// Box2D keeps blocks of its own, in which what has been destroyed can still be read unnoticed. Where the
+// address sanitizer watches, all tests of this program get plain memory instead, so that a look at something
+// that is gone is seen.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define PHYSVIB_ADDRESS_SANITIZER
@@ -21,7 +22,8 @@ int given = 0;
 
 } // namespace
 
-// These come before those of the shared library, which calls them as everybody does. The list hangs at m_chunks.
+// These come before those of the shared library, which calls them as everybody does. The list hangs at
+// m_chunks.
 b2BlockAllocator::b2BlockAllocator()
     : m_chunks(nullptr)
     , m_chunkCount(0)
@@ -44,8 +46,10 @@ void b2BlockAllocator::Free(void* block, int32 size) {
     if (size == 0) return;
     auto* const link = static_cast<Link*>(block) - 1;
     if (link->after != nullptr) link->after->before = link->before;
-    if (link->before != nullptr) link->before->after = link->after;
-    else m_chunks = reinterpret_cast<b2Chunk*>(link->after);
+    if (link->before != nullptr)
+        link->before->after = link->after;
+    else
+        m_chunks = reinterpret_cast<b2Chunk*>(link->after);
     std::free(link);
 }
 

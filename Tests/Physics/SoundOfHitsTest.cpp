@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a game may say of its cameras beyond three values: overtones, sounds of pairs, gain, a hand of its own, a budget.
+// What a game may say of its cameras beyond three values: overtones, sounds of pairs, gain, a hand of its
+// own, a budget.
 #include "AttachedWorld.h"
 #include <algorithm>
 #include <stdexcept>
@@ -43,14 +44,19 @@ TEST_F(SoundOfHits, PairsHaveASoundOfTheirOwnInAnyOrder) {
     ice.surface = 7;
     skate.voice = Voice::both; // a pair's sound is one, whatever the voice
     (void)attachment.set(edge({-100.0F, -2.0F}, {100.0F, -2.0F}), ice);
-    EXPECT_EQ(attachment.setPair(7, 3, {.frequencyHz = 77.0, .decayPerSecond = 7.0, .overtones = {{{154.0, 9.0, 0.5}}}, .gain = 2.0}), "");
+    EXPECT_EQ(
+        attachment.setPair(
+            7, 3,
+            {.frequencyHz = 77.0, .decayPerSecond = 7.0, .overtones = {{{154.0, 9.0, 0.5}}}, .gain = 2.0}),
+        "");
     b2Fixture& onIce = ball(0.0F, -1.74F, 0.0F, -5.0F);
     (void)attachment.set(onIce, skate);
     const auto events = run(1);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].frequencyHz, 77.0);
     EXPECT_EQ(events[0].decayPerSecond, 7.0);
-    EXPECT_DOUBLE_EQ(events[0].amplitude, 2.0 * events[0].source.impulseNewtonSeconds / events[0].source.massKg);
+    EXPECT_DOUBLE_EQ(events[0].amplitude,
+                     2.0 * events[0].source.impulseNewtonSeconds / events[0].source.massKg);
     EXPECT_EQ(events[1].frequencyHz, 154.0);
     EXPECT_EQ(hit(skate).size(), 2U) << "the floor is of no kind: both voices";
 }
@@ -59,8 +65,10 @@ TEST_F(SoundOfHits, RefusesSoundsThatCannotBePlayed) {
     EXPECT_NE(attachment.setPair(0, 1, {100.0, 10.0}), "");
     EXPECT_NE(attachment.setPair(1, 2, {-1.0, 10.0}), "");
     const b2Fixture& fixture = ball(0.0F, 3.0F, 0.0F, 0.0F);
-    for (const HapticFixture& bad : {HapticFixture{.overtones = {{{1.0e6, 1.0, 1.0}}}}, HapticFixture{.overtones = {{{100.0, 5000.0, 1.0}}}},
-                                     HapticFixture{.overtones = {{{100.0, 10.0, -1.0}}}}, HapticFixture{.gain = -1.0}, HapticFixture{.handMassKg = -1.0}})
+    for (const HapticFixture& bad : {HapticFixture{.overtones = {{{1.0e6, 1.0, 1.0}}}},
+                                     HapticFixture{.overtones = {{{100.0, 5000.0, 1.0}}}},
+                                     HapticFixture{.overtones = {{{100.0, 10.0, -1.0}}}},
+                                     HapticFixture{.gain = -1.0}, HapticFixture{.handMassKg = -1.0}})
         EXPECT_FALSE(attachment.set(fixture, bad));
 }
 
@@ -85,7 +93,8 @@ TEST_F(SoundOfHits, MutedAttachmentIsSilentAndRightAtOnceWhenItIsNotAnyMore) {
     ImpactSettings settings = unity();
     settings.isMuted = true;
     attachment.configure(settings);
-    for (int i = 0; i < 3; ++i) (void)attachment.set(ball(0.0F, 0.26F + 0.51F * static_cast<float>(i), 0.0F, -2.0F, 0.0F), camera);
+    for (int i = 0; i < 3; ++i)
+        (void)attachment.set(ball(0.0F, 0.26F + 0.51F * static_cast<float>(i), 0.0F, -2.0F, 0.0F), camera);
     EXPECT_TRUE(run(100).empty());
     settings.isMuted = false;
     attachment.configure(settings);
@@ -97,7 +106,9 @@ TEST_F(SoundOfHits, BudgetKeepsTheStrongestHitsOfAStep) {
     ImpactSettings settings = unity();
     settings.hitsPerStep = 3;
     attachment.configure(settings);
-    for (int i = 0; i < 8; ++i) (void)attachment.set(ball(static_cast<float>(i), 0.24F, 0.0F, -1.0F - static_cast<float>((5 * i) % 8)), camera);
+    for (int i = 0; i < 8; ++i)
+        (void)attachment.set(
+            ball(static_cast<float>(i), 0.24F, 0.0F, -1.0F - static_cast<float>((5 * i) % 8)), camera);
     const auto events = run(1);
     ASSERT_EQ(events.size(), 3U);
     // m v (1 + e) of 6, 7 and 8 m/s

@@ -310,8 +310,7 @@ TEST(RenderPicture, WithoutFontsTheRestIsThere) {
 // A wave has thousands of corners, more than FreeType's rasteriser holds at once.
 TEST(RenderPicture, ALoudWaveIsFilledFromItsTopToItsBottom) {
     const auto image = drawPicture(Render(1, 10).input);
-    const auto lane =
-        find(image, palette::enchanter(0), {100, 520, 1300, 460});
+    const auto lane = find(image, palette::enchanter(0), {100, 520, 1300, 460});
     EXPECT_GT(lane.count, 1300 * 15);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every point of every parameter acts at its frame: what is played follows from what the host says, not from how it cuts its blocks.
+// Every point of every parameter acts at its frame: what is played follows from what the host says, not from
+// how it cuts its blocks.
 #include "PluginTesting.h"
 #include <array>
 
@@ -11,7 +12,9 @@ using namespace test;
 /// What a host sends: per parameter, points at frames of the song.
 class PointSong final : public PointSource {
 public:
-    void add(Parameter which, std::int64_t frame, double normal) { points_[static_cast<std::size_t>(which)].push_back({frame, normal}); }
+    void add(Parameter which, std::int64_t frame, double normal) {
+        points_[static_cast<std::size_t>(which)].push_back({frame, normal});
+    }
 
     /// The block that begins at frame `at`.
     void begin(std::int64_t at, int frames) {
@@ -28,7 +31,8 @@ public:
     }
     int lastOfLine(std::size_t p) noexcept override {
         int last = -1;
-        for (std::size_t i = next_[p]; i < points_[p].size() && points_[p][i].first < end_; ++i) last = static_cast<int>(points_[p][i].first - first_);
+        for (std::size_t i = next_[p]; i < points_[p].size() && points_[p][i].first < end_; ++i)
+            last = static_cast<int>(points_[p][i].first - first_);
         return last;
     }
 
@@ -44,7 +48,8 @@ struct TimedNote {
 };
 
 /// Blocks of these sizes, in turn, for so long.
-Samples playedTo(TestHost& host, PointSong song, const std::vector<TimedNote>& notes, const std::vector<int>& blocks, std::int64_t frames) {
+Samples playedTo(TestHost& host, PointSong song, const std::vector<TimedNote>& notes,
+                 const std::vector<int>& blocks, std::int64_t frames) {
     Samples signal(static_cast<std::size_t>(host.buffer.getNumChannels()));
     std::size_t note = 0;
     for (std::int64_t at = 0, b = 0; at < frames; ++b) {
@@ -53,16 +58,19 @@ Samples playedTo(TestHost& host, PointSong song, const std::vector<TimedNote>& n
         host.plugin->expectPoints(song);
         juce::MidiBuffer midi;
         for (; note < notes.size() && notes[note].frame < at + size; ++note)
-            midi.addEvent(juce::MidiMessage::noteOn(1, notes[note].number, juce::uint8{100}), static_cast<int>(notes[note].frame - at));
+            midi.addEvent(juce::MidiMessage::noteOn(1, notes[note].number, juce::uint8{100}),
+                          static_cast<int>(notes[note].frame - at));
         const auto& out = host.block(size, midi);
-        for (int c = 0; c < out.getNumChannels(); ++c) signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(), out.getReadPointer(c), out.getReadPointer(c) + size);
+        for (int c = 0; c < out.getNumChannels(); ++c)
+            signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(),
+                                                       out.getReadPointer(c), out.getReadPointer(c) + size);
         at += size;
     }
     return later(signal, host.plugin->getLatencySamples());
 }
 
-/// All parameters but SILENCE, which is at once, each `every` frames; 0: at random frames, but for last ones of blocks of multiples of 8, where they
-/// would be the ends of lines.
+/// All parameters but SILENCE, which is at once, each `every` frames; 0: at random frames, but for last ones
+/// of blocks of multiples of 8, where they would be the ends of lines.
 struct Automated {
     PointSong song;
     std::vector<TimedNote> notes;
@@ -74,17 +82,20 @@ Automated takeOf(std::int64_t frames, std::uint32_t seed, int every) {
     for (const auto& row : allParameters()) {
         if (row.parameter == Parameter::bypass || row.parameter == Parameter::material) continue;
         double value = random.below(1000) * 1e-3;
-        for (std::int64_t at = 0; at < frames; at += every > 0 ? every : 1 + random.below(400)) {
+        for (std::int64_t at = 0; at<frames; at += every> 0 ? every : 1 + random.below(400)) {
             value = std::clamp(value + (random.below(201) - 100) * 1e-3, 0.0, 1.0);
             if (every > 0 || at % 8 != 7) take.song.add(row.parameter, at, value);
         }
     }
-    for (std::int64_t at = 0; at < frames; at += 4800 + random.below(4800)) take.song.add(Parameter::material, at, random.below(9) / 8.0);
-    for (std::int64_t at = 0; at < frames; at += 500 + random.below(3000)) take.notes.push_back({at, 36 + random.below(48)});
+    for (std::int64_t at = 0; at < frames; at += 4800 + random.below(4800))
+        take.song.add(Parameter::material, at, random.below(9) / 8.0);
+    for (std::int64_t at = 0; at < frames; at += 500 + random.below(3000))
+        take.notes.push_back({at, 36 + random.below(48)});
     return take;
 }
 
-Samples bounceOf(const Automated& take, const PluginState& state, const std::vector<int>& blocks, std::int64_t frames) {
+Samples bounceOf(const Automated& take, const PluginState& state, const std::vector<int>& blocks,
+                 std::int64_t frames) {
     TestHost host;
     EXPECT_TRUE(host.plugin->apply(state));
     host.prepare(48000, *std::ranges::max_element(blocks));
@@ -99,21 +110,29 @@ void expectEqual(const Samples& a, const Samples& b, std::int64_t frames, const 
     }
 }
 
-void expectTheSameInBlocks(const Automated& take, const PluginState& state, std::int64_t frames, const std::vector<std::vector<int>>& all) {
+void expectTheSameInBlocks(const Automated& take, const PluginState& state, std::int64_t frames,
+                           const std::vector<std::vector<int>>& all) {
     const auto expected = bounceOf(take, state, {512}, frames);
     EXPECT_GT(peakOf(expected), 0.02f);
-    for (const auto& blocks : all) expectEqual(expected, bounceOf(take, state, blocks, frames), frames, "blocks of " + std::to_string(blocks.front()));
+    for (const auto& blocks : all)
+        expectEqual(expected, bounceOf(take, state, blocks, frames), frames,
+                    "blocks of " + std::to_string(blocks.front()));
 }
 
 const std::vector<std::vector<int>> manyBlocks{{32}, {64}, {480}, {1000}, {4096}, {8, 4096, 16, 32, 904}};
 
-TEST(Automation, PointsEvery32FramesAreTheSameSamplesInBlocksOfAnySize) { expectTheSameInBlocks(takeOf(72000, 3, 32), shakenBox(), 72000, manyBlocks); }
-
-TEST(Automation, PointsAtAnyFramesAreTheSameSamplesInBlocksOfAnySize) {
-    for (const std::uint32_t seed : {1u, 2u}) expectTheSameInBlocks(takeOf(48000, seed, 0), shakenBox(), 48000, manyBlocks);
+TEST(Automation, PointsEvery32FramesAreTheSameSamplesInBlocksOfAnySize) {
+    expectTheSameInBlocks(takeOf(72000, 3, 32), shakenBox(), 72000, manyBlocks);
 }
 
-TEST(Automation, InBlocksOfOneFrameAndOddOnesAsWell) { expectTheSameInBlocks(takeOf(12000, 5, 32), shakenBox(), 12000, {{1}, {2}, {3}, {31, 33, 7, 1}}); }
+TEST(Automation, PointsAtAnyFramesAreTheSameSamplesInBlocksOfAnySize) {
+    for (const std::uint32_t seed : {1u, 2u})
+        expectTheSameInBlocks(takeOf(48000, seed, 0), shakenBox(), 48000, manyBlocks);
+}
+
+TEST(Automation, InBlocksOfOneFrameAndOddOnesAsWell) {
+    expectTheSameInBlocks(takeOf(12000, 5, 32), shakenBox(), 12000, {{1}, {2}, {3}, {31, 33, 7, 1}});
+}
 
 TEST(Automation, WhereNotesAreDirectTooInBlocksOfOneSize) {
     auto state = strikeAt(0, 4); // no world, which moves by the difference of the blocks
@@ -123,7 +142,9 @@ TEST(Automation, WhereNotesAreDirectTooInBlocksOfOneSize) {
 }
 
 // For hand and nightly runs: a minute each.
-TEST(Automation, DISABLED_TenMinutes) { expectTheSameInBlocks(takeOf(600 * 48000, 6, 32), shakenBox(), 600 * 48000, {{32}, {64}, {1000}, {4096}}); }
+TEST(Automation, DISABLED_TenMinutes) {
+    expectTheSameInBlocks(takeOf(600 * 48000, 6, 32), shakenBox(), 600 * 48000, {{32}, {64}, {1000}, {4096}});
+}
 
 TEST(Automation, ANoteHasTheLevelOfItsFrame) {
     TestHost host;
@@ -137,7 +158,8 @@ TEST(Automation, ANoteHasTheLevelOfItsFrame) {
     song.add(Parameter::strikeLevel, 1001, 0.0);
     for (const auto& [frame, isFelt] : {std::pair{999, false}, {1000, true}, {1001, false}}) {
         host.prepare(48000, 4096);
-        const auto signal = playedTo(host, song, {{frame, 60}}, {4096}, 3 * 4096 + host.plugin->getLatencySamples());
+        const auto signal =
+            playedTo(host, song, {{frame, 60}}, {4096}, 3 * 4096 + host.plugin->getLatencySamples());
         EXPECT_EQ(peakOf(signal) > 0.0f, isFelt) << frame;
     }
 }
@@ -154,7 +176,8 @@ TEST(Automation, SilenceClosesAtItsFrame) {
     const auto shut = playedTo(host, song, {}, {4096}, 48000);
     for (std::size_t c = 0; c < open.size(); ++c) {
         EXPECT_TRUE(std::equal(open[c].begin(), open[c].begin() + 30000, shut[c].begin()));
-        EXPECT_TRUE(std::all_of(shut[c].begin() + 30000 + 480, shut[c].end(), [](float x) { return x == 0.0f; }));
+        EXPECT_TRUE(
+            std::all_of(shut[c].begin() + 30000 + 480, shut[c].end(), [](float x) { return x == 0.0f; }));
     }
     EXPECT_GT(peakOf(later(open, 30480)), 0.0f) << "there was something to silence";
 }
@@ -168,7 +191,9 @@ Samples drawn(int block, std::int64_t frames) {
     EXPECT_TRUE(host.plugin->apply(state));
     host.prepare(48000, block);
     PointSong song;
-    const auto levelAt = [](std::int64_t at) { return 0.8 + 0.1 * std::sin(2.0 * 3.14159265358979 * 2.0 * static_cast<double>(at) / 48000.0); };
+    const auto levelAt = [](std::int64_t at) {
+        return 0.8 + 0.1 * std::sin(2.0 * 3.14159265358979 * 2.0 * static_cast<double>(at) / 48000.0);
+    };
     for (std::int64_t at = 0; at < frames + 40000; at += block) {
         song.add(Parameter::level, at, levelAt(at));
         song.add(Parameter::level, at + block - 1, levelAt(at + block - 1));

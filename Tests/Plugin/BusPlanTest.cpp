@@ -29,13 +29,15 @@ TEST(BusPlan, Vst3RefusesWhatItWouldPermute) {
     EXPECT_FALSE(isAccepted({}, vst3, outputs({Set::discreteChannels(8)})));
     EXPECT_FALSE(isAccepted({}, vst3, outputs({Set::create7point1()})));
     EXPECT_FALSE(isAccepted({}, vst3, outputs({Set::ambisonic(2)})));
-    for (const auto& set : {Set::mono(), Set::stereo(), Set::quadraphonic(), Set::create5point1(), Set::create7point1SDDS()})
+    for (const auto& set :
+         {Set::mono(), Set::stereo(), Set::quadraphonic(), Set::create5point1(), Set::create7point1SDDS()})
         EXPECT_TRUE(isAccepted({}, vst3, outputs({set}))) << set.getDescription();
 }
 
 TEST(BusPlan, ManyBusesTakeMonoStereoAndNothing) {
     const BusPlan many{BusPlan::Kind::manyBuses};
-    EXPECT_TRUE(isAccepted(many, vst3, outputs({Set::stereo(), Set::mono(), Set::disabled(), Set::stereo()})));
+    EXPECT_TRUE(
+        isAccepted(many, vst3, outputs({Set::stereo(), Set::mono(), Set::disabled(), Set::stereo()})));
     EXPECT_FALSE(isAccepted(many, vst3, outputs({Set::disabled(), Set::stereo()})));
     EXPECT_FALSE(isAccepted(many, vst3, outputs({Set::quadraphonic()})));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What automation says last is what is felt: however much of it there is, and however far the host's blocks are from what it told.
+// What automation says last is what is felt: however much of it there is, and however far the host's blocks
+// are from what it told.
 #include "PluginTesting.h"
 
 namespace physvib {
@@ -8,7 +9,8 @@ namespace {
 using namespace test;
 using Message = juce::MidiMessage;
 
-/// Enchanters in a line of an empty world, in blocks that are much smaller than announced: L is long, controls are many.
+/// Enchanters in a line of an empty world, in blocks that are much smaller than announced: L is long,
+/// controls are many.
 struct AutomatedHost : TestHost {
     AutomatedHost(int channels, double rate, int size)
         : frames{size} {
@@ -33,7 +35,8 @@ struct AutomatedHost : TestHost {
     /// The loudest sample of the next `count` frames.
     float peakOfNext(std::int64_t count) {
         float peak = 0.0f;
-        for (std::int64_t done = 0; done < count; done += frames) peak = std::max(peak, block(frames).getMagnitude(0, frames));
+        for (std::int64_t done = 0; done < count; done += frames)
+            peak = std::max(peak, block(frames).getMagnitude(0, frames));
         return peak;
     }
     /// The loudest sample of what is struck now, L later.
@@ -66,9 +69,15 @@ TEST_P(LevelAutomation, EndsAtItsLastValue) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Hosts, LevelAutomation,
-                         testing::Values(AutomationCase{4, 64, 400, 48000.0}, AutomationCase{64, 64, 400, 48000.0}, AutomationCase{4, 1, 12000, 48000.0},
+                         testing::Values(AutomationCase{4, 64, 400, 48000.0},
+                                         AutomationCase{64, 64, 400, 48000.0},
+                                         AutomationCase{4, 1, 12000, 48000.0},
                                          AutomationCase{4, 64, 10 * 60 * 8000 / 64, 8000.0}), // ten minutes
-                         [](const auto& info) { return std::to_string(info.param.channels) + "x" + std::to_string(info.param.blocks) + "of" + std::to_string(info.param.frames); });
+                         [](const auto& info) {
+                             return std::to_string(info.param.channels) + "x" +
+                                    std::to_string(info.param.blocks) + "of" +
+                                    std::to_string(info.param.frames);
+                         });
 
 TEST(Controls, ALawThatIsAutomatedEndsAtItsLastValue) {
     AutomatedHost host{2, 48000.0, 16};

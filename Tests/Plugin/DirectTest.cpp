@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Direct strikes: what a note strikes is felt as soon as it can be, the host is told so, and a bounce is what was played.
+// Direct strikes: what a note strikes is felt as soon as it can be, the host is told so, and a bounce is what
+// was played.
 #include "PluginTesting.h"
 #include <atomic>
 
@@ -35,7 +36,9 @@ struct DirectHost : TestHost {
         for (int b = 0; b < blocks; ++b) {
             const auto& out = block(largest, midiOf(b));
             for (int c = 0; c < out.getNumChannels(); ++c)
-                signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(), out.getReadPointer(c), out.getReadPointer(c) + largest);
+                signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(),
+                                                           out.getReadPointer(c),
+                                                           out.getReadPointer(c) + largest);
             if (!isLive) continue;
             nowNs += std::int64_t{1'000'000'000} * largest / 48000;
             plugin->takes().tick();
@@ -57,7 +60,8 @@ TEST(DirectStrikes, ANoteIsFeltTheLimiterLaterInItsOwnBlockOrTheNextAndTheHostIs
                 DirectHost host{directState(false), size, offline};
                 EXPECT_EQ(host.plugin->getLatencySamples(), lookAheadFrames());
                 Samples signal;
-                host.play(first + 4 + 4800 / size, signal, [&](int b) { return b == first ? onlyNote(17) : juce::MidiBuffer{}; });
+                host.play(first + 4 + 4800 / size, signal,
+                          [&](int b) { return b == first ? onlyNote(17) : juce::MidiBuffer{}; });
                 EXPECT_EQ(directOnset(signal[0]), first * size + 17 + lookAheadFrames()) << size;
                 EXPECT_EQ(host.plugin->takes().status().late, 0u);
             }
@@ -85,7 +89,8 @@ TEST(DirectStrikes, StrikesAloneAreTheSameAtAnyBlockSize) {
         host.play(48000 / size, signal, [&](int b) {
             juce::MidiBuffer midi;
             for (int n = 0; n < size; ++n)
-                if ((b * size + n) % 999 == 0) midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), n);
+                if ((b * size + n) % 999 == 0)
+                    midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), n);
             return midi;
         });
         for (auto& c : signal) c.resize(40000);
@@ -138,7 +143,8 @@ TEST(DirectStrikes, AllSoundOffEndsWhatRingsAndWhatIsStruckBehindItIsFelt) {
     });
     const auto rest = later(signal, 2 * 480 + 100 + 480 + lookAheadFrames() + 480);
     const auto before = static_cast<std::int64_t>(signal[0].size() - rest[0].size());
-    EXPECT_NEAR(static_cast<double>(directOnset(rest[0], 1e-3f) + before), 50.0 * 480 + 300 + lookAheadFrames(), 2.0);
+    EXPECT_NEAR(static_cast<double>(directOnset(rest[0], 1e-3f) + before),
+                50.0 * 480 + 300 + lookAheadFrames(), 2.0);
 }
 
 } // namespace

@@ -80,7 +80,8 @@ TEST(FeltExport, AHeldNoteIsOneNoteAsLongAsItWasHeld) {
 
 TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     PlayedInstrument host{"Four corners"};
-    for (int note = 60; note < 68; ++note) host.send(juce::MidiMessage::noteOn(1, note, juce::uint8{100}), 10);
+    for (int note = 60; note < 68; ++note)
+        host.send(juce::MidiMessage::noteOn(1, note, juce::uint8{100}), 10);
     host.rest(50);
     host.plugin->takeNewEvents();
     const auto state = host.plugin->state();
@@ -89,7 +90,9 @@ TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     const FeltExport felt{events, state, pannerOf(state, PanningLaw::linear, 1.0)};
     const auto folder = juce::File::createTempFile("felt");
     ASSERT_TRUE(folder.createDirectory().wasOk());
-    const auto at = [&folder](const char* name) { return folder.getChildFile(name).getFullPathName().toStdString(); };
+    const auto at = [&folder](const char* name) {
+        return folder.getChildFile(name).getFullPathName().toStdString();
+    };
     ASSERT_TRUE(exportFelt(felt, at("felt.csv")));
     EXPECT_EQ(loadEventsCsv(at("felt.csv")).value.events, events);
     EXPECT_EQ(loadEventsCsv(at("felt.csv")).value.field, fieldOf(felt.panner));
@@ -97,7 +100,8 @@ TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     EXPECT_EQ(loadClip(at("felt.HJIF"), ClipFormat::hjif).value.channels.size(), 4u);
     EXPECT_TRUE(exportFelt(felt, at("felt.mid")));
     EXPECT_TRUE(exportFelt(felt, at("felt.ahap")));
-    EXPECT_EQ(folder.getNumberOfChildFiles(juce::File::findFiles, "felt-*.ahap"), 4) << "one for each actuator";
+    EXPECT_EQ(folder.getNumberOfChildFiles(juce::File::findFiles, "felt-*.ahap"), 4)
+        << "one for each actuator";
     EXPECT_FALSE(exportFelt(felt, at("felt.xyz")));
     EXPECT_FALSE(exportFelt({{}, state, felt.panner}, at("nothing.mid")));
     EXPECT_EQ(folder.getNumberOfChildFiles(juce::File::findFiles, "*"), 3 + 4);
@@ -130,7 +134,9 @@ TEST(Keyboard, EveryKeyIsFoundWhereItIsAndSaysWhatItIs) {
     std::vector<int> found;
     for (int x = 0; x < 940; ++x)
         for (const int y : {40, 70})
-            if (const int note = keys.noteAt({x, y}); note >= 0 && std::ranges::find(found, note) == found.end()) found.push_back(note);
+            if (const int note = keys.noteAt({x, y});
+                note >= 0 && std::ranges::find(found, note) == found.end())
+                found.push_back(note);
     EXPECT_EQ(std::ssize(found), KeyboardPanel::highest - KeyboardPanel::lowest + 1);
     EXPECT_LT(keys.velocityAt({470, 30}), keys.velocityAt({470, 68}));
     const auto state = host.plugin->state();
@@ -155,7 +161,8 @@ TEST(Keyboard, AKeyOfTheWindowIsANote) {
 TEST(Learning, TheNextControllerMovesTheParameterAndNoOther) {
     PlayedInstrument host{"Keys"};
     host.send(juce::MidiMessage::controllerEvent(1, 7, 10), 2); // before: means nothing
-    const std::unique_ptr<PluginEditor> editor{dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    const std::unique_ptr<PluginEditor> editor{
+        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
     editor->learn(Parameter::tilt);
     editor->refresh();
     EXPECT_TRUE(host.plugin->state().controllers.empty());
@@ -169,7 +176,8 @@ TEST(Learning, TheNextControllerMovesTheParameterAndNoOther) {
     editor->learn(Parameter::gravity);
     host.send(juce::MidiMessage::controllerEvent(1, 21, 64), 2);
     editor->refresh();
-    EXPECT_EQ(host.plugin->state().controllers, (std::vector<ControllerRule>{{21, "gravity"}})) << "a controller moves one";
+    EXPECT_EQ(host.plugin->state().controllers, (std::vector<ControllerRule>{{21, "gravity"}}))
+        << "a controller moves one";
 }
 
 TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {

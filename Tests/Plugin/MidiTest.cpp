@@ -26,7 +26,8 @@ struct QuietHost : TestHost {
         juce::MidiBuffer first;
         first.swapWith(midi);
         const auto& out = block(480, first);
-        for (int c = 0; c < out.getNumChannels(); ++c) signal.emplace_back(out.getReadPointer(c), out.getReadPointer(c) + 480);
+        for (int c = 0; c < out.getNumChannels(); ++c)
+            signal.emplace_back(out.getReadPointer(c), out.getReadPointer(c) + 480);
         play(frames - 480, signal);
         return signal;
     }
@@ -62,9 +63,12 @@ TEST(Midi, StrikesDoNotDependOnTheBlockSize) {
         for (int done = 0; done < 48000; done += size) { // a strike at each frame that is a multiple of 1000
             juce::MidiBuffer midi;
             for (int n = 0; n < size; ++n)
-                if ((done + n) % 1000 == 0) midi.addEvent(Message::noteOn(1, 40 + (done + n) / 1000, juce::uint8{100}), n);
+                if ((done + n) % 1000 == 0)
+                    midi.addEvent(Message::noteOn(1, 40 + (done + n) / 1000, juce::uint8{100}), n);
             const auto& out = host.block(size, midi);
-            for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), out.getReadPointer(static_cast<int>(c)), out.getReadPointer(static_cast<int>(c)) + size);
+            for (std::size_t c = 0; c < 4; ++c)
+                signal[c].insert(signal[c].end(), out.getReadPointer(static_cast<int>(c)),
+                                 out.getReadPointer(static_cast<int>(c)) + size);
         }
         signal = later(signal, host.plugin->getLatencySamples());
         for (auto& c : signal) c.resize(40000);
@@ -89,7 +93,8 @@ TEST(Midi, TheDefaultMapGoesFromLeftToRightAndThroughTheMaterials) {
 
 TEST(Midi, BendSlideAndParametersMoveThePhantom) {
     QuietHost host;
-    const double width = host.plugin->state().scene.fieldWidthMetres, height = host.plugin->state().scene.fieldHeightMetres;
+    const double width = host.plugin->state().scene.fieldWidthMetres,
+                 height = host.plugin->state().scene.fieldHeightMetres;
     host.send(Message::pitchWheel(2, 16383), 0);
     host.send(Message::controllerEvent(2, 74, 0), 0);
     host.send(Message::noteOn(2, 36, juce::uint8{64}), 1);
@@ -136,7 +141,8 @@ TEST(Midi, NoControllerMovesANewInstance) {
     const auto before = host.plugin->state();
     juce::MidiBuffer midi;
     for (int controller = 0; controller < 120; ++controller)
-        for (const int value : {0, 127}) midi.addEvent(Message::controllerEvent(1, controller, value), controller);
+        for (const int value : {0, 127})
+            midi.addEvent(Message::controllerEvent(1, controller, value), controller);
     host.block(480, midi);
     EXPECT_EQ(host.plugin->state().parameters, before.parameters);
     EXPECT_TRUE(before.controllers.empty());
@@ -153,7 +159,9 @@ TEST(Midi, AllNotesOffLetsTheWorldGoOn) {
             // those that imply it as well
             for (int mode = 123; mode < 128; ++mode) midi.addEvent(Message::controllerEvent(1, mode, 0), 100);
         const auto& out = host.block(480, midi);
-        for (std::size_t c = 0; c < 4; ++c) (*signal)[c].insert((*signal)[c].end(), out.getReadPointer(static_cast<int>(c)), out.getReadPointer(static_cast<int>(c)) + 480);
+        for (std::size_t c = 0; c < 4; ++c)
+            (*signal)[c].insert((*signal)[c].end(), out.getReadPointer(static_cast<int>(c)),
+                                out.getReadPointer(static_cast<int>(c)) + 480);
         host.play(48000, *signal);
     }
     EXPECT_GT(peakOf(later(told, 48000)), 0.01f);
@@ -192,20 +200,26 @@ TEST(Midi, AllSoundOffIsSilenceAtOnceAndForWhatWasBefore) {
         off.addEvent(Message::noteOn(1, 60, juce::uint8{127}), 30);
         const auto& out = host.block(size, off);
         after.assign(4, {});
-        for (std::size_t c = 0; c < 4; ++c) after[c].assign(out.getReadPointer(static_cast<int>(c)), out.getReadPointer(static_cast<int>(c)) + size);
+        for (std::size_t c = 0; c < 4; ++c)
+            after[c].assign(out.getReadPointer(static_cast<int>(c)),
+                            out.getReadPointer(static_cast<int>(c)) + size);
         EXPECT_GT(std::abs(out.getMagnitude(0, 20)), 0.0f);
         host.play(latency + 4800, after);
         float loudest = 0.0f;
         for (const auto& channel : after)
-            for (std::size_t n = 20 + 480; n < static_cast<std::size_t>(latency + 29); ++n) loudest = std::max(loudest, std::abs(channel[n]));
+            for (std::size_t n = 20 + 480; n < static_cast<std::size_t>(latency + 29); ++n)
+                loudest = std::max(loudest, std::abs(channel[n]));
         EXPECT_EQ(loudest, 0.0f) << size << ": 10 ms after it, until what came later is felt";
         Samples alone(4); // what came later is whole
         juce::MidiBuffer note;
         note.addEvent(Message::noteOn(1, 60, juce::uint8{127}), 30);
         const auto& first = other.block(size, note);
-        for (std::size_t c = 0; c < 4; ++c) alone[c].assign(first.getReadPointer(static_cast<int>(c)), first.getReadPointer(static_cast<int>(c)) + size);
+        for (std::size_t c = 0; c < 4; ++c)
+            alone[c].assign(first.getReadPointer(static_cast<int>(c)),
+                            first.getReadPointer(static_cast<int>(c)) + size);
         other.play(latency + 4800, alone);
-        for (std::size_t n = static_cast<std::size_t>(latency + 30); n < alone[0].size(); ++n) ASSERT_NEAR(after[0][n], alone[0][n], 1e-5f) << size << ' ' << n;
+        for (std::size_t n = static_cast<std::size_t>(latency + 30); n < alone[0].size(); ++n)
+            ASSERT_NEAR(after[0][n], alone[0][n], 1e-5f) << size << ' ' << n;
         EXPECT_GT(peakOf(alone), 0.01f);
     }
 }
@@ -240,7 +254,9 @@ TEST(Midi, ATakeBeginsAtItsLevel) {
     Samples loud, quiet;
     for (auto* signal : {&loud, &quiet}) {
         QuietHost host;
-        if (signal == &quiet) host.plugin->parameter(Parameter::level).setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
+        if (signal == &quiet)
+            host.plugin->parameter(Parameter::level)
+                .setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
         host.send(Message::noteOn(1, 60, juce::uint8{127}), 0);
         *signal = host.playOn(9600);
     }

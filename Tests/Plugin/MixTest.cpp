@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plug-in's mix: trims, mutes, solos, polarity, delays, ceilings and equalisers, in a bounce, live, and while it plays.
+// The plug-in's mix: trims, mutes, solos, polarity, delays, ceilings and equalisers, in a bounce, live, and
+// while it plays.
+#include "Io/Disk/ReadFile.h"
 #include "PluginTesting.h"
 #include "Scene/ActuatorFile.h"
-#include "Io/Disk/ReadFile.h"
-#include "Session/OfflineRender.h"
 #include "Scene/World/SceneRun.h"
+#include "Session/OfflineRender.h"
 #include "TestPlaces.h"
 
 namespace physvib {
@@ -25,7 +26,8 @@ Strip strip(double gainDb, double delayMs, double ceilingDb, bool inverted = fal
 PluginState mixedState() {
     PluginState s = shakenBox();
     // C and D are struck first
-    s.strips = {strip(0.0, 0.0, 0.0), strip(6.0, 0.0, -12.0), strip(-3.0, 2.5, 0.0, true), strip(6.0, 50.0, -30.0)};
+    s.strips = {strip(0.0, 0.0, 0.0), strip(6.0, 0.0, -12.0), strip(-3.0, 2.5, 0.0, true),
+                strip(6.0, 50.0, -30.0)};
     s.strips[0].isMuted = true;
     const auto actuator = findActuator("lra-205");
     s.equalised[2] = {actuator.value.resonator(), *actuator.value.band};
@@ -38,12 +40,18 @@ Samples renderedMix(const PluginState& s, std::int64_t frames) {
     std::vector<RenderControl> controls;
     std::array<ToldStrip, limits::maxEnchanters> told{};
     tellStrips(told, s.strips, [&controls](const RenderControl& c) { return controls.push_back(c), true; });
-    const RendererSettings settings{.sampleRateHz = 48000, .channels = enchantersOf(s), .panner = pannerOf(s, PanningLaw::linear, 1.0), .limiterEnabled = s.limiterEnabled, .equalised = s.equalised};
+    const RendererSettings settings{.sampleRateHz = 48000,
+                                    .channels = enchantersOf(s),
+                                    .panner = pannerOf(s, PanningLaw::linear, 1.0),
+                                    .limiterEnabled = s.limiterEnabled,
+                                    .equalised = s.equalised};
     Samples signal(static_cast<std::size_t>(enchantersOf(s)));
-    renderOffline(made.events, {settings, frames, 256, controls}, [&signal](const float* const* block, int n) {
-        for (std::size_t j = 0; j < signal.size(); ++j) signal[j].insert(signal[j].end(), block[j], block[j] + n);
-        return true;
-    });
+    renderOffline(made.events, {settings, frames, 256, controls},
+                  [&signal](const float* const* block, int n) {
+                      for (std::size_t j = 0; j < signal.size(); ++j)
+                          signal[j].insert(signal[j].end(), block[j], block[j] + n);
+                      return true;
+                  });
     return signal;
 }
 
@@ -86,7 +94,8 @@ TEST(PluginMix, LiveIsTheBounce) {
             host.play(480, live);
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
         }
-        if (const auto status = host.plugin->takes().status(); status.late > 0 || status.slippedNs > 0) continue;
+        if (const auto status = host.plugin->takes().status(); status.late > 0 || status.slippedNs > 0)
+            continue;
         EXPECT_TRUE(live == bounce);
         return;
     }
@@ -149,7 +158,8 @@ TEST(PluginMix, TheLevelStandsOnTopOfTheTrims) {
         const double gain = gainOfLevel(parameter.value());
         const auto played = later(signal, latency);
         for (std::size_t j = 0; j < expected.size(); ++j)
-            for (std::size_t n = 0; n < expected[j].size(); ++n) ASSERT_NEAR(played[j][n], gain * expected[j][n], 1e-6) << j << ' ' << n;
+            for (std::size_t n = 0; n < expected[j].size(); ++n)
+                ASSERT_NEAR(played[j][n], gain * expected[j][n], 1e-6) << j << ' ' << n;
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The side chain's own low frequencies on the actuators: what of them, where, how loud, and the same in blocks of any size.
+// The side chain's own low frequencies on the actuators: what of them, where, how loud, and the same in
+// blocks of any size.
 #include "Host/Music/BandPass.h"
 #include "MusicInput.h"
 #include "SongHost.h"
@@ -15,7 +16,10 @@ constexpr std::size_t toneFrames = 48000;
 
 BeatSong tone(double hz, float amplitude) {
     BeatSong song{1.0, songRateHz, 7};
-    for (std::size_t i = 0; i < toneFrames; ++i) song.samples[i] = amplitude * static_cast<float>(std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / songRateHz));
+    for (std::size_t i = 0; i < toneFrames; ++i)
+        song.samples[i] =
+            amplitude *
+            static_cast<float>(std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / songRateHz));
     return song;
 }
 
@@ -27,7 +31,9 @@ public:
         turnOn();
         set(Parameter::music, levelDb);
     }
-    void set(Parameter which, double value) { plugin->parameter(which).setValue(static_cast<float>(normalised(rowOf(which), value))); }
+    void set(Parameter which, double value) {
+        plugin->parameter(which).setValue(static_cast<float>(normalised(rowOf(which), value)));
+    }
     Samples feel(const BeatSong& song, SongBlocks blocks = {256}) { return felt(song, blocks, toneFrames); }
 };
 
@@ -53,7 +59,8 @@ TEST(Music, LowFrequenciesAreFeltInTimeAtTheirLevelAndHighOnesAreNot) {
     for (const auto& channel : felt)
         // what the host takes out is all that it is late by
         for (std::size_t i = 4'800; i < channel.size(); ++i) ASSERT_NEAR(channel[i], wanted[i], 2e-6) << i;
-    for (const double hz : {4.0, 2000.0}) EXPECT_LT(settled(MusicHost{}.feel(tone(hz, 0.5f))[0]), 0.005f) << hz;
+    for (const double hz : {4.0, 2000.0})
+        EXPECT_LT(settled(MusicHost{}.feel(tone(hz, 0.5f))[0]), 0.005f) << hz;
     EXPECT_NEAR(settled(MusicHost{-12.0}.feel(low)[2]), 0.5 * std::pow(10.0, -0.6), 0.01);
 }
 
@@ -88,7 +95,8 @@ TEST(Music, IsTheSameLiveAndBouncedInBlocksOfAnySizeWhileItsLevelMoves) {
         };
         const Samples once = feltIn({64});
         EXPECT_GT(peakOf(once), 0.05f);
-        for (const SongBlocks blocks : {SongBlocks{64, true}, {1}, {480, true}, {480, false, true}, {1000}, {4096}, {4096, true}})
+        for (const SongBlocks blocks :
+             {SongBlocks{64, true}, {1}, {480, true}, {480, false, true}, {1000}, {4096}, {4096, true}})
             EXPECT_TRUE(feltIn(blocks) == once) << blocks.frames << blocks.isLive << blocks.vary << isDirect;
     }
 }
@@ -102,11 +110,13 @@ TEST(Music, PassesTheEqualiserTheStripsAndTheLimiter) {
     state.equalised[0] = EqualisedActuator{{100.0, 8.0}, {50.0, 300.0}};
     MusicHost host{0.0, state};
     const Samples felt = host.feel(tone(160.0, 0.05f));
-    EXPECT_GT(std::abs(settled(felt[0]) - 0.05f), 0.01f) << "the equaliser drives an actuator otherwise beside its resonance";
+    EXPECT_GT(std::abs(settled(felt[0]) - 0.05f), 0.01f)
+        << "the equaliser drives an actuator otherwise beside its resonance";
     EXPECT_EQ(settled(felt[1]), 0.0f);
     EXPECT_NEAR(settled(felt[2]), 0.05 * std::pow(10.0, -0.3), 1e-3);
     MusicHost loud{12.0, state};
-    for (const Samples beyond = loud.feel(tone(100.0, 0.9f)); const float x : beyond[3]) ASSERT_LE(std::abs(x), 0.1f + 1e-6f);
+    for (const Samples beyond = loud.feel(tone(100.0, 0.9f)); const float x : beyond[3])
+        ASSERT_LE(std::abs(x), 0.1f + 1e-6f);
 }
 
 TEST(Music, ATakeBeginsWithSilenceAndEqualMusicFeelsEqual) {
@@ -126,10 +136,12 @@ TEST(Music, ATakeBeginsWithSilenceAndEqualMusicFeelsEqual) {
     const auto& one = all[1];
     std::size_t unequal = 0;
     // the first 10 ms have the end of the take before
-    for (std::size_t i = 600; i < loop; ++i) unequal += one[latency + loop + i] == one[latency + 2 * loop + i] ? 0 : 1;
+    for (std::size_t i = 600; i < loop; ++i)
+        unequal += one[latency + loop + i] == one[latency + 2 * loop + i] ? 0 : 1;
     EXPECT_EQ(unequal, 0u);
     float step = 0.0f;
-    for (std::size_t i = latency; i + 1 < one.size(); ++i) step = std::max(step, std::abs(one[i + 1] - one[i]));
+    for (std::size_t i = latency; i + 1 < one.size(); ++i)
+        step = std::max(step, std::abs(one[i + 1] - one[i]));
     // the tone itself moves by 0.0085 a frame
     EXPECT_LT(step, 0.02f) << "no click where one take ends and the next begins";
 }
@@ -158,7 +170,8 @@ TEST(Music, AllSoundOffIsAPauseWithDirectAndWithoutAndWhatComesLaterIsFelt) {
         const auto felt = stoppedInTheMiddle(isDirect);
         const auto peak = [&](int from, int to) {
             float most = 0.0f;
-            for (auto i = felt.begin() + from; i != felt.begin() + to; ++i) most = std::max(most, std::abs(*i));
+            for (auto i = felt.begin() + from; i != felt.begin() + to; ++i)
+                most = std::max(most, std::abs(*i));
             return most;
         };
         EXPECT_GT(peak(23'000, 24'000), 0.4f);

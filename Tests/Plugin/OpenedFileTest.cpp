@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of one's own in the plug-in: a scene, a layout, a mixer's session; what is wrong leaves everything as it was.
+// Files of one's own in the plug-in: a scene, a layout, a mixer's session; what is wrong leaves everything as
+// it was.
 #include "OpenedFile.h"
+#include "Io/Disk/AtomicFile.h"
 #include "PluginSettings.h"
 #include "PluginTesting.h"
-#include "Io/Disk/AtomicFile.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "Scene/Sessions/SessionFile.h"
@@ -122,7 +123,8 @@ TEST_F(PluginFiles, NoFileMakesAnythingLouder) {
     state.strips[1].isMuted = true;
     const auto opened = openFile(write("session.json", sessionJson(session)), state);
     ASSERT_TRUE(opened) << opened.error;
-    EXPECT_EQ(opened.value.note, "session.json: lowered to this instance: master -1.0 to -12.0 dB; A gain 6.0 to 0.0 dB; A ceiling 0.0 to -20.0 dB; B muted");
+    EXPECT_EQ(opened.value.note, "session.json: lowered to this instance: master -1.0 to -12.0 dB; A gain "
+                                 "6.0 to 0.0 dB; A ceiling 0.0 to -20.0 dB; B muted");
     host_.plugin->open(opened.value.state);
     EXPECT_NEAR(host_.plugin->parameter(Parameter::level).value(), -12.0, 1e-4);
     EXPECT_EQ(host_.plugin->state().strips[0].ceilingDb, -20.0);
@@ -131,9 +133,11 @@ TEST_F(PluginFiles, NoFileMakesAnythingLouder) {
     takePreset(state, "phone2");
     const auto wider = openFile(write("layout.json", layoutJson(presetLayout("phone4"))), state);
     ASSERT_TRUE(wider) << wider.error;
-    EXPECT_EQ(wider.value.note, "layout.json: lowered to this instance: C without output 3; D without output 4");
+    EXPECT_EQ(wider.value.note,
+              "layout.json: lowered to this instance: C without output 3; D without output 4");
     ASSERT_EQ(wider.value.state.strips.size(), 4u);
-    for (std::size_t j = 0; j < 4; ++j) EXPECT_EQ(wider.value.state.strips[j].isMuted, j > 1) << "nothing was felt there: " << j;
+    for (std::size_t j = 0; j < 4; ++j)
+        EXPECT_EQ(wider.value.state.strips[j].isMuted, j > 1) << "nothing was felt there: " << j;
 }
 
 TEST_F(PluginFiles, WhatOfASessionIsNotPlayedIsSaid) {
@@ -147,8 +151,10 @@ TEST_F(PluginFiles, WhatOfASessionIsNotPlayedIsSaid) {
 
 TEST_F(PluginFiles, WhatIsWrongIsNamed) {
     const auto state = host_.plugin->state();
-    const auto other = write("other.json", "{ \"answer\": 42 }"), broken = write("scene.json", "{ \"physvib_scene\": 1 }");
-    EXPECT_EQ(openFile(other, state).error, other + ": expected a preset of the plug-in, a scene, a layout or a saved session");
+    const auto other = write("other.json", "{ \"answer\": 42 }"),
+               broken = write("scene.json", "{ \"physvib_scene\": 1 }");
+    EXPECT_EQ(openFile(other, state).error,
+              other + ": expected a preset of the plug-in, a scene, a layout or a saved session");
     EXPECT_NE(openFile(broken, state).error.find(broken + ": "), std::string::npos);
 }
 

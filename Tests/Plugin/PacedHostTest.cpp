@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hosts that call in bursts, ahead of time or for more than they announced, on a clock of the test's own: what is played is the
-// bounce to the bit; where L had to grow first, that is said, and once the host has taken the new L out, every block is.
-#include "PluginTesting.h"
+// Hosts that call in bursts, ahead of time or for more than they announced, on a clock of the test's own:
+// what is played is the bounce to the bit; where L had to grow first, that is said, and once the host has
+// taken the new L out, every block is.
 #include "PluginEditor.h"
+#include "PluginTesting.h"
 #include <functional>
 
 namespace physvib {
@@ -10,7 +11,8 @@ namespace {
 
 using namespace test;
 
-/// A host on a clock that the test moves: the worlds are stepped every 5 ms of it, whatever the host asks for.
+/// A host on a clock that the test moves: the worlds are stepped every 5 ms of it, whatever the host asks
+/// for.
 class PacedHost : public TestHost {
 public:
     explicit PacedHost(const PluginState& state = shakenBox()) {
@@ -67,7 +69,9 @@ std::int64_t equalAtTheEnd(const Samples& signal, const Samples& bounce, std::in
     std::int64_t least = static_cast<std::int64_t>(signal[0].size());
     for (std::size_t c = 0; c < signal.size(); ++c) {
         std::int64_t n = static_cast<std::int64_t>(signal[c].size());
-        for (; n > latency && signal[c][static_cast<std::size_t>(n - 1)] == bounce[c][static_cast<std::size_t>(n - 1 - latency)];) --n;
+        for (; n > latency && signal[c][static_cast<std::size_t>(n - 1)] ==
+                                  bounce[c][static_cast<std::size_t>(n - 1 - latency)];)
+            --n;
         least = std::min(least, static_cast<std::int64_t>(signal[c].size()) - n);
     }
     return least;
@@ -96,8 +100,10 @@ void expectTheBounce(const std::function<int(int)>& blocks, int block, const cha
     EXPECT_EQ(host.status().session.render.late, 0u);
     EXPECT_EQ(learned - announced, host.status().waitedFrames) << "the deviation is told";
     EXPECT_EQ(host.status().burstFrames, host.status().waitedFrames);
-    if (host.status().waitedFrames == 0) EXPECT_EQ(equalAtTheEnd(first, bounce, announced), frames - announced);
-    else EXPECT_GT(equalAtTheEnd(first, bounce, learned), 48000) << "of " << frames << ", L " << learned;
+    if (host.status().waitedFrames == 0)
+        EXPECT_EQ(equalAtTheEnd(first, bounce, announced), frames - announced);
+    else
+        EXPECT_GT(equalAtTheEnd(first, bounce, learned), 48000) << "of " << frames << ", L " << learned;
     EXPECT_LT(largestStep(first), largestStep(bounce) + 0.01f) << "nothing cuts";
 
     host.prepare(48000, block, false);
@@ -105,11 +111,13 @@ void expectTheBounce(const std::function<int(int)>& blocks, int block, const cha
     const auto second = host.playBursts(length, block, blocks);
     EXPECT_EQ(host.status().waitedFrames, 0);
     EXPECT_EQ(host.status().slippedNs, 0);
-    EXPECT_EQ(equalAtTheEnd(second, bounce, learned), static_cast<std::int64_t>(second[0].size()) - learned) << "every block";
+    EXPECT_EQ(equalAtTheEnd(second, bounce, learned), static_cast<std::int64_t>(second[0].size()) - learned)
+        << "every block";
 }
 
 TEST(PacedHost, BurstsAreTheBounce) {
-    for (const int burst : {1, 2, 3, 5, 12, 20, 40}) expectTheBounce([=](int) { return burst; }, 512, std::to_string(burst).c_str());
+    for (const int burst : {1, 2, 3, 5, 12, 20, 40})
+        expectTheBounce([=](int) { return burst; }, 512, std::to_string(burst).c_str());
     expectTheBounce([](int) { return 40; }, 64, "40 of 64");
 }
 
@@ -179,7 +187,8 @@ TEST(PacedHost, AnInputActsWhereItCameWhileLGrows) {
     const auto played = [&](auto& host, int burst, auto pause) {
         Samples signal;
         for (int b = 0; b < 600; ++b) {
-            if (b % 20 == 7) host.plugin->parameter(Parameter::tilt).setValue(static_cast<float>(b % 200) / 200.0f);
+            if (b % 20 == 7)
+                host.plugin->parameter(Parameter::tilt).setValue(static_cast<float>(b % 200) / 200.0f);
             host.play(512, signal);
             if (b % burst == burst - 1) pause(burst * 512);
         }
@@ -295,8 +304,10 @@ TEST(PacedHost, AHostThatWentAheadHasTheShortLAgainWhereItsTransportStands) {
         EXPECT_GT(grown, latency);
         playInTime(host, 4.0, signal);
         EXPECT_EQ(host.plugin->takes().playOutFrames(), grown) << "while it plays";
-        if (byHand) host.plugin->takes().giveBack();
-        else host.playHead.isPlaying = false;
+        if (byHand)
+            host.plugin->takes().giveBack();
+        else
+            host.playHead.isPlaying = false;
         playInTime(host, 1.0, signal);
         EXPECT_EQ(host.plugin->takes().playOutFrames(), latency);
         EXPECT_NEAR(static_cast<double>(delayOfNote(host)), latency, 2.0);
@@ -348,7 +359,8 @@ TEST(PacedHost, RestartsInBurstsAreTheBounceToo) {
 TEST(PacedHost, TheEditorSaysWhatItWaitedFor) {
     PacedHost host{busy()};
     host.prepare(48000, 512, false);
-    const std::unique_ptr<PluginEditor> editor{dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    const std::unique_ptr<PluginEditor> editor{
+        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
     editor->refresh();
     EXPECT_FALSE(editor->statusText().contains("ahead"));
     host.playBursts(48000, 512, [](int) { return 20; });

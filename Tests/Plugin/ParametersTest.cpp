@@ -14,18 +14,24 @@ namespace {
 TEST(Parameters, IdsArePromises) { // a change here breaks every saved session of every host
     std::vector<std::string_view> ids;
     for (const auto& row : allParameters()) ids.push_back(row.id);
-    const std::vector<std::string_view> promised{"level",        "law",      "exponent", "gravity", "tilt", "material",
-                                                 "strike_level", "strike_x", "strike_y", "bypass",  "beats", "music", "music_sides"};
+    const std::vector<std::string_view> promised{
+        "level",    "law",      "exponent", "gravity", "tilt",  "material",   "strike_level",
+        "strike_x", "strike_y", "bypass",   "beats",   "music", "music_sides"};
     EXPECT_EQ(ids, promised);
 }
 
-// Hosts keep what they automate from 0 to 1: a choice that moves becomes another one in every project. How choices can
-// still be added: decision 34.
+// Hosts keep what they automate from 0 to 1: a choice that moves becomes another one in every project. How
+// choices can still be added: decision 34.
 TEST(Parameters, PlacesOfChoicesArePromises) {
-    const auto placeOf = [](Parameter p, std::string_view word) { return normalised(rowOf(p), valueOf(rowOf(p), word)); };
-    for (int i = 0; const auto word : {"linear", "log", "log-outer", "energy"}) EXPECT_DOUBLE_EQ(placeOf(Parameter::law, word), i++ / 3.0) << word;
-    for (int i = 0; const auto word : {"as the scene", "1", "2", "3", "4", "5", "6", "7", "8"}) EXPECT_DOUBLE_EQ(placeOf(Parameter::material, word), i++ / 8.0) << word;
-    for (int i = 0; const auto word : {"off", "on"}) EXPECT_DOUBLE_EQ(placeOf(Parameter::bypass, word), i++) << word;
+    const auto placeOf = [](Parameter p, std::string_view word) {
+        return normalised(rowOf(p), valueOf(rowOf(p), word));
+    };
+    for (int i = 0; const auto word : {"linear", "log", "log-outer", "energy"})
+        EXPECT_DOUBLE_EQ(placeOf(Parameter::law, word), i++ / 3.0) << word;
+    for (int i = 0; const auto word : {"as the scene", "1", "2", "3", "4", "5", "6", "7", "8"})
+        EXPECT_DOUBLE_EQ(placeOf(Parameter::material, word), i++ / 8.0) << word;
+    for (int i = 0; const auto word : {"off", "on"})
+        EXPECT_DOUBLE_EQ(placeOf(Parameter::bypass, word), i++) << word;
 }
 
 TEST(Parameters, EveryLawHasItsPlace) {
@@ -45,7 +51,9 @@ TEST(Parameters, RowsAreInRangeAndNamed) {
         EXPECT_LT(row.least, row.most) << row.id;
         EXPECT_TRUE(row.initial >= row.least && row.initial <= row.most) << row.id;
         EXPECT_GE(row.version, 1) << row.id;
-        if (!row.choices.empty()) EXPECT_EQ(std::fmod(static_cast<double>(row.choices.size()) - 1, row.most - row.least), 0.0) << row.id;
+        if (!row.choices.empty())
+            EXPECT_EQ(std::fmod(static_cast<double>(row.choices.size()) - 1, row.most - row.least), 0.0)
+                << row.id;
     }
 }
 
@@ -68,8 +76,10 @@ TEST(Parameters, ValuesSurviveTheHostsScaleAndTheirText) {
             const double value = denormalised(row, i / 8.0);
             EXPECT_NEAR(denormalised(row, normalised(row, value)), value, 1e-9) << row.id;
             const auto text = valueText(row, value);
-            if (row.choices.empty()) EXPECT_NEAR(valueOf(row, text), value, 0.051) << row.id << ' ' << text;
-            else EXPECT_EQ(valueText(row, valueOf(row, text)), text) << row.id;
+            if (row.choices.empty())
+                EXPECT_NEAR(valueOf(row, text), value, 0.051) << row.id << ' ' << text;
+            else
+                EXPECT_EQ(valueText(row, valueOf(row, text)), text) << row.id;
         }
 }
 
@@ -93,7 +103,8 @@ TEST(Parameters, TheTableInTheDocsIsThisOne) {
         for (const auto word : row.choices) range += (range.empty() ? "" : ", ") + std::string{word};
         if (&row == &rowOf(Parameter::law)) range = "a [law](panning.md#laws)"; // they stand there
         if (row.choices.empty()) range = valueText(row, row.least) + " to " + valueText(row, row.most);
-        const auto line = "| `" + std::string{row.id} + "` | " + std::string{row.name} + " | " + range + " (" + valueText(row, row.initial) + ") | " + std::string{row.help} + " |\n";
+        const auto line = "| `" + std::string{row.id} + "` | " + std::string{row.name} + " | " + range +
+                          " (" + valueText(row, row.initial) + ") | " + std::string{row.help} + " |\n";
         EXPECT_NE(docs.find(line), std::string::npos) << line;
     }
 }

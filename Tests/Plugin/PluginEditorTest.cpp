@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The editor without a window: fifty openings, sizes, what it costs, and a picture of it to look at.
-#include "PluginTesting.h"
-#include "Host/Views/Look.h"
 #include "PluginEditor.h"
+#include "Host/Views/Look.h"
+#include "PluginTesting.h"
 #include "Scene/SceneCatalogue.h"
 
 namespace physvib {
@@ -44,7 +44,8 @@ TEST(PluginEditor, OpensFiftyTimesWhileItPlays) {
 
 juce::Label* labelWith(juce::Component& in, const juce::String& text) {
     for (auto* child : in.getChildren()) {
-        if (auto* label = dynamic_cast<juce::Label*>(child); label && label->getText().contains(text)) return label;
+        if (auto* label = dynamic_cast<juce::Label*>(child); label && label->getText().contains(text))
+            return label;
         if (auto* found = labelWith(*child, text)) return found;
     }
     return nullptr;
@@ -91,7 +92,8 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
     state.notes = {strike, push};
     state.controllers = {{1, "tilt"}};
     host.plugin->edit(state);
-    host.plugin->parameter(Parameter::level).setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
+    host.plugin->parameter(Parameter::level)
+        .setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
     auto editor = openEditor(*host.plugin);
     std::vector<juce::Image> pictures;
     for (int second = 0; second < 3; ++second) {
@@ -126,7 +128,8 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
 
 juce::Button* buttonOf(juce::Component& in, const juce::String& words) {
     for (auto* child : in.getChildren()) {
-        if (auto* button = dynamic_cast<juce::Button*>(child); button && button->getButtonText() == words) return button;
+        if (auto* button = dynamic_cast<juce::Button*>(child); button && button->getButtonText() == words)
+            return button;
         if (auto* found = buttonOf(*child, words)) return found;
     }
     return nullptr;
@@ -137,7 +140,10 @@ TEST(PluginEditor, SilenceIsFilledOnlyWhileItIsOn) {
     auto editor = openEditor(*host.plugin);
     auto* const silence = buttonOf(*editor, "SILENCE");
     ASSERT_NE(silence, nullptr);
-    const auto ground = [&] { return silence->createComponentSnapshot(silence->getLocalBounds(), true, 1.0f).getPixelAt(silence->getWidth() / 2, 6); };
+    const auto ground = [&] {
+        return silence->createComponentSnapshot(silence->getLocalBounds(), true, 1.0f)
+            .getPixelAt(silence->getWidth() / 2, 6);
+    };
     const auto red = shade(*silence, Shade::limit);
     EXPECT_LT(ground().getSaturation(), 0.5f * red.getSaturation());
     EXPECT_EQ(host.plugin->parameter(Parameter::bypass).getValue(), 0.0f);
@@ -159,7 +165,9 @@ TEST(PluginEditor, ComesBackInTheSizeItWasLeftInAlsoFromAChunk) {
 }
 
 bool hasControl(const juce::Component& in, const juce::String& title) {
-    return in.getTitle() == title || std::ranges::any_of(in.getChildren(), [&](const auto* child) { return hasControl(*child, title); });
+    return in.getTitle() == title || std::ranges::any_of(in.getChildren(), [&](const auto* child) {
+               return hasControl(*child, title);
+           });
 }
 
 TEST(PluginEditor, HasBeatsWhereThereIsASideChainAndSaysWhereThatIsOff) {
@@ -204,7 +212,8 @@ TEST(PluginEditor, RulesAreSaidInWords) {
     auto state = shakenBox();
     NoteRule rule;
     rule.x = 0.25;
-    EXPECT_EQ(wordsOf(rule, state.scene), "strikes " + juce::String{state.scene.materials[0].name} + " at 25 %, 50 %");
+    EXPECT_EQ(wordsOf(rule, state.scene),
+              "strikes " + juce::String{state.scene.materials[0].name} + " at 25 %, 50 %");
     rule.kind = NoteKind::push;
     rule.object = "ball";
     rule.atFullVelocity = {0.0, 500.0};
@@ -216,7 +225,9 @@ TEST(PluginEditor, EditsReachTheProcessorAndItsHost) {
     TestHost host;
     struct Listener final : juce::AudioProcessorListener {
         void audioProcessorParameterChanged(juce::AudioProcessor*, int, float) override {}
-        void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& d) override { edits += d.nonParameterStateChanged ? 1 : 0; }
+        void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& d) override {
+            edits += d.nonParameterStateChanged ? 1 : 0;
+        }
         int edits = 0;
     } listener;
     host.plugin->addListener(&listener);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The processor in its hosts' hands: bounces, rates, blocks, suspension, bypass, many instances.
 #include "PluginTesting.h"
-#include "Session/OfflineRender.h"
 #include "Scene/World/SceneRun.h"
+#include "Session/OfflineRender.h"
 
 namespace physvib {
 namespace {
@@ -15,7 +15,8 @@ Samples rendered(const PluginState& s, int rate, std::int64_t frames) {
     Samples signal(static_cast<std::size_t>(enchantersOf(s)));
     RendererSettings settings{rate, enchantersOf(s), pannerOf(s, PanningLaw::linear, 1.0), s.limiterEnabled};
     renderOffline(made.events, {settings, frames, 256}, [&](const float* const* block, int n) {
-        for (std::size_t j = 0; j < signal.size(); ++j) signal[j].insert(signal[j].end(), block[j], block[j] + n);
+        for (std::size_t j = 0; j < signal.size(); ++j)
+            signal[j].insert(signal[j].end(), block[j], block[j] + n);
         return true;
     });
     return signal;
@@ -61,9 +62,11 @@ TEST(PluginProcessor, HostsSeeTheParametersInTheOrderOfTheTableAndInGroups) {
     TestHost host;
     const auto& parameters = host.plugin->getParameters();
     ASSERT_EQ(parameters.size(), static_cast<int>(parameterCount));
-    for (int i = 0; i < parameters.size(); ++i) EXPECT_EQ(parameters[i], &host.plugin->parameter(static_cast<Parameter>(i)));
+    for (int i = 0; i < parameters.size(); ++i)
+        EXPECT_EQ(parameters[i], &host.plugin->parameter(static_cast<Parameter>(i)));
     juce::StringArray groups;
-    for (const auto* group : host.plugin->getParameterTree().getSubgroups(false)) groups.add(group->getName());
+    for (const auto* group : host.plugin->getParameterTree().getSubgroups(false))
+        groups.add(group->getName());
     EXPECT_EQ(groups.joinIntoString(", "), "Panning, World, Strikes by notes, Side chain");
 }
 
@@ -93,7 +96,9 @@ TEST(PluginProcessor, ARateThatCannotBeRenderedIsSaidAndSilent) {
         host.play(static_cast<std::int64_t>(rate), signal);
         EXPECT_EQ(peakOf(signal), 0.0f) << rate;
         EXPECT_EQ(host.plugin->getLatencySamples(), 0) << "none of another rate is told";
-        EXPECT_TRUE(host.plugin->trouble().startsWith("the host runs at " + juce::String{static_cast<int>(rate)} + " Hz; expected 5000 to 192000")) << host.plugin->trouble();
+        EXPECT_TRUE(host.plugin->trouble().startsWith(
+            "the host runs at " + juce::String{static_cast<int>(rate)} + " Hz; expected 5000 to 192000"))
+            << host.plugin->trouble();
     }
     host.prepare(48000, 512);
     EXPECT_EQ(host.plugin->trouble(), "");
@@ -158,7 +163,8 @@ TEST(PluginProcessor, BypassIsSilentAndKeepsTheTime) {
 
 TEST(PluginProcessor, TheDefaultLevelIsTwelveDecibelsDown) {
     TestHost host;
-    host.plugin->parameter(Parameter::level).setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
+    host.plugin->parameter(Parameter::level)
+        .setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
     host.prepare(48000, 480);
     Samples signal;
     host.play(10 * 48000, signal);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // State in the host's chunk: round trips, broken ones, any thread, presets, what the host is told.
+#include "Io/Text/NameList.h"
 #include "PluginTesting.h"
 #include "Scene/SceneCatalogue.h"
-#include "Io/Text/NameList.h"
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -56,17 +56,24 @@ TEST(PluginChunk, ABrokenChunkLeavesTheLastGoodStateAndSaysSo) {
     for (int i = 0; i < 300; ++i) {
         std::string broken = text;
         const auto at = static_cast<std::size_t>(random.below(static_cast<int>(text.size())));
-        if (i % 3 == 0) broken.resize(at);
-        else broken[at] = static_cast<char>(random.below(256));
+        if (i % 3 == 0)
+            broken.resize(at);
+        else
+            broken[at] = static_cast<char>(random.below(256));
         host.plugin->setStateInformation(broken.data(), static_cast<int>(broken.size()));
-        if (host.plugin->trouble().isNotEmpty()) EXPECT_EQ(pluginStateJson(host.plugin->state()), text) << host.plugin->trouble();
+        if (host.plugin->trouble().isNotEmpty())
+            EXPECT_EQ(pluginStateJson(host.plugin->state()), text) << host.plugin->trouble();
         host.plugin->setStateInformation(good.getData(), static_cast<int>(good.getSize()));
         ASSERT_EQ(host.plugin->trouble(), "");
     }
-    for (const std::string bytes : {"{ \"\xff\": 1 }", "\xf0\x9f", "{ \"physvib_plugin_state\": \"\xe2\x82"}) { // no UTF-8, which messages quote
+    for (const std::string bytes :
+         {"{ \"\xff\": 1 }", "\xf0\x9f", "{ \"physvib_plugin_state\": \"\xe2\x82"}) { // no UTF-8, which
+                                                                                      // messages quote
         host.plugin->setStateInformation(bytes.data(), static_cast<int>(bytes.size()));
         EXPECT_TRUE(host.plugin->trouble().startsWith("state: "));
-        EXPECT_TRUE(juce::CharPointer_UTF8::isValidString(host.plugin->trouble().toRawUTF8(), static_cast<int>(host.plugin->trouble().getNumBytesAsUTF8())));
+        EXPECT_TRUE(juce::CharPointer_UTF8::isValidString(
+            host.plugin->trouble().toRawUTF8(),
+            static_cast<int>(host.plugin->trouble().getNumBytesAsUTF8())));
     }
     host.plugin->setStateInformation("{}", 2);
     EXPECT_TRUE(host.plugin->trouble().startsWith("state: ")) << host.plugin->trouble();
@@ -84,7 +91,9 @@ TEST(PluginChunk, ARefusedChunkIsWhatTheNextSaveGivesBackUntilAHandEdits) {
     const auto own = chunkOf(*host.plugin);
     const std::string newer = "{ " + newerThan(own.toString().toStdString());
     auto& level = host.plugin->parameter(Parameter::level);
-    const auto refuse = [&] { host.plugin->setStateInformation(newer.data(), static_cast<int>(newer.size())); };
+    const auto refuse = [&] {
+        host.plugin->setStateInformation(newer.data(), static_cast<int>(newer.size()));
+    };
     const auto saved = [&] { return chunkOf(*host.plugin).toString().toStdString(); };
     const auto gesture = [&](Parameter which) {
         host.plugin->parameter(which).beginChangeGesture();
@@ -93,7 +102,7 @@ TEST(PluginChunk, ARefusedChunkIsWhatTheNextSaveGivesBackUntilAHandEdits) {
     refuse();
     EXPECT_TRUE(host.plugin->trouble().contains("made for a newer PhysVib")) << host.plugin->trouble();
     EXPECT_EQ(saved(), newer);
-    level.setValue(0.5f); // as automation does
+    level.setValue(0.5f);       // as automation does
     gesture(Parameter::bypass); // silence first, think then
     EXPECT_EQ(saved(), newer);
     gesture(Parameter::level);
@@ -132,7 +141,9 @@ TEST(PluginChunk, AChoiceIsKeptByItsWord) {
     give("3");
     EXPECT_EQ(law.value(), 3.0) << "as version 1 wrote it";
     give("\"logarithmic\"");
-    EXPECT_EQ(host.plugin->trouble().toStdString(), "state: parameters.law: expected one of " + listed(rowOf(Parameter::law).choices) + ", found \"logarithmic\"");
+    EXPECT_EQ(host.plugin->trouble().toStdString(), "state: parameters.law: expected one of " +
+                                                        listed(rowOf(Parameter::law).choices) +
+                                                        ", found \"logarithmic\"");
     EXPECT_EQ(law.value(), 3.0);
     auto state = host.plugin->state();
     state.parameters = {{"level", "loud"}};
@@ -152,7 +163,8 @@ TEST(PluginChunk, ComesAndGoesOnAnyThreadWhileItPlays) {
     std::atomic<bool> stop{false};
     std::thread other{[&] {
         for (std::size_t i = 0; !stop; ++i) {
-            host.plugin->setStateInformation(chunks[i % 5].getData(), static_cast<int>(chunks[i % 5].getSize()));
+            host.plugin->setStateInformation(chunks[i % 5].getData(),
+                                             static_cast<int>(chunks[i % 5].getSize()));
             EXPECT_GT(chunkOf(*host.plugin).getSize(), 1000u);
         }
     }};
@@ -173,13 +185,15 @@ TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenesAndBehindThemInstruments) {
     for (int i = 0; i < count; ++i) {
         host.plugin->setCurrentProgram(i);
         EXPECT_EQ(host.plugin->getProgramName(i).toStdString(), host.plugin->state().scene.name);
-        EXPECT_EQ(host.plugin->getTailLengthSeconds() == std::numeric_limits<double>::infinity(), i < worlds) << "a world goes on by itself";
+        EXPECT_EQ(host.plugin->getTailLengthSeconds() == std::numeric_limits<double>::infinity(), i < worlds)
+            << "a world goes on by itself";
     }
     host.plugin->setCurrentProgram(99);
     EXPECT_EQ(host.plugin->getCurrentProgram(), count - 1);
     EXPECT_EQ(host.plugin->getProgramName(99), "");
     host.plugin->apply(strikeAt(0, 4));
-    EXPECT_NEAR(host.plugin->getTailLengthSeconds(), 1.35, 0.01) << "without a world: the longest ring of its materials";
+    EXPECT_NEAR(host.plugin->getTailLengthSeconds(), 1.35, 0.01)
+        << "without a world: the longest ring of its materials";
 }
 
 struct Listener final : juce::AudioProcessorListener {
@@ -254,8 +268,10 @@ struct Curious final : juce::AudioProcessorListener {
         std::thread other{std::move(task)};
         const bool isFree = done.wait_for(std::chrono::seconds{20}) == std::future_status::ready;
         EXPECT_TRUE(isFree) << "a lock is held while the host is told";
-        if (isFree) other.join();
-        else std::abort(); // it would wait for ever
+        if (isFree)
+            other.join();
+        else
+            std::abort(); // it would wait for ever
         isLooking = false;
     }
     void audioProcessorParameterChanged(juce::AudioProcessor*, int, float) override { look(); }
@@ -298,7 +314,8 @@ TEST(PluginChunk, TheHostIsToldOfALatencyThatChanges) {
     host.plugin->removeListener(&listener);
 }
 
-/// Of so many bodies, every one of which is felt, by each of the scene's materials, and of as many rules for notes as there are keys.
+/// Of so many bodies, every one of which is felt, by each of the scene's materials, and of as many rules for
+/// notes as there are keys.
 PluginState manyBodies(int count) {
     PluginState state = shakenBox();
     auto& bodies = state.scene.bodies;
@@ -331,7 +348,8 @@ TEST(PluginChunk, DISABLED_SevenHundredKilobytesAreTakenQuickly) {
         host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         EXPECT_EQ(host.plugin->trouble(), "");
-        std::printf("%zu bytes, %d bodies, %s: %.3f s, %.3f s of the processor\n", text.size(), count, when, seconds.count(), static_cast<double>(std::clock() - worked) / CLOCKS_PER_SEC);
+        std::printf("%zu bytes, %d bodies, %s: %.3f s, %.3f s of the processor\n", text.size(), count, when,
+                    seconds.count(), static_cast<double>(std::clock() - worked) / CLOCKS_PER_SEC);
     };
     take("before prepare");
     host.prepare(48000, 512);

@@ -40,8 +40,9 @@ public:
         plugin = std::make_unique<PluginProcessor>("PhysVib", plan);
         plugin->setPlayHead(&playHead);
         EXPECT_TRUE(plugin->apply(shakenBox()));
-        for (const auto& row : allParameters()) plugin->parameter(row.parameter).setValue(static_cast<float>(normalised(row, row.initial)));
-        plugin->parameter(Parameter::level).setValue(1.0f); // 0 dB, to compare with renders
+        for (const auto& row : allParameters())
+            plugin->parameter(row.parameter).setValue(static_cast<float>(normalised(row, row.initial)));
+        plugin->parameter(Parameter::level).setValue(1.0f);                // 0 dB, to compare with renders
         plugin->parameter(Parameter::strikeLevel).setValue(54.0f / 72.0f); // -6 dB
     }
     ~TestHost() { plugin->setPlayHead(nullptr); }
@@ -51,7 +52,8 @@ public:
         plugin->setNonRealtime(offline);
         plugin->setRateAndBufferSizeDetails(rate, block);
         plugin->prepareToPlay(rate, block);
-        buffer.setSize(std::max({1, plugin->getTotalNumInputChannels(), plugin->getTotalNumOutputChannels()}), block);
+        buffer.setSize(std::max({1, plugin->getTotalNumInputChannels(), plugin->getTotalNumOutputChannels()}),
+                       block);
     }
 
     /// One block of any size; what it played.
@@ -68,7 +70,9 @@ public:
         for (std::int64_t done = 0; done < frames; done += largest) {
             const auto& out = block(static_cast<int>(std::min<std::int64_t>(largest, frames - done)));
             for (int c = 0; c < out.getNumChannels(); ++c)
-                signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(), out.getReadPointer(c), out.getReadPointer(c) + out.getNumSamples());
+                signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(),
+                                                           out.getReadPointer(c),
+                                                           out.getReadPointer(c) + out.getNumSamples());
         }
     }
 

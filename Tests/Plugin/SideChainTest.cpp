@@ -52,11 +52,15 @@ TEST(SideChain, EachBeatIsFeltLAfterItOrDirectlyWhenItIsSureToBeKnown) {
         for (const auto& hit : song().hits) {
             if (hit.drum == Drum::kick || hit.seconds > 2.5) continue;
             ++hats;
-            const auto from = static_cast<std::int64_t>((hit.seconds - 0.02) * songRateHz) + delay, to = from + songRateHz * 40 / 1000;
+            const auto from = static_cast<std::int64_t>((hit.seconds - 0.02) * songRateHz) + delay,
+                       to = from + songRateHz * 40 / 1000;
             std::int64_t first = -1; // the last enchanter is silent between high beats
             for (std::int64_t i = from; i < to && first < 0; ++i)
                 if (std::abs(signal[3][static_cast<std::size_t>(i)]) > 2e-3f) first = i;
-            found += first >= 0 && std::abs(static_cast<double>(first - delay) / songRateHz - hit.seconds) <= 0.01 ? 1 : 0;
+            found +=
+                first >= 0 && std::abs(static_cast<double>(first - delay) / songRateHz - hit.seconds) <= 0.01
+                    ? 1
+                    : 0;
         }
         EXPECT_GE(found * 100, hats * 95) << isDirect;
     }
@@ -67,15 +71,24 @@ TEST(SideChain, StrikesAreTheSameLiveAndBouncedInBlocksOfAnySize) {
         auto state = quietState(isDirect);
         state.controllers = {{1, "strike_level"}};
         const Samples once = feltIn(state, {64}, true);
-        for (const SongBlocks blocks : {SongBlocks{64, true}, {480}, {480, true}, {480, false, true}, {1000}, {1000, true}, {4096}, {4096, true}})
-            EXPECT_TRUE(feltIn(state, blocks, true) == once) << blocks.frames << blocks.isLive << blocks.vary << isDirect;
+        for (const SongBlocks blocks : {SongBlocks{64, true},
+                                        {480},
+                                        {480, true},
+                                        {480, false, true},
+                                        {1000},
+                                        {1000, true},
+                                        {4096},
+                                        {4096, true}})
+            EXPECT_TRUE(feltIn(state, blocks, true) == once)
+                << blocks.frames << blocks.isLive << blocks.vary << isDirect;
     }
 }
 
 TEST(SideChain, SoIsAWorldBesideThem) {
     const Samples once = feltIn(shakenBox(), {480}, false);
     for (const int frames : {64, 1000, 4096})
-        for (const bool isLive : {false, true}) EXPECT_TRUE(feltIn(shakenBox(), {frames, isLive}, false) == once) << frames << isLive;
+        for (const bool isLive : {false, true})
+            EXPECT_TRUE(feltIn(shakenBox(), {frames, isLive}, false) == once) << frames << isLive;
 }
 
 TEST(SideChain, AutomationOfBeatsMovesNoHop) {

@@ -29,7 +29,9 @@ public:
 
     void turnOn(int channels = 2) {
         auto layout = plugin->getBusesLayout();
-        layout.inputBuses.getReference(0) = channels == 0 ? juce::AudioChannelSet::disabled() : channels == 1 ? juce::AudioChannelSet::mono() : juce::AudioChannelSet::stereo();
+        layout.inputBuses.getReference(0) = channels == 0   ? juce::AudioChannelSet::disabled()
+                                            : channels == 1 ? juce::AudioChannelSet::mono()
+                                                            : juce::AudioChannelSet::stereo();
         ASSERT_TRUE(plugin->setBusesLayout(layout));
     }
     void listen(float readiness = 0.5f) { plugin->parameter(Parameter::beats).setValue(readiness); }
@@ -39,10 +41,13 @@ public:
         signal.resize(4);
         buffer.setSize(4, frames, false, false, true);
         // whatever stands in a host's buffer
-        for (int c = 0; c < 4; ++c) buffer.copyFrom(c, 0, (c == 1 && right ? right->samples : song.samples).data() + at, frames);
+        for (int c = 0; c < 4; ++c)
+            buffer.copyFrom(c, 0, (c == 1 && right ? right->samples : song.samples).data() + at, frames);
         auto midi = notes(at, frames);
         plugin->processBlock(buffer, midi);
-        for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)), buffer.getReadPointer(static_cast<int>(c)) + frames);
+        for (std::size_t c = 0; c < 4; ++c)
+            signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)),
+                             buffer.getReadPointer(static_cast<int>(c)) + frames);
     }
 
     /// What is played of all of it.
@@ -53,7 +58,8 @@ public:
         Random random{3};
         const int length = static_cast<int>(song.samples.size());
         for (int at = 0; at < length;) {
-            const int frames = std::min(blocks.vary ? 1 + random.below(2 * blocks.frames) : blocks.frames, length - at);
+            const int frames =
+                std::min(blocks.vary ? 1 + random.below(2 * blocks.frames) : blocks.frames, length - at);
             feed(song, at, frames, signal);
             at += frames;
             if (!blocks.isLive) continue;
@@ -72,14 +78,15 @@ public:
     }
 
     const BeatSong* right = nullptr; ///< of the second channel, if it is another; as long
-    bool hasNotes = false; ///< and a controller that moves what beats are struck with
+    bool hasNotes = false;           ///< and a controller that moves what beats are struck with
 
 private:
     juce::MidiBuffer notes(int at, int frames) const {
         juce::MidiBuffer midi;
         for (int i = 0; i < frames && hasNotes; ++i) {
             if ((at + i) % 4999 == 0) midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), i);
-            if ((at + i) % 7001 == 0) midi.addEvent(juce::MidiMessage::controllerEvent(1, 1, (at + i) / 7001 % 30 + 90), i);
+            if ((at + i) % 7001 == 0)
+                midi.addEvent(juce::MidiMessage::controllerEvent(1, 1, (at + i) / 7001 % 30 + 90), i);
         }
         return midi;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One thread for all: those of equal pace come in one waking, who renders nothing seldom, who has left never.
-#include "PluginTesting.h"
 #include "Stepper.h"
+#include "PluginTesting.h"
 #include <chrono>
 #include <fstream>
 
@@ -86,7 +86,8 @@ TEST(Stepper, DISABLED_FiftyInstances) {
     juce::SharedResourcePointer<Stepper> stepper;
     const auto before = stepper->wakeUps();
     std::this_thread::sleep_for(std::chrono::seconds{10});
-    std::printf("wake-ups of the stepping thread: %.1f a second; memory: %.1f MB an instance\n", static_cast<double>(stepper->wakeUps() - before) / 10.0,
+    std::printf("wake-ups of the stepping thread: %.1f a second; memory: %.1f MB an instance\n",
+                static_cast<double>(stepper->wakeUps() - before) / 10.0,
                 static_cast<double>(figureOf("/proc/self/status", "VmRSS") - memory) / 1024.0 / 50.0);
 }
 

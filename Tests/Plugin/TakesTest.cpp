@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What takes owe each other: nothing is cut, settings travel inside, ended ones are used again, none is made in the way of others.
+// What takes owe each other: nothing is cut, settings travel inside, ended ones are used again, none is made
+// in the way of others.
 #include "PluginTesting.h"
 #include "Support/Growth.h"
 #include "Support/RendererMemory.h"
@@ -34,7 +35,9 @@ TEST(Takes, WhatIsOwedIsPlayedHoweverManyJumpsFollow) {
             juce::MidiBuffer midi;
             midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
             host.block(block, midi);
-            for (std::size_t c = 0; c < signal.size(); ++c) signal[c].insert(signal[c].end(), host.buffer.getReadPointer(static_cast<int>(c)), host.buffer.getReadPointer(static_cast<int>(c)) + block);
+            for (std::size_t c = 0; c < signal.size(); ++c)
+                signal[c].insert(signal[c].end(), host.buffer.getReadPointer(static_cast<int>(c)),
+                                 host.buffer.getReadPointer(static_cast<int>(c)) + block);
             host.play(4 * block, signal);
         };
         playStruck(straight);
@@ -98,7 +101,9 @@ TEST(Takes, WhatFollowsQuicklyDoesNotAddUpToDirectCurrent) {
 TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
     auto two = strikeAt(0, 2), four = strikeAt(0, 4);
     two.notes[0].material = 1;
-    const auto frequencyOf = [](const PluginState& s) { return s.scene.materials[static_cast<std::size_t>(s.notes[0].material)].frequencyHz; };
+    const auto frequencyOf = [](const PluginState& s) {
+        return s.scene.materials[static_cast<std::size_t>(s.notes[0].material)].frequencyHz;
+    };
     ASSERT_NE(frequencyOf(two), frequencyOf(four));
     TestHost host;
     ASSERT_TRUE(host.plugin->apply(two));
@@ -113,13 +118,16 @@ TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
         juce::MidiBuffer midi;
         midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
         host.block(64, midi);
-        if (host.plugin->takes().status().take == static_cast<int>(channels.size())) channels.push_back(host.plugin->takes().session()->channels());
+        if (host.plugin->takes().status().take == static_cast<int>(channels.size()))
+            channels.push_back(host.plugin->takes().session()->channels());
     }
     message.join();
     EXPECT_GT(channels.size(), 10u);
     host.plugin->releaseResources();
     int others = 0;
-    for (const auto& e : host.plugin->takes().takeLog()) others += e.played.event.frequencyHz != frequencyOf(channels[static_cast<std::size_t>(e.take)] == 2 ? two : four);
+    for (const auto& e : host.plugin->takes().takeLog())
+        others += e.played.event.frequencyHz !=
+                  frequencyOf(channels[static_cast<std::size_t>(e.take)] == 2 ? two : four);
     EXPECT_EQ(others, 0) << "struck by another take's notes";
 }
 
@@ -173,7 +181,8 @@ TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
     std::vector<BodyPose> poses;
     const auto before = host.plugin->takes().poses(poses);
     for (int b = 0; b < 4; ++b) host.block(480);
-    for (int i = 0; i < 100 && host.plugin->takes().poses(poses) == before; ++i) std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    for (int i = 0; i < 100 && host.plugin->takes().poses(poses) == before; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds{5});
     EXPECT_GT(host.plugin->takes().poses(poses), before);
     let.set_value();
     host.plugin->releaseResources();
@@ -199,7 +208,8 @@ PluginState heap(int discs) {
     return state;
 }
 
-/// The processor time of a tick that owes half a second of the heap's world, and is released after so much of it.
+/// The processor time of a tick that owes half a second of the heap's world, and is released after so much of
+/// it.
 double tickMicroseconds(double releasedAfter = HUGE_VAL) {
     TestHost host;
     EXPECT_TRUE(host.plugin->apply(heap(200)));
@@ -225,8 +235,10 @@ double tickMicroseconds(double releasedAfter = HUGE_VAL) {
 TEST(Takes, ReleaseWaitsForOneStepOfAHeavyWorldNotForAllThatAreOwed) {
     const double whole = tickMicroseconds();
     double least = whole;
-    // On a busy machine whoever releases may come late, but not always; a tick that does not listen takes the whole of it each time.
-    for (int attempt = 0; attempt < 20 && least > 0.75 * whole; ++attempt) least = std::min(least, tickMicroseconds(0.1 * whole));
+    // On a busy machine whoever releases may come late, but not always; a tick that does not listen takes the
+    // whole of it each time.
+    for (int attempt = 0; attempt < 20 && least > 0.75 * whole; ++attempt)
+        least = std::min(least, tickMicroseconds(0.1 * whole));
     EXPECT_LT(least, 0.75 * whole) << "of " << whole << " us";
 }
 
@@ -240,7 +252,8 @@ double applyMicroseconds(int discs) {
 
 TEST(Takes, AStateOfManyBodiesIsTakenInATimeThatGrowsAsTheyDo) {
     double few = HUGE_VAL, many = HUGE_VAL;
-    for (int attempt = 0; attempt < 3; ++attempt) few = std::min(few, applyMicroseconds(100)), many = std::min(many, applyMicroseconds(800));
+    for (int attempt = 0; attempt < 3; ++attempt)
+        few = std::min(few, applyMicroseconds(100)), many = std::min(many, applyMicroseconds(800));
     EXPECT_LT(many, 24.0 * few) << "eight times the bodies; by their square it would be 64 times";
 }
 

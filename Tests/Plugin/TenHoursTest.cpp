@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A host that plays notes and automation for hours, in blocks that are not realtime: what the plug-in holds does not grow.
-// The ten hours are for Tests/ten-hours.sh.
+// A host that plays notes and automation for hours, in blocks that are not realtime: what the plug-in holds
+// does not grow. The ten hours are for Tests/ten-hours.sh.
 #include "PluginTesting.h"
 #include "Support/Growth.h"
 
@@ -27,7 +27,9 @@ struct Player {
     void step(std::int64_t i) {
         host.plugin->parameter(Parameter::tilt).setValue(static_cast<float>(i % 1000) / 1000.0f);
         juce::MidiBuffer midi;
-        if (i % 20 == 0) midi.addEvent(juce::MidiMessage::noteOn(1, 62, static_cast<juce::uint8>(1 + i % 127)), static_cast<int>(i % 480));
+        if (i % 20 == 0)
+            midi.addEvent(juce::MidiMessage::noteOn(1, 62, static_cast<juce::uint8>(1 + i % 127)),
+                          static_cast<int>(i % 480));
         host.block(480, midi);
     }
     void look() {
@@ -41,10 +43,12 @@ struct Player {
 void playHours(double hours, int rate, Player& one, Player& other, Growth& growth) {
     const auto blocks = static_cast<std::int64_t>(hours * 3600 * rate / 480);
     for (std::int64_t i = 0; i < blocks; ++i) {
-        growth.step(static_cast<double>(i) * 480 / rate, [&] { one.step(i); }, [&] { other.step(i); });
+        growth.step(
+            static_cast<double>(i) * 480 / rate, [&] { one.step(i); }, [&] { other.step(i); });
         if (i % 100 == 0) one.look(), other.look();
     }
-    EXPECT_LT(one.poses.size(), one.host.plugin->state().scene.bodies.size() + 64 + 8) << "what is there, and what has just gone";
+    EXPECT_LT(one.poses.size(), one.host.plugin->state().scene.bodies.size() + 64 + 8)
+        << "what is there, and what has just gone";
 }
 
 TEST(PluginForHours, DISABLED_HoldsNoMoreAndGetsNoSlower) {

@@ -50,17 +50,21 @@ template <class Place>
 int startsIn(int blocks, Place place, int frames = 512) {
     Transport t;
     int starts = 0;
-    for (int b = 0; b < blocks; ++b) starts += t.follow(true, static_cast<std::int64_t>(place(b)), frames) == Change::started ? 1 : 0;
+    for (int b = 0; b < blocks; ++b)
+        starts += t.follow(true, static_cast<std::int64_t>(place(b)), frames) == Change::started ? 1 : 0;
     return starts;
 }
 constexpr int tenMinutes = 56'250; // blocks of 512 at 48 kHz
 
 TEST(Transport, ImperfectOnesMakeNoStarts) {
-    EXPECT_EQ(startsIn(tenMinutes, [](int b) { return 512.0 * b - (b == 100 ? 1 : 0); }), 1) << "a frame backwards";
-    for (const double speed : {0.5, 0.9, 0.99, 1.0001, 1.01, 1.5, 2.0}) EXPECT_EQ(startsIn(tenMinutes, [=](int b) { return speed * 512 * b; }), 1) << speed;
+    EXPECT_EQ(startsIn(tenMinutes, [](int b) { return 512.0 * b - (b == 100 ? 1 : 0); }), 1)
+        << "a frame backwards";
+    for (const double speed : {0.5, 0.9, 0.99, 1.0001, 1.01, 1.5, 2.0})
+        EXPECT_EQ(startsIn(tenMinutes, [=](int b) { return speed * 512 * b; }), 1) << speed;
     for (const double speed : {0.5, 1.0, 2.0}) {
         Random random{4};
-        EXPECT_EQ(startsIn(tenMinutes, [&](int b) { return speed * 512 * b + random.below(512); }), 1) << "jitter of a block, at " << speed;
+        EXPECT_EQ(startsIn(tenMinutes, [&](int b) { return speed * 512 * b + random.below(512); }), 1)
+            << "jitter of a block, at " << speed;
     }
     // half to one and a half times the speed, and back
     const auto tape = [](int b) { return 512.0 * (b + 100 * std::sin(0.005 * b)); };
@@ -77,7 +81,10 @@ TEST(Transport, AHandThatScrubsIsOneStartAndAnotherWhenItLetsGo) {
 TEST(Transport, ALoopStartsEveryTime) {
     for (const int frames : {64, 512, 4096}) {
         const int length = 10; // blocks
-        EXPECT_EQ(startsIn(10 * length, [=](int b) { return static_cast<double>(frames) * (b % length); }, frames), 10) << frames;
+        EXPECT_EQ(startsIn(
+                      10 * length, [=](int b) { return static_cast<double>(frames) * (b % length); }, frames),
+                  10)
+            << frames;
     }
 }
 
@@ -110,7 +117,9 @@ bool takesAreEqual(TestHost& host, bool offline, int takes, std::int64_t loopFra
     host.plugin->releaseResources();
     for (auto& e : host.plugin->takes().takeLog()) log.push_back(e);
     const auto status = host.plugin->takes().status();
-    if (!offline && (status.late > 0 || status.slippedNs > 0 || status.delayedBlocks > 0 || status.waitedFrames > 0)) return false;
+    if (!offline &&
+        (status.late > 0 || status.slippedNs > 0 || status.delayedBlocks > 0 || status.waitedFrames > 0))
+        return false;
     EXPECT_EQ(status.take, takes);
     EXPECT_EQ(status.delayedBlocks, 0u);
 
@@ -118,11 +127,14 @@ bool takesAreEqual(TestHost& host, bool offline, int takes, std::int64_t loopFra
     // what is played while a take fades may differ
     const std::int64_t owedNs = loopFrames * 1'000'000'000 / 44100;
     for (const auto& e : log)
-        if (e.played.event.timeNs < owedNs) events[static_cast<std::size_t>(e.take - 1)].push_back(e.played.event);
+        if (e.played.event.timeNs < owedNs)
+            events[static_cast<std::size_t>(e.take - 1)].push_back(e.played.event);
     const std::int64_t latency = host.plugin->getLatencySamples();
     const auto take = [&](int k) {
         Samples part;
-        for (const auto& c : signal) part.emplace_back(c.begin() + latency + k * loopFrames, c.begin() + latency + (k + 1) * loopFrames);
+        for (const auto& c : signal)
+            part.emplace_back(c.begin() + latency + k * loopFrames,
+                              c.begin() + latency + (k + 1) * loopFrames);
         return part;
     };
     EXPECT_GT(events[0].size(), 2u);

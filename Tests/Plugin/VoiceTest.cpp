@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Notes as an instrument: nothing moves until one is played, then at the level, place and pitch that the voice says, for as long as its key is held.
+// Notes as an instrument: nothing moves until one is played, then at the level, place and pitch that the
+// voice says, for as long as its key is held.
 #include "PluginTesting.h"
 
 namespace physvib {
@@ -14,7 +15,8 @@ struct TimedMessage {
 };
 
 /// What is felt of that in blocks of one size, L taken out.
-Samples playedBy(const PluginState& state, const std::vector<TimedMessage>& messages, std::int64_t frames, int block = 512, float level = 1.0f) {
+Samples playedBy(const PluginState& state, const std::vector<TimedMessage>& messages, std::int64_t frames,
+                 int block = 512, float level = 1.0f) {
     TestHost host;
     EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
     host.plugin->parameter(Parameter::level).setValue(level);
@@ -25,16 +27,21 @@ Samples playedBy(const PluginState& state, const std::vector<TimedMessage>& mess
     std::size_t next = 0;
     for (std::int64_t at = 0; at < all; at += block) {
         juce::MidiBuffer midi;
-        for (; next < messages.size() && messages[next].frame < at + block; ++next) midi.addEvent(messages[next].message, static_cast<int>(messages[next].frame - at));
+        for (; next < messages.size() && messages[next].frame < at + block; ++next)
+            midi.addEvent(messages[next].message, static_cast<int>(messages[next].frame - at));
         const auto& out = host.block(block, midi);
-        for (int c = 0; c < std::min(4, out.getNumChannels()); ++c) signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(), out.getReadPointer(c), out.getReadPointer(c) + block);
+        for (int c = 0; c < std::min(4, out.getNumChannels()); ++c)
+            signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(),
+                                                       out.getReadPointer(c), out.getReadPointer(c) + block);
     }
     signal = later(signal, host.plugin->getLatencySamples());
     for (auto& c : signal) c.resize(static_cast<std::size_t>(frames));
     return signal;
 }
 
-Message on(int note, int velocity = 127, int channel = 1) { return Message::noteOn(channel, note, static_cast<juce::uint8>(velocity)); }
+Message on(int note, int velocity = 127, int channel = 1) {
+    return Message::noteOn(channel, note, static_cast<juce::uint8>(velocity));
+}
 Message off(int note, int channel = 1) { return Message::noteOff(channel, note); }
 
 PluginState voiced(bool isHeld, NotePlaces places = NotePlaces::middle) {
@@ -51,14 +58,17 @@ PluginState voiced(bool isHeld, NotePlaces places = NotePlaces::middle) {
 
 float peakBetween(const Samples& signal, std::int64_t from, std::int64_t to, std::size_t channel = 0) {
     float peak = 0.0f;
-    for (auto n = from; n < to; ++n) peak = std::max(peak, std::abs(signal[channel][static_cast<std::size_t>(n)]));
+    for (auto n = from; n < to; ++n)
+        peak = std::max(peak, std::abs(signal[channel][static_cast<std::size_t>(n)]));
     return peak;
 }
 
 /// Upward zero crossings per second.
 double pitchOf(const Samples& signal, std::int64_t from, std::int64_t to) {
     int crossings = 0;
-    for (auto n = from + 1; n < to; ++n) crossings += signal[0][static_cast<std::size_t>(n - 1)] < 0.0f && signal[0][static_cast<std::size_t>(n)] >= 0.0f;
+    for (auto n = from + 1; n < to; ++n)
+        crossings += signal[0][static_cast<std::size_t>(n - 1)] < 0.0f &&
+                     signal[0][static_cast<std::size_t>(n)] >= 0.0f;
     return crossings * 48000.0 / static_cast<double>(to - from);
 }
 
@@ -67,7 +77,8 @@ TEST(Voice, ANewInstanceIsSilentUntilANoteWhichIsAtMinusSixDecibels) {
     plugin.setNonRealtime(true);
     plugin.setRateAndBufferSizeDetails(48000, 512);
     plugin.prepareToPlay(48000, 512);
-    juce::AudioBuffer<float> buffer{std::max(plugin.getTotalNumInputChannels(), plugin.getTotalNumOutputChannels()), 512};
+    juce::AudioBuffer<float> buffer{
+        std::max(plugin.getTotalNumInputChannels(), plugin.getTotalNumOutputChannels()), 512};
     float before = 0.0f, after = 0.0f;
     for (int b = 0; b < 400; ++b) {
         juce::MidiBuffer midi;
@@ -85,12 +96,17 @@ TEST(Voice, EveryPitchHasItsFrequencyAndTheLoudestActuatorItsLevel) {
         double hz;
     };
     // A note of 20 Hz at full scale is what the output's guard turns down.
-    for (const auto& [note, velocity, hz] : {Held{33, 127, 55.0}, {45, 127, 110.0}, {57, 127, 220.0},
-                                             {69, 127, 440.0}, {81, 127, 440.0}, {4, 64, 20.6}}) {
+    for (const auto& [note, velocity, hz] : {Held{33, 127, 55.0},
+                                             {45, 127, 110.0},
+                                             {57, 127, 220.0},
+                                             {69, 127, 440.0},
+                                             {81, 127, 440.0},
+                                             {4, 64, 20.6}}) {
         const auto signal = playedBy(voiced(true), {{0, on(note, velocity)}}, 48000);
         EXPECT_NEAR(pitchOf(signal, 0, 48000), hz, 1.1) << note;
         for (std::size_t c = 0; c < 4; ++c)
-            EXPECT_NEAR(peakBetween(signal, 0, 48000, c), static_cast<float>(velocity) / 127.0f, 1e-3f) << note;
+            EXPECT_NEAR(peakBetween(signal, 0, 48000, c), static_cast<float>(velocity) / 127.0f, 1e-3f)
+                << note;
     }
 }
 
@@ -99,7 +115,9 @@ TEST(Voice, AHeldNoteIsOneSineUntilItsKeyIsLetGo) {
     state.voice.releaseSeconds = 0.1;
     const auto signal = playedBy(state, {{1000, on(45)}, {49000, off(45)}}, 72000);
     for (std::int64_t n = 1000; n < 48900; ++n)
-        ASSERT_NEAR(signal[0][static_cast<std::size_t>(n)], std::sin(2.0 * 3.14159265358979 * 110.0 * static_cast<double>(n - 1000) / 48000.0), 2e-5) << n;
+        ASSERT_NEAR(signal[0][static_cast<std::size_t>(n)],
+                    std::sin(2.0 * 3.14159265358979 * 110.0 * static_cast<double>(n - 1000) / 48000.0), 2e-5)
+            << n;
     EXPECT_GT(peakBetween(signal, 49500, 50000), 0.1f);
     EXPECT_LT(peakBetween(signal, 49000 + 6000, 72000), 0.001f) << "released";
 }
@@ -107,17 +125,32 @@ TEST(Voice, AHeldNoteIsOneSineUntilItsKeyIsLetGo) {
 TEST(Voice, TheSustainPedalHoldsWhatTheKeyHasLetGo) {
     auto state = voiced(true);
     state.voice.releaseSeconds = 0.05;
-    const auto signal = playedBy(state, {{0, on(45)}, {100, Message::controllerEvent(1, 64, 127)}, {200, off(45)}, {24000, Message::controllerEvent(1, 64, 0)}}, 36000);
+    const auto signal = playedBy(state,
+                                 {{0, on(45)},
+                                  {100, Message::controllerEvent(1, 64, 127)},
+                                  {200, off(45)},
+                                  {24000, Message::controllerEvent(1, 64, 0)}},
+                                 36000);
     EXPECT_NEAR(peakBetween(signal, 20000, 24000), 1.0f, 1e-3f);
     EXPECT_LT(peakBetween(signal, 28000, 36000), 0.001f);
-    const auto ended = playedBy(state, {{0, on(45)}, {100, Message::controllerEvent(1, 64, 127)}, {200, off(45)}, {24000, Message::allNotesOff(1)}}, 36000);
+    const auto ended = playedBy(state,
+                                {{0, on(45)},
+                                 {100, Message::controllerEvent(1, 64, 127)},
+                                 {200, off(45)},
+                                 {24000, Message::allNotesOff(1)}},
+                                36000);
     EXPECT_LT(peakBetween(ended, 28000, 36000), 0.001f) << "All Notes Off";
 }
 
 TEST(Voice, BendPressureAndSlideMoveWhatSounds) {
     auto state = voiced(true);
     state.voice.bendSemitones = 12.0;
-    const auto signal = playedBy(state, {{0, on(45, 64, 2)}, {24000, Message::pitchWheel(2, 16383)}, {48000, Message::channelPressureChange(2, 127)}, {72000, Message::controllerEvent(2, 74, 127)}}, 96000);
+    const auto signal = playedBy(state,
+                                 {{0, on(45, 64, 2)},
+                                  {24000, Message::pitchWheel(2, 16383)},
+                                  {48000, Message::channelPressureChange(2, 127)},
+                                  {72000, Message::controllerEvent(2, 74, 127)}},
+                                 96000);
     EXPECT_NEAR(pitchOf(signal, 0, 24000), 110.0, 3.0);
     EXPECT_NEAR(pitchOf(signal, 26000, 46000), 220.0, 5.0);
     EXPECT_NEAR(peakBetween(signal, 26000, 46000), 64.0f / 127.0f, 1e-3f);
@@ -125,7 +158,8 @@ TEST(Voice, BendPressureAndSlideMoveWhatSounds) {
     EXPECT_NEAR(peakBetween(signal, 74000, 96000, 0), 1.0f, 2e-2f) << "up";
     EXPECT_LT(peakBetween(signal, 74000, 96000, 2), 0.05f) << "away from below";
     float step = 0.0f;
-    for (std::size_t n = 1; n < signal[0].size(); ++n) step = std::max(step, std::abs(signal[0][n] - signal[0][n - 1]));
+    for (std::size_t n = 1; n < signal[0].size(); ++n)
+        step = std::max(step, std::abs(signal[0][n] - signal[0][n - 1]));
     EXPECT_LT(step, 1.05 * 2.0 * 3.1416 * 220.0 / 48000.0) << "nothing clicks";
 }
 
@@ -137,13 +171,18 @@ TEST(Voice, HeldNotesAreTheSameSamplesInBlocksOfAnySizeAndDirectToo) {
     for (std::int64_t at = 0; at < 40000; at += 1 + random.below(700)) {
         const int note = 40 + random.below(12);
         const int kind = random.below(5);
-        messages.push_back({at, kind < 2 ? on(note, 1 + random.below(127)) : kind == 2 ? off(note) : kind == 3 ? Message::pitchWheel(1, random.below(16384)) : Message::channelPressureChange(1, random.below(128))});
+        messages.push_back({at, kind < 2    ? on(note, 1 + random.below(127))
+                                : kind == 2 ? off(note)
+                                : kind == 3 ? Message::pitchWheel(1, random.below(16384))
+                                            : Message::channelPressureChange(1, random.below(128))});
     }
     for (const bool isDirect : {false, true}) {
         state.isDirect = isDirect;
         const auto expected = playedBy(state, messages, 48000);
         EXPECT_GT(peakOf(expected), 0.5f);
-        for (const int block : {32, 100, 1000, 4096}) EXPECT_TRUE(playedBy(state, messages, 48000, block) == expected) << block << (isDirect ? ", direct" : "");
+        for (const int block : {32, 100, 1000, 4096})
+            EXPECT_TRUE(playedBy(state, messages, 48000, block) == expected)
+                << block << (isDirect ? ", direct" : "");
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What automation and notes do to the world: gravity, tilt, materials, pushes, spawned discs; each felt, each repeatable.
+// What automation and notes do to the world: gravity, tilt, materials, pushes, spawned discs; each felt, each
+// repeatable.
 #include "PluginTesting.h"
 #include "Scene/SceneCatalogue.h"
 #include <set>
@@ -55,13 +56,16 @@ TEST(WorldInput, GravityTiltAndMaterialAreFeltAndRepeat) {
     state.scene.script.clear(); // which sets gravity itself
     state.scene.scriptPeriodSeconds = 0.0;
     const auto undisturbed = after(nothing, 480, state);
-    for (const auto& [which, normal] : {std::pair{Parameter::gravity, 0.9f}, {Parameter::tilt, 0.75f}, {Parameter::material, 0.5f}}) {
+    for (const auto& [which, normal] :
+         {std::pair{Parameter::gravity, 0.9f}, {Parameter::tilt, 0.75f}, {Parameter::material, 0.5f}}) {
         const auto moved = after(set(which, normal), 480, state);
         EXPECT_FALSE(moved == undisturbed) << rowOf(which).id;
         EXPECT_TRUE(moved == after(set(which, normal), 480, state)) << rowOf(which).id;
-        EXPECT_TRUE(moved == after(set(which, normal), 64, state)) << rowOf(which).id << " at another block size";
+        EXPECT_TRUE(moved == after(set(which, normal), 64, state))
+            << rowOf(which).id << " at another block size";
         const auto first = [](const auto& events) {
-            return std::count_if(events.begin(), events.end(), [](const auto& e) { return e.timeNs < 1'000'000'000; });
+            return std::count_if(events.begin(), events.end(),
+                                 [](const auto& e) { return e.timeNs < 1'000'000'000; });
         };
         EXPECT_EQ(first(moved), first(undisturbed)) << "nothing before it";
     }
@@ -95,7 +99,8 @@ TEST(WorldInput, AMaterialIsHeardInEverythingThatIsFelt) {
 
 TEST(WorldInput, APushMovesABodyByItsVelocity) {
     auto state = shakenBox();
-    const auto body = std::ranges::find_if(state.scene.bodies, [](const auto& b) { return b.type == BodyType::dynamicBody; });
+    const auto body = std::ranges::find_if(state.scene.bodies,
+                                           [](const auto& b) { return b.type == BodyType::dynamicBody; });
     ASSERT_NE(body, state.scene.bodies.end());
     auto push = rule(NoteKind::push, 60);
     push.object = body->name;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Definitions in a program go before those of its libraries; each notes the offence and calls the library's own.
+// Definitions in a program go before those of its libraries; each notes the offence and calls the library's
+// own.
 #include "Realtime/RealtimeGuard.h"
 #include <atomic>
-#include <cstddef>
 #include <cstdarg>
+#include <cstddef>
 #include <dlfcn.h>
 #include <pthread.h>
 #include <unistd.h>
@@ -46,7 +47,8 @@ std::uint64_t RealtimeGuard::total() noexcept {
 using namespace physvib::test;
 using Guard = RealtimeGuard;
 
-// glibc gives its allocator these second names, so that replacing the first needs no lookup (which would allocate).
+// glibc gives its allocator these second names, so that replacing the first needs no lookup (which would
+// allocate).
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The finished VST3 modules under guard, in a bare host with every bus on: JUCE's wrapper around the render call takes no
-// memory either. (It does lock: a mutex that nobody else holds while a host plays.)
+// The finished VST3 modules under guard, in a bare host with every bus on: JUCE's wrapper around the render
+// call takes no memory either. (It does lock: a mutex that nobody else holds while a host plays.)
 #include "Plugin/Formats/RawVst3.h"
 #include "Plugin/PluginTesting.h"
 #include "Realtime/RealtimeGuard.h"
@@ -36,7 +36,8 @@ void expectNoMemoryTaken(const std::string& name, std::size_t musicChannels) {
     for (int b = 0; b < 200; ++b) {
         if (b % 10 == 0) host.note(36 + b % 12);
         for (auto& channel : host.music)
-            for (float& sample : channel) sample = b % 20 == 0 ? static_cast<float>(random.uniform(-1, 1)) : 0.0f;
+            for (float& sample : channel)
+                sample = b % 20 == 0 ? static_cast<float>(random.uniform(-1, 1)) : 0.0f;
         ASSERT_TRUE(host.process());
     }
     EXPECT_EQ(RealtimeGuard::count(RealtimeGuard::allocates), 0u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// processBlock under guard: every parameter, every MIDI message, transport, bypass, each width, while another thread
-// changes the settings.
+// processBlock under guard: every parameter, every MIDI message, transport, bypass, each width, while another
+// thread changes the settings.
 #include "Plugin/PluginTesting.h"
 #include "Realtime/RealtimeGuard.h"
 #include <atomic>
@@ -14,7 +14,8 @@ juce::MidiBuffer randomMidi(Random& random, int frames) {
     juce::MidiBuffer midi;
     for (int i = random.below(6); i > 0; --i) {
         const juce::uint8 status = static_cast<juce::uint8>(0x80 + random.below(0x70));
-        const juce::uint8 bytes[3]{status, static_cast<juce::uint8>(random.below(128)), static_cast<juce::uint8>(random.below(128))};
+        const juce::uint8 bytes[3]{status, static_cast<juce::uint8>(random.below(128)),
+                                   static_cast<juce::uint8>(random.below(128))};
         const bool isShort = (status & 0xf0) == 0xc0 || (status & 0xf0) == 0xd0;
         midi.addEvent(bytes, isShort ? 2 : 3, random.below(frames));
     }
@@ -53,14 +54,17 @@ void expectNothingForbidden(BusPlan plan) {
             if (random.below(90) == 0) host.playHead.frame = random.below(100'000);
             host.buffer.setSize(host.buffer.getNumChannels(), frames, false, false, true);
             // a stroke at the side chain
-            for (int i = 0; i < frames && b % 100 < 3; ++i) host.buffer.setSample(0, i, static_cast<float>(random.uniform(-1, 1)));
+            for (int i = 0; i < frames && b % 100 < 3; ++i)
+                host.buffer.setSample(0, i, static_cast<float>(random.uniform(-1, 1)));
             auto* parameter = plugin.getParameters()[random.below(static_cast<int>(parameterCount))];
             const bool bypassed = random.below(100) == 0;
             {
                 const RealtimeGuard guard;
                 parameter->setValue(static_cast<float>(random.uniform(0, 1)));
-                if (bypassed) plugin.processBlockBypassed(host.buffer, midi);
-                else plugin.processBlock(host.buffer, midi);
+                if (bypassed)
+                    plugin.processBlockBypassed(host.buffer, midi);
+                else
+                    plugin.processBlock(host.buffer, midi);
             }
             host.playHead.frame += host.playHead.isPlaying ? frames : 0;
             if (b % 256 == 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
@@ -68,7 +72,8 @@ void expectNothingForbidden(BusPlan plan) {
         stop = true;
         message.join();
         for (std::size_t i = 0; i < RealtimeGuard::offenceCount; ++i)
-            EXPECT_EQ(RealtimeGuard::count(static_cast<RealtimeGuard::Offence>(i)), 0u) << RealtimeGuard::names[i];
+            EXPECT_EQ(RealtimeGuard::count(static_cast<RealtimeGuard::Offence>(i)), 0u)
+                << RealtimeGuard::names[i];
         EXPECT_GT(plugin.takes().status().take, 1) << "settings arrived";
     }
 }
@@ -77,7 +82,8 @@ TEST(RealtimePlugin, OneBus) {
     for (const int width : {1, 2, 4, 16}) expectNothingForbidden({BusPlan::Kind::oneBus, width});
 }
 
-// What hosts and validators ask of parameters from any thread, the message thread among them: no lock can hold them up.
+// What hosts and validators ask of parameters from any thread, the message thread among them: no lock can
+// hold them up.
 TEST(RealtimePlugin, ParametersAnswerWithoutALock) {
     TestHost host{{BusPlan::Kind::manyBuses}};
     host.prepare(48000, 512, false);
@@ -85,7 +91,8 @@ TEST(RealtimePlugin, ParametersAnswerWithoutALock) {
     for (auto* parameter : host.plugin->getParameters()) {
         const RealtimeGuard guard;
         const float value = parameter->getValue() + parameter->getDefaultValue();
-        const auto words = parameter->getName(512) + parameter->getLabel() + parameter->getText(value, 1024) + parameter->getCurrentValueAsText();
+        const auto words = parameter->getName(512) + parameter->getLabel() + parameter->getText(value, 1024) +
+                           parameter->getCurrentValueAsText();
         parameter->setValue(parameter->getValueForText(words));
     }
     EXPECT_EQ(RealtimeGuard::count(RealtimeGuard::locks), 0u);

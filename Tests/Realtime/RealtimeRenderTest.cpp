@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A million guarded blocks of a live session while another thread edits it ten thousand times.
 #include "Core/ClipNumber.h"
-#include "Session/Session.h"
-#include "Scene/SceneCatalogue.h"
 #include "Realtime/RealtimeGuard.h"
+#include "Scene/SceneCatalogue.h"
+#include "Session/Session.h"
 #include "Support/ClosedForm.h"
 #include <atomic>
 #include <gtest/gtest.h>
@@ -16,7 +16,8 @@ constexpr int outputs = 8;
 
 PhantomPanner randomPanner(test::Random& random) {
     EnchanterLayout layout{1, 1, 1 + random.below(outputs), {}};
-    for (int j = 0; j < layout.count; ++j) layout.places[static_cast<std::size_t>(j)] = {random.uniform(0, 1), random.uniform(0, 1)};
+    for (int j = 0; j < layout.count; ++j)
+        layout.places[static_cast<std::size_t>(j)] = {random.uniform(0, 1), random.uniform(0, 1)};
     return {layout, static_cast<PanningLaw>(random.below(4)), 1.0, 6.4, 3.6};
 }
 
@@ -35,7 +36,8 @@ CollisionEvent randomPath(test::Random& random, std::int64_t fromNs) {
     path.durationNs = 1'000'000 * (1 + random.below(200));
     path.frequencyHz = random.uniform(50, 400);
     path.amplitude = 0.1;
-    path.course = {random.uniform(0, 6.4), random.uniform(0, 3.6), path.durationNs, 0, static_cast<Spread>(random.below(static_cast<int>(spreadNames.size())))};
+    path.course = {random.uniform(0, 6.4), random.uniform(0, 3.6), path.durationNs, 0,
+                   static_cast<Spread>(random.below(static_cast<int>(spreadNames.size())))};
     return path;
 }
 
@@ -43,7 +45,10 @@ CollisionEvent randomPath(test::Random& random, std::int64_t fromNs) {
 bool strikeClip(Session& session, test::Random& random) {
     const int which = random.below(mostClips);
     CollisionEvent strike;
-    const ContactRecording clip{0.0, 8000 + 1000 * which, std::vector<float>(2000, 0.1f), {.path = std::to_string(which), .hash = "0123456789abcdef"}};
+    const ContactRecording clip{0.0,
+                                8000 + 1000 * which,
+                                std::vector<float>(2000, 0.1f),
+                                {.path = std::to_string(which), .hash = "0123456789abcdef"}};
     strike.frequencyHz = clipFrequencyHz(session.keepClip({&clip, 1}).value());
     strike.amplitude = 1.0;
     strike.durationNs = 100'000'000;
@@ -51,15 +56,21 @@ bool strikeClip(Session& session, test::Random& random) {
     return bool{session.take({Strikes{{&strike, 1}, true}, 0})};
 }
 
-// Layouts, gains, mutes and stops; now and then an input, a strike that moves, a clip, another scene, or the same one from its start.
+// Layouts, gains, mutes and stops; now and then an input, a strike that moves, a clip, another scene, or the
+// same one from its start.
 bool edit(Session& session, test::Random& random) {
     const int kind = random.below(200);
     if (kind < 4) return session.take({TiltAction{random.uniform(-3, 3)}}).error.empty();
     if (kind == 4) session.world().restart(random.below(64));
-    if (kind >= 6 && kind < 16) return bool{session.take({Strikes{std::array{randomPath(random, session.timeline().presentNs() + random.below(1'000'000))}, true}, 0})};
+    if (kind >= 6 && kind < 16)
+        return bool{session.take(
+            {Strikes{std::array{randomPath(random, session.timeline().presentNs() + random.below(1'000'000))},
+                     true},
+             0})};
     if (kind == 5) {
         const char* const scenes[] = {"shake-the-box", "fruit-basket", "drop"};
-        session.world().setState({std::make_shared<const Scene>(*findBuiltInScene(scenes[random.below(3)])), 1});
+        session.world().setState(
+            {std::make_shared<const Scene>(*findBuiltInScene(scenes[random.below(3)])), 1});
     }
     if (kind == 16) return strikeClip(session, random);
     return kind < 6 || session.take({randomEdit(random)}).error.empty();
@@ -103,12 +114,15 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
             const test::RealtimeGuard guard;
             session.render(at.data(), frames, RenderMode::realtime);
         }
-        for (int n = 0; n < frames; ++n) loudest = std::max(loudest, std::abs(samples[0][static_cast<std::size_t>(n)])), heard = std::max(heard, std::abs(samples[outputs][static_cast<std::size_t>(n)]));
+        for (int n = 0; n < frames; ++n)
+            loudest = std::max(loudest, std::abs(samples[0][static_cast<std::size_t>(n)])),
+            heard = std::max(heard, std::abs(samples[outputs][static_cast<std::size_t>(n)]));
     }
     stop = true;
     message.join();
     for (int i = 0; i < test::RealtimeGuard::offenceCount; ++i)
-        EXPECT_EQ(test::RealtimeGuard::count(static_cast<test::RealtimeGuard::Offence>(i)), 0u) << test::RealtimeGuard::names[static_cast<std::size_t>(i)];
+        EXPECT_EQ(test::RealtimeGuard::count(static_cast<test::RealtimeGuard::Offence>(i)), 0u)
+            << test::RealtimeGuard::names[static_cast<std::size_t>(i)];
     EXPECT_GE(edits, 10'000u);
     EXPECT_GT(played, 1000u);
     EXPECT_LE(loudest, 1.0f);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Actuator profiles survive writing and reading, say what is not known, and a bad one is named by its field.
 #include "Scene/ActuatorFile.h"
-#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ReadFile.h"
+#include "Support/FileTesting.h"
 #include <algorithm>
 
 namespace physvib {
@@ -36,7 +36,8 @@ std::string errorOf(const std::string& what, const std::string& with) {
 }
 
 TEST(ActuatorFile, WrittenAndReadItIsTheSame) {
-    for (ActuatorProfile p : builtInActuators()) EXPECT_TRUE(readActuator(actuatorJson(p), "a").value == p) << p.name;
+    for (ActuatorProfile p : builtInActuators())
+        EXPECT_TRUE(readActuator(actuatorJson(p), "a").value == p) << p.name;
     EXPECT_TRUE(readActuator(actuatorJson(measured()), "a").value == measured());
 }
 
@@ -55,7 +56,8 @@ TEST(ActuatorFile, TheBuiltInProfilesHaveTheFiguresOfTheThesisAndNoOthers) {
 }
 
 TEST(ActuatorFile, SaysWhatKeepsAnActuatorFromBeingEqualised) {
-    EXPECT_EQ(equaliserFault(findActuator("lra-205").value), "q is not known (measure it with physvib calibrate)");
+    EXPECT_EQ(equaliserFault(findActuator("lra-205").value),
+              "q is not known (measure it with physvib calibrate)");
     EXPECT_EQ(equaliserFault(findActuator("voice-coil").value).rfind("resonance_hz is not known", 0), 0u);
     EXPECT_EQ(equaliserFault(findActuator("erm-coin").value).rfind("a rotating mass", 0), 0u);
     EXPECT_EQ(equaliserFault(measured()), "");
@@ -68,10 +70,13 @@ TEST(ActuatorFile, FaultsNameTheirField) {
     EXPECT_EQ(errorOf("11.25", "-1"), "my.json: q: expected 0.05 to 1000, found -1");
     EXPECT_EQ(errorOf("11.25", "1e999").rfind("my.json: ", 0), 0u);
     EXPECT_EQ(errorOf("11.25", "\"high\""), "my.json: q: expected a number, found a string");
-    EXPECT_EQ(errorOf("[180, 230]", "[230, 180]"), "my.json: band_hz: expected a highest frequency above the lowest");
-    EXPECT_EQ(errorOf("[180, 230]", "[180]"), "my.json: band_hz: expected [lowest, highest] or null, found 1 items");
+    EXPECT_EQ(errorOf("[180, 230]", "[230, 180]"),
+              "my.json: band_hz: expected a highest frequency above the lowest");
+    EXPECT_EQ(errorOf("[180, 230]", "[180]"),
+              "my.json: band_hz: expected [lowest, highest] or null, found 1 items");
     EXPECT_EQ(errorOf("230]", "23000]"), "my.json: band_hz[1]: expected 1 to 20000, found 23000");
-    EXPECT_EQ(errorOf("\"linear\"", "\"magic\""), "my.json: kind: expected one of linear, rotating, found \"magic\"");
+    EXPECT_EQ(errorOf("\"linear\"", "\"magic\""),
+              "my.json: kind: expected one of linear, rotating, found \"magic\"");
     EXPECT_EQ(errorOf("\"mine\"", "\"\""), "my.json: name: expected a name, found an empty string");
     EXPECT_EQ(errorOf("\"physvib_actuator\": 1", "\"physvib_actuator\": 2"),
               "my.json: physvib_actuator: made for a newer PhysVib: expected a version up to 1, found 2");
@@ -85,8 +90,10 @@ TEST(ActuatorFile, NoAccidentGetsPastTheReaderUnnoticed) {
     const std::string good = actuatorJson(measured());
     for (int i = 0; i < 3000; ++i) {
         const auto read = readActuator(mutated(good, "{}[]\",:0123456789.-e nul", random), "f");
-        if (read) EXPECT_TRUE(readActuator(actuatorJson(read.value), "f").value == read.value);
-        else EXPECT_EQ(read.error.rfind("f: ", 0), 0u) << read.error;
+        if (read)
+            EXPECT_TRUE(readActuator(actuatorJson(read.value), "f").value == read.value);
+        else
+            EXPECT_EQ(read.error.rfind("f: ", 0), 0u) << read.error;
     }
 }
 

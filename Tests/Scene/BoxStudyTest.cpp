@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The second study's box is lively, well levelled, felt at every enchanter, and keeps its objects.
-#include "Scene/SceneCatalogue.h"
-#include "Scene/World/BodyMass.h"
 #include "PhoneFourPeaks.h"
 #include "Scene/DropScene.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/World/BodyMass.h"
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
@@ -15,9 +15,7 @@ namespace {
 constexpr int seconds = 60;
 constexpr std::array pairs{"rubber-concrete", "wood-wood", "steel-steel"};
 
-Scene boxOf(const std::string& pair) {
-    return findScene("box-study", {{"pair", pair}}).value;
-}
+Scene boxOf(const std::string& pair) { return findScene("box-study", {{"pair", pair}}).value; }
 
 struct Run {
     std::string pair;
@@ -51,12 +49,13 @@ TEST_P(StudiedBox, IsHitThreeTimesASecondAndNeverSilentForLong) {
     EXPECT_GE(before, 58'000'000'000);
 }
 
-// One drive for all pairs, at which the loudest, wood, leaves six decibels: Eq. 5.4 makes the others about 18 dB weaker.
+// One drive for all pairs, at which the loudest, wood, leaves six decibels: Eq. 5.4 makes the others about 18
+// dB weaker.
 TEST_P(StudiedBox, PeaksWhereOneDriveForAllPairsPutsItAndUsesEveryEnchanter) {
     const auto all = phoneFourPeaks(scene, minute, seconds);
     const double loudest = *std::max_element(all.begin(), all.end());
-    const bool isDefault =
-        GetParam().pair == pairs[0]; // in the others, more objects sometimes pile up on one wall
+    const bool isDefault = GetParam().pair == pairs[0]; // in the others, more objects sometimes pile up on
+                                                        // one wall
     EXPECT_NEAR(20 * std::log10(loudest), GetParam().pair == pairs[1] ? -6 : -24.3, isDefault ? 2.5 : 4);
     for (const double peak : all) EXPECT_GE(peak, 0.2 * loudest);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // At the wheel one feels how fast one drove, and into what.
-#include "Scene/SceneCatalogue.h"
-#include "Scene/World/BodyMass.h"
 #include "Scene/DropScene.h"
+#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/World/BodyMass.h"
 #include "Scene/World/ScenePlayer.h"
 #include "SceneHits.h"
 #include <algorithm>
@@ -18,9 +18,7 @@ namespace {
 
 constexpr double wheelRadius = 0.34;
 
-const Scene& driving() {
-    return *findBuiltInScene("driving");
-}
+const Scene& driving() { return *findBuiltInScene("driving"); }
 
 /// The car alone on its road, both wheels driven for this speed.
 Scene emptyRoad(double metresPerSecond) {
@@ -68,7 +66,9 @@ TEST(Driving, TheFasterTheCarTheHarderItHitsTheWall) {
 }
 
 TEST(Driving, AHitAtTwiceTheSpeedIsTwiceAsStrong) {
-    EXPECT_NEAR(firstHit(levelRoad(4.0), "right wall").amplitude / firstHit(levelRoad(2.0), "right wall").amplitude, 2.0, 0.1);
+    EXPECT_NEAR(firstHit(levelRoad(4.0), "right wall").amplitude /
+                    firstHit(levelRoad(2.0), "right wall").amplitude,
+                2.0, 0.1);
 }
 
 /// The walls that were struck, in their order, each once in a row.
@@ -87,7 +87,9 @@ TEST(Driving, KeysDriveTheCarFasterWithEachAndBrakeIt) {
     Scene scene = sceneForHands(driving());
     ScenePlayer player{scene};
     EXPECT_TRUE(player.drives());
-    EXPECT_TRUE(std::ranges::none_of(scene.script, [](const ScriptInput& input) { return std::holds_alternative<MotorAction>(input.action); }));
+    EXPECT_TRUE(std::ranges::none_of(scene.script, [](const ScriptInput& input) {
+        return std::holds_alternative<MotorAction>(input.action);
+    }));
     EXPECT_FALSE(scene.script.empty()) << "obstacles fall all the same";
     scene.script.clear();
     const auto act = [&](double seconds, const std::vector<Action>& actions) {
@@ -96,7 +98,8 @@ TEST(Driving, KeysDriveTheCarFasterWithEachAndBrakeIt) {
     EXPECT_TRUE(wallsHit(scene, 12.0).empty()) << "nobody drives";
     act(0.5, player.steer(1));
     act(0.7, player.steer(1));
-    EXPECT_EQ(std::get<MotorAction>(scene.inputs.back().action).radiansPerSecond, -2.0 * ScenePlayer::stepRadiansPerSecond);
+    EXPECT_EQ(std::get<MotorAction>(scene.inputs.back().action).radiansPerSecond,
+              -2.0 * ScenePlayer::stepRadiansPerSecond);
     EXPECT_EQ(wallsHit(scene, 12.0), std::vector<std::string>{"right wall"});
     act(7.0, player.steer(-1)); // against its way: it brakes
     EXPECT_EQ(std::get<MotorAction>(scene.inputs.back().action).radiansPerSecond, 0.0);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The first study's falls against pencil and paper: free fall, restitution, Eq. 5.4 and Eq. 5.7, with
 // Table 5.1.
+#include "Scene/DropScene.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/BodyMass.h"
-#include "Scene/DropScene.h"
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@ namespace physvib {
 namespace {
 
 constexpr double gravity = 9.8, fieldWidth = 8.0, plateTop = 0.3;
-constexpr double driveGain = 4.1; // one for all pairs: that wood is felt more than rubber is the stimulus (Eq. 5.4)
+constexpr double driveGain = 4.1; // one for all pairs: that wood is felt more than rubber is the stimulus
+                                  // (Eq. 5.4)
 
 struct Pair {
     const char* name;
@@ -101,8 +102,8 @@ TEST_P(DropStudy, HitsWhenAndAsHardAsPencilAndPaperSay) {
 }
 
 TEST_P(DropStudy, AmplitudesAreThoseOfTheEquations) {
-    const double normalisation =
-        1 / (2 * fieldWidth); // Eq. 5.7: one field width per second; m_h is the plate's mass
+    const double normalisation = 1 / (2 * fieldWidth); // Eq. 5.7: one field width per second; m_h is the
+                                                       // plate's mass
     const double firstImpulse = fall.mass() * fall.landingSpeed() * (1 + fall.pair.restitution);
     const auto events = eventsOfFall(0);
     ASSERT_FALSE(events.empty());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Event lists survive writing and reading to the bit, and a bad one is named by line and column.
 #include "Scene/EventsCsv.h"
-#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Support/FileTesting.h"
 #include <algorithm>
 #include <limits>
 
@@ -161,7 +161,9 @@ TEST(EventsCsv, EqualTimesAreInOrder) {
 TEST(EventsCsv, ADecayOfZeroNeedsADuration) {
     EXPECT_EQ(errorOfRow("1,200,0,0.5,0.1,0.2,0,1,2,0,1"),
               "hits.csv:3: column decay_per_s: expected a number > 0, or a duration_s > 0, found 0");
-    EXPECT_EQ(errorOf(shortHeader + "0,4.5,0.5,1,0,0\n"), "hits.csv:2: column frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 4.5 Hz");
+    EXPECT_EQ(errorOf(shortHeader + "0,4.5,0.5,1,0,0\n"),
+              "hits.csv:2: column frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, "
+              "found 4.5 Hz");
     EXPECT_EQ(readGood(allColumns + "1,200,0,0.5,0.1,0.2,1e-3,1,2,0,1\n")[0].durationNs, 1'000'000);
 }
 
@@ -340,8 +342,11 @@ TEST_F(EventsCsvFileTest, AFileIsReadAsItsText) {
         return rows;
     }();
     const std::string name = (folder / "hits.csv").string();
-    for (const std::string& text : {std::string{}, std::string{"\n"}, "\xEF\xBB\xBF# a\r\n\n" + shortHeader + row, shortHeader, shortHeader + "\n \n", shortHeader + row + "\n\n" + row, shortHeader + row + "\n\n",
-                                    many, many + "1,2", many + "0.5,2,3,0.4,5,6", many + "\n\n" + row, "# " + std::string(200'000, 'a') + "\n" + many}) {
+    for (const std::string& text :
+         {std::string{}, std::string{"\n"}, "\xEF\xBB\xBF# a\r\n\n" + shortHeader + row, shortHeader,
+          shortHeader + "\n \n", shortHeader + row + "\n\n" + row, shortHeader + row + "\n\n", many,
+          many + "1,2", many + "0.5,2,3,0.4,5,6", many + "\n\n" + row,
+          "# " + std::string(200'000, 'a') + "\n" + many}) {
         ASSERT_EQ(writeFile(name, text), "");
         const auto fromFile = loadEventsCsv(name), fromText = readEventsCsv(text, name);
         EXPECT_EQ(fromFile.error, fromText.error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A file says what it is, wherever it says so.
-#include "Io/Disk/AtomicFile.h"
 #include "Scene/FileKind.h"
+#include "Io/Disk/AtomicFile.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// In the fruit basket one feels the fruits that one catches: each kind with its own sound, the heavier the stronger.
-#include "Scene/SceneCatalogue.h"
-#include "Scene/World/BodyMass.h"
+// In the fruit basket one feels the fruits that one catches: each kind with its own sound, the heavier the
+// stronger.
 #include "Scene/DropScene.h"
+#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/World/BodyMass.h"
 #include "Scene/World/ScenePlayer.h"
 #include "SceneHits.h"
 #include <algorithm>
@@ -17,9 +18,7 @@ namespace {
 constexpr double floorTop = 0.9, basketAt = 4.0;
 constexpr double dropMetres = 2.0;
 
-const Scene& basket() {
-    return *findBuiltInScene("fruit-basket");
-}
+const Scene& basket() { return *findBuiltInScene("fruit-basket"); }
 
 bool isOf(const CollisionEvent& event, const Material& material) {
     return event.frequencyHz == material.frequencyHz && event.decayPerSecond == material.decayPerSecond;
@@ -74,7 +73,8 @@ TEST(FruitBasket, FruitsLandByTheirWeightAndSpring) {
         const double impulse = fall.massKg * speed * (1.0 + materialNamed(kind).restitution);
         EXPECT_NEAR(fall.landing.source.impulseNewtonSeconds, impulse, 0.02 * impulse) << kind;
         // also the largest: m_h of Eq. 5.7
-        const double basketMass = massKg(*std::ranges::find(basket().bodies, "basket", &BodyDescription::name), basket());
+        const double basketMass =
+            massKg(*std::ranges::find(basket().bodies, "basket", &BodyDescription::name), basket());
         const double amplitude =
             basket().driveGain * impulse / (2.0 * basket().fieldWidthMetres * 2.0 * basketMass);
         EXPECT_NEAR(fall.landing.amplitude, amplitude, 0.02 * amplitude) << kind;
@@ -139,7 +139,9 @@ TEST(FruitBasket, IsPlayedByHandsAndItsScriptLeavesThatToThem) {
     EXPECT_TRUE(orchard.player.moves());
     EXPECT_EQ(orchard.player.body(), "basket");
     const auto moves = [](const Scene& scene) {
-        return std::ranges::count_if(scene.script, [](const ScriptInput& input) { return std::holds_alternative<VelocityAction>(input.action); });
+        return std::ranges::count_if(scene.script, [](const ScriptInput& input) {
+            return std::holds_alternative<VelocityAction>(input.action);
+        });
     };
     EXPECT_GT(moves(basket()), 10) << "the script catches for whoever only looks";
     EXPECT_EQ(moves(sceneForHands(basket())), 0);

@@ -53,7 +53,8 @@ void play(Take& take, const std::string& body, std::uint32_t seed, int steps) {
     take.steps(3);
     for (int done = 0; done < steps;) {
         const int what = static_cast<int>(random() % 3);
-        if (what == 0) take.act(TiltAction{draw(-1.5, 1.5)});
+        if (what == 0)
+            take.act(TiltAction{draw(-1.5, 1.5)});
         else if (what == 1)
             take.act(ImpulseAction{body, {draw(-80.0, 80.0), draw(-80.0, 80.0)}, Vector{0.01, 0.02}});
         else {

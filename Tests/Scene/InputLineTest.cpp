@@ -16,32 +16,50 @@ Action read(const std::string& line) {
 std::string faultOf(const std::string& line) { return readInputLine(line, materials, 4).error; }
 
 TEST(InputLine, AHandHoldsABodyAndLetsItGo) {
-    EXPECT_EQ(read(R"({"input": "grip", "body": "pen", "to_m": [2, 1.5], "point_m": [0, 0.1], "over_s": 0.02})"), (Action{GripAction{"pen", Vector{2.0, 1.5}, Vector{0.0, 0.1}, 0.02}}));
+    EXPECT_EQ(
+        read(R"({"input": "grip", "body": "pen", "to_m": [2, 1.5], "point_m": [0, 0.1], "over_s": 0.02})"),
+        (Action{GripAction{"pen", Vector{2.0, 1.5}, Vector{0.0, 0.1}, 0.02}}));
     EXPECT_EQ(read(R"({"input": "grip", "body": "pen"})"), (Action{GripAction{"pen", {}, {}}}));
     EXPECT_EQ(faultOf(R"({"input": "grip", "to_m": [2, 1]})"), "field \"body\" is missing");
-    EXPECT_EQ(faultOf(R"({"input": "grip", "body": "pen", "to_m": [2]})"), "to_m: expected 2 numbers, found 1 items");
+    EXPECT_EQ(faultOf(R"({"input": "grip", "body": "pen", "to_m": [2]})"),
+              "to_m: expected 2 numbers, found 1 items");
 }
 
 TEST(InputLine, ASurfaceBecomesRough) {
-    EXPECT_EQ(read(R"({"input": "texture", "material": "wood", "grain_m": 0.008, "grain_pattern": "regular"})"), (Action{TextureAction{0, 0.008, 1.0, GrainPattern::regular}}));
+    EXPECT_EQ(
+        read(R"({"input": "texture", "material": "wood", "grain_m": 0.008, "grain_pattern": "regular"})"),
+        (Action{TextureAction{0, 0.008, 1.0, GrainPattern::regular}}));
     EXPECT_EQ(read(R"({"input": "texture", "material": "wood"})"), (Action{TextureAction{0}})) << "smooth";
     EXPECT_NE(faultOf(R"({"input": "texture", "material": "glass"})"), "");
 }
 
 TEST(InputLine, ItsNumberIsReadFromAnyLineWhereItStands) {
     const auto idOf = [](const std::string& line) { return readInputLine(line, materials, 4).id; };
-    for (const char* taken : {R"({"message": "status", "id": 7})", R"({"id": 7, "input": "tilt", "angle_rad": 0.1})", R"({"control": "silence", "on": true, "id":7})", R"({"control": "gain", "channel": 1, "value": 1, "id": 7.0})"}) {
+    for (const char* taken :
+         {R"({"message": "status", "id": 7})", R"({"id": 7, "input": "tilt", "angle_rad": 0.1})",
+          R"({"control": "silence", "on": true, "id":7})",
+          R"({"control": "gain", "channel": 1, "value": 1, "id": 7.0})"}) {
         EXPECT_EQ(faultOf(taken), "") << taken;
         EXPECT_EQ(idOf(taken), 7.0) << taken;
     }
-    for (const char* refused : {R"({"control": "gain", "channel": 9, "value": 1, "id": 7})", R"({"message": "strike", "id": 7)", R"("id" :	7, and more)", R"({"id": 7, "id": 8})", R"({"message": "status", "id": 7}})", R"({"nothing": 1, "id": 7})"}) {
+    for (const char* refused :
+         {R"({"control": "gain", "channel": 9, "value": 1, "id": 7})", R"({"message": "strike", "id": 7)",
+          R"("id" :	7, and more)", R"({"id": 7, "id": 8})", R"({"message": "status", "id": 7}})",
+          R"({"nothing": 1, "id": 7})"}) {
         EXPECT_NE(faultOf(refused), "") << refused;
         EXPECT_EQ(idOf(refused), 7.0) << refused;
     }
-    for (const char* none : {R"({"message": "status"})", R"({"message": "status", "id": 1.5})", R"({"message": "status", "id": "7"})", R"({"message": "status", "id": null})", R"({"message": "status", "id": 1e300})", R"({"message": "status", "id)", R"({"id")", R"("id": )", R"({"input": "spawn", "body": {"id": 7}})", R"({"message": "clip", "file": "\"id\": 7"})", ""})
+    for (const char* none :
+         {R"({"message": "status"})", R"({"message": "status", "id": 1.5})",
+          R"({"message": "status", "id": "7"})", R"({"message": "status", "id": null})",
+          R"({"message": "status", "id": 1e300})", R"({"message": "status", "id)", R"({"id")", R"("id": )",
+          R"({"input": "spawn", "body": {"id": 7}})", R"({"message": "clip", "file": "\"id\": 7"})", ""})
         EXPECT_FALSE(idOf(none)) << none;
-    EXPECT_EQ(faultOf(R"({"message": "status", "id": 1.5})"), "id: expected a whole number from -9007199254740991 to 9007199254740991");
-    EXPECT_EQ(std::get<PlainMessage>(readInputLine(R"({"message": "status", "id": 7})", materials, 4).value), (PlainMessage{"status", {}})) << "it is none of its values";
+    EXPECT_EQ(faultOf(R"({"message": "status", "id": 1.5})"),
+              "id: expected a whole number from -9007199254740991 to 9007199254740991");
+    EXPECT_EQ(std::get<PlainMessage>(readInputLine(R"({"message": "status", "id": 7})", materials, 4).value),
+              (PlainMessage{"status", {}}))
+        << "it is none of its values";
 }
 
 TEST(InputLine, WhatNamesSilenceAndIsNoOffInItsRightFormAsksForIt) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Layouts survive writing and reading to the bit, and a bad one is named by its field.
 #include "Scene/LayoutFile.h"
-#include "Support/FileTesting.h"
-#include "Scene/SceneFileLimits.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Scene/SceneFileLimits.h"
+#include "Support/FileTesting.h"
 #include <algorithm>
 #include <set>
 
@@ -48,9 +48,7 @@ std::vector<std::string> labelsOf(const LayoutDescription& layout) {
     return labels;
 }
 
-double share(std::mt19937& random) {
-    return static_cast<double>(random()) / 4294967296.0;
-}
+double share(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0; }
 
 LayoutDescription randomLayout(std::mt19937& random) {
     LayoutDescription layout;
@@ -198,8 +196,7 @@ TEST(LayoutFile, NamesTheFieldOfTheLayout) {
         {"3", "expected an object, found a number"},
         {"{}", "field \"extent_m\" is missing"},
         {R"({"extent_m": [1, 1]})", "field \"enchanters\" is missing"},
-        {R"({"extent_m": [1, 1], "enchanters": []})",
-         "enchanters: expected at least 1 actuator, found none"},
+        {R"({"extent_m": [1, 1], "enchanters": []})", "enchanters: expected at least 1 actuator, found none"},
         {R"({"extent_m": [1, 1], "enchanters": {}})", "enchanters: expected an array, found an object"},
         {R"({"extent_m": [1, 1], "enchanters": [7]})", "enchanters[0]: expected an object, found a number"},
         {R"({"extent_m": [1], )" + list + "}", "extent_m: expected [width, height], found 1 items"},
@@ -244,7 +241,8 @@ TEST(LayoutFile, RepeatedFieldsAreNamedByTheirPath) {
     EXPECT_EQ(errorOf("{\"" + std::string(5000, 'k') + "\": {\"b\": 1, \"b\": 2}}"),
               "my.json: " + std::string(40, 'k') + "...: field \"b\" appears twice");
     std::string nested = R"({"b": 1, "b": 2})";
-    for (int depth = 0; depth < 14; ++depth) nested = "{\"" + std::string(40, static_cast<char>('a' + depth)) + "\": " + nested + "}";
+    for (int depth = 0; depth < 14; ++depth)
+        nested = "{\"" + std::string(40, static_cast<char>('a' + depth)) + "\": " + nested + "}";
     EXPECT_LT(errorOf(nested).size(), 200u) << errorOf(nested); // however long the names
 }
 

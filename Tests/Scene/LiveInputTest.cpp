@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Inputs while the world runs: they act when they should, are checked first, and a world with them in its scene does
-// the same again to the bit.
+// Inputs while the world runs: they act when they should, are checked first, and a world with them in its
+// scene does the same again to the bit.
 #include "DropScene.h"
+#include "Scene/SceneValidation.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/SceneCast.h"
 #include "Scene/World/SceneRun.h"
-#include "Scene/SceneValidation.h"
 #include <gtest/gtest.h>
 #include <random>
 
@@ -23,15 +23,22 @@ Action anyInput(std::mt19937& random, int& stones) {
     case 0: return GravityAction{{some(10.0), some(10.0)}};
     case 1: return TiltAction{some(3.0)};
     case 2: return VelocityAction{ball, {some(5.0), some(5.0)}, some(3.0)};
-    case 3: return SpawnAction{stone("stone " + std::to_string(stones++), {2.0 + some(1.0), 2.0 + some(1.0)}), {}};
+    case 3:
+        return SpawnAction{stone("stone " + std::to_string(stones++), {2.0 + some(1.0), 2.0 + some(1.0)}),
+                           {}};
     case 4:
         if (stones == 0) return TiltAction{};
         return RemoveAction{"stone " + std::to_string(random() % static_cast<unsigned>(stones))};
     case 5: return CameraAction{ball, everyFixture, random() % 2 == 0};
     case 6: return MaterialAction{ball, 0, static_cast<int>(random() % 2)};
     case 7: return SoundAction{static_cast<int>(random() % 2), 100.0 + some(50.0), 50.0 + some(20.0)};
-    case 8: return TextureAction{static_cast<int>(random() % 2), 0.005 + 0.001 * some(4.0), 1.0 + some(1.0), static_cast<GrainPattern>(random() % 2)};
-    case 9: return random() % 4 == 0 ? GripAction{ball, {}, {}} : GripAction{ball, Vector{2.0 + some(2.0), 2.0 + some(2.0)}, Vector{some(0.1), some(0.1)}, 0.1 + some(0.1)};
+    case 8:
+        return TextureAction{static_cast<int>(random() % 2), 0.005 + 0.001 * some(4.0), 1.0 + some(1.0),
+                             static_cast<GrainPattern>(random() % 2)};
+    case 9:
+        return random() % 4 == 0 ? GripAction{ball, {}, {}}
+                                 : GripAction{ball, Vector{2.0 + some(2.0), 2.0 + some(2.0)},
+                                              Vector{some(0.1), some(0.1)}, 0.1 + some(0.1)};
     default: return ImpulseAction{ball, {some(20.0), some(20.0)}, Vector{some(0.1), some(0.1)}};
     }
 }
@@ -65,7 +72,8 @@ TEST(LiveInputs, AWorldWithThemInItsSceneDoesTheSameAgain) {
         EXPECT_EQ(again.pose(i).xMetres, live.pose(i).xMetres);
         EXPECT_EQ(again.pose(i).isPresent, live.pose(i).isPresent);
     }
-    EXPECT_EQ(posesAt(live.scene(), {3, stepsPerSecond}, 1'000'000'000).size(), sceneCast(live.scene()).size());
+    EXPECT_EQ(posesAt(live.scene(), {3, stepsPerSecond}, 1'000'000'000).size(),
+              sceneCast(live.scene()).size());
 }
 
 TEST(LiveInputs, ActInTheFirstStepAtOrAfterTheirTime) {
@@ -113,7 +121,8 @@ TEST(InputCheck, SaysWhatIsWrongAndForgetsIt) {
     isRefused(ImpulseAction{"bull", {}, {}}, "body: expected the name of a body, found \"bull\"");
     isRefused(ImpulseAction{"ball", {1e12, 0.0}, {}}, "impulse_ns[0]: expected -1e+09 to 1e+09, found 1e+12");
     isRefused(MaterialAction{"ball", 0, 7}, "material: expected one of the 2 materials of the scene");
-    isRefused(SpawnAction{stone("ball", {1, 1}), {}}, "bodies: expected names of their own, found \"ball\" twice");
+    isRefused(SpawnAction{stone("ball", {1, 1}), {}},
+              "bodies: expected names of their own, found \"ball\" twice");
     isRefused(ImpulseAction{"stone", {}, {}}, "body: expected the name of a body, found \"stone\"");
     EXPECT_EQ(check.take(SpawnAction{stone("stone", {1, 1}), {}}), "");
     EXPECT_EQ(check.take(ImpulseAction{"stone", {}, {}}), "");
@@ -137,13 +146,17 @@ TEST(InputCheck, SpawningAndRemovingGoesOnForMonths) {
     }
     EXPECT_EQ(validate(whole), "");
     take(SpawnAction{stone("stone", {1.0, 1.0}), {}});
-    EXPECT_EQ(check.take(SpawnAction{stone("stone", {2.0, 1.0}), {}}), "bodies: expected names of their own, found \"stone\" twice");
-    EXPECT_EQ(check.take(ImpulseAction{"stone 5", {}, {}}), "body: expected the name of a body, found \"stone 5\"") << "gone long ago";
+    EXPECT_EQ(check.take(SpawnAction{stone("stone", {2.0, 1.0}), {}}),
+              "bodies: expected names of their own, found \"stone\" twice");
+    EXPECT_EQ(check.take(ImpulseAction{"stone 5", {}, {}}),
+              "body: expected the name of a body, found \"stone 5\"")
+        << "gone long ago";
 }
 
 TEST(InputCheck, CountsWhatIsThereAtOnce) {
     Scene scene = dropScene(1.0);
-    for (int i = 0; i < 5000; ++i) scene.inputs.push_back({0.0, SpawnAction{stone("stone " + std::to_string(i), {1.0, 1.0}), {}}});
+    for (int i = 0; i < 5000; ++i)
+        scene.inputs.push_back({0.0, SpawnAction{stone("stone " + std::to_string(i), {1.0, 1.0}), {}}});
     EXPECT_EQ(validate(scene), "bodies: expected at most 4096 in all, found 4097");
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The fruit basket and the driven car are lively, well levelled, felt at every enchanter, and lose nothing.
-#include "Scene/SceneCatalogue.h"
-#include "Scene/DropScene.h"
-#include "SceneHits.h"
 #include "PhoneFourPeaks.h"
+#include "Scene/DropScene.h"
+#include "Scene/SceneCatalogue.h"
+#include "SceneHits.h"
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
@@ -32,9 +32,7 @@ std::vector<Run> runs(std::uint32_t seedsAt100, std::uint32_t seedsAt1000) {
     return all;
 }
 
-double decibels(double amplitude) {
-    return 20.0 * std::log10(amplitude);
-}
+double decibels(double amplitude) { return 20.0 * std::log10(amplitude); }
 
 class LivelyScene : public testing::TestWithParam<Run> {
 protected:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Material libraries survive writing and reading, and Table 5.1 is what the thesis printed.
 #include "Scene/MaterialTable.h"
-#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Support/FileTesting.h"
 
 namespace physvib {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Profiles of game controllers survive writing and reading, and a bad one is named by its field; a render's commands as a table.
+// Profiles of game controllers survive writing and reading, and a bad one is named by its field; a render's
+// commands as a table.
 #include "Scene/PadFile.h"
 #include "Scene/PadCommands.h"
 #include <gtest/gtest.h>
@@ -42,12 +43,16 @@ TEST(PadFile, TheXboxProfileHasTheMeasuredFigures) {
 }
 
 TEST(PadFile, ABadProfileIsNamedByItsField) {
-    EXPECT_EQ(errorOf("\"half\": 0.5", "\"half\": 0.3"), "my.json: low.half: expected more than threshold, 0.3");
+    EXPECT_EQ(errorOf("\"half\": 0.5", "\"half\": 0.3"),
+              "my.json: low.half: expected more than threshold, 0.3");
     EXPECT_EQ(errorOf("\"full\": 0.86", "\"full\": 0.4"), "my.json: low.full: expected more than half, 0.5");
-    EXPECT_EQ(errorOf("\"commands_per_s\": 30", "\"commands_per_s\": 0").rfind("my.json: commands_per_s: expected", 0), 0u);
+    EXPECT_EQ(errorOf("\"commands_per_s\": 30", "\"commands_per_s\": 0")
+                  .rfind("my.json: commands_per_s: expected", 0),
+              0u);
     EXPECT_EQ(errorOf("\"rise_s\"", "\"rise_ms\"").rfind("my.json: low", 0), 0u);
     EXPECT_EQ(errorOf("pad-generic", ""), "my.json: name: expected a name, found an empty string");
-    EXPECT_EQ(findPad("pad-atari").error, "no controller profile \"pad-atari\": expected pad-generic, pad-xbox, pad-dualshock or a file NAME.json");
+    EXPECT_EQ(findPad("pad-atari").error, "no controller profile \"pad-atari\": expected pad-generic, "
+                                          "pad-xbox, pad-dualshock or a file NAME.json");
 }
 
 TEST(PadCommands, ATableBeginsAndEndsAtRestAndHoldsWhatDiffers) {
@@ -74,7 +79,8 @@ TEST(PadCommands, ATableBeginsAndEndsAtRestAndHoldsWhatDiffers) {
     const auto stopped = padCommands(law, {&hit, 1}, {&stop, 1}, panner, 900'000'000);
     EXPECT_GE(stopped.back().timeNs, 600'000'000);
     EXPECT_LT(stopped.back().timeNs, 640'000'000);
-    EXPECT_EQ(motorsCsv({{}, {470'000'000, 1.0, 0.55}}, {"1", {}}), "# physvib 1\ntime_s,low,high\n0.000000000,0.00,0.00\n0.470000000,1.00,0.55\n");
+    EXPECT_EQ(motorsCsv({{}, {470'000'000, 1.0, 0.55}}, {"1", {}}),
+              "# physvib 1\ntime_s,low,high\n0.000000000,0.00,0.00\n0.470000000,1.00,0.55\n");
 }
 
 } // namespace

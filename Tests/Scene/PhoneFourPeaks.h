@@ -11,7 +11,8 @@
 namespace physvib {
 
 /// Largest sample of each enchanter, linear law, without the limiter.
-inline std::array<double, 4> phoneFourPeaks(const Scene& scene, const std::vector<CollisionEvent>& events, int seconds) {
+inline std::array<double, 4> phoneFourPeaks(const Scene& scene, const std::vector<CollisionEvent>& events,
+                                            int seconds) {
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
     const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene.fieldWidthMetres,

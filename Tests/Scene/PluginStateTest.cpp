@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The plug-in's state: round trips, what is refused and where, and that states written by version 1 stay readable.
+// The plug-in's state: round trips, what is refused and where, and that states written by version 1 stay
+// readable.
 #include "Scene/Sessions/PluginState.h"
 #include "Io/Disk/ReadFile.h"
 #include "Scene/SceneCatalogue.h"
@@ -85,7 +86,8 @@ TEST(PluginState, GrainsAreHeldAndOlderStatesAreSmooth) {
     expectSame(rough.value, state);
     std::string wrong = pluginStateJson(state);
     wrong.replace(wrong.find("\"roughness\": 2.5"), 16, "\"roughness\": -2 ");
-    EXPECT_EQ(readPluginState(wrong, "f").error, "f: scene: materials[0].roughness: expected 0 to 1000, found -2");
+    EXPECT_EQ(readPluginState(wrong, "f").error,
+              "f: scene: materials[0].roughness: expected 0 to 1000, found -2");
 }
 
 TEST(PluginState, EverySceneComesBackBitForBit) {
@@ -128,26 +130,39 @@ TEST(PluginState, WhatIsWrongIsNamed) {
     const std::string text = pluginStateJson(sampleState());
     EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 5", "\"physvib_plugin_state\": 6"),
               "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 5, found 6");
-    EXPECT_EQ(refusal(text, "\"x\": 0.1", "\"x\": 2"), "f: notes[0].x: expected a number from 0 to 1, found 2");
-    EXPECT_EQ(refusal(text, "\"note\": 60", "\"note\": 128"), "f: notes[0].note: expected 0 to 127, found 128");
-    EXPECT_EQ(refusal(text, "\"do\": \"push\", \"object\": \"" + sampleState().scene.bodies.front().name + "\"", "\"do\": \"push\", \"object\": \"nobody\""),
+    EXPECT_EQ(refusal(text, "\"x\": 0.1", "\"x\": 2"),
+              "f: notes[0].x: expected a number from 0 to 1, found 2");
+    EXPECT_EQ(refusal(text, "\"note\": 60", "\"note\": 128"),
+              "f: notes[0].note: expected 0 to 127, found 128");
+    EXPECT_EQ(refusal(text,
+                      "\"do\": \"push\", \"object\": \"" + sampleState().scene.bodies.front().name + "\"",
+                      "\"do\": \"push\", \"object\": \"nobody\""),
               "f: notes[2].object: expected the name of a body that the scene starts with, found \"nobody\"");
-    EXPECT_EQ(refusal(text, "\"radius_m\": 0.25", "\"radius_m\": 0"), "f: notes[3].radius_m: expected at least 0.01");
-    EXPECT_EQ(refusal(text, "\"ceiling_db\": -6", "\"ceiling_db\": 6"), "f: strips[0].ceiling_db: expected -60 to 0, found 6");
+    EXPECT_EQ(refusal(text, "\"radius_m\": 0.25", "\"radius_m\": 0"),
+              "f: notes[3].radius_m: expected at least 0.01");
+    EXPECT_EQ(refusal(text, "\"ceiling_db\": -6", "\"ceiling_db\": 6"),
+              "f: strips[0].ceiling_db: expected -60 to 0, found 6");
     EXPECT_EQ(refusal(text, "\"q\": 12", "\"q\": -1"), "f: equalised[1].q: expected 0.05 to 1000, found -1");
-    EXPECT_EQ(refusal(text, "\"strips\": [", "\"strips\": [ { \"gain_db\": 0 },"), "f: strips: expected one strip per actuator, 3");
-    EXPECT_EQ(refusal(text, "\"controller\": 1", "\"controller\": 120"), "f: controllers[0].controller: expected 0 to 119, found 120");
-    EXPECT_EQ(refusal(text, "restart-on-play", "sometimes"), "f: transport: expected one of free, restart-on-play, found \"sometimes\"");
-    EXPECT_EQ(refusal(text, "\"steps_per_second\": 500", "\"steps_per_second\": 1"), "f: steps_per_second: expected 10 to 10000, found 1");
-    EXPECT_EQ(refusal(text, "\"seed\": 4294967295", "\"seed\": 1.5"), "f: seed: expected a whole number, found 1.5");
-    EXPECT_EQ(refusal(text, "\"level\": -7.123456789", "\"level\": true"), "f: parameters.level: expected a number, found a boolean");
+    EXPECT_EQ(refusal(text, "\"strips\": [", "\"strips\": [ { \"gain_db\": 0 },"),
+              "f: strips: expected one strip per actuator, 3");
+    EXPECT_EQ(refusal(text, "\"controller\": 1", "\"controller\": 120"),
+              "f: controllers[0].controller: expected 0 to 119, found 120");
+    EXPECT_EQ(refusal(text, "restart-on-play", "sometimes"),
+              "f: transport: expected one of free, restart-on-play, found \"sometimes\"");
+    EXPECT_EQ(refusal(text, "\"steps_per_second\": 500", "\"steps_per_second\": 1"),
+              "f: steps_per_second: expected 10 to 10000, found 1");
+    EXPECT_EQ(refusal(text, "\"seed\": 4294967295", "\"seed\": 1.5"),
+              "f: seed: expected a whole number, found 1.5");
+    EXPECT_EQ(refusal(text, "\"level\": -7.123456789", "\"level\": true"),
+              "f: parameters.level: expected a number, found a boolean");
     EXPECT_NE(refusal(text, "\"extent_m\"", "\"extent\"").find("f: layout: "), std::string::npos);
     EXPECT_NE(refusal(text, "\"limiter\"", "\"limit\"").find("unknown field \"limit\""), std::string::npos);
     EXPECT_NE(refusal(text, "\"bodies\"", "\"bodys\"").find("f: scene: "), std::string::npos);
     EXPECT_NE(refusal(text, "{", "").find("f: line 2"), std::string::npos);
 }
 
-TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never written again: hosts keep such states for years
+TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never written again: hosts keep such
+                                                     // states for years
     const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Scene/plugin-state-1.json", 1'000'000);
     ASSERT_TRUE(text) << text.error;
     const auto read = readPluginState(text.value, "f");
@@ -156,7 +171,10 @@ TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never writte
     EXPECT_EQ(read.value.layout.enchanters.size(), 3u);
     EXPECT_EQ(read.value.notes, (std::vector<NoteRule>{strike(60, 1, 0.1, 1.0), strike(127, 0, 0.0, 0.25)}));
     EXPECT_EQ(read.value.parameters.size(), 2u);
-    for (const Strip& s : read.value.strips) EXPECT_EQ(s.gainDb + s.delayMs + s.ceilingDb + (s.isMuted || s.isSolo || s.isInverted ? 1.0 : 0.0), 0.0) << "no mix";
+    for (const Strip& s : read.value.strips)
+        EXPECT_EQ(s.gainDb + s.delayMs + s.ceilingDb + (s.isMuted || s.isSolo || s.isInverted ? 1.0 : 0.0),
+                  0.0)
+            << "no mix";
     EXPECT_EQ(read.value.strips.size(), 3u);
     EXPECT_EQ(read.value.equalised, EqualisedActuators{});
     EXPECT_EQ(read.value.controllers, (std::vector<ControllerRule>{{1, "tilt"}})) << "somebody's own";

@@ -103,10 +103,13 @@ public:
         switch (drawing.drawn().bodies.size() < 3 ? draw(3) : draw(10)) {
         case 0: return add(drawnBall(place(), place()));
         case 1: return add(drawnBox(place(), place()));
-        case 2: return draw(2) == 0 ? add(drawnWall(place(), place(), 0.1)) : add(drawnPolygon({place(), place(), place(), place(), place()}));
+        case 2:
+            return draw(2) == 0 ? add(drawnWall(place(), place(), 0.1))
+                                : add(drawnPolygon({place(), place(), place(), place(), place()}));
         case 3: return add(drawnLine({place(), place(), place(), place()}, 0.01));
         case 4: return movedTo(drawing, {{any(), {place(), 0.1 * draw(60)}}, {any(), {place(), 0.0}}});
-        case 5: return {changed(scaledBody(*drawing.find(any()), 0.5 + 0.1 * draw(10), 0.5 + 0.1 * draw(10)))};
+        case 5:
+            return {changed(scaledBody(*drawing.find(any()), 0.5 + 0.1 * draw(10), 0.5 + 0.1 * draw(10)))};
         case 6: return erased(drawing, {any(), any()});
         case 7: {
             const std::string a = any(), b = any();
@@ -121,11 +124,16 @@ public:
         default: {
             BodyDescription body = *drawing.find(any());
             const int what = draw(5);
-            if (what == 0) setMoving(drawing.drawn(), body, draw(2) == 0);
-            else if (what == 1) setSource(drawing.drawn(), body, draw(2) == 0);
-            else if (what == 2) setDensity(body, 1.0 + draw(2000));
-            else if (what == 3) body.fixtures[0].restitution = 0.01 * draw(100);
-            else body.fixtures[0].material = draw(static_cast<int>(drawing.drawn().materials.size()));
+            if (what == 0)
+                setMoving(drawing.drawn(), body, draw(2) == 0);
+            else if (what == 1)
+                setSource(drawing.drawn(), body, draw(2) == 0);
+            else if (what == 2)
+                setDensity(body, 1.0 + draw(2000));
+            else if (what == 3)
+                body.fixtures[0].restitution = 0.01 * draw(100);
+            else
+                body.fixtures[0].material = draw(static_cast<int>(drawing.drawn().materials.size()));
             return {changed(std::move(body))};
         }
         }
@@ -144,7 +152,8 @@ private:
     std::vector<Action> add(Result<BodyDescription> body) {
         if (!body) return {};
         body.value.name = drawn_.drawing.freeName("body");
-        if (startsAsSource(drawn_.drawing.drawn(), body.value)) setSource(drawn_.drawing.drawn(), body.value, true);
+        if (startsAsSource(drawn_.drawing.drawn(), body.value))
+            setSource(drawn_.drawing.drawn(), body.value, true);
         return {SpawnAction{body.value, {}}};
     }
     Drawn& drawn_;
@@ -204,8 +213,10 @@ TEST(SceneDrawing, ABodyThatIsChangedGoesOnAsItMoves) {
     ASSERT_EQ(drawn.edit({changed(scaledBody(*drawn.drawing.find("ball"), 1.5, 1.5))}), "");
     drawn.steps(1);
     EXPECT_NEAR(find().xMetres, before.xMetres + 0.003, 1e-4) << "on with its speed";
-    EXPECT_EQ(drawn.drawing.find("ball")->positionMetres, ball.positionMetres) << "the scene starts it where it was drawn";
-    EXPECT_NEAR(std::get<CircleShape>(drawn.drawing.find("ball")->fixtures[0].shape).radiusMetres, 0.15, 1e-9);
+    EXPECT_EQ(drawn.drawing.find("ball")->positionMetres, ball.positionMetres)
+        << "the scene starts it where it was drawn";
+    EXPECT_NEAR(std::get<CircleShape>(drawn.drawing.find("ball")->fixtures[0].shape).radiusMetres, 0.15,
+                1e-9);
     ASSERT_EQ(drawn.edit(movedTo(drawn.drawing, {{"ball", {{0.5, 2.0}, 0.0}}})), "");
     drawn.steps(1);
     EXPECT_NEAR(find().xMetres, 0.503, 1e-4);
@@ -279,10 +290,15 @@ TEST(SceneDrawing, WhatIsSavedIsReadAndStartsThere) {
     const auto same = readScene(sceneJson(drawn.drawing.drawn()), "own.json");
     ASSERT_TRUE(same) << same.error;
     EXPECT_EQ(same.value, drawn.drawing.drawn());
-    const Scene now = sceneNow(drawn.drawing.drawn(), [](const std::string& body) { return body == "plank" ? std::optional{BodyPose{1.2, 1.25, 0.0}} : std::nullopt; });
+    const Scene now = sceneNow(drawn.drawing.drawn(), [](const std::string& body) {
+        return body == "plank" ? std::optional{BodyPose{1.2, 1.25, 0.0}} : std::nullopt;
+    });
     const auto* unmoved = &now.bodies[1];
     EXPECT_EQ(unmoved->positionMetres, (Vector{1.2, 1.25}));
-    const Scene both = sceneNow(drawn.drawing.drawn(), [&](const std::string& body) { return std::optional{body == "plank" ? BodyPose{1.2, 1.25, 0.0} : BodyPose{floor.second.metres.x, floor.second.metres.y, 0.0}}; });
+    const Scene both = sceneNow(drawn.drawing.drawn(), [&](const std::string& body) {
+        return std::optional{body == "plank" ? BodyPose{1.2, 1.25, 0.0}
+                                             : BodyPose{floor.second.metres.x, floor.second.metres.y, 0.0}};
+    });
     const auto& slider = std::get<SliderJoint>(both.joints[0].joint);
     EXPECT_NEAR(slider.travelMetres->lower, -0.3, 1e-9) << "as far down as it has come up";
     EXPECT_NEAR(slider.travelMetres->upper, 0.7, 1e-9);
@@ -291,16 +307,23 @@ TEST(SceneDrawing, WhatIsSavedIsReadAndStartsThere) {
 
 TEST(SceneDrawing, SaysWhatCannotBeDrawn) {
     EXPECT_EQ(drawnBall({1.0, 1.0}, {1.001, 1.0}).error, "ball: expected at least 0.01 m across");
-    EXPECT_EQ(drawnPolygon({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}).error, "polygon: expected at least 3 corners that are not in a line");
-    EXPECT_EQ(std::get<PolygonShape>(drawnPolygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}}).value.fixtures[0].shape).verticesMetres.size(), 4U) << "the place inside is none of its corners";
+    EXPECT_EQ(drawnPolygon({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}).error,
+              "polygon: expected at least 3 corners that are not in a line");
+    EXPECT_EQ(
+        std::get<PolygonShape>(drawnPolygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}}).value.fixtures[0].shape)
+            .verticesMetres.size(),
+        4U)
+        << "the place inside is none of its corners";
     Scene scene = blank();
     scene.script.push_back({0.0, 1, 0.0, UnjoinAction{"joint"}});
-    EXPECT_EQ(validate(scene), "script[0].input: expected another: change, join and unjoin are live inputs only");
+    EXPECT_EQ(validate(scene),
+              "script[0].input: expected another: change, join and unjoin are live inputs only");
     InputCheck check{blank()};
     EXPECT_EQ(check.take(UnjoinAction{"joint"}), "joint: expected the name of a joint, found \"joint\"");
     BodyDescription ball = drawnBall({1.0, 1.0}, {1.1, 1.0}).value;
     ball.name = "ball";
-    EXPECT_EQ(check.take(ChangeAction{ball, false}), "body.name: expected the name of a body, found \"ball\"");
+    EXPECT_EQ(check.take(ChangeAction{ball, false}),
+              "body.name: expected the name of a body, found \"ball\"");
 }
 
 TEST(InputCheck, DrawingGoesOnForMonths) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Scenes survive writing and reading to the byte, and a bad one is named by its field.
 #include "Scene/SceneFile.h"
-#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Scene/SceneFileLimits.h"
 #include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFileLimits.h"
 #include "Scene/World/Simulation.h"
+#include "Support/FileTesting.h"
 #include "TestPlaces.h"
 #include <algorithm>
 
@@ -196,7 +196,8 @@ TEST(SceneFile, GrainsAreReadAndWrittenTheSame) {
     std::string rough = full;
     const std::string felt = "\"frequency_hz\": 60, \"decay_per_s\": 200";
     const auto at = rough.find(felt) + felt.size();
-    rough.insert(at, ", \"grain_m\": 0.002, \"roughness\": 2.5, \"grain_pattern\": \"regular\", \"rolling\": 0.75");
+    rough.insert(
+        at, ", \"grain_m\": 0.002, \"roughness\": 2.5, \"grain_pattern\": \"regular\", \"rolling\": 0.75");
     const Scene scene = readGood(rough);
     const Texture texture = scene.materials[1].texture();
     EXPECT_EQ(texture.grainMetres, 0.002);
@@ -206,10 +207,13 @@ TEST(SceneFile, GrainsAreReadAndWrittenTheSame) {
     EXPECT_TRUE(isAnyRough(scene.materials));
     EXPECT_EQ(readGood(sceneJson(scene)).materials, scene.materials);
     EXPECT_FALSE(isAnyRough(readGood(full).materials));
-    const auto faultWith = [&](const std::string& fields) { return errorOf(std::string{full}.insert(at, fields)); };
+    const auto faultWith = [&](const std::string& fields) {
+        return errorOf(std::string{full}.insert(at, fields));
+    };
     EXPECT_EQ(faultWith(", \"grain_m\": -1"), "my.json: materials[1].grain_m: expected 0 to 10, found -1");
     EXPECT_EQ(faultWith(", \"rolling\": 2"), "my.json: materials[1].rolling: expected 0 to 1, found 2");
-    EXPECT_EQ(faultWith(", \"grain_pattern\": \"even\""), "my.json: materials[1].grain_pattern: expected one of random, regular, found \"even\"");
+    EXPECT_EQ(faultWith(", \"grain_pattern\": \"even\""),
+              "my.json: materials[1].grain_pattern: expected one of random, regular, found \"even\"");
 }
 
 TEST(SceneFile, EveryBuiltInSceneSurvives) {
@@ -285,7 +289,8 @@ TEST(SceneFile, NamesTheFieldByItsPath) {
          "inputs[2].body: expected the name of a body, found \"coil\""},
         {"\"name\": \"coin\"", "\"name\": \"car\"",
          "bodies: expected names of their own, found \"car\" twice"},
-        {"\"frequency_hz\": 70", "\"frequency_hz\": 0", "inputs[0].frequency_hz: expected 1 to 20000, found 0"},
+        {"\"frequency_hz\": 70", "\"frequency_hz\": 0",
+         "inputs[0].frequency_hz: expected 1 to 20000, found 0"},
         {"\"name\": \"stone\"", "\"nam\": \"stone\"", "script[4].body: unknown field \"nam\""},
         {"\"hand_mass_kg\": 60", "\"hand_mass_kg\": \"auto\"",
          "normalisation.hand_mass_kg: expected a number, found a string"},

@@ -2,9 +2,9 @@
 // A hand that holds a body: where it pulls it, how evenly, how hard at most, and what ends it.
 #include "Scene/World/SceneGrips.h"
 #include "DropScene.h"
-#include "Scene/World/InputCheck.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/World/InputCheck.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,8 @@ public:
         run(seconds - 0.01);
         const BodyPose before = world.pose(body);
         run(0.01);
-        return {100.0 * (world.pose(body).xMetres - before.xMetres), 100.0 * (world.pose(body).yMetres - before.yMetres)};
+        return {100.0 * (world.pose(body).xMetres - before.xMetres),
+                100.0 * (world.pose(body).yMetres - before.yMetres)};
     }
     Simulation world;
     std::vector<CollisionEvent> events;
@@ -69,7 +70,9 @@ TEST(SceneGrips, AHandPullsByTenWeightsAtMostWhateverTheMass) {
     for (const char* name : {"ball", "box"}) {
         Held held{weightless()};
         held.act(GripAction{name, Vector{1000.0, 2.0}, {}, 0.0});
-        EXPECT_NEAR(held.speedAfter(0.1, name == std::string{"ball"} ? ballIndex : box).x, 0.1 * sceneLimits::maxGripMetresPerSecond2, 0.6) << name;
+        EXPECT_NEAR(held.speedAfter(0.1, name == std::string{"ball"} ? ballIndex : box).x,
+                    0.1 * sceneLimits::maxGripMetresPerSecond2, 0.6)
+            << name;
     }
 }
 
@@ -87,7 +90,8 @@ TEST(SceneGrips, WhatIsLetGoGoesOn) {
 TEST(SceneGrips, ABodyThatIsRemovedOrStartsAnewIsLetGo) {
     Scene scene = weightless();
     const BodyDescription stone{"stone", BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 1}}, {1.0, 3.0}};
-    scene.script = {{0.0, 1, 0.0, SpawnAction{stone, {}}}, {0.1, 1, 0.0, GripAction{"stone", Vector{3.0, 3.0}, {}, 0.0}}};
+    scene.script = {{0.0, 1, 0.0, SpawnAction{stone, {}}},
+                    {0.1, 1, 0.0, GripAction{"stone", Vector{3.0, 3.0}, {}, 0.0}}};
     scene.scriptPeriodSeconds = 2.0;
     Held held{scene};
     held.run(1.9);
@@ -100,7 +104,7 @@ TEST(SceneGrips, ABodyThatIsRemovedOrStartsAnewIsLetGo) {
     held.run(0.2);
     held.act(RemoveAction{"coin"});
     held.act(GripAction{"coin", Vector{1.0, 1.0}, {}, 0.5}); // nothing happens
-    held.run(2.0); // it is destroyed meanwhile
+    held.run(2.0);                                           // it is destroyed meanwhile
     EXPECT_EQ(held.world.bodiesInBox2d(), 4U);
 }
 
@@ -110,8 +114,10 @@ TEST(SceneGrips, WhatDoesNotMoveByForcesDoesNotNotice) {
     held.run(0.5);
     EXPECT_EQ(held.world.pose(plateIndex).xMetres, 2.0);
     InputCheck check{dropScene(1.0)};
-    EXPECT_EQ(check.take(GripAction{"nobody", Vector{}, {}}), "body: expected the name of a body, found \"nobody\"");
-    EXPECT_EQ(check.take(GripAction{"ball", Vector{1e4, 0.0}, {}}), "to_m[0]: expected -1000 to 1000, found 10000");
+    EXPECT_EQ(check.take(GripAction{"nobody", Vector{}, {}}),
+              "body: expected the name of a body, found \"nobody\"");
+    EXPECT_EQ(check.take(GripAction{"ball", Vector{1e4, 0.0}, {}}),
+              "to_m[0]: expected -1000 to 1000, found 10000");
     EXPECT_EQ(check.take(GripAction{"ball", Vector{}, {}, -1.0}), "over_s: expected 0 to 86400, found -1");
 }
 
@@ -119,7 +125,10 @@ TEST(SceneGrips, ScrapingIsFeltAndATextureMakesASurfaceRough) {
     Scene scene = dropScene(0.01);
     Held held{scene};
     held.run(1.0);
-    const auto slides = [&] { return std::ranges::count_if(held.events, [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; }); };
+    const auto slides = [&] {
+        return std::ranges::count_if(
+            held.events, [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; });
+    };
     held.act(GripAction{"ball", Vector{2.5, 0.44}, Vector{0.0, 0.1}, 0.5});
     held.run(0.7);
     EXPECT_EQ(slides(), 0) << "smooth";

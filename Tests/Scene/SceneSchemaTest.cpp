@@ -22,9 +22,7 @@ const Json& schema() {
 }
 
 /// The definition of a kind of thing; "" is the scene itself.
-const Json& definition(const std::string& name) {
-    return name.empty() ? schema() : schema()["$defs"][name];
-}
+const Json& definition(const std::string& name) { return name.empty() ? schema() : schema()["$defs"][name]; }
 
 template <class T>
 const char* definitionOf() {

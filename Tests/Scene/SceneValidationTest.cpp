@@ -40,9 +40,7 @@ template <class T>
 T& action(Scene& scene, std::size_t input) {
     return std::get<T>(scene.script[input].action);
 }
-Shape& shape(Scene& scene, std::size_t body) {
-    return scene.bodies[body].fixtures[0].shape;
-}
+Shape& shape(Scene& scene, std::size_t body) { return scene.bodies[body].fixtures[0].shape; }
 
 TEST(SceneValidation, AcceptsGoodScenes) {
     EXPECT_EQ(validate(dropScene(1.0)), "");
@@ -63,9 +61,7 @@ TEST_P(FaultyScene, IsRefusedByNamingThePlace) {
     EXPECT_EQ(validate(scene).substr(0, GetParam().expected.size()), GetParam().expected) << validate(scene);
 }
 
-std::string nameOf(const testing::TestParamInfo<Fault>& fault) {
-    return fault.param.name;
-}
+std::string nameOf(const testing::TestParamInfo<Fault>& fault) { return fault.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(
     Ranges, FaultyScene,

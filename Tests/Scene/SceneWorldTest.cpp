@@ -2,9 +2,9 @@
 // Bodies, joints and actions of a scene against what mechanics say of them.
 #include "Scene/World/SceneWorld.h"
 #include "DropScene.h"
+#include "Scene/SceneValidation.h"
 #include "Scene/World/BodyMass.h"
 #include "Scene/World/SceneCast.h"
-#include "Scene/SceneValidation.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -25,9 +25,7 @@ BodyDescription body(std::string name, Shape shape, Vector at, BodyType type = B
     return made;
 }
 
-ScriptInput at(double seconds, Action action) {
-    return {seconds, 1, 0.0, std::move(action)};
-}
+ScriptInput at(double seconds, Action action) { return {seconds, 1, 0.0, std::move(action)}; }
 
 class World {
 public:
@@ -60,9 +58,7 @@ public:
     int step = 0;
 };
 
-double mass(const World& world, std::size_t fixture) {
-    return world.fixture(fixture).GetBody()->GetMass();
-}
+double mass(const World& world, std::size_t fixture) { return world.fixture(fixture).GetBody()->GetMass(); }
 
 // ---- outlines
 
@@ -357,11 +353,13 @@ TEST(SceneWorld, RemovedBodiesCarryNothingAndWakeWhatLay) {
 
 TEST(SceneWorld, OnlyWhatIsThereHasABodyInBox2D) {
     Scene scene = emptyScene();
-    scene.script = {at(0.0, SpawnAction{body("scripted", CircleShape{0.2}, {5.0, 5.0}), {}}), at(0.1, RemoveAction{"scripted"})};
+    scene.script = {at(0.0, SpawnAction{body("scripted", CircleShape{0.2}, {5.0, 5.0}), {}}),
+                    at(0.1, RemoveAction{"scripted"})};
     World world(scene);
     for (int i = 0; i < 1000; ++i) {
         const std::string name = "note " + std::to_string(i);
-        world.inner.addInput(world.step, SpawnAction{body(name, CircleShape{0.2}, {1.0 + 0.1 * (i % 10), 5.0}), {}});
+        world.inner.addInput(world.step,
+                             SpawnAction{body(name, CircleShape{0.2}, {1.0 + 0.1 * (i % 10), 5.0}), {}});
         world.inner.addInput(world.step + 10, RemoveAction{name});
         world.run(0.1);
         world.inner.forgetDone();
@@ -439,7 +437,8 @@ TEST(SceneWorld, SeedsMoveSpawnedBodiesToo) {
 TEST(SceneWorld, BodiesInOnePlaceHaveNoMoreContactsThanAStepCanBear) {
     Scene scene = emptyScene();
     // 54,285 pairs
-    for (int i = 0; i < 330; ++i) scene.bodies.push_back(body("ball " + std::to_string(i), CircleShape{0.2}, {5.0, 5.0}));
+    for (int i = 0; i < 330; ++i)
+        scene.bodies.push_back(body("ball " + std::to_string(i), CircleShape{0.2}, {5.0, 5.0}));
     World world(scene);
     world.run(0.01);
     EXPECT_EQ(world.inner.world().GetContactCount(), sceneLimits::maxContacts);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The shaken box is lively, well levelled, and keeps its objects.
+#include "Scene/DropScene.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/BodyMass.h"
-#include "Scene/DropScene.h"
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>

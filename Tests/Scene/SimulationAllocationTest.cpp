@@ -21,12 +21,8 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     ++allocations;
     return std::malloc(size == 0 ? 1 : size);
 }
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace physvib {
 namespace {
@@ -56,7 +52,7 @@ protected:
         for (int i = 0; i < 4; ++i) {
             edge.SetTwoSided(corners[i], corners[(i + 1) % 4]);
             (void)attachment.set(*world.CreateBody(&ground)->CreateFixture(&edge, 0.0F),
-                           {300.0, 50.0, true, 100.0, Voice::both});
+                                 {300.0, 50.0, true, 100.0, Voice::both});
         }
         b2BodyDef def;
         def.type = b2_dynamicBody;
@@ -66,7 +62,7 @@ protected:
             def.position = {0.2F + 0.36F * static_cast<float>(i % 10),
                             0.2F + 0.36F * static_cast<float>(i / 10)};
             (void)attachment.set(*world.CreateBody(&def)->CreateFixture(&circle, 10.0F),
-                           {200.0, 40.0, true, 0.0, Voice::own});
+                                 {200.0, 40.0, true, 0.0, Voice::own});
         }
     }
     void shake(int step) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What needs no world is felt sooner where a session is direct; the world's collisions keep the play-out delay.
+// What needs no world is felt sooner where a session is direct; the world's collisions keep the play-out
+// delay.
 #include "FakeHost.h"
 #include "Scene/Sessions/InputLine.h"
 #include "Session/Messages/MessageRouter.h"
@@ -20,9 +21,12 @@ SessionSetup stillSetup(Direct direct) {
     return setup;
 }
 
-PlainMessage lineMessage(std::string_view line) { return std::get<PlainMessage>(readInputLine(line, {}, hostChannels).value); }
+PlainMessage lineMessage(std::string_view line) {
+    return std::get<PlainMessage>(readInputLine(line, {}, hostChannels).value);
+}
 
-constexpr std::string_view knock = R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "place": "A"})";
+constexpr std::string_view knock =
+    R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "place": "A"})";
 
 struct Host {
     explicit Host(const SessionSetup& setup, int block)
@@ -64,7 +68,8 @@ TEST(Direct, AMessageIsFeltABlockAndTheLimiterLaterWhateverTheBlock) {
         EXPECT_EQ(host.session.status().render.late, 0u);
         const auto answer = host.router.take(lineMessage(R"({"message": "latency"})")).value;
         const double direct = static_cast<double>(block + limiterFrames()) / hostRate;
-        EXPECT_NEAR(std::get<double>(answer.values.at(0).value), static_cast<double>(host.session.timeline().playOutFrames()) / hostRate, 1e-12);
+        EXPECT_NEAR(std::get<double>(answer.values.at(0).value),
+                    static_cast<double>(host.session.timeline().playOutFrames()) / hostRate, 1e-12);
         EXPECT_NEAR(std::get<double>(answer.values.at(1).value), direct, 1e-12);
         EXPECT_NEAR(std::get<double>(answer.values.at(2).value), direct, 1e-8);
     }
@@ -83,8 +88,16 @@ TEST(Direct, OneThatIsNotDirectIsFeltThePlayOutDelayLaterAndSaysSo) {
 TEST(Direct, WhatIsAskedForLaterIsInTimeAsWell) {
     Host host{stillSetup(Direct::told), 64};
     host.play(750);
-    ASSERT_EQ(host.router.take(lineMessage(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "in": 0.25})")).error, "");
-    ASSERT_EQ(host.router.take(lineMessage(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "at": 2})")).error, "");
+    ASSERT_EQ(
+        host.router
+            .take(lineMessage(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "in": 0.25})"))
+            .error,
+        "");
+    ASSERT_EQ(
+        host.router
+            .take(lineMessage(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "at": 2})"))
+            .error,
+        "");
     host.play(1000);
     EXPECT_EQ(host.onsetFrom(0), 750 * 64 + 12000 + 64 + limiterFrames() + 1);
     EXPECT_EQ(host.session.status().render.late, 0u);
@@ -92,7 +105,8 @@ TEST(Direct, WhatIsAskedForLaterIsInTimeAsWell) {
     host.play(200);
     const auto events = drain(host.session);
     ASSERT_EQ(events.size(), 2u);
-    EXPECT_NEAR(static_cast<double>(events[1].timeNs) * 1e-9, 2.0 - static_cast<double>(host.session.timeline().toldAheadNs()) * 1e-9, 1e-9);
+    EXPECT_NEAR(static_cast<double>(events[1].timeNs) * 1e-9,
+                2.0 - static_cast<double>(host.session.timeline().toldAheadNs()) * 1e-9, 1e-9);
 }
 
 TEST(Direct, AStopActsOnWhatWasStruckBeforeAndNotOnWhatFollows) {
@@ -122,21 +136,38 @@ TEST(Direct, CollisionsKeepThePlayOutDelayAndWhatIsSavedIsWhatWasFelt) {
             host.play(50);
             if (!strikes) continue;
             EXPECT_EQ(host.router.take(lineMessage(knock)).error, "");
-            EXPECT_EQ(host.router.take(lineMessage(R"({"message": "path", "places": "AD", "seconds": 0.3, "in": 0.01})")).error, "");
-            if (k == 4) EXPECT_TRUE(host.session.take({RenderControl{0, RenderControl::Kind::gain, 1, 0.5f, {}}}));
-            if (k == 5) EXPECT_EQ(host.router.take(lineMessage(R"({"message": "stop", "in": 0.2})")).error, "");
+            EXPECT_EQ(
+                host.router
+                    .take(lineMessage(R"({"message": "path", "places": "AD", "seconds": 0.3, "in": 0.01})"))
+                    .error,
+                "");
+            if (k == 4)
+                EXPECT_TRUE(host.session.take({RenderControl{0, RenderControl::Kind::gain, 1, 0.5f, {}}}));
+            if (k == 5)
+                EXPECT_EQ(host.router.take(lineMessage(R"({"message": "stop", "in": 0.2})")).error, "");
         }
         host.play(200);
         EXPECT_EQ(host.session.status().render.late, 0u);
-        SavedSession saved{wallBefore(direct).run(), wallBefore(direct).panner, hostChannels, true, RendererSettings::fullScale(), 0, {}, {}, {}, {}};
+        SavedSession saved{wallBefore(direct).run(),
+                           wallBefore(direct).panner,
+                           hostChannels,
+                           true,
+                           RendererSettings::fullScale(),
+                           0,
+                           {},
+                           {},
+                           {},
+                           {}};
         saved.lengthNs = host.session.readLog(saved.log);
         const auto L = static_cast<std::size_t>(host.session.timeline().playOutFrames());
         Interleaved again;
-        EXPECT_TRUE(renderSession(saved, {}, {hostRate, 2.5, [](double) { return true; }}, [&](const float* const* at, int n) {
-            append(again, at, n);
-            return true;
-        }));
-        Interleaved felt{host.signal.begin() + static_cast<std::ptrdiff_t>(L * hostChannels), host.signal.end()};
+        EXPECT_TRUE(renderSession(saved, {}, {hostRate, 2.5, [](double) { return true; }},
+                                  [&](const float* const* at, int n) {
+                                      append(again, at, n);
+                                      return true;
+                                  }));
+        Interleaved felt{host.signal.begin() + static_cast<std::ptrdiff_t>(L * hostChannels),
+                         host.signal.end()};
         felt.resize(again.size());
         std::size_t equal = 0;
         for (std::size_t n = 0; n < felt.size(); ++n) equal += felt[n] == again[n] ? 1u : 0u;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A host in virtual time: blocks of random size, and a driver that comes after random gaps.
 #pragma once
-#include "Session/Session.h"
 #include "Scene/SceneCatalogue.h"
+#include "Session/Session.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
 #include <vector>
@@ -19,7 +19,8 @@ inline SessionSetup shakeTheBoxSetup(double longestGapSeconds, int stepsPerSecon
     s.longestGapSeconds = longestGapSeconds;
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
-    s.panner = PhantomPanner{layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
+    s.panner =
+        PhantomPanner{layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
     return s;
 }
 
@@ -43,8 +44,8 @@ inline std::vector<CollisionEvent> drain(Session& session) {
 }
 
 /// `frames` of a realtime session; what it played is appended to `played`.
-inline Interleaved playLive(Session& session, std::int64_t frames, int largestBlock, double largestGapSeconds, std::uint32_t seed,
-                            std::vector<CollisionEvent>& played) {
+inline Interleaved playLive(Session& session, std::int64_t frames, int largestBlock, double largestGapSeconds,
+                            std::uint32_t seed, std::vector<CollisionEvent>& played) {
     Random random{seed};
     Block block;
     Interleaved signal;
@@ -54,7 +55,8 @@ inline Interleaved playLive(Session& session, std::int64_t frames, int largestBl
             session.advance();
             nextTick = done + random.below(static_cast<int>(largestGapSeconds * hostRate - largestBlock) + 1);
         }
-        const int size = static_cast<int>(std::min<std::int64_t>(frames - done, 1 + random.below(largestBlock)));
+        const int size =
+            static_cast<int>(std::min<std::int64_t>(frames - done, 1 + random.below(largestBlock)));
         session.render(block.at.data(), size, RenderMode::realtime);
         append(signal, block.at.data(), size);
         done += size;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double ms = 1e6;
 
-/// A device whose calls come at random up to `latestMs` after their time; the worst error of the clock 100 ms ahead.
+/// A device whose calls come at random up to `latestMs` after their time; the worst error of the clock 100 ms
+/// ahead.
 double worstErrorMs(double drift, double latestMs, double seconds) {
     std::mt19937 random{3};
     FeltClock clock;
@@ -19,12 +20,18 @@ double worstErrorMs(double drift, double latestMs, double seconds) {
         const auto steadyOf = [&](double s) { return 5e9 + s * 1e9 / (1 + drift); };
         clock.add({static_cast<std::int64_t>(t * 1e9), static_cast<std::int64_t>(steadyOf(t) + late)});
         const double felt = t + 0.1;
-        if (t > 0.5) worst = std::max(worst, std::abs(static_cast<double>(clock.steadyAt(static_cast<std::int64_t>(felt * 1e9))) - steadyOf(felt)) / ms);
+        if (t > 0.5)
+            worst = std::max(
+                worst, std::abs(static_cast<double>(clock.steadyAt(static_cast<std::int64_t>(felt * 1e9))) -
+                                steadyOf(felt)) /
+                           ms);
     }
     return worst;
 }
 
-TEST(FeltClock, OfCallsThatComeLateTheEarliestCounts) { EXPECT_LT(worstErrorMs(0, 8, 60), 2.5) << "their mean would be 4 ms off"; }
+TEST(FeltClock, OfCallsThatComeLateTheEarliestCounts) {
+    EXPECT_LT(worstErrorMs(0, 8, 60), 2.5) << "their mean would be 4 ms off";
+}
 TEST(FeltClock, FollowsACrystal) {
     EXPECT_LT(worstErrorMs(300e-6, 0, 60), 0.2);
     EXPECT_LT(worstErrorMs(-300e-6, 0, 60), 0.2);

@@ -2,9 +2,9 @@
 // Docs/messages.md says what the table of messages says, and its lines are taken as they stand there.
 #include "FakeHost.h"
 #include "Io/Disk/ReadFile.h"
-#include "Scene/Sessions/InputLine.h"
-#include "Scene/SceneFile.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/SceneFile.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Session/Messages/MessageRouter.h"
 #include "TestPlaces.h"
 #include <gtest/gtest.h>
@@ -33,7 +33,8 @@ std::string rangeOf(const MessageArgument& argument) {
 std::string rowsOf(std::span<const MessageArgument> arguments) {
     std::string text = "| value | is | usual | meaning |\n| --- | --- | --- | --- |\n";
     for (const auto& a : arguments)
-        text += "| `" + std::string(a.name) + "` | " + rangeOf(a) + " | " + std::string(a.usual) + " | " + std::string(a.meaning) + " |\n";
+        text += "| `" + std::string(a.name) + "` | " + rangeOf(a) + " | " + std::string(a.usual) + " | " +
+                std::string(a.meaning) + " |\n";
     return text;
 }
 
@@ -45,12 +46,14 @@ TEST(MessagesPage, HasTheTable) {
     }
     const std::string text = page();
     EXPECT_NE(text.find(table), std::string::npos) << "expected in Docs/messages.md:\n\n" << table;
-    EXPECT_NE(text.find(rowsOf(messages::when)), std::string::npos) << "expected in Docs/messages.md:\n\n" << rowsOf(messages::when);
+    EXPECT_NE(text.find(rowsOf(messages::when)), std::string::npos) << "expected in Docs/messages.md:\n\n"
+                                                                    << rowsOf(messages::when);
 }
 
 Result<LoadedClip> anyClip(const std::string& name) {
     LoadedClip clip;
-    clip.channels.push_back({0.0, 48000, std::vector<float>(4800, 0.1f), {.path = name, .hash = "0123456789abcdef"}});
+    clip.channels.push_back(
+        {0.0, 48000, std::vector<float>(4800, 0.1f), {.path = name, .hash = "0123456789abcdef"}});
     return clip;
 }
 
@@ -64,7 +67,8 @@ TEST(MessagesPage, ItsLinesAreTaken) {
     MessageRouter router{session};
     const std::string text = page();
     int lines = 0;
-    for (std::size_t at = text.find("{\"message\""); at != std::string::npos; at = text.find("{\"message\"", at + 1), ++lines) {
+    for (std::size_t at = text.find("{\"message\""); at != std::string::npos;
+         at = text.find("{\"message\"", at + 1), ++lines) {
         const std::string line = text.substr(at, text.find('\n', at) - at);
         const auto read = readInputLine(line, {}, 4);
         ASSERT_EQ(read.error, "") << line;

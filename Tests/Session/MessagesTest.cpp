@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What a message does: the strikes it becomes, the words of its refusals, and that what was felt is rendered again.
+// What a message does: the strikes it becomes, the words of its refusals, and that what was felt is rendered
+// again.
 #include "FakeHost.h"
+#include "Io/Text/NameList.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Scene/Sessions/SessionFile.h"
 #include "Scene/Sessions/SessionJournalText.h"
-#include "Scene/Sessions/InputLine.h"
-#include "Io/Text/NameList.h"
 #include "Session/Messages/MessageRouter.h"
 #include "Session/Messages/MessageStrikes.h"
 #include "Session/SessionRender.h"
@@ -35,7 +36,8 @@ SessionSetup quietSetup() {
     setup.scene.bodies.clear();
     setup.scene.script.clear();
     setup.scene.joints.clear();
-    setup.scene.materials.push_back({.name = "bell", .densityKgPerSquareMetre = 850, .frequencyHz = 220, .decayPerSecond = 12});
+    setup.scene.materials.push_back(
+        {.name = "bell", .densityKgPerSquareMetre = 850, .frequencyHz = 220, .decayPerSecond = 12});
     return setup;
 }
 
@@ -43,7 +45,8 @@ std::vector<CollisionEvent> strikesOfLine(std::string_view line) {
     const auto setup = quietSetup();
     const PlainMessage message = messageOf(line);
     const auto found = std::ranges::find(messageTable, message.name, &MessageDescription::name);
-    return std::get<MessageDescription::Strikes*>(found->act)({message, *found, setup.panner}, setup.scene.materials, setup.shaping);
+    return std::get<MessageDescription::Strikes*>(found->act)({message, *found, setup.panner},
+                                                              setup.scene.materials, setup.shaping);
 }
 
 std::string refusalOf(std::string_view line) {
@@ -57,22 +60,29 @@ TEST(Messages, APathThatLagsSaysSo) {
     Session session{quietSetup()};
     session.prepare(hostRate, 512);
     MessageRouter router{session};
-    EXPECT_EQ(router.take(messageOf(R"({"message": "path", "places": "AB"})")).value.name, "") << "equal follows";
-    EXPECT_EQ(router.take(messageOf(R"({"message": "path", "places": "AB", "law": "energy"})")).value.name, "");
+    EXPECT_EQ(router.take(messageOf(R"({"message": "path", "places": "AB"})")).value.name, "")
+        << "equal follows";
+    EXPECT_EQ(router.take(messageOf(R"({"message": "path", "places": "AB", "law": "energy"})")).value.name,
+              "");
     const auto note = router.take(messageOf(R"({"message": "path", "places": "AB", "law": "linear"})")).value;
     ASSERT_EQ(note.name, "path");
-    EXPECT_NE(answerLine(note).find("law: linear lags: felt at 0.16 of the way between two actuators where 0.3 is meant"), std::string::npos) << answerLine(note);
+    EXPECT_NE(answerLine(note).find(
+                  "law: linear lags: felt at 0.16 of the way between two actuators where 0.3 is meant"),
+              std::string::npos)
+        << answerLine(note);
 }
 
 TEST(Messages, AStrikeIsOfAMaterialOrOfNumbers) {
-    const auto ofMaterial = strikesOfLine(R"({"message": "strike", "material": "bell", "place": "A", "level": 0.25})");
+    const auto ofMaterial =
+        strikesOfLine(R"({"message": "strike", "material": "bell", "place": "A", "level": 0.25})");
     ASSERT_EQ(ofMaterial.size(), 1u);
     EXPECT_EQ(ofMaterial[0].frequencyHz, 220.0);
     EXPECT_EQ(ofMaterial[0].decayPerSecond, 12.0);
     EXPECT_EQ(ofMaterial[0].amplitude, 0.25);
     EXPECT_EQ(ofMaterial[0].x, 0.0);
     EXPECT_EQ(ofMaterial[0].y, quietSetup().scene.fieldHeightMetres);
-    const auto ofNumbers = strikesOfLine(R"({"message": "strike", "frequency_hz": 180, "decay_per_s": 30, "place": [1, 0.5], "seconds": 0.2, "law": "energy"})");
+    const auto ofNumbers = strikesOfLine(
+        R"({"message": "strike", "frequency_hz": 180, "decay_per_s": 30, "place": [1, 0.5], "seconds": 0.2, "law": "energy"})");
     ASSERT_EQ(ofNumbers.size(), 1u);
     EXPECT_EQ(ofNumbers[0].frequencyHz, 180.0);
     EXPECT_EQ(ofNumbers[0].durationNs, 200'000'000);
@@ -90,15 +100,18 @@ TEST(Messages, APatternIsOnItsEnchantersAlone) {
         EXPECT_EQ(strikes[k].durationNs, 251'219'512) << "103 half periods of 205 Hz";
         PhantomPanner::Gains gains{};
         setup.panner.gainsAt(strikes[k].x, strikes[k].y, strikes[k].course.spread, gains);
-        for (int j = 0; j < hostChannels; ++j) EXPECT_EQ(gains[static_cast<std::size_t>(j)], j == on[k] ? 1.0 : 0.0);
+        for (int j = 0; j < hostChannels; ++j)
+            EXPECT_EQ(gains[static_cast<std::size_t>(j)], j == on[k] ? 1.0 : 0.0);
     }
-    const auto own = strikesOfLine(R"({"message": "pattern", "enchanters": "ABCDDCBA", "pulse_s": 0.05, "gap_s": 0})");
+    const auto own =
+        strikesOfLine(R"({"message": "pattern", "enchanters": "ABCDDCBA", "pulse_s": 0.05, "gap_s": 0})");
     ASSERT_EQ(own.size(), 8u);
     EXPECT_EQ(own[7].timeNs, 350'000'000);
 }
 
 TEST(Messages, APathIsOneToneFromLegToLeg) {
-    const auto legs = strikesOfLine(R"({"message": "path", "places": [[0, 0], [3, 0], [3, 0], [3, 1]], "seconds": 2})");
+    const auto legs =
+        strikesOfLine(R"({"message": "path", "places": [[0, 0], [3, 0], [3, 0], [3, 1]], "seconds": 2})");
     ASSERT_EQ(legs.size(), 2u) << "where it does not go there is no leg";
     EXPECT_EQ(legs[0].durationNs, 1'500'000'000);
     EXPECT_EQ(legs[1].timeNs, legs[0].durationNs);
@@ -107,7 +120,8 @@ TEST(Messages, APathIsOneToneFromLegToLeg) {
     EXPECT_EQ(legs[1].course.travelNs, legs[1].durationNs);
     EXPECT_EQ(legs[1].course.toY, 1.0);
     EXPECT_EQ(legs[0].course.spread, Spread::equal);
-    const auto bySpeed = strikesOfLine(R"({"message": "path", "places": [[0, 0], [3, 0]], "speed_m_per_s": 1.5})");
+    const auto bySpeed =
+        strikesOfLine(R"({"message": "path", "places": [[0, 0], [3, 0]], "speed_m_per_s": 1.5})");
     EXPECT_EQ(bySpeed.at(0).durationNs, 2'000'000'000);
     const auto byTimes = strikesOfLine(R"({"message": "path", "places": "ABD", "times_s": [0.5, 0.75, 2]})");
     ASSERT_EQ(byTimes.size(), 2u);
@@ -116,7 +130,8 @@ TEST(Messages, APathIsOneToneFromLegToLeg) {
     EXPECT_EQ(byTimes[1].course.sinceNs, 250'000'000);
 }
 
-/// The largest step between two samples of a channel, in steps of the tone itself at that frequency and level.
+/// The largest step between two samples of a channel, in steps of the tone itself at that frequency and
+/// level.
 double largestStep(const SessionSetup& setup, const std::string& line, double frequencyHz, double seconds);
 
 TEST(Messages, WhatIsCutBeginsAndEndsWithoutAStep) {
@@ -124,15 +139,21 @@ TEST(Messages, WhatIsCutBeginsAndEndsWithoutAStep) {
     remapped.shaping.remap.band = {100.0, 200.0};
     const std::pair<std::string, double> lines[] = {
         {R"({"message": "pattern", "pattern": "ABA-250", "level": 1})", 205.0},
-        {R"({"message": "pattern", "enchanters": "ABCDDCBA", "pulse_s": 0.05, "gap_s": 0, "frequency_hz": 173.3, "level": 1})", 173.3},
-        {R"({"message": "pattern", "enchanters": "AD", "pulse_s": 0.001, "frequency_hz": 40, "level": 1})", 40.0},
+        {R"({"message": "pattern", "enchanters": "ABCDDCBA", "pulse_s": 0.05, "gap_s": 0, "frequency_hz": 173.3, "level": 1})",
+         173.3},
+        {R"({"message": "pattern", "enchanters": "AD", "pulse_s": 0.001, "frequency_hz": 40, "level": 1})",
+         40.0},
         {R"({"message": "phantom", "place": "A", "seconds": 0.7, "frequency_hz": 207.3, "level": 1})", 207.3},
-        {R"({"message": "strike", "frequency_hz": 90, "decay_per_s": 3, "seconds": 0.3, "place": "A", "level": 1})", 90.0},
+        {R"({"message": "strike", "frequency_hz": 90, "decay_per_s": 3, "seconds": 0.3, "place": "A", "level": 1})",
+         90.0},
         {R"({"message": "strike", "material": "bell", "seconds": 0.011, "place": "A", "level": 1})", 220.0},
-        {R"({"message": "path", "places": "ABDC", "seconds": 0.7, "frequency_hz": 207.3, "level": 1})", 207.3},
-        {R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.51], "frequency_hz": 207.3, "level": 1})", 207.3},
+        {R"({"message": "path", "places": "ABDC", "seconds": 0.7, "frequency_hz": 207.3, "level": 1})",
+         207.3},
+        {R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.51], "frequency_hz": 207.3, "level": 1})",
+         207.3},
         // two at a time
-        {R"({"message": "path", "places": "AD", "seconds": 0.7, "strokes": 5, "frequency_hz": 61.7, "level": 0.5, "law": "alone"})", 61.7},
+        {R"({"message": "path", "places": "AD", "seconds": 0.7, "strokes": 5, "frequency_hz": 61.7, "level": 0.5, "law": "alone"})",
+         61.7},
     };
     for (const auto& [line, hz] : lines) {
         EXPECT_LT(largestStep(quietSetup(), line, hz, 1.3), 1.3) << line;
@@ -141,31 +162,40 @@ TEST(Messages, WhatIsCutBeginsAndEndsWithoutAStep) {
 }
 
 TEST(Messages, APathThatIsCutGoesOnAtItsSpeed) {
-    const auto longer = strikesOfLine(R"({"message": "path", "places": "AB", "seconds": 0.25})"), shorter = strikesOfLine(R"({"message": "path", "places": "AB", "seconds": 0.249})");
+    const auto longer = strikesOfLine(R"({"message": "path", "places": "AB", "seconds": 0.25})"),
+               shorter = strikesOfLine(R"({"message": "path", "places": "AB", "seconds": 0.249})");
     EXPECT_EQ(longer[0].course.travelNs, 250'000'000);
     EXPECT_EQ(longer[0].durationNs, 251'219'512) << "it stays where it is for the rest";
     EXPECT_EQ(shorter[0].course.travelNs, 249'000'000);
     EXPECT_EQ(shorter[0].durationNs, 248'780'488);
-    const auto legs = strikesOfLine(R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61.7})");
+    const auto legs = strikesOfLine(
+        R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61.7})");
     ASSERT_EQ(legs.size(), 2u);
     EXPECT_EQ(legs[0].durationNs, 500'000'000) << "legs join where they did";
     EXPECT_NEAR(static_cast<double>(legs[1].course.sinceNs + legs[1].durationNs) * 2e-9 * 61.7, 62.0, 1e-6);
-    EXPECT_EQ(strikesOfLine(R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61})").size(), 1u) << "the last leg lies after the end";
+    EXPECT_EQ(strikesOfLine(
+                  R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61})")
+                  .size(),
+              1u)
+        << "the last leg lies after the end";
 }
 
 TEST(Messages, StrokesHaveTactileBrushsTiming) {
     for (const int count : {2, 5, 9}) {
-        const auto strokes = strikesOfLine(R"({"message": "path", "places": "AB", "seconds": 1, "strokes": )" + std::to_string(count) + "}");
+        const auto strokes = strikesOfLine(
+            R"({"message": "path", "places": "AB", "seconds": 1, "strokes": )" + std::to_string(count) + "}");
         ASSERT_EQ(strokes.size(), static_cast<std::size_t>(count));
         constexpr double quarter = 0.25 / 205.0 + 2e-9; // to the nearest crossing
         const double length = strokeSeconds(count, 1.0);
         for (std::size_t k = 0; k < strokes.size(); ++k) {
             const double onset = static_cast<double>(k) * (0.32 * length + 0.0473);
             EXPECT_NEAR(static_cast<double>(strokes[k].timeNs) * 1e-9, onset, quarter);
-            EXPECT_NEAR(static_cast<double>(strokes[k].timeNs + strokes[k].durationNs) * 1e-9, onset + length, quarter);
+            EXPECT_NEAR(static_cast<double>(strokes[k].timeNs + strokes[k].durationNs) * 1e-9, onset + length,
+                        quarter);
             EXPECT_EQ(strokes[k].course.sinceNs, strokes[k].timeNs);
         }
-        EXPECT_NEAR(static_cast<double>(strokes.back().timeNs + strokes.back().durationNs) * 1e-9, 1.0, quarter);
+        EXPECT_NEAR(static_cast<double>(strokes.back().timeNs + strokes.back().durationNs) * 1e-9, 1.0,
+                    quarter);
         EXPECT_EQ(strokes.back().x, quietSetup().scene.fieldWidthMetres);
     }
 }
@@ -173,24 +203,37 @@ TEST(Messages, StrokesHaveTactileBrushsTiming) {
 TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
     const std::map<std::string, std::string> refusals{
         {R"({"message": "knock"})", "\"knock\": expected one of " + listed(namesOf(messageTable))},
-        {R"({"message": "strike", "material": "cheese"})", "strike: material: expected a material of the scene that vibrates, found \"cheese\""},
+        {R"({"message": "strike", "material": "cheese"})",
+         "strike: material: expected a material of the scene that vibrates, found \"cheese\""},
         {R"({"message": "strike"})", "strike: material: expected a material, or frequency_hz"},
-        {R"({"message": "strike", "frequency_hz": 100})", "strike: seconds: expected a length, or a decay: it would not end"},
-        {R"({"message": "strike", "frequency_hz": 100, "material": "x"})", "strike: frequency_hz: expected either this or material"},
+        {R"({"message": "strike", "frequency_hz": 100})",
+         "strike: seconds: expected a length, or a decay: it would not end"},
+        {R"({"message": "strike", "frequency_hz": 100, "material": "x"})",
+         "strike: frequency_hz: expected either this or material"},
         {R"({"message": "phantom", "level": 3})", "phantom: level: expected 0 to 1, found 3"},
-        {R"({"message": "phantom", "frequency_hz": 4.9})", "phantom: frequency_hz: expected 5 to 20000, found 4.9"},
-        {R"({"message": "strike", "frequency_hz": 2, "seconds": 60})", "strike: frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
-        {R"({"message": "strike", "frequency_hz": 2, "decay_per_s": 0.001})", "strike: frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
+        {R"({"message": "phantom", "frequency_hz": 4.9})",
+         "phantom: frequency_hz: expected 5 to 20000, found 4.9"},
+        {R"({"message": "strike", "frequency_hz": 2, "seconds": 60})",
+         "strike: frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
+        {R"({"message": "strike", "frequency_hz": 2, "decay_per_s": 0.001})",
+         "strike: frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
         {R"({"message": "phantom", "levle": 3})", "phantom: has no \"levle\""},
-        {R"({"message": "phantom", "place": "Q"})", "phantom: place: expected letters from A to D, found \"Q\""},
-        {R"({"message": "phantom", "place": [1, 2, 3]})", "phantom: place: expected x and y in metres, or an actuator's letter"},
-        {R"({"message": "phantom", "law": "flat"})", "phantom: law: expected one of " + listed(spreadNames) + ", found \"flat\""},
-        {R"({"message": "pattern", "pattern": "AB"})", "pattern: pattern: expected one like ABA-250 (one to three actuators, then milliseconds), found \"AB\""},
+        {R"({"message": "phantom", "place": "Q"})",
+         "phantom: place: expected letters from A to D, found \"Q\""},
+        {R"({"message": "phantom", "place": [1, 2, 3]})",
+         "phantom: place: expected x and y in metres, or an actuator's letter"},
+        {R"({"message": "phantom", "law": "flat"})",
+         "phantom: law: expected one of " + listed(spreadNames) + ", found \"flat\""},
+        {R"({"message": "pattern", "pattern": "AB"})", "pattern: pattern: expected one like ABA-250 (one to "
+                                                       "three actuators, then milliseconds), found \"AB\""},
         {R"({"message": "path", "places": "A"})", "path: places: expected 2 to 64 places, found 1"},
         {R"({"message": "path", "places": "AA"})", "path: places: expected places that are not all the same"},
-        {R"({"message": "path", "places": "AB", "times_s": [1]})", "path: times_s: expected 2 times, one per place, found 1"},
-        {R"({"message": "path", "places": "AB", "times_s": [1, 1]})", "path: times_s: expected rising numbers, found 1 after 1"},
-        {R"({"message": "path", "places": "AB", "seconds": 0.1, "strokes": 9})", "path: strokes: expected so few that each lasts 0.01 s, found 9 in 0.1 s"},
+        {R"({"message": "path", "places": "AB", "times_s": [1]})",
+         "path: times_s: expected 2 times, one per place, found 1"},
+        {R"({"message": "path", "places": "AB", "times_s": [1, 1]})",
+         "path: times_s: expected rising numbers, found 1 after 1"},
+        {R"({"message": "path", "places": "AB", "seconds": 0.1, "strokes": 9})",
+         "path: strokes: expected so few that each lasts 0.01 s, found 9 in 0.1 s"},
         {R"({"message": "stop", "at": "soon"})", "stop: at: expected a session time, or now"},
         {R"({"message": "stop", "at": 1, "in": 1})", "stop: in: expected either this or at"},
         {R"({"message": "status", "at": 1})", "status: has no \"at\""},
@@ -206,7 +249,9 @@ Result<LoadedClip> clipOf(const std::string& name) {
     for (int j = 0; j < std::stoi(name.substr(dot + 1)); ++j) {
         ContactRecording& channel = clip.channels.emplace_back();
         channel.sampleRateHz = 24'000;
-        for (int n = 0; n < 9'600; ++n) channel.samples.push_back(0.3f * std::sin(0.001f * static_cast<float>(n * (20 + j + name[0] % 16))));
+        for (int n = 0; n < 9'600; ++n)
+            channel.samples.push_back(0.3f *
+                                      std::sin(0.001f * static_cast<float>(n * (20 + j + name[0] % 16))));
         channel.file = {.path = name, .hash = "0123456789abcdef"};
     }
     return clip;
@@ -214,7 +259,9 @@ Result<LoadedClip> clipOf(const std::string& name) {
 
 LoadedRecordings loadedAgain(const SessionLog& log) {
     LoadedRecordings loaded;
-    for (const ClipFile& clip : log.clips) loaded.clips.push_back(clipOf(clip.file.path).value.channels.at(static_cast<std::size_t>(clip.channel)));
+    for (const ClipFile& clip : log.clips)
+        loaded.clips.push_back(
+            clipOf(clip.file.path).value.channels.at(static_cast<std::size_t>(clip.channel)));
     return loaded;
 }
 
@@ -225,7 +272,8 @@ struct Played {
 };
 
 /// Lines at session times, in seconds; blocks of random size.
-Played play(Session& session, std::multimap<double, std::string> lines, double seconds, std::function<void(SessionLog&)> read = {}, RenderMode mode = RenderMode::realtime) {
+Played play(Session& session, std::multimap<double, std::string> lines, double seconds,
+            std::function<void(SessionLog&)> read = {}, RenderMode mode = RenderMode::realtime) {
     Played played;
     Random random{5};
     Block block;
@@ -234,8 +282,10 @@ Played play(Session& session, std::multimap<double, std::string> lines, double s
     MessageRouter router{session};
     const auto frames = static_cast<std::int64_t>(seconds * hostRate);
     for (std::int64_t done = 0; done < frames;) {
-        for (; !lines.empty() && static_cast<double>(done) / hostRate >= lines.begin()->first; lines.erase(lines.begin()))
-            EXPECT_EQ(router.take(messageOf(lines.begin()->second), nullptr, clipOf).error, "") << lines.begin()->second;
+        for (; !lines.empty() && static_cast<double>(done) / hostRate >= lines.begin()->first;
+             lines.erase(lines.begin()))
+            EXPECT_EQ(router.take(messageOf(lines.begin()->second), nullptr, clipOf).error, "")
+                << lines.begin()->second;
         session.advance();
         const int size = static_cast<int>(std::min<std::int64_t>(frames - done, 1 + random.below(512)));
         session.render(block.at.data(), size, mode);
@@ -249,15 +299,27 @@ Played play(Session& session, std::multimap<double, std::string> lines, double s
 }
 
 SavedSession saved(const SessionSetup& setup, const SessionLog& log, double seconds) {
-    return {setup.run(), setup.panner, setup.channels, setup.limiterEnabled, setup.ceilings, std::llround(seconds * 1e9), log, {}, setup.equalised, setup.shaping};
+    return {setup.run(),
+            setup.panner,
+            setup.channels,
+            setup.limiterEnabled,
+            setup.ceilings,
+            std::llround(seconds * 1e9),
+            log,
+            {},
+            setup.equalised,
+            setup.shaping};
 }
 
 Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, double seconds) {
     Interleaved signal(static_cast<std::size_t>(delayFrames * hostChannels), 0.0f);
-    renderSession(session, loadedAgain(session.log), {hostRate, seconds - static_cast<double>(delayFrames) / hostRate, [](double) { return true; }}, [&](const float* const* block, int n) {
-        append(signal, block, n);
-        return true;
-    });
+    renderSession(
+        session, loadedAgain(session.log),
+        {hostRate, seconds - static_cast<double>(delayFrames) / hostRate, [](double) { return true; }},
+        [&](const float* const* block, int n) {
+            append(signal, block, n);
+            return true;
+        });
     return signal;
 }
 
@@ -276,7 +338,8 @@ double largestStep(const SessionSetup& setup, const std::string& line, double fr
 const std::multimap<double, std::string> everything{
     {0.1, R"({"message": "strike", "frequency_hz": 180, "decay_per_s": 30, "place": [1, 1]})"},
     {0.2, R"({"message": "path", "places": "ABDC", "seconds": 1.1, "frequency_hz": 207.3})"},
-    {0.25, R"({"message": "path", "places": [[0, 0], [5, 2]], "seconds": 0.7, "strokes": 5, "frequency_hz": 250})"},
+    {0.25,
+     R"({"message": "path", "places": [[0, 0], [5, 2]], "seconds": 0.7, "strokes": 5, "frequency_hz": 250})"},
     {0.3, R"({"message": "pattern", "pattern": "ABA-100", "at": 1.5})"},
     {0.3, R"({"message": "stop", "at": 1.55})"},
     {0.4, R"({"message": "phantom", "place": "C", "seconds": 3, "in": 1.4})"},
@@ -302,17 +365,21 @@ TEST(Messages, WhatWasFeltIsRenderedAgainToTheBit) {
     const auto again = renderedAgain(read.value, session.timeline().playOutFrames(), 3.0);
     ASSERT_EQ(again.size(), felt.signal.size());
     const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
-    EXPECT_TRUE(differs.first == again.end()) << "at frame " << (differs.first - again.begin()) / hostChannels;
+    EXPECT_TRUE(differs.first == again.end())
+        << "at frame " << (differs.first - again.begin()) / hostChannels;
 }
 
 TEST(Messages, AClipIsFeltBesideWhatSounds) {
     Session without{quietSetup()}, with{quietSetup()}, alone{quietSetup()};
-    const std::string first = R"({"message": "clip", "file": "a.1", "place": "A"})", second = R"({"message": "clip", "file": "b.1", "place": "D", "level": 0.5})";
-    const auto one = play(without, {{0.1, first}}, 1.0), other = play(alone, {{0.2, second}}, 1.0), both = play(with, {{0.1, first}, {0.2, second}}, 1.0);
+    const std::string first = R"({"message": "clip", "file": "a.1", "place": "A"})",
+                      second = R"({"message": "clip", "file": "b.1", "place": "D", "level": 0.5})";
+    const auto one = play(without, {{0.1, first}}, 1.0), other = play(alone, {{0.2, second}}, 1.0),
+               both = play(with, {{0.1, first}, {0.2, second}}, 1.0);
     ASSERT_EQ(both.signal.size(), one.signal.size());
     double most = 0.0, loudest = 0.0;
     for (std::size_t i = 0; i < both.signal.size(); ++i) {
-        most = std::max(most, std::abs(static_cast<double>(both.signal[i]) - one.signal[i] - other.signal[i]));
+        most =
+            std::max(most, std::abs(static_cast<double>(both.signal[i]) - one.signal[i] - other.signal[i]));
         loudest = std::max(loudest, std::abs(static_cast<double>(one.signal[i])));
     }
     EXPECT_LE(most, 1e-6) << "the first fades, or the second is not there";
@@ -325,14 +392,16 @@ TEST(Messages, WhatWasTakenAwayOfAClipIsAnswered) {
     session.prepare(hostRate, 512);
     MessageRouter router{session};
     const auto answerOf = [&](const std::string& note) {
-        return router.take(messageOf(R"({"message": "clip", "file": "a.1"})"), nullptr, [&](const std::string& name) {
-            auto clip = clipOf(name);
-            for (ContactRecording& channel : clip.value.channels) channel.note = note;
-            return clip;
-        });
+        return router.take(messageOf(R"({"message": "clip", "file": "a.1"})"), nullptr,
+                           [&](const std::string& name) {
+                               auto clip = clipOf(name);
+                               for (ContactRecording& channel : clip.value.channels) channel.note = note;
+                               return clip;
+                           });
     };
     EXPECT_EQ(answerOf("").value, PlainMessage{});
-    EXPECT_EQ(answerOf("a.1: a mean of 1.00").value, (PlainMessage{"clip", {{"note", "a.1: a mean of 1.00"}}}));
+    EXPECT_EQ(answerOf("a.1: a mean of 1.00").value,
+              (PlainMessage{"clip", {{"note", "a.1: a mean of 1.00"}}}));
 }
 
 TEST(Messages, AClipIsNoCollision) { // of a scene with a gain, a method and a level
@@ -353,14 +422,21 @@ TEST(Messages, ClipsAreBounded) {
     Session session{quietSetup()};
     session.prepare(hostRate, 512);
     MessageRouter router{session};
-    const auto clip = [&](const std::string& name, const ClipSource& source) { return router.take(messageOf(R"({"message": "clip", "place": "A", "file": ")" + name + "\"}"), nullptr, source).error; };
+    const auto clip = [&](const std::string& name, const ClipSource& source) {
+        return router
+            .take(messageOf(R"({"message": "clip", "place": "A", "file": ")" + name + "\"}"), nullptr, source)
+            .error;
+    };
     EXPECT_EQ(clip("a.1", {}), "clip: file: expected no clips here: no folder was given to read them from");
     EXPECT_EQ(clip("a", clipOf), "clip: file: a: cannot be read");
-    EXPECT_EQ(router.take(messageOf(R"({"message": "clip"})"), nullptr, clipOf).error, "clip: file: expected a file's name");
-    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "a.3"})"), nullptr, clipOf).error, "clip: file: expected one channel, places, or as many channels as actuators, 4, found 3");
+    EXPECT_EQ(router.take(messageOf(R"({"message": "clip"})"), nullptr, clipOf).error,
+              "clip: file: expected a file's name");
+    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "a.3"})"), nullptr, clipOf).error,
+              "clip: file: expected one channel, places, or as many channels as actuators, 4, found 3");
     for (int i = 0; i < 7; ++i) EXPECT_EQ(clip(std::to_string(i) + ".4", clipOf), "");
     EXPECT_EQ(clip("3.4", clipOf), "") << "it is kept already";
-    EXPECT_EQ(clip("x.5", clipOf), "clip: file: expected no more than 32 channels of clips in a session, and 32000000 samples");
+    EXPECT_EQ(clip("x.5", clipOf),
+              "clip: file: expected no more than 32 channels of clips in a session, and 32000000 samples");
     EXPECT_EQ(clip("y.4", clipOf), "") << "nothing of what found no room was kept";
     SessionLog log;
     session.readLog(log);
@@ -387,15 +463,24 @@ TEST(Messages, NobodyWaitsForAClipThatIsReadAndBroughtToTheSessionsRate) {
     Session session{quietSetup()};
     session.prepare(hostRate, 512);
     MessageRouter router{session};
-    ContactRecording minute{0.0, 44'100, std::vector<float>(300'000, 0.1f), {.path = "minute", .hash = "0123456789abcdef"}};
-    EXPECT_TRUE(othersAskDuring([&] { EXPECT_EQ(session.keepClip({&minute, 1}), 0); }, [&] { session.timeline().presentNs(); }));
+    ContactRecording minute{
+        0.0, 44'100, std::vector<float>(300'000, 0.1f), {.path = "minute", .hash = "0123456789abcdef"}};
+    EXPECT_TRUE(othersAskDuring(
+        [&] {
+            EXPECT_EQ(session.keepClip({&minute, 1}), 0);
+        },
+        [&] { session.timeline().presentNs(); }));
     std::future<std::string> other;
     const ClipSource slow = [&](const std::string&) {
-        other = std::async(std::launch::async, [&] { return router.take(messageOf(R"({"message": "phantom", "in": 2})")).error; });
-        EXPECT_EQ(other.wait_for(std::chrono::seconds{60}), std::future_status::ready) << "another message waits for the file";
+        other = std::async(std::launch::async, [&] {
+            return router.take(messageOf(R"({"message": "phantom", "in": 2})")).error;
+        });
+        EXPECT_EQ(other.wait_for(std::chrono::seconds{60}), std::future_status::ready)
+            << "another message waits for the file";
         return Result<LoadedClip>{Failure{"read"}};
     };
-    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "x"})"), nullptr, slow).error, "clip: file: read");
+    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "x"})"), nullptr, slow).error,
+              "clip: file: read");
     EXPECT_EQ(other.get(), "");
 }
 
@@ -405,7 +490,9 @@ TEST(Messages, ATimeThatIsOverIsRefusedBeforeAFileIsRead) {
     MessageRouter router{session};
     int reads = 0;
     const ClipSource counting = [&](const std::string& name) { return ++reads, clipOf(name); };
-    EXPECT_NE(router.take(messageOf(R"({"message": "clip", "file": "a.1", "at": 0.1})"), nullptr, counting).error.find("clip: at: "), std::string::npos);
+    EXPECT_NE(router.take(messageOf(R"({"message": "clip", "file": "a.1", "at": 0.1})"), nullptr, counting)
+                  .error.find("clip: at: "),
+              std::string::npos);
     EXPECT_EQ(reads, 0);
 }
 
@@ -415,7 +502,12 @@ TEST(Messages, ClipsComeWhileBlocksAreRendered) {
     MessageRouter router{session};
     std::atomic<bool> isDone{false};
     std::thread door{[&] {
-        for (int i = 0; i < 32; ++i) EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": ")" + std::to_string(i) + R"(.1"})"), nullptr, clipOf).error, "");
+        for (int i = 0; i < 32; ++i)
+            EXPECT_EQ(router
+                          .take(messageOf(R"({"message": "clip", "file": ")" + std::to_string(i) + R"(.1"})"),
+                                nullptr, clipOf)
+                          .error,
+                      "");
         isDone = true;
     }};
     Block block;
@@ -441,23 +533,29 @@ TEST(Messages, ASavedClipIsReadAsStrictlyAsTheRest) {
         std::string other = text;
         const auto at = other.find(from);
         EXPECT_NE(at, std::string::npos) << from;
-        return readSession(at == std::string::npos ? other : other.replace(at, from.size(), to), "s.json").error;
+        return readSession(at == std::string::npos ? other : other.replace(at, from.size(), to), "s.json")
+            .error;
     };
-    EXPECT_EQ(changed(R"("channel": 2)", R"("channel": 64)"), "s.json: clips[2].channel: expected 0 to 63, found 64");
-    EXPECT_EQ(changed(R"("frequency_hz": 0.0009765625, "file")", R"("frequency_hz": 1, "file")"), "s.json: clips[0].frequency_hz: expected 0.0009765625, for clip 1, found 1");
+    EXPECT_EQ(changed(R"("channel": 2)", R"("channel": 64)"),
+              "s.json: clips[2].channel: expected 0 to 63, found 64");
+    EXPECT_EQ(changed(R"("frequency_hz": 0.0009765625, "file")", R"("frequency_hz": 1, "file")"),
+              "s.json: clips[0].frequency_hz: expected 0.0009765625, for clip 1, found 1");
     EXPECT_EQ(changed(R"("clips": [)", R"("clips": [1, )").substr(0, 18), "s.json: clips[0]: ");
     for (const char* older : {"4", "5"}) {
         Session without{setup};
-        std::string old = sessionJson(saved(setup, play(without, {{0.1, R"({"message": "phantom"})"}}, 0.5).log, 0.5));
+        std::string old =
+            sessionJson(saved(setup, play(without, {{0.1, R"({"message": "phantom"})"}}, 0.5).log, 0.5));
         const std::string version = "\"physvib_session\": ";
-        old.replace(old.find(version + std::to_string(sessionFormatVersion)), version.size() + 1, version + older);
+        old.replace(old.find(version + std::to_string(sessionFormatVersion)), version.size() + 1,
+                    version + older);
         EXPECT_EQ(readSession(old, "s.json").error, "") << older;
     }
 }
 
 TEST(Messages, AHostThatDoesNotPlayInRealTimeGetsTheSame) {
     Session live{shakeTheBoxSetup(0.05)}, bounced{shakeTheBoxSetup(0.05)};
-    EXPECT_TRUE(play(live, everything, 3.0).signal == play(bounced, everything, 3.0, {}, RenderMode::offline).signal);
+    EXPECT_TRUE(play(live, everything, 3.0).signal ==
+                play(bounced, everything, 3.0, {}, RenderMode::offline).signal);
 }
 
 TEST(Messages, TheJournalHoldsThem) {
@@ -465,7 +563,8 @@ TEST(Messages, TheJournalHoldsThem) {
     Session session{setup};
     JournalLines lines{saved(setup, {}, 0.0), {}};
     std::string text = lines.head();
-    auto felt = play(session, everything, 3.0, [&](SessionLog& log) { text += lines.take(log, session.readLog(log)); });
+    auto felt = play(session, everything, 3.0,
+                     [&](SessionLog& log) { text += lines.take(log, session.readLog(log)); });
     text += lines.take(felt.log, 3'000'000'000);
     const auto read = readSession(text, "journal");
     ASSERT_EQ(read.error, "");
@@ -475,24 +574,31 @@ TEST(Messages, TheJournalHoldsThem) {
 
 TEST(Messages, AStopForgetsWhatHasNotBegun) {
     Session session{quietSetup()};
-    const auto felt = play(session,
-                           {{0.1, R"({"message": "pattern", "enchanters": "ABCD", "pulse_s": 0.1, "gap_s": 0.1})"},
-                            {0.1, R"({"message": "phantom", "seconds": 0.1, "frequency_hz": 300, "at": 0.9})"},
-                            {0.35, R"({"message": "stop", "at": 0.65})"},
-                            {0.36, R"({"message": "phantom", "seconds": 0.1, "frequency_hz": 400, "at": 0.8})"}},
-                           1.2);
+    const auto felt =
+        play(session,
+             {{0.1, R"({"message": "pattern", "enchanters": "ABCD", "pulse_s": 0.1, "gap_s": 0.1})"},
+              {0.1, R"({"message": "phantom", "seconds": 0.1, "frequency_hz": 300, "at": 0.9})"},
+              {0.35, R"({"message": "stop", "at": 0.65})"},
+              {0.36, R"({"message": "phantom", "seconds": 0.1, "frequency_hz": 400, "at": 0.8})"}},
+             1.2);
     std::vector<double> hz;
     for (const auto& event : felt.events) hz.push_back(event.frequencyHz);
-    EXPECT_EQ(hz, (std::vector<double>{205, 205, 205, 400})) << "the fourth pulse and the phantom of 300 Hz were asked for before the stop";
+    EXPECT_EQ(hz, (std::vector<double>{205, 205, 205, 400}))
+        << "the fourth pulse and the phantom of 300 Hz were asked for before the stop";
     EXPECT_EQ(session.world().size().strikes, 0u);
 }
 
 TEST(Messages, OfOneMomentTheSecondActsOnTheFirst) {
     Session session{quietSetup()};
-    const auto felt = play(session, {{0.1, R"({"message": "phantom", "seconds": 1, "frequency_hz": 300})"}, {0.1, R"({"message": "stop"})"}, {0.1, R"({"message": "strike", "frequency_hz": 99, "decay_per_s": 2})"}}, 1.0);
+    const auto felt = play(session,
+                           {{0.1, R"({"message": "phantom", "seconds": 1, "frequency_hz": 300})"},
+                            {0.1, R"({"message": "stop"})"},
+                            {0.1, R"({"message": "strike", "frequency_hz": 99, "decay_per_s": 2})"}},
+                           1.0);
     ASSERT_EQ(felt.events.size(), 2u);
     double late = 0.0; // of the last half second
-    for (std::size_t i = felt.signal.size() / 2; i < felt.signal.size(); ++i) late = std::max(late, static_cast<double>(std::abs(felt.signal[i])));
+    for (std::size_t i = felt.signal.size() / 2; i < felt.signal.size(); ++i)
+        late = std::max(late, static_cast<double>(std::abs(felt.signal[i])));
     EXPECT_GT(late, 0.01) << "what came after the stop sounds";
     EXPECT_LT(late, 0.25 * 0.5 + 0.01) << "what came before does not";
 }
@@ -501,7 +607,8 @@ TEST(Messages, ATimeThatIsOverIsRefused) {
     Session session{quietSetup()};
     play(session, {}, 0.5);
     MessageRouter router{session};
-    EXPECT_EQ(router.take(messageOf(R"({"message": "phantom", "at": 0.25})")).error, "phantom: at: expected a session time that is not over: it is 0.500 s, found 0.25 s");
+    EXPECT_EQ(router.take(messageOf(R"({"message": "phantom", "at": 0.25})")).error,
+              "phantom: at: expected a session time that is not over: it is 0.500 s, found 0.25 s");
 }
 
 TEST(Messages, QueriesAnswer) {
@@ -510,12 +617,17 @@ TEST(Messages, QueriesAnswer) {
     play(session, {}, 0.5);
     MessageRouter router{session};
     EXPECT_EQ(router.take(messageOf(R"({"message": "phantom", "in": 2})")).error, "");
-    EXPECT_EQ(answerLine(router.take({"status", {}}).value), R"({ "answer": "status", "session_s": 0.5, "waiting": 1, "bodies": 0, "lost": 0, "stalls_s": 0 })");
+    EXPECT_EQ(
+        answerLine(router.take({"status", {}}).value),
+        R"({ "answer": "status", "session_s": 0.5, "waiting": 1, "bodies": 0, "lost": 0, "stalls_s": 0 })");
     const auto latency = router.take({"latency", {}}).value;
-    EXPECT_EQ(std::get<double>(latency.values.at(0).value), static_cast<double>(session.timeline().playOutFrames()) / hostRate);
+    EXPECT_EQ(std::get<double>(latency.values.at(0).value),
+              static_cast<double>(session.timeline().playOutFrames()) / hostRate);
     const auto layout = router.take({"layout", {}}).value;
     EXPECT_EQ(std::get<std::string>(layout.values.at(0).value), "linear");
-    EXPECT_EQ(std::get<std::vector<double>>(layout.values.at(3).value), (std::vector<double>{0, setup.scene.fieldHeightMetres, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres, 0, 0, setup.scene.fieldWidthMetres, 0}));
+    EXPECT_EQ(std::get<std::vector<double>>(layout.values.at(3).value),
+              (std::vector<double>{0, setup.scene.fieldHeightMetres, setup.scene.fieldWidthMetres,
+                                   setup.scene.fieldHeightMetres, 0, 0, setup.scene.fieldWidthMetres, 0}));
 }
 
 } // namespace

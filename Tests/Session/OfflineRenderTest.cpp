@@ -11,10 +11,13 @@
 namespace physvib {
 namespace {
 
-OfflineSettings settings(std::int64_t frames, int block, bool limiter, double fieldWidth = 1, double fieldHeight = 1) {
+OfflineSettings settings(std::int64_t frames, int block, bool limiter, double fieldWidth = 1,
+                         double fieldHeight = 1) {
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
-    return {{48000, 4, PhantomPanner{layout, PanningLaw::linear, 1, fieldWidth, fieldHeight}, limiter}, frames, block};
+    return {{48000, 4, PhantomPanner{layout, PanningLaw::linear, 1, fieldWidth, fieldHeight}, limiter},
+            frames,
+            block};
 }
 
 std::vector<float> channelB(const std::vector<CollisionEvent>& events, const OfflineSettings& with) {
@@ -43,7 +46,8 @@ TEST(OfflineRender, FrameNIsTimeNOverRateWhateverTheLimiterLooksAhead) {
             ASSERT_EQ(samples.size(), 4800u);
             EXPECT_EQ(samples[479], 0.0f);
             EXPECT_NEAR(samples[480], 0.0f, 1e-12); // sin(0), as rounding leaves it
-            EXPECT_NEAR(samples[481], 0.5 * std::sin(2 * std::numbers::pi * 200 / 48000) * std::exp(-10.0 / 48000), 1e-7);
+            EXPECT_NEAR(samples[481],
+                        0.5 * std::sin(2 * std::numbers::pi * 200 / 48000) * std::exp(-10.0 / 48000), 1e-7);
         }
 }
 

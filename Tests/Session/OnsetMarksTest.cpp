@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Pulses for machines: where they begin and end, and that they stand at the sample of what is felt, live and offline.
+// Pulses for machines: where they begin and end, and that they stand at the sample of what is felt, live and
+// offline.
+#include "Session/OnsetMarks.h"
 #include "FakeHost.h"
 #include "Session/OfflineRender.h"
-#include "Session/OnsetMarks.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -30,7 +31,8 @@ std::vector<std::int64_t> edgesOf(const std::vector<float>& x) {
 
 std::vector<float> marked(OnsetMarks& marks, int frames, int block) {
     std::vector<float> out(static_cast<std::size_t>(frames));
-    for (int done = 0; done < frames; done += block) marks.render(out.data() + done, std::min(block, frames - done));
+    for (int done = 0; done < frames; done += block)
+        marks.render(out.data() + done, std::min(block, frames - done));
     return out;
 }
 
@@ -45,7 +47,8 @@ TEST(OnsetMarks, APulseLastsTwoMillisecondsOrRestsBeforeTheNext) {
     for (int n = 100; n < 196; ++n) EXPECT_EQ(out[static_cast<std::size_t>(n)], 1.0f) << n;
     EXPECT_EQ(out[196], 0.0f);
     EXPECT_EQ(out[1017], 1.0f);
-    for (int n = 1018; n < 1030; ++n) EXPECT_EQ(out[static_cast<std::size_t>(n)], 0.0f) << n << ": a quarter of a millisecond";
+    for (int n = 1018; n < 1030; ++n)
+        EXPECT_EQ(out[static_cast<std::size_t>(n)], 0.0f) << n << ": a quarter of a millisecond";
 }
 
 TEST(OnsetMarks, OnlyTheWantedOnesAndNoLegOfALongerTone) {
@@ -57,7 +60,8 @@ TEST(OnsetMarks, OnlyTheWantedOnesAndNoLegOfALongerTone) {
     const auto made = [&](MarkedOnsets which) {
         OnsetMarks marks{which};
         marks.prepare(48000, 0);
-        for (std::int64_t frame = 0; const CollisionEvent& e : {hit, grain, message, leg}) marks.strike(e, frame += 1000);
+        for (std::int64_t frame = 0; const CollisionEvent& e : {hit, grain, message, leg})
+            marks.strike(e, frame += 1000);
         return edgesOf(marked(marks, 4800, 4800));
     };
     EXPECT_EQ(made(MarkedOnsets::all), (std::vector<std::int64_t>{1000, 2000, 3000}));
@@ -87,7 +91,8 @@ SessionSetup quietSetup() {
 }
 
 /// What a live session plays of these strikes: the enchanter's samples, and the marks.
-std::array<std::vector<float>, 2> playedLive(const std::vector<CollisionEvent>& strikes, int block, int rate) {
+std::array<std::vector<float>, 2> playedLive(const std::vector<CollisionEvent>& strikes, int block,
+                                             int rate) {
     Session session{quietSetup()};
     session.prepare(rate, block);
     EXPECT_TRUE(session.take({Strikes{strikes}, 0}));
@@ -110,7 +115,8 @@ TEST(OnsetMarks, AMarkAndItsOnsetAreOnTheSameSampleWhateverTheBlockAndOffline) {
         for (const auto at : atNs) strikes.push_back(hitAt(at));
         std::vector<float> offline, offlineMarks;
         OnsetMarks marks{MarkedOnsets::all};
-        OfflineSettings settings{{.sampleRateHz = rate, .channels = 1, .panner = quietSetup().panner}, rate, 333};
+        OfflineSettings settings{
+            {.sampleRateHz = rate, .channels = 1, .panner = quietSetup().panner}, rate, 333};
         settings.marks = &marks;
         renderOffline(strikes, settings, [&](const float* const* at, int n) {
             offline.insert(offline.end(), at[0], at[0] + n);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a mixer does to a session while it plays is saved, and rendered again to the bit.
 #include "FakeHost.h"
+#include "Scene/SceneEdits.h"
 #include "Scene/Sessions/SessionFile.h"
 #include "Scene/Sessions/StripGroups.h"
 #include "Session/OfflineRender.h"
 #include "Session/Session.h"
 #include "Session/SessionRender.h"
-#include "Scene/SceneEdits.h"
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
@@ -42,7 +42,8 @@ Signal play(Session& session, double seconds, Script script, int block = 300) {
             script.erase(script.begin());
         }
         session.render(at.data(), block, RenderMode::realtime);
-        for (std::size_t j = 0; j < room; ++j) signal[j].insert(signal[j].end(), part[j].begin(), part[j].end());
+        for (std::size_t j = 0; j < room; ++j)
+            signal[j].insert(signal[j].end(), part[j].begin(), part[j].end());
         drain(session);
     }
     return signal;
@@ -64,19 +65,26 @@ int differences(const Signal& live, const SavedSession& saved, std::int64_t play
     const auto controls = controlsOf(saved.log, true, saved.channels);
     int wrong = 0;
     std::int64_t done = playOutFrames;
-    renderOffline(events, {{rate, saved.channels, saved.panner, saved.limiterEnabled, saved.ceilings}, frames, 256, controls},
-                  [&](const float* const* block, int n) {
-                      for (int j = 0; j < saved.channels; ++j)
-                          for (int k = 0; k < n; ++k) wrong += block[j][k] != live[static_cast<std::size_t>(j)][static_cast<std::size_t>(done + k)] ? 1 : 0;
-                      done += n;
-                      return true;
-                  });
+    renderOffline(
+        events,
+        {{rate, saved.channels, saved.panner, saved.limiterEnabled, saved.ceilings}, frames, 256, controls},
+        [&](const float* const* block, int n) {
+            for (int j = 0; j < saved.channels; ++j)
+                for (int k = 0; k < n; ++k)
+                    wrong +=
+                        block[j][k] != live[static_cast<std::size_t>(j)][static_cast<std::size_t>(done + k)]
+                            ? 1
+                            : 0;
+            done += n;
+            return true;
+        });
     return wrong;
 }
 
 double energyOf(const std::vector<float>& samples, double from, double to) {
     double sum = 0.0;
-    for (auto n = static_cast<std::size_t>(from * rate); n < static_cast<std::size_t>(to * rate); ++n) sum += static_cast<double>(samples[n]) * static_cast<double>(samples[n]);
+    for (auto n = static_cast<std::size_t>(from * rate); n < static_cast<std::size_t>(to * rate); ++n)
+        sum += static_cast<double>(samples[n]) * static_cast<double>(samples[n]);
     return sum;
 }
 
@@ -93,20 +101,37 @@ TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
     const auto setup = deskSetup();
     Session session{setup};
     EnchanterLayout five = setup.panner.layout();
-    five.places[static_cast<std::size_t>(five.count++)] = {0.5 * five.extentWidthMetres, 0.5 * five.extentHeightMetres};
-    const PhantomPanner wider{five, PanningLaw::energy, 1.3, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
+    five.places[static_cast<std::size_t>(five.count++)] = {0.5 * five.extentWidthMetres,
+                                                           0.5 * five.extentHeightMetres};
+    const PhantomPanner wider{five, PanningLaw::energy, 1.3, setup.scene.fieldWidthMetres,
+                              setup.scene.fieldHeightMetres};
     const Script script{{0.5, [](Session& s) { s.take({controlOf(Kind::gain, 0, -0.5f)}); }},
                         {0.7, [](Session& s) { s.take({controlOf(Kind::delay, 1, 0.013f)}); }},
                         {0.9, [](Session& s) { s.take({controlOf(Kind::ceiling, 2, 0.05f)}); }},
                         {1.0, [](Session& s) { s.world().setSlowness(0); }},
                         {1.2, [](Session& s) { s.world().stepOnce(); }},
-                        {1.4, [](Session& s) { s.world().stepOnce(); s.world().stepOnce(); }},
+                        {1.4,
+                         [](Session& s) {
+                             s.world().stepOnce();
+                             s.world().stepOnce();
+                         }},
                         {1.6, [](Session& s) { s.world().setSlowness(4); }},
                         {2.5, [](Session& s) { s.world().setSlowness(1); }},
-                        {2.7, [&](Session& s) { s.take({RenderControl{0, Kind::panner, 0, 0.0f, wider}}); }},
-                        {3.0, [](Session& s) { const std::array strikes{pulse(0.2), pulse(0.0)}; EXPECT_TRUE(s.take({Strikes{strikes}})); }},
+                        {2.7,
+                         [&](Session& s) {
+                             s.take({RenderControl{0, Kind::panner, 0, 0.0f, wider}});
+                         }},
+                        {3.0,
+                         [](Session& s) {
+                             const std::array strikes{pulse(0.2), pulse(0.0)};
+                             EXPECT_TRUE(s.take({Strikes{strikes}}));
+                         }},
                         {3.2, [](Session& s) { s.take({controlOf(Kind::delay, 1, 0.0f)}); }},
-                        {3.4, [](Session& s) { s.take({controlOf(Kind::mute, 3, 1.0f)}); s.world().setSlowness(2); }},
+                        {3.4,
+                         [](Session& s) {
+                             s.take({controlOf(Kind::mute, 3, 1.0f)});
+                             s.world().setSlowness(2);
+                         }},
                         {4.0, [](Session& s) { s.world().restart(); }},
                         {4.5, [](Session& s) { s.world().setSlowness(1); }}};
     const auto live = play(session, 6.0, script);
@@ -123,13 +148,16 @@ TEST(SessionDesk, AWorldThatStandsStillMakesNoHitsAndTellsThemAllLater) {
     const auto setup = deskSetup();
     Session one{setup}, other{setup};
     const auto live = play(one, 6.0, {});
-    const auto paused = play(other, 9.0, {{2.0, [](Session& s) { s.world().setSlowness(0); }}, {5.0, [](Session& s) { s.world().setSlowness(1); }}});
+    const auto paused = play(other, 9.0,
+                             {{2.0, [](Session& s) { s.world().setSlowness(0); }},
+                              {5.0, [](Session& s) { s.world().setSlowness(1); }}});
     EXPECT_EQ(energyOf(paused[2], 4.5, 5.0), 0.0);
     SessionLog log;
     other.readLog(log);
     EXPECT_EQ(log.takes[0].stalls.size(), 1u);
     EXPECT_NEAR(static_cast<double>(log.takes[0].stalls[0].lengthNs) * 1e-9, 3.0, 0.02);
-    EXPECT_NEAR(energyOf(paused[2], 5.5, 9.0), energyOf(live[2], 2.5, 6.0), 0.2 * energyOf(live[2], 2.5, 6.0));
+    EXPECT_NEAR(energyOf(paused[2], 5.5, 9.0), energyOf(live[2], 2.5, 6.0),
+                0.2 * energyOf(live[2], 2.5, 6.0));
 }
 
 TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
@@ -139,7 +167,13 @@ TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
     setup.scene.fieldWidthMetres = 6.4;
     setup.scene.fieldHeightMetres = 3.6;
     Session session{setup};
-    const auto live = play(session, 1.0, {{0.3, [](Session& s) { const std::array strikes{pulse(0.0)}; s.take({Strikes{strikes}}); }}}, 480);
+    const auto live = play(session, 1.0,
+                           {{0.3,
+                             [](Session& s) {
+                                 const std::array strikes{pulse(0.0)};
+                                 s.take({Strikes{strikes}});
+                             }}},
+                           480);
     const auto& c = live[2]; // (0, 0) is its corner
     const auto first = std::ranges::find_if(c, [](float x) { return std::abs(x) > 0.001f; }) - c.begin();
     // a block
@@ -156,14 +190,21 @@ TEST(SessionDesk, AStrikeOfATimeOfItsOwnIsFeltLAfterItWheneverItWasTold) {
     setup.scene.fieldWidthMetres = setup.scene.fieldHeightMetres = 1.0;
     const auto told = [&](double seconds) {
         Session session{setup};
-        auto live = play(session, 1.0, {{seconds, [](Session& s) { const std::array strikes{pulse(0.3)}; EXPECT_TRUE(s.take({Strikes{strikes}, 0})); }}}, 480);
+        auto live = play(session, 1.0,
+                         {{seconds,
+                           [](Session& s) {
+                               const std::array strikes{pulse(0.3)};
+                               EXPECT_TRUE(s.take({Strikes{strikes}, 0}));
+                           }}},
+                         480);
         EXPECT_EQ(session.status().render.late, 0u);
         EXPECT_EQ(session.timeline().presentNs(), 1'000'000'000);
         return std::pair{std::move(live), session.timeline().playOutFrames()};
     };
     const auto [early, delay] = told(0.05);
     EXPECT_EQ(early, told(0.295).first);
-    const auto first = std::ranges::find_if(early[2], [](float x) { return std::abs(x) > 0.001f; }) - early[2].begin();
+    const auto first =
+        std::ranges::find_if(early[2], [](float x) { return std::abs(x) > 0.001f; }) - early[2].begin();
     EXPECT_NEAR(static_cast<double>(first - delay) / rate, 0.3, 0.001);
 }
 
@@ -193,12 +234,15 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     std::string older = sessionJson(saved);
     older.replace(older.find("drag_ns_per_screen_m"), 20, "drag_ns_per_m");
     const std::string version = "\"physvib_session\": ";
-    older.replace(older.find(version + std::to_string(sessionFormatVersion)), version.size() + 1, version + "3");
+    older.replace(older.find(version + std::to_string(sessionFormatVersion)), version.size() + 1,
+                  version + "3");
     const auto old = readSession(older, "s.json");
     ASSERT_TRUE(old) << old.error;
-    EXPECT_EQ(mixOf(old.value).dragNewtonSecondsPerScreenMetre, 12'000.0) << "the knob stays; what was dragged is an input, in N s";
+    EXPECT_EQ(mixOf(old.value).dragNewtonSecondsPerScreenMetre, 12'000.0)
+        << "the knob stays; what was dragged is an input, in N s";
     saved.mix->strips[1].delayMs = 70.0;
-    EXPECT_EQ(readSession(sessionJson(saved), "s.json").error, "s.json: desk.strips[1].delay_ms: expected 0 to 50, found 70");
+    EXPECT_EQ(readSession(sessionJson(saved), "s.json").error,
+              "s.json: desk.strips[1].delay_ms: expected 0 to 50, found 70");
     saved.mix.reset(); // as `physvib play` saves
     saved.log.channels = {{0, Kind::gain, 1, -0.5f}, {0, Kind::mute, 3, 1.0f}, {0, Kind::ceiling, 0, 0.25f}};
     saved.ceilings[2] = 0.1f;
@@ -239,11 +283,12 @@ TEST(SessionDesk, ALaneIsFeltAtTheTimesOfItsSceneAndRenderedAgainToTheBit) {
     const auto setup = deskSetup();
     const auto mix = std::make_shared<const Mix>(mixWithLanes(setup));
     Session session{setup};
-    const auto live = play(session, 5.0, {{0.0, [&](Session& s) { s.take({Lanes{mix}}); }},
-                                          {2.0, [](Session& s) { s.world().restart(); }},
-                                          {3.8, [](Session& s) { s.world().setSlowness(0); }},
-                                          {4.2, [](Session& s) { s.world().setSlowness(1); }},
-                                          {4.4, [](Session& s) { s.take({Lanes{}}); }}});
+    const auto live = play(session, 5.0,
+                           {{0.0, [&](Session& s) { s.take({Lanes{mix}}); }},
+                            {2.0, [](Session& s) { s.world().restart(); }},
+                            {3.8, [](Session& s) { s.world().setSlowness(0); }},
+                            {4.2, [](Session& s) { s.world().setSlowness(1); }},
+                            {4.4, [](Session& s) { s.take({Lanes{}}); }}});
     EXPECT_EQ(session.status().render.late, 0u);
     const auto saved = savedOf(session, setup, 5);
     EXPECT_EQ(differences(live, saved, session.timeline().playOutFrames()), 0);
@@ -298,8 +343,12 @@ TEST(SessionDesk, BodiesThatCameAndWentAreInTheSceneAsItWasLeft) {
     ball.name = "added 1";
     ball.fixtures.push_back({CircleShape{0.2}, {}, 0.0, 1, false, Voice::own});
     ball.positionMetres = {3.0, 3.0};
-    take.inputs = {{0.5, SpawnAction{ball, {}}}, {0.6, MaterialAction{"added 1", everyFixture, 2}}, {0.7, RemoveAction{"large rubber ball"}}, {0.8, SoundAction{3, 90.0, 20.0}},
-                   {0.9, TextureAction{3, 0.004, 2.0, GrainPattern::regular, 0.5}}, {0.9, GripAction{"added 1", Vector{1.0, 1.0}, {}}}};
+    take.inputs = {{0.5, SpawnAction{ball, {}}},
+                   {0.6, MaterialAction{"added 1", everyFixture, 2}},
+                   {0.7, RemoveAction{"large rubber ball"}},
+                   {0.8, SoundAction{3, 90.0, 20.0}},
+                   {0.9, TextureAction{3, 0.004, 2.0, GrainPattern::regular, 0.5}},
+                   {0.9, GripAction{"added 1", Vector{1.0, 1.0}, {}}}};
     const Scene left = sceneAsLeft(take);
     EXPECT_EQ(left.bodies.size(), take.scene->bodies.size());
     EXPECT_EQ(left.bodies.back().name, "added 1");
@@ -308,7 +357,11 @@ TEST(SessionDesk, BodiesThatCameAndWentAreInTheSceneAsItWasLeft) {
     EXPECT_EQ(left.materials[3].grainMetres, 0.004);
     EXPECT_EQ(left.materials[3].grainPattern, GrainPattern::regular);
     EXPECT_TRUE(left.inputs.empty());
-    EXPECT_NO_THROW(Session{[&] { auto s = deskSetup(); s.scene = left; return s; }()});
+    EXPECT_NO_THROW(Session{[&] {
+        auto s = deskSetup();
+        s.scene = left;
+        return s;
+    }()});
 }
 
 } // namespace

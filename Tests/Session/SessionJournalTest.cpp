@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What `play --save` leaves, whatever disk and targets do.
+#include "Session/SessionJournal.h"
 #include "FakeHost.h"
 #include "Io/Disk/ReadFile.h"
 #include "Scene/Sessions/SessionFile.h"
-#include "Session/SessionJournal.h"
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -35,7 +35,8 @@ protected:
             EXPECT_EQ(session.take({TiltAction{0.001 * (inputs % 1000)}}).error, "");
             session.render(block.at.data(), 480, RenderMode::realtime);
             session.advance();
-            for (PlayedEvent e; session.played().pop(e); ++events) journal.played(e, session.timeline().sampleRateHz());
+            for (PlayedEvent e; session.played().pop(e); ++events)
+                journal.played(e, session.timeline().sampleRateHz());
         }
     }
     std::size_t rows() const {
@@ -112,7 +113,8 @@ TEST_F(SessionJournals, WaitForADiskThatIsFullAndMissNothing) {
     EXPECT_EQ(cut.error, "") << "it never ends inside a line";
     play(session, journal, 100);
     journal.end(session.status().sessionNs);
-    EXPECT_EQ(journal.news(), (folder / "monday.json").string() + ": can be written again, and nothing is missing");
+    EXPECT_EQ(journal.news(),
+              (folder / "monday.json").string() + ": can be written again, and nothing is missing");
     ASSERT_EQ(journal.finish(), "");
     const auto saved = loadSession(folder / "monday.json");
     ASSERT_EQ(saved.error, "");
@@ -127,7 +129,10 @@ TEST_F(SessionJournals, TouchNeitherFileIfOneCannotBe) {
     const auto refuses = [&](const char* kept) {
         std::ofstream{folder / kept} << "kept";
         const SessionJournal journal{folder / "monday.json", session, setup, {}};
-        EXPECT_NE(journal.error().find(": cannot be written: expected a regular file, found a folder, a device or a pipe"), std::string::npos) << journal.error();
+        EXPECT_NE(journal.error().find(
+                      ": cannot be written: expected a regular file, found a folder, a device or a pipe"),
+                  std::string::npos)
+            << journal.error();
         EXPECT_EQ(text(kept), "kept");
         std::filesystem::remove(folder / kept);
         EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder}, {}), 1);

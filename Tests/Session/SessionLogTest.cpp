@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is done to a session while it plays is logged; the log, saved and read again, renders to what was felt, to the bit.
+// What is done to a session while it plays is logged; the log, saved and read again, renders to what was
+// felt, to the bit.
 #include "FakeHost.h"
 #include "Scene/Sessions/SessionFile.h"
 #include "Scene/Sessions/SessionJournalText.h"
@@ -21,12 +22,17 @@ Action anyInput(Random& random, int& stones) {
     case 0: return TiltAction{random.uniform(-3, 3)};
     case 1: return GravityAction{{random.uniform(-20, 20), random.uniform(-20, 20)}};
     case 2: {
-        BodyDescription stone{"stone " + std::to_string(stones++), BodyType::dynamicBody, {{CircleShape{0.15}, {}, 0.0, 0, true}}, {random.uniform(2, 4), random.uniform(1, 3)}};
+        BodyDescription stone{"stone " + std::to_string(stones++),
+                              BodyType::dynamicBody,
+                              {{CircleShape{0.15}, {}, 0.0, 0, true}},
+                              {random.uniform(2, 4), random.uniform(1, 3)}};
         return SpawnAction{stone, {}};
     }
     case 3: return SoundAction{random.below(2), random.uniform(50, 300), random.uniform(20, 90)};
     case 4: return TextureAction{random.below(2), random.uniform(0.002, 0.02), random.uniform(0, 3)};
-    case 5: return GripAction{body, Vector{random.uniform(0, 4), random.uniform(0, 3)}, Vector{0.05, 0.05}, random.uniform(0, 0.3)};
+    case 5:
+        return GripAction{body, Vector{random.uniform(0, 4), random.uniform(0, 3)}, Vector{0.05, 0.05},
+                          random.uniform(0, 0.3)};
     default: return CameraAction{"no such body", everyFixture, true}; // refused
     }
 }
@@ -35,10 +41,12 @@ RenderControl anyControl(Random& random) {
     RenderControl control;
     control.kind = static_cast<RenderControl::Kind>(random.below(20) == 0 ? 3 : random.below(3));
     control.channel = random.below(channels);
-    control.value = static_cast<float>(control.kind == RenderControl::Kind::mute ? random.below(2) : random.uniform(0, 1));
+    control.value = static_cast<float>(control.kind == RenderControl::Kind::mute ? random.below(2)
+                                                                                 : random.uniform(0, 1));
     if (control.kind == RenderControl::Kind::panner) {
         EnchanterLayout layout{1, 1, 1 + random.below(channels), {}};
-        for (int j = 0; j < layout.count; ++j) layout.places[static_cast<std::size_t>(j)] = {random.uniform(0, 1), random.uniform(0, 1)};
+        for (int j = 0; j < layout.count; ++j)
+            layout.places[static_cast<std::size_t>(j)] = {random.uniform(0, 1), random.uniform(0, 1)};
         control.panner = {layout, static_cast<PanningLaw>(random.below(4)), 1.5, 6.4, 3.6};
     }
     return control;
@@ -72,16 +80,21 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
             session.advance();
             sinceTick = 0;
         }
-        if (random.below(60) == 0) felt.refused += session.take({anyInput(random, stones)}).error.empty() ? 0 : 1;
+        if (random.below(60) == 0)
+            felt.refused += session.take({anyInput(random, stones)}).error.empty() ? 0 : 1;
         if (random.below(90) == 0) session.take({anyControl(random)});
         if (random.below(2000) == 0) session.world().restart(random.below(size));
-        if (random.below(2000) == 0) session.world().setState({std::make_shared<const Scene>(*findBuiltInScene("fruit-basket")), 4});
-        if (random.below(1500) == 0) session.world().setState({std::make_shared<const Scene>(setup.scene), static_cast<std::uint32_t>(random.below(3))});
+        if (random.below(2000) == 0)
+            session.world().setState({std::make_shared<const Scene>(*findBuiltInScene("fruit-basket")), 4});
+        if (random.below(1500) == 0)
+            session.world().setState(
+                {std::make_shared<const Scene>(setup.scene), static_cast<std::uint32_t>(random.below(3))});
         if (random.below(50) == 0) read(felt.log);
         session.render(block.at.data(), size, RenderMode::realtime);
         append(felt.signal, block.at.data(), size);
         done += size;
-        while (drain(session).size() > 100) {}
+        while (drain(session).size() > 100) {
+        }
     }
     read(felt.log);
     return felt;
@@ -92,7 +105,16 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
 }
 
 SavedSession saved(const SessionSetup& setup, const SessionLog& log, std::int64_t frames) {
-    return {setup.run(), setup.panner, setup.channels, setup.limiterEnabled, setup.ceilings, frames * 1'000'000'000 / rate, log, {}, setup.equalised, setup.shaping};
+    return {setup.run(),
+            setup.panner,
+            setup.channels,
+            setup.limiterEnabled,
+            setup.ceilings,
+            frames * 1'000'000'000 / rate,
+            log,
+            {},
+            setup.equalised,
+            setup.shaping};
 }
 
 Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, std::int64_t frames) {
@@ -100,8 +122,16 @@ Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames,
     std::ranges::transform(made.events, made.events.begin(), session.shaping);
     const auto controls = controlsOf(session.log, true, channels);
     Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
-    renderOffline(made.events, {{rate, channels, session.panner, session.limiterEnabled, session.ceilings, 0, InstructionSet::best, session.equalised}, frames - delayFrames, 333, controls},
-                  [&](const float* const* block, int n) { append(signal, block, n); return true; });
+    renderOffline(made.events,
+                  {{rate, channels, session.panner, session.limiterEnabled, session.ceilings, 0,
+                    InstructionSet::best, session.equalised},
+                   frames - delayFrames,
+                   333,
+                   controls},
+                  [&](const float* const* block, int n) {
+                      append(signal, block, n);
+                      return true;
+                  });
     return signal;
 }
 
@@ -131,10 +161,13 @@ TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
     const auto again = renderedAgain(read.value, session.timeline().playOutFrames(), frames);
     ASSERT_EQ(again.size(), felt.signal.size());
     const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
-    EXPECT_TRUE(differs.first == again.end()) << "at frame " << (differs.first - again.begin()) / channels << " of " << frames;
+    EXPECT_TRUE(differs.first == again.end())
+        << "at frame " << (differs.first - again.begin()) / channels << " of " << frames;
 }
 
-std::int64_t nsOf(const Felt& felt) { return static_cast<std::int64_t>(felt.signal.size()) / channels * 1'000'000'000 / rate; }
+std::int64_t nsOf(const Felt& felt) {
+    return static_cast<std::int64_t>(felt.signal.size()) / channels * 1'000'000'000 / rate;
+}
 
 TEST(SessionLog, AsLinesOfAJournalIsTheSameSession) {
     auto setup = shakeTheBoxSetup(0.05);
@@ -150,22 +183,27 @@ TEST(SessionLog, AsLinesOfAJournalIsTheSameSession) {
     const Felt same = playEdited(told, setup, 40 * rate, [&](SessionLog& log) {
         text += lines.take(log, told.readLog(log));
         ends.push_back(text.size());
-        EXPECT_TRUE(log.takes.size() == 1 && log.takes[0].inputs.empty() && log.channels.empty()) << "it is on disk";
+        EXPECT_TRUE(log.takes.size() == 1 && log.takes[0].inputs.empty() && log.channels.empty())
+            << "it is on disk";
     });
     SessionLog rest = same.log;
     text += lines.take(rest, nsOf(same));
     ASSERT_TRUE(isJournal(text));
     const auto read = readSession(text, "monday.json");
     ASSERT_EQ(read.error, "");
-    EXPECT_EQ(sessionJson(read.value), sessionJson(saved(setup, felt.log, static_cast<std::int64_t>(felt.signal.size()) / channels)));
+    EXPECT_EQ(sessionJson(read.value),
+              sessionJson(saved(setup, felt.log, static_cast<std::int64_t>(felt.signal.size()) / channels)));
 
     Random random{3};
     for (int i = 0; i < 40; ++i) { // cut off anywhere: all that was told before
-        const std::size_t cut = ends[0] + static_cast<std::size_t>(random.below(static_cast<int>(text.size() - ends[0])));
+        const std::size_t cut =
+            ends[0] + static_cast<std::size_t>(random.below(static_cast<int>(text.size() - ends[0])));
         const auto part = readSession(std::string_view{text}.substr(0, cut), "monday.json");
         ASSERT_EQ(part.error, "") << cut;
         const auto last = std::ranges::upper_bound(ends, cut) - 1;
-        EXPECT_EQ(sessionJson(part.value), sessionJson(readSession(std::string_view{text}.substr(0, *last), "monday.json").value)) << cut;
+        EXPECT_EQ(sessionJson(part.value),
+                  sessionJson(readSession(std::string_view{text}.substr(0, *last), "monday.json").value))
+            << cut;
     }
 }
 
@@ -198,7 +236,12 @@ TEST(SessionLog, AJournalIsReadAsStrictlyAsAFile) {
     const auto setup = shakeTheBoxSetup(0.05);
     JournalLines lines{saved(setup, {}, 0), {}};
     SessionLog log;
-    log.takes.push_back({0, 0, 1, std::make_shared<const Scene>(setup.scene), {{0.5, TiltAction{1.0}}}, {{200'000'000, 10'000'000}}});
+    log.takes.push_back({0,
+                         0,
+                         1,
+                         std::make_shared<const Scene>(setup.scene),
+                         {{0.5, TiltAction{1.0}}},
+                         {{200'000'000, 10'000'000}}});
     const std::string text = lines.head() + lines.take(log, 1'000'000'000);
     ASSERT_EQ(readSession(text, "s.json").error, "");
     const auto refuses = [&](const std::string& from, const std::string& to, const std::string& why) {
@@ -208,8 +251,10 @@ TEST(SessionLog, AJournalIsReadAsStrictlyAsAFile) {
         other.replace(at, from.size(), to);
         EXPECT_EQ(readSession(other, "s.json").error, why);
     };
-    refuses("\"journal\": 1", "\"journal\": 2", "s.json:1: journal: made for a newer PhysVib: expected a version up to 1, found 2");
-    refuses("{ \"time_s\": 0.5, \"input\": \"tilt\"", "{ \"angle\": 1, \"time_s\": 0.5, \"input\": \"tilt\"", "s.json:3: input: unknown field \"angle\"");
+    refuses("\"journal\": 1", "\"journal\": 2",
+            "s.json:1: journal: made for a newer PhysVib: expected a version up to 1, found 2");
+    refuses("{ \"time_s\": 0.5, \"input\": \"tilt\"", "{ \"angle\": 1, \"time_s\": 0.5, \"input\": \"tilt\"",
+            "s.json:3: input: unknown field \"angle\"");
     refuses("{ \"stall\"", "{ \"stop\"", "s.json:4: unknown field \"stop\"");
     refuses("{ \"take\": ", "{ \"take\": 1, \"x\": ", "s.json:2: unknown field \"x\"");
     EXPECT_EQ(readSession(lines.head(), "s.json").error, "s.json:1: expected at least 1 take, found none");
@@ -284,8 +329,10 @@ TEST(SessionLog, TakesOfOneSceneAreAlikeAndShareIt) {
 TEST(Session, ARefusedInputSaysWhyAndIsNotLogged) {
     Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, 64);
-    EXPECT_EQ(session.take({RemoveAction{"nobody"}}).error, "body: expected the name of a body, found \"nobody\"");
-    EXPECT_FALSE(session.take({TiltAction{0.1}, 1'000'000})) << "what waits for its time are strikes and stops";
+    EXPECT_EQ(session.take({RemoveAction{"nobody"}}).error,
+              "body: expected the name of a body, found \"nobody\"");
+    EXPECT_FALSE(session.take({TiltAction{0.1}, 1'000'000}))
+        << "what waits for its time are strikes and stops";
     SessionLog log;
     session.readLog(log);
     EXPECT_TRUE(log.takes[0].inputs.empty());

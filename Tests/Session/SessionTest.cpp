@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Session: live is the rendered file, L later, to the bit; and nothing is lost when hosts and timers misbehave.
+// Session: live is the rendered file, L later, to the bit; and nothing is lost when hosts and timers
+// misbehave.
+#include "Session/Session.h"
 #include "FakeHost.h"
 #include "Scene/EventsCsv.h"
-#include "Session/Session.h"
-#include "Session/OfflineRender.h"
 #include "Scene/World/SceneCast.h"
 #include "Scene/World/SceneRun.h"
+#include "Session/OfflineRender.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -24,7 +25,10 @@ Interleaved rendered(const SessionSetup& s, std::int64_t delayFrames, std::int64
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / rate);
     Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
     renderOffline(made.events, {{rate, channels, s.panner, s.limiterEnabled}, frames - delayFrames, 256},
-                  [&](const float* const* block, int n) { append(signal, block, n); return true; });
+                  [&](const float* const* block, int n) {
+                      append(signal, block, n);
+                      return true;
+                  });
     return signal;
 }
 
@@ -98,7 +102,8 @@ TEST(Session, ADriverThatShallEndIsHeardAfterEachStep) {
 
 /// Keeps what it is given.
 struct Keeper final : Sink {
-    explicit Keeper(double latencySeconds) : latencySeconds_{latencySeconds} {}
+    explicit Keeper(double latencySeconds)
+        : latencySeconds_{latencySeconds} {}
     double latencySeconds() const noexcept override { return latencySeconds_; }
     void made(const CollisionEvent& event) noexcept override { events.push_back(event); }
     void posted(const RenderControl& control) noexcept override { controls.push_back(control); }
@@ -119,7 +124,8 @@ TEST(Session, ASinkBesideItGetsTheSameEventsAndLCoversIt) {
     session.sinks().attach(sooner);
     std::vector<CollisionEvent> played;
     const auto signal = playLive(session, 5 * rate, 512, 0.02, 9, played);
-    EXPECT_EQ(session.timeline().playOutFrames() - alone.timeline().playOutFrames(), 0.030 * rate - HapticRenderer::latencyFramesAt(rate));
+    EXPECT_EQ(session.timeline().playOutFrames() - alone.timeline().playOutFrames(),
+              0.030 * rate - HapticRenderer::latencyFramesAt(rate));
     EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 5 * rate));
     auto& told = sink.events;
     EXPECT_TRUE(sooner.events == told);
@@ -127,7 +133,8 @@ TEST(Session, ASinkBesideItGetsTheSameEventsAndLCoversIt) {
     ASSERT_GE(told.size(), played.size()) << "those of the last L are not played yet";
     told.resize(played.size());
     EXPECT_TRUE(told == played);
-    const auto at = session.take({RenderControl{.kind = RenderControl::Kind::mute, .channel = 2, .value = 1.0f}}).value;
+    const auto at =
+        session.take({RenderControl{.kind = RenderControl::Kind::mute, .channel = 2, .value = 1.0f}}).value;
     ASSERT_EQ(sink.controls.size(), 1u);
     EXPECT_EQ(sink.controls[0].timeNs, at);
     EXPECT_EQ(sink.controls[0].channel, 2);
@@ -210,7 +217,8 @@ TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
     session.render(block.at.data(), 8192, RenderMode::offline); // whatever is still under way
     for (const auto& e : drain(session)) played.push_back(e);
     ASSERT_EQ(session.world().slippedNs(), 0);
-    std::stable_sort(played.begin(), played.end(), [](const auto& a, const auto& b) { return a.timeNs < b.timeNs; });
+    std::stable_sort(played.begin(), played.end(),
+                     [](const auto& a, const auto& b) { return a.timeNs < b.timeNs; });
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, played.back().timeNs + 1);
     ASSERT_EQ(played.size(), made.events.size());
     EXPECT_TRUE(played == made.events);
@@ -246,8 +254,12 @@ TEST(Session, ControlsThatComeWithAChangeOfRateNeverGoBackInTime) {
     std::vector<std::int64_t> times;
     std::thread hand{[&] {
         while (!stop)
-            if (const auto time = session.take({RenderControl{.kind = RenderControl::Kind::gain, .value = 0.5f}}); time) times.push_back(time.value);
-            else std::this_thread::yield();
+            if (const auto time =
+                    session.take({RenderControl{.kind = RenderControl::Kind::gain, .value = 0.5f}});
+                time)
+                times.push_back(time.value);
+            else
+                std::this_thread::yield();
     }};
     Block block;
     for (int i = 0; i < 1000; ++i) {
@@ -283,7 +295,8 @@ TEST(Session, ARestartThatWaitsKeepsItsTimeAtAnotherRate) {
 // As a host with automation and notes, and nobody who reads a log.
 TEST(Session, HoldsNoMoreBodiesAndInputsTheLongerItPlays) {
     auto setup = shakeTheBoxSetup(0.02);
-    const BodyDescription note{"note", BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 0, true}}, {3.0, 2.0}};
+    const BodyDescription note{
+        "note", BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 0, true}}, {3.0, 2.0}};
     setup.groups = {{SpawnAction{note, {}}}};
     for (const auto use : {LogUse::none, LogUse::stream}) {
         setup.log = use;
@@ -303,7 +316,8 @@ TEST(Session, HoldsNoMoreBodiesAndInputsTheLongerItPlays) {
             mostInputs = std::max(mostInputs, size.inputs);
         }
         ASSERT_GT(notes, 400u);
-        EXPECT_LE(mostBodies, setup.scene.bodies.size() + 64 + 8) << "the newest notes, and those of the last half second";
+        EXPECT_LE(mostBodies, setup.scene.bodies.size() + 64 + 8)
+            << "the newest notes, and those of the last half second";
         EXPECT_LE(mostInputs, use == LogUse::none ? 8u : 140u);
         session.readLog(log);
         EXPECT_EQ(log.takes.size(), use == LogUse::none ? 0u : 1u);
@@ -345,7 +359,9 @@ TEST(Session, StrikesOfTheRenderCallAreFeltLLaterAtTheirFrame) {
         Block block;
         Interleaved signal;
         for (int done = 0; done < 44100; done += 512) {
-            if (done == 5120) session.callback().strike({.frequencyHz = 11025, .decayPerSecond = 10, .amplitude = 0.5, .y = 3.6}, 77);
+            if (done == 5120)
+                session.callback().strike(
+                    {.frequencyHz = 11025, .decayPerSecond = 10, .amplitude = 0.5, .y = 3.6}, 77);
             session.render(block.at.data(), 512, mode);
             append(signal, block.at.data(), 512);
         }
@@ -366,7 +382,9 @@ TEST(Session, AControlOfTheRenderCallMutesTheWorldAtItsFrame) {
     Block block;
     for (int done = 0; done < 10 * rate; done += 480) {
         if (done == 5 * rate)
-            for (int j = 0; j < channels; ++j) session.callback().control({.kind = RenderControl::Kind::mute, .channel = j, .value = 1.0f}, 0);
+            for (int j = 0; j < channels; ++j)
+                session.callback().control({.kind = RenderControl::Kind::mute, .channel = j, .value = 1.0f},
+                                           0);
         session.render(block.at.data(), 480, RenderMode::offline);
         const std::int64_t silentFrom = 5 * rate + session.timeline().playOutFrames() + rate / 100;
         const bool silent = std::all_of(block.at[0], block.at[0] + 480, [](float x) { return x == 0.0f; });

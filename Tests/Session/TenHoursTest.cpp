@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `play --listen --save` does, for hours of simulated time: inputs and a journal. For Tests/ten-hours.sh.
+// What `play --listen --save` does, for hours of simulated time: inputs and a journal. For
+// Tests/ten-hours.sh.
 #include "FakeHost.h"
 #include "Session/SessionJournal.h"
 #include "Support/Growth.h"
@@ -23,8 +24,11 @@ struct Monday {
         return setup;
     }
     void input(std::int64_t i) {
-        if (i % 50 == 0) ASSERT_EQ(session.take({TiltAction{0.001 * static_cast<double>(i % 1000)}}).error, "");
-        if (i % 500 == 0) ASSERT_TRUE(session.take({RenderControl{.kind = RenderControl::Kind::gain, .channel = 1, .value = 0.5f}}));
+        if (i % 50 == 0)
+            ASSERT_EQ(session.take({TiltAction{0.001 * static_cast<double>(i % 1000)}}).error, "");
+        if (i % 500 == 0)
+            ASSERT_TRUE(session.take(
+                {RenderControl{.kind = RenderControl::Kind::gain, .channel = 1, .value = 0.5f}}));
     }
     void step() {
         session.render(block.at.data(), 480, RenderMode::realtime);
@@ -39,14 +43,16 @@ struct Monday {
 
 TEST(SessionForHours, DISABLED_HoldsNoMoreAndGetsNoSlower) {
     Growth growth{"play --listen --save, two inputs a second"};
-    const auto folder = std::filesystem::temp_directory_path() / ("physvib-hours-" + std::to_string(getpid()));
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("physvib-hours-" + std::to_string(getpid()));
     std::filesystem::create_directory(folder);
     {
         Monday one{folder / "one.json"}, other{folder / "other.json"};
         const auto blocks = static_cast<std::int64_t>(hoursWanted() * 360'000);
         for (std::int64_t i = 0; i < blocks; ++i) {
             for (Monday* monday : {&one, &other}) monday->input(i);
-            growth.step(static_cast<double>(i) * 0.01, [&] { one.step(); }, [&] { other.step(); });
+            growth.step(
+                static_cast<double>(i) * 0.01, [&] { one.step(); }, [&] { other.step(); });
         }
         growth.expectFlat();
         for (Monday* monday : {&one, &other}) {

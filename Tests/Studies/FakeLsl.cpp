@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stands in for liblsl: what it is asked to push becomes lines of the file that PHYSVIB_FAKE_LSL names: milliseconds from now, a tab, the text.
+// Stands in for liblsl: what it is asked to push becomes lines of the file that PHYSVIB_FAKE_LSL names:
+// milliseconds from now, a tab, the text.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +19,8 @@ int anything = 0;
 } // namespace
 
 extern "C" {
-void* lsl_create_streaminfo(const char* name, const char* type, std::int32_t channels, double rateHz, std::int32_t format, const char*) {
+void* lsl_create_streaminfo(const char* name, const char* type, std::int32_t channels, double rateHz,
+                            std::int32_t format, const char*) {
     note(name, 0.0);
     note(type, 0.0);
     return channels == 1 && rateHz == 0.0 && format == 3 ? &anything : nullptr;

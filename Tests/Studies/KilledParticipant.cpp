@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// physvib-studies-killed FOLDER TRIALS: a participant begins, or goes on with, a short study in the mixer's window, answers so many
-// trials, and the mixer is killed (SIGKILL) while the next one is felt. Ends with 0 if the study ends before.
+// physvib-studies-killed FOLDER TRIALS: a participant begins, or goes on with, a short study in the mixer's
+// window, answers so many trials, and the mixer is killed (SIGKILL) while the next one is felt. Ends with 0
+// if the study ends before.
 #include "Participant.h"
 #include <csignal>
 #include <cstdlib>
@@ -17,7 +18,8 @@ int answer(const juce::File& folder, int trials) {
     const auto file = folder.getChildFile("short.json");
     file.replaceWithText(protocol);
     p.tab().setFolder(folder);
-    if (const auto error = p.tab().chooseProtocol(file.getFullPathName().toStdString()); !error.empty()) return std::puts(error.c_str()), 1;
+    if (const auto error = p.tab().chooseProtocol(file.getFullPathName().toStdString()); !error.empty())
+        return std::puts(error.c_str()), 1;
     if (const auto error = p.tab().begin(); !error.empty()) return std::puts(error.c_str()), 1;
     p.pump();
     for (int n = 0; p.screen()->page() != StudyScreen::Page::done; ++n) {

@@ -6,7 +6,8 @@
 namespace physvib {
 namespace {
 
-constexpr const char* points = R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", "layout": "phone4", "stimuli": "grid", "columns": 3, "rows": 2, "seconds": 0.05}],
+constexpr const char* points =
+    R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", "layout": "phone4", "stimuli": "grid", "columns": 3, "rows": 2, "seconds": 0.05}],
   "sessions": [{"name": "main", "task": "identify"}]})";
 
 class StudyMarkersTest : public testing::Test {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A participant with a mouse and a keyboard at the mixer's window, and a folder for the rows.
 #pragma once
-#include "Io/Text/CsvTable.h"
 #include "Host/MessageLoop.h"
-#include "Mixer/Window/MixerView.h"
+#include "Io/Text/CsvTable.h"
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
+#include "Mixer/Window/MixerView.h"
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -27,7 +27,8 @@ inline CsvTable shortTrials(const juce::File& folder) {
 /// The mixer in a window of its own.
 class Participant {
 public:
-    explicit Participant(AudioDeviceTypes types = onlyNoDevice(), const std::string& device = std::string{noDeviceType} + ":" + noDeviceName)
+    explicit Participant(AudioDeviceTypes types = onlyNoDevice(),
+                         const std::string& device = std::string{noDeviceType} + ":" + noDeviceName)
         : desk{std::move(types), {device, 48000, 128}} {
         view.setSize(1440, 900);
         view.addToDesktop(juce::ComponentPeer::windowHasTitleBar);
@@ -41,7 +42,11 @@ public:
 
     /// Those on the screen only; null if there is none.
     juce::Component* find(const juce::String& title) { return findIn(view, title); }
-    StudiesTab& tab() { return *dynamic_cast<StudiesTab*>(findIn(view, "Studies", false, [](juce::Component& c) { return dynamic_cast<StudiesTab*>(&c) != nullptr; })); }
+    StudiesTab& tab() {
+        return *dynamic_cast<StudiesTab*>(findIn(view, "Studies", false, [](juce::Component& c) {
+            return dynamic_cast<StudiesTab*>(&c) != nullptr;
+        }));
+    }
     StudyScreen* screen() { return tab().screen(); }
     const Experiment& experiment() { return screen()->study().experiment(); }
 
@@ -56,18 +61,22 @@ public:
         pump();
     }
     /// In whichever window it is.
-    juce::Component* findBelow(juce::Component& root, const juce::String& title) { return findIn(root, title); }
+    juce::Component* findBelow(juce::Component& root, const juce::String& title) {
+        return findIn(root, title);
+    }
     void clickOn(juce::Component& c) {
         auto* peer = c.getPeer();
         const auto at = peer->getComponent().getLocalPoint(&c, c.getLocalBounds().toFloat().getCentre());
-        for (const int buttons : {0, int{juce::ModifierKeys::leftButtonModifier}, 0}) mouse(at, buttons, peer);
+        for (const int buttons : {0, int{juce::ModifierKeys::leftButtonModifier}, 0})
+            mouse(at, buttons, peer);
         pump();
     }
     /// From one point of the window to another.
     void drag(juce::Point<float> from, juce::Point<float> to) {
         mouse(from, 0);
         mouse(from, juce::ModifierKeys::leftButtonModifier);
-        for (const float share : {0.2f, 0.6f, 1.0f}) mouse(from + (to - from) * share, juce::ModifierKeys::leftButtonModifier);
+        for (const float share : {0.2f, 0.6f, 1.0f})
+            mouse(from + (to - from) * share, juce::ModifierKeys::leftButtonModifier);
         mouse(to, 0);
         pump();
     }
@@ -78,7 +87,8 @@ public:
         pump();
     }
     void type(const juce::String& words) {
-        for (const auto character : words) key(static_cast<int>(juce::CharacterFunctions::toUpperCase(character)), 0, character);
+        for (const auto character : words)
+            key(static_cast<int>(juce::CharacterFunctions::toUpperCase(character)), 0, character);
     }
     void space() { key(juce::KeyPress::spaceKey, 0, ' '); }
     void enter() { key(juce::KeyPress::returnKey, 0, '\r'); }
@@ -96,7 +106,9 @@ public:
         EXPECT_TRUE(runUntil([&] { return plays() > before && !isFeeling(); })) << "nothing was felt";
         pump(); // the answer unlocks with the next picture
     }
-    bool isAnswerOpen(const juce::String& title) { return find(title) != nullptr && find(title)->isEnabled(); }
+    bool isAnswerOpen(const juce::String& title) {
+        return find(title) != nullptr && find(title)->isEnabled();
+    }
     void pump() {
         runFor(0.025);
         view.refresh();
@@ -105,12 +117,16 @@ public:
 private:
     void mouse(juce::Point<float> at, int buttons, juce::ComponentPeer* peer = nullptr) {
         timeMs_ += 400; // never a double click
-        (peer != nullptr ? peer : view.getPeer())->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at, juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
+        (peer != nullptr ? peer : view.getPeer())
+            ->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at,
+                               juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
     }
     int plays() { return screen() != nullptr ? screen()->plays() : 0; }
     bool isFeeling() { return screen() != nullptr && screen()->isFeeling(); }
-    static juce::Component* findIn(juce::Component& root, const juce::String& title, bool mustShow = true, const std::function<bool(juce::Component&)>& fits = {}) {
-        if (root.getTitle() == title && (!mustShow || root.isShowing()) && (!fits || fits(root))) return &root;
+    static juce::Component* findIn(juce::Component& root, const juce::String& title, bool mustShow = true,
+                                   const std::function<bool(juce::Component&)>& fits = {}) {
+        if (root.getTitle() == title && (!mustShow || root.isShowing()) && (!fits || fits(root)))
+            return &root;
         for (auto* child : root.getChildren())
             if (auto* found = findIn(*child, title, mustShow, fits)) return found;
         return nullptr;

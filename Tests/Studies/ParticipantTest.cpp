@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scripted participant completes a short study of each kind by mouse and keyboard; the rows are what the script answered,
-// and `physvib analyse` takes them.
+// A scripted participant completes a short study of each kind by mouse and keyboard; the rows are what the
+// script answered, and `physvib analyse` takes them.
 #include "Participant.h"
 #include "Io/Text/CsvTable.h"
 #include "Study/Files/ProtocolFile.h"
@@ -25,7 +25,9 @@ protected:
     /// Writes the protocol and begins with it.
     void begin(const std::string& sessions, const std::string& stimuli, const std::string& more = {}) {
         const auto file = folder.getChildFile("short.json");
-        file.replaceWithText(R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", )" + stimuli + "}], \"sessions\": [" + sessions + "]" + more + "}");
+        file.replaceWithText(
+            R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", )" + stimuli +
+            "}], \"sessions\": [" + sessions + "]" + more + "}");
         ASSERT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
         goOn();
     }
@@ -56,7 +58,9 @@ protected:
         return cells;
     }
     void analyse(const std::string& kind) const {
-        const std::string call = "'" PHYSVIB_PROGRAM "' analyse " + kind + " '" + folder.getChildFile("short-P01.csv").getFullPathName().toStdString() + "' > /dev/null";
+        const std::string call = "'" PHYSVIB_PROGRAM "' analyse " + kind + " '" +
+                                 folder.getChildFile("short-P01.csv").getFullPathName().toStdString() +
+                                 "' > /dev/null";
         EXPECT_EQ(std::system(call.c_str()), 0) << call;
     }
 
@@ -67,28 +71,36 @@ protected:
 using Texts = std::vector<std::string>;
 
 TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
-    begin(R"({"name": "training", "training": true, "task": "explore"}, {"name": "main", "task": "identify", "most_plays": 2})",
-          R"("layout": "phone2", "stimuli": "patterns", "enchanters": 2, "pulse_s": [0.03], "gap_s": 0.01)");
+    begin(
+        R"({"name": "training", "training": true, "task": "explore"}, {"name": "main", "task": "identify", "most_plays": 2})",
+        R"("layout": "phone2", "stimuli": "patterns", "enchanters": 2, "pulse_s": [0.03], "gap_s": 0.01)");
     const auto items = stimuliOf(p->screen()->study().protocol().conditions[0]);
     const auto titleOf = [](const std::string& label) {
         juce::StringArray words;
-        for (const char c : label.substr(0, label.find('-'))) words.add(juce::String::charToString(static_cast<juce::juce_wchar>(c)));
+        for (const char c : label.substr(0, label.find('-')))
+            words.add(juce::String::charToString(static_cast<juce::juce_wchar>(c)));
         return words.joinIntoString(" then ") + ", 30 ms";
     };
-    const auto firstOf = [](const std::string& label) { return "First pulse: " + juce::String::charToString(static_cast<juce::juce_wchar>(label[0])); };
+    const auto firstOf = [](const std::string& label) {
+        return "First pulse: " + juce::String::charToString(static_cast<juce::juce_wchar>(label[0]));
+    };
     passPage();
     Texts felt;
     for (const auto& item : items) {
         p->click(firstOf(item.label));
         p->click(titleOf(item.label));
         felt.push_back(item.label);
-        ASSERT_TRUE(test::runUntil([&] { return p->screen()->study().experiment().trialsTaken() == static_cast<int>(felt.size()); })) << item.label;
+        ASSERT_TRUE(test::runUntil([&] {
+            return p->screen()->study().experiment().trialsTaken() == static_cast<int>(felt.size());
+        })) << item.label;
     }
     EXPECT_EQ(column("response", "explore"), felt);
     p->click(firstOf(items[0].label)); // once more, as often as wanted
     p->click(titleOf(items[0].label));
-    ASSERT_TRUE(test::runUntil([&] { return p->experiment().trialsTaken() == static_cast<int>(items.size()) + 1; }));
-    ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial) << "a training ends when its participant says so";
+    ASSERT_TRUE(
+        test::runUntil([&] { return p->experiment().trialsTaken() == static_cast<int>(items.size()) + 1; }));
+    ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial)
+        << "a training ends when its participant says so";
     p->click("Next");
     passPage();
     Texts answers, plays;
@@ -100,8 +112,10 @@ TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
             p->feel();
             p->space(); // a third time is one too many
         }
-        if (n % 2 == 0) p->click(firstOf(label));
-        else p->type(label.substr(0, 1));
+        if (n % 2 == 0)
+            p->click(firstOf(label));
+        else
+            p->type(label.substr(0, 1));
         // thought better of it
         if (n == 2) p->click(titleOf(items[(5 * n) % items.size()].label)), p->click(firstOf(label));
         p->click(titleOf(label));
@@ -117,14 +131,17 @@ TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
 }
 
 TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) {
-    begin(R"({"name": "main", "task": "identify", "repetitions": 2})", R"("layout": "phone4", "stimuli": "grid", "columns": 3, "rows": 2, "seconds": 0.05)");
+    begin(R"({"name": "main", "task": "identify", "repetitions": 2})",
+          R"("layout": "phone4", "stimuli": "grid", "columns": 3, "rows": 2, "seconds": 0.05)");
     Texts answers, asked;
     for (int n = 0; n < 12; ++n) {
         if (n == 0) passPage();
         if (n == 7) { // the window goes, as in a crash; the rows are there
             p = std::make_unique<test::Participant>();
             p->tab().setFolder(folder);
-            ASSERT_EQ(p->tab().chooseProtocol(folder.getChildFile("short.json").getFullPathName().toStdString()), "");
+            ASSERT_EQ(
+                p->tab().chooseProtocol(folder.getChildFile("short.json").getFullPathName().toStdString()),
+                "");
             goOn();
             EXPECT_EQ(p->experiment().trialsTaken(), 7);
             passPage();
@@ -153,15 +170,17 @@ TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) 
 }
 
 TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
-    begin(R"({"name": "training", "training": true, "task": "explore", "fewest_touches": 3}, {"name": "main", "task": "locate", "repetitions": 4})",
-          R"("layout": "phone4", "stimuli": "grid", "columns": 2, "rows": 2, "seconds": 0.05)");
+    begin(
+        R"({"name": "training", "training": true, "task": "explore", "fewest_touches": 3}, {"name": "main", "task": "locate", "repetitions": 4})",
+        R"("layout": "phone4", "stimuli": "grid", "columns": 2, "rows": 2, "seconds": 0.05)");
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
     std::vector<FieldPlace> touched;
     const auto touch = [&](FieldPlace at) {
         ASSERT_TRUE(p->canUse("Field"));
         auto* field = p->find("Field");
-        p->clickAt(p->view.getLocalPoint(field, pointOn(fieldIn(field->getLocalBounds().toFloat().reduced(24.0f), layout), at)));
+        p->clickAt(p->view.getLocalPoint(
+            field, pointOn(fieldIn(field->getLocalBounds().toFloat().reduced(24.0f), layout), at)));
         touched.push_back(at);
     };
     passPage();
@@ -192,8 +211,10 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
         }
         EXPECT_EQ(p->experiment().trialsTaken(), 3 + n) << "a mark is no answer yet";
         ASSERT_TRUE(p->canUse("Next"));
-        if (n % 2 == 0) p->enter();
-        else p->click("Next");
+        if (n % 2 == 0)
+            p->enter();
+        else
+            p->click("Next");
     }
     close();
     auto x = column("x", "explore"), y = column("y", "explore");
@@ -208,10 +229,11 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
 }
 
 TEST_F(ByAParticipant, MatchesLevelsAndChoosesAtTheMatchedOnes) {
-    begin(R"({"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "150"}, {"name": "250"}],
+    begin(
+        R"({"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "150"}, {"name": "250"}],
               "adjustment": {"alternative": "250", "start_db": 3, "step_db": 1.5, "least_db": -20, "most_db": 10}},
              {"name": "main", "task": "choose", "both_orders": true, "repetitions": 2, "alternatives": [{"name": "150"}, {"name": "250"}], "levels_from": "matching"})",
-          R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "n", "values": ["one"]}],
+        R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "n", "values": ["one"]}],
              "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --seconds 0.05 --level-g 0.1 --frequency {alternative}")");
     passPage();
     p->feel();
@@ -230,8 +252,10 @@ TEST_F(ByAParticipant, MatchesLevelsAndChoosesAtTheMatchedOnes) {
         p->feel();
         p->feel();
         choices.push_back(parts[static_cast<std::size_t>(n / 2)]);
-        if (n % 2 == 0) p->type(n / 2 == 0 ? "21" : "12"), p->enter(); // the last one counts
-        else p->click(n / 2 == 0 ? "Answer: number 1" : "Answer: number 2"), p->click("Next");
+        if (n % 2 == 0)
+            p->type(n / 2 == 0 ? "21" : "12"), p->enter(); // the last one counts
+        else
+            p->click(n / 2 == 0 ? "Answer: number 1" : "Answer: number 2"), p->click("Next");
     }
     close();
     EXPECT_EQ(column("value", "adjust"), Texts{"1.5"});
@@ -241,12 +265,13 @@ TEST_F(ByAParticipant, MatchesLevelsAndChoosesAtTheMatchedOnes) {
 }
 
 TEST_F(ByAParticipant, FeelsRecordingsAgainstTheModelAtTheLevelThatWasMatched) {
-    begin(R"({"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV", "level_db": -12}],
+    begin(
+        R"({"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV", "level_db": -12}],
               "adjustment": {"alternative": "AV-FV-DRV", "start_db": -12, "step_db": 2, "least_db": -30, "most_db": -6}},
              {"name": "main", "task": "choose", "both_orders": true, "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV", "level_db": -12}], "levels_from": "matching"})",
-          R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "pair", "values": ["wood-wood"]}],
+        R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "pair", "values": ["wood-wood"]}],
              "call": "render drop --set pair={pair} --seconds 1 --layout phone1 --method {alternative} --sound-match rms --level-db {level_db}")",
-          R"(, "sounds": [{"frequency_hz": 349, "file": "synthetic-5"}])");
+        R"(, "sounds": [{"frequency_hz": 349, "file": "synthetic-5"}])");
     passPage();
     p->feel();
     p->feel();
@@ -264,23 +289,29 @@ TEST_F(ByAParticipant, FeelsRecordingsAgainstTheModelAtTheLevelThatWasMatched) {
     const auto log = p->desk.saved().log;
     ASSERT_GE(log.recordings.size(), 4u);
     for (std::size_t i = 0; i < log.recordings.size(); ++i)
-        EXPECT_EQ(log.recordings[i].files.size(), (i + 1) % 2) << "the recording and the model in turn, at last the desk's own modes";
+        EXPECT_EQ(log.recordings[i].files.size(), (i + 1) % 2)
+            << "the recording and the model in turn, at last the desk's own modes";
     EXPECT_EQ(log.recordings.front().files.front().path, "synthetic-5");
     for (const auto& calls : column("render", "choose")) {
-        EXPECT_NE(calls.find("--method AV-FV-DRV --sound-match rms --level-db -14"), std::string::npos) << calls;
-        EXPECT_NE(calls.find("--method SV --sound-match rms --level-db -12 --sound 349=synthetic-5"), std::string::npos) << calls;
+        EXPECT_NE(calls.find("--method AV-FV-DRV --sound-match rms --level-db -14"), std::string::npos)
+            << calls;
+        EXPECT_NE(calls.find("--method SV --sound-match rms --level-db -12 --sound 349=synthetic-5"),
+                  std::string::npos)
+            << calls;
     }
 }
 
 TEST_F(ByAParticipant, RatesOnlyWhatWasFeltForLongEnough) {
-    begin(R"({"name": "main", "task": "rate", "repetitions": 2, "least_s": 0.3, "break_every": 1, "break_s": 0.2, "scales": ["realism", "liking"], "objects": ["150", "200", "250"]})",
-          R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "n", "values": ["one"]}],
+    begin(
+        R"({"name": "main", "task": "rate", "repetitions": 2, "least_s": 0.3, "break_every": 1, "break_s": 0.2, "scales": ["realism", "liking"], "objects": ["150", "200", "250"]})",
+        R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "n", "values": ["one"]}],
              "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --seconds 0.2 --level-g 0.1 --frequency {object}")");
     for (int n = 0; n < 2; ++n) {
         passPage(); // also after the break
         for (int k = 0; k < 5; ++k) {
             p->feel();
-            EXPECT_FALSE(p->isAnswerOpen("Realism")) << "one of the three was felt for 0.2 s, asked for are 0.3";
+            EXPECT_FALSE(p->isAnswerOpen("Realism"))
+                << "one of the three was felt for 0.2 s, asked for are 0.3";
         }
         p->feel();
         ASSERT_TRUE(p->canUse("Realism"));
@@ -299,16 +330,19 @@ TEST_F(ByAParticipant, RatesOnlyWhatWasFeltForLongEnough) {
 }
 
 TEST_F(ByAParticipant, GivesTheNumberThatWasTypedWhereverTheFocusWent) {
-    begin(R"({"name": "main", "task": "estimate", "question": "How strong?"})",
-          R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
+    begin(
+        R"({"name": "main", "task": "estimate", "question": "How strong?"})",
+        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
     passPage();
     const juce::String number{"12.5"};
     for (const bool isWindowLeft : {true, false}) {
         p->feel();
         ASSERT_TRUE(p->canUse("Number"));
         for (const auto character : number) { // between two pictures, as a busy display does
-            if (isWindowLeft) juce::Component::unfocusAllComponents();
-            else p->screen()->grabKeyboardFocus();
+            if (isWindowLeft)
+                juce::Component::unfocusAllComponents();
+            else
+                p->screen()->grabKeyboardFocus();
             p->view.getPeer()->handleKeyPress(juce::KeyPress{static_cast<int>(character), 0, character});
         }
         p->pump();
@@ -319,8 +353,9 @@ TEST_F(ByAParticipant, GivesTheNumberThatWasTypedWhereverTheFocusWent) {
 }
 
 TEST_F(ByAParticipant, RowsTellWhatWasReallyFelt) {
-    begin(R"({"name": "main", "task": "estimate", "question": "How strong?"})",
-          R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.1", "0.2"]}], "call": "stimulus phantom --at 0,0 --seconds 0.1 --level-g {level_g}")");
+    begin(
+        R"({"name": "main", "task": "estimate", "question": "How strong?"})",
+        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.1", "0.2"]}], "call": "stimulus phantom --at 0,0 --seconds 0.1 --level-g {level_g}")");
     passPage();
     Texts stimuli;
     for (int n = 0; n < 2; ++n) {
@@ -330,23 +365,27 @@ TEST_F(ByAParticipant, RowsTellWhatWasReallyFelt) {
         p->enter();
     }
     close();
-    const Texts peaks = column("peak_g", "estimate"), rms = column("rms_g", "estimate"), exposures = column("a8_m_per_s2", "estimate");
+    const Texts peaks = column("peak_g", "estimate"), rms = column("rms_g", "estimate"),
+                exposures = column("a8_m_per_s2", "estimate");
     ASSERT_EQ(peaks.size(), 2u);
     double squares = 0.0;
     for (std::size_t n = 0; n < 2; ++n) {
         const double levelG = std::stod(stimuli[n]) * masterGain(p->desk.mix());
         EXPECT_NEAR(std::stod(peaks[n]), levelG, 0.01 * levelG) << "behind the master level";
-        EXPECT_NEAR(std::stod(rms[n]), levelG / std::sqrt(2.0), 0.15 * levelG) << "a device that is late plays its last block after the look";
+        EXPECT_NEAR(std::stod(rms[n]), levelG / std::sqrt(2.0), 0.15 * levelG)
+            << "a device that is late plays its last block after the look";
         squares += 0.5 * levelG * levelG * 0.1 * std::pow(handWeighting::gain(205.0), 2);
-        EXPECT_NEAR(std::stod(exposures[n]), dailyExposure(squares), 0.2 * dailyExposure(squares)) << "what begins and ends has more than 205 Hz in it";
+        EXPECT_NEAR(std::stod(exposures[n]), dailyExposure(squares), 0.2 * dailyExposure(squares))
+            << "what begins and ends has more than 205 Hz in it";
     }
 }
 
 TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
     p->desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
-    begin(R"({"name": "main", "task": "estimate", "repetitions": 20, "question": "How strong?"})",
-          R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["1"]}], "call": "stimulus phantom --at 0,0 --seconds 0.4 --frequency 40 --level-g {level_g}")",
-          R"(, "exposure_limit_m_per_s2": 0.014)");
+    begin(
+        R"({"name": "main", "task": "estimate", "repetitions": 20, "question": "How strong?"})",
+        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["1"]}], "call": "stimulus phantom --at 0,0 --seconds 0.4 --frequency 40 --level-g {level_g}")",
+        R"(, "exposure_limit_m_per_s2": 0.014)");
     passPage();
     int trials = 0;
     for (; p->screen()->page() == StudyScreen::Page::trial && trials < 20; ++trials) {
@@ -358,7 +397,8 @@ TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
     EXPECT_GT(trials, 1) << "0.4 s of 1 g at 40 Hz are an A(8) of about 0.01 m/s^2";
     EXPECT_LT(trials, 4);
     EXPECT_TRUE(p->screen()->getDescription().contains("the study pauses")) << p->screen()->getDescription();
-    EXPECT_TRUE(p->screen()->getDescription().contains("this study's limit is 0.014 m/s^2")) << p->screen()->getDescription();
+    EXPECT_TRUE(p->screen()->getDescription().contains("this study's limit is 0.014 m/s^2"))
+        << p->screen()->getDescription();
     p->enter();
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
     goOn();
@@ -373,8 +413,9 @@ TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
 }
 
 TEST_F(ByAParticipant, GivesNumbers) {
-    begin(R"({"name": "main", "task": "estimate", "question": "How strong?"})",
-          R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1", "0.2"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
+    begin(
+        R"({"name": "main", "task": "estimate", "question": "How strong?"})",
+        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1", "0.2"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
     passPage();
     const Texts numbers{"7", "12.5", "0.3"};
     for (const auto& n : numbers) {
@@ -391,7 +432,8 @@ TEST_F(ByAParticipant, GivesNumbers) {
     const auto& report = p->tab().analysis()->report();
     EXPECT_EQ(report.error, "");
     EXPECT_FALSE(report.isSimulated);
-    EXPECT_NE(report.words.find("magnitude 7.00, 1 trial of 1 participant"), std::string::npos) << report.words;
+    EXPECT_NE(report.words.find("magnitude 7.00, 1 trial of 1 participant"), std::string::npos)
+        << report.words;
     EXPECT_GT(p->tab().analysis()->picture().getWidth(), 100);
     p->click("Close the analysis");
     ASSERT_TRUE(test::runUntil([&] { return p->tab().analysis() == nullptr; }));
@@ -401,16 +443,22 @@ TEST_F(ByAParticipant, GivesNumbers) {
 
 TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
     const auto call = [&](const std::string& words) {
-        return std::system(("cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " + words).c_str());
+        return std::system(
+            ("cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " + words)
+                .c_str());
     };
-    ASSERT_EQ(call("study run phantom-grids --observer simulated-RING > /dev/null && '" PHYSVIB_PROGRAM "' analyse confusion phantom-grids-P01.csv > told.txt 2> warned.txt"), 0);
+    ASSERT_EQ(call("study run phantom-grids --observer simulated-RING > /dev/null && '" PHYSVIB_PROGRAM
+                   "' analyse confusion phantom-grids-P01.csv > told.txt 2> warned.txt"),
+              0);
     p->tab().analyse({folder.getChildFile("phantom-grids-P01.csv")});
     ASSERT_NE(p->tab().analysis(), nullptr);
     const auto& report = p->tab().analysis()->report();
     EXPECT_TRUE(report.isSimulated);
-    EXPECT_EQ("SIMULATED: a simulated observer answered, not a person\n" + report.words, folder.getChildFile("told.txt").loadFileAsString().toStdString());
+    EXPECT_EQ("SIMULATED: a simulated observer answered, not a person\n" + report.words,
+              folder.getChildFile("told.txt").loadFileAsString().toStdString());
     const auto warned = folder.getChildFile("warned.txt").loadFileAsString();
-    for (const auto& warning : report.warnings) EXPECT_TRUE(warned.contains(juce::String::fromUTF8(warning.c_str()))) << warning;
+    for (const auto& warning : report.warnings)
+        EXPECT_TRUE(warned.contains(juce::String::fromUTF8(warning.c_str()))) << warning;
     EXPECT_FALSE(p->tab().analysis()->picture().isNull());
     p->key(juce::KeyPress::escapeKey);
     EXPECT_TRUE(p->desk.isSilent()) << "the world goes on behind it";
@@ -418,13 +466,15 @@ TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
     EXPECT_FALSE(p->desk.isSilent());
     folder.getChildFile("diary.csv").replaceWithText("dear,diary\n1,2\n");
     p->tab().analysis()->analyse({folder.getChildFile("diary.csv")});
-    EXPECT_NE(p->tab().analysis()->report().error.find("diary.csv: expected trials of a study"), std::string::npos);
+    EXPECT_NE(p->tab().analysis()->report().error.find("diary.csv: expected trials of a study"),
+              std::string::npos);
     EXPECT_TRUE(p->tab().analysis()->picture().isNull());
 }
 
 TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
     p->desk.change("Mute", [](Mix& mix) { mix.strips[1].isMuted = true; });
-    begin(R"({"name": "main", "task": "identify"})", R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
+    begin(R"({"name": "main", "task": "identify"})",
+          R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
     EXPECT_EQ(p->desk.session().world().slowness(), 0) << "the world stands still";
     passPage();
     p->key(juce::KeyPress::escapeKey);
@@ -445,7 +495,8 @@ TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
 TEST_F(ByAParticipant, BeginsWithWhatTheCallOfTheProgramChose) {
     p->view.tabs().choose("Materials");
     const auto file = folder.getChildFile("short.json");
-    file.replaceWithText(R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05}], "sessions": [{"name": "main", "task": "identify"}]})");
+    file.replaceWithText(
+        R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05}], "sessions": [{"name": "main", "task": "identify"}]})");
     chooseStudy(p->view, {file.getFullPathName(), "Q7", 7, folder.getChildFile("rows").getFullPathName()});
     folder.getChildFile("rows").createDirectory();
     p->pump();
@@ -459,10 +510,14 @@ TEST_F(ByAParticipant, HearsPinkNoiseOnTheChosenOutputsForAsLongAsTheStudyGoesOn
     ASSERT_FALSE(choices.empty());
     EXPECT_EQ(choices.front(), (std::vector<int>{4, 5})) << "four enchanters have the first outputs";
     p->tab().setNoise({6, 7}, -30.0);
-    begin(R"({"name": "main", "task": "identify"})", R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)", R"(, "pink_noise": true, "pink_noise_db": -35)");
+    begin(R"({"name": "main", "task": "identify"})",
+          R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)",
+          R"(, "pink_noise": true, "pink_noise_db": -35)");
     EXPECT_EQ(p->desk.device().listening().settings().noise, (std::vector<int>{6, 7}));
-    EXPECT_EQ(p->desk.device().listening().settings().noiseDb, -35.0) << "the protocol's level, as it was chosen later";
-    EXPECT_EQ(p->desk.device().listening().hear({{3}, -40.0, {}, 0.0}), "output 4 is an actuator's; expected another one to listen to");
+    EXPECT_EQ(p->desk.device().listening().settings().noiseDb, -35.0)
+        << "the protocol's level, as it was chosen later";
+    EXPECT_EQ(p->desk.device().listening().hear({{3}, -40.0, {}, 0.0}),
+              "output 4 is an actuator's; expected another one to listen to");
     p->click("Leave the study; what was answered is kept");
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
     EXPECT_TRUE(p->desk.device().listening().settings().noise.empty());
@@ -480,7 +535,9 @@ TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
         p->pump();
     };
     setMaster(0.0);
-    begin(R"({"name": "main", "task": "estimate", "repetitions": 3})", R"("stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g 0.1")");
+    begin(
+        R"({"name": "main", "task": "estimate", "repetitions": 3})",
+        R"("stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g 0.1")");
     passPage();
     p->feel();
     ASSERT_TRUE(p->canUse("Number"));
@@ -492,12 +549,15 @@ TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
     EXPECT_EQ(column("limiter_db", "estimate"), Texts{"0"});
     EXPECT_EQ(column("version", "estimate"), Texts{PHYSVIB_VERSION});
     setMaster(-12.0); // as after a crash
-    EXPECT_NE(p->tab().begin().find("expected the master level as in the trials before, 0 dB, found -12 dB"), std::string::npos);
+    EXPECT_NE(p->tab().begin().find("expected the master level as in the trials before, 0 dB, found -12 dB"),
+              std::string::npos);
     EXPECT_EQ(p->screen(), nullptr);
     setMaster(0.0);
     p->tab().setNoise(p->tab().noiseChoices().front(), -35.0);
-    EXPECT_NE(p->tab().begin().find("expected the pink noise as in the trials before, off, found -35 dB"), std::string::npos);
-    EXPECT_TRUE(p->desk.device().listening().settings().noise.empty()) << "nothing is heard of a study that did not begin";
+    EXPECT_NE(p->tab().begin().find("expected the pink noise as in the trials before, off, found -35 dB"),
+              std::string::npos);
+    EXPECT_TRUE(p->desk.device().listening().settings().noise.empty())
+        << "nothing is heard of a study that did not begin";
     p->tab().setNoise({}, -35.0);
     goOn();
     leave();
@@ -506,16 +566,22 @@ TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
 TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
     const auto refusal = [&](const std::string& call) {
         const auto file = folder.getChildFile("short.json");
-        file.replaceWithText(R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": ")" + call +
-                             R"("}], "sessions": [{"name": "main", "task": "estimate"}]})");
+        file.replaceWithText(
+            R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": ")" +
+            call + R"("}], "sessions": [{"name": "main", "task": "estimate"}]})");
         const std::string fault = p->tab().chooseProtocol(file.getFullPathName().toStdString());
         return fault.empty() ? p->tab().begin() : fault;
     };
     EXPECT_NE(refusal("stimulus phantom --at 0.5,2").find("expected X,Y from 0 to 1"), std::string::npos);
-    EXPECT_NE(refusal("stimulus phantom --at 0.5,0.5 --level-g 40").find("expected at most its full scale of 1 g"), std::string::npos);
-    EXPECT_NE(refusal("render drop --method SV").find("--method SV: expected a --sound for each material"), std::string::npos);
-    EXPECT_NE(refusal("render drop --method SV --sound 80=gone.wav").find("gone.wav: cannot be read"), std::string::npos);
-    EXPECT_NE(refusal("render drop --method SV --sound 81=synthetic-1").find("expected a --sound for 80 Hz"), std::string::npos);
+    EXPECT_NE(
+        refusal("stimulus phantom --at 0.5,0.5 --level-g 40").find("expected at most its full scale of 1 g"),
+        std::string::npos);
+    EXPECT_NE(refusal("render drop --method SV").find("--method SV: expected a --sound for each material"),
+              std::string::npos);
+    EXPECT_NE(refusal("render drop --method SV --sound 80=gone.wav").find("gone.wav: cannot be read"),
+              std::string::npos);
+    EXPECT_NE(refusal("render drop --method SV --sound 81=synthetic-1").find("expected a --sound for 80 Hz"),
+              std::string::npos);
     EXPECT_NE(refusal("devices").find("call: expected render or stimulus"), std::string::npos);
     EXPECT_EQ(p->screen(), nullptr);
     EXPECT_FALSE(folder.getChildFile("short-P01.csv").exists());
@@ -526,7 +592,8 @@ TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
 
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
-    if (std::getenv("DISPLAY") == nullptr) return std::puts("skipped: a participant needs a display; run it by xvfb-run"), 77;
+    if (std::getenv("DISPLAY") == nullptr)
+        return std::puts("skipped: a participant needs a display; run it by xvfb-run"), 77;
     // a program of its own: JUCE outlives errors of X
     juce::JUCEApplicationBase::createInstance = []() -> juce::JUCEApplicationBase* { return nullptr; };
     const juce::ScopedJuceInitialiser_GUI juce;

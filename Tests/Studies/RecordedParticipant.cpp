@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// physvib-studies-recorded FOLDER PROTOCOL.json DEVICE: a participant takes a whole study of worlds in the mixer's window, on a real device at a
-// master level of 0 dB: feels each part of each trial to its end (where there are hands: drags and tilts for as long as asked), answers anything.
-#include "Participant.h"
+// physvib-studies-recorded FOLDER PROTOCOL.json DEVICE: a participant takes a whole study of worlds in the
+// mixer's window, on a real device at a master level of 0 dB: feels each part of each trial to its end (where
+// there are hands: drags and tilts for as long as asked), answers anything.
 #include "Host/Devices/AudioDevices.h"
+#include "Participant.h"
 
 namespace physvib {
 namespace {
@@ -19,14 +20,17 @@ public:
     /// Empty, or why the study did not come to its end.
     std::string take(const std::string& protocol) {
         auto& p = participant_;
-        if (!test::runUntil([&] { return p.desk.output().sampleRateHz() > 0; })) return "the device did not open";
+        if (!test::runUntil([&] { return p.desk.output().sampleRateHz() > 0; }))
+            return "the device did not open";
         if (auto error = p.tab().chooseProtocol(protocol); !error.empty()) return error;
         if (auto error = p.tab().begin(); !error.empty()) return error;
         p.pump();
         while (p.screen()->page() != StudyScreen::Page::done) {
             if (p.screen()->page() == StudyScreen::Page::fault) return "the screen shows a fault";
-            if (p.screen()->page() != StudyScreen::Page::trial) p.click("Next");
-            else if (auto error = takeTrial(); !error.empty()) return error;
+            if (p.screen()->page() != StudyScreen::Page::trial)
+                p.click("Next");
+            else if (auto error = takeTrial(); !error.empty())
+                return error;
             p.pump();
         }
         return {};
@@ -39,24 +43,33 @@ private:
         const auto parts = static_cast<int>(p.experiment().trial().parts.size());
         const auto scales = p.experiment().session().scales;
         for (int part = 1; part <= parts; ++part)
-            if (!(scales.empty() ? fall() : shake(part))) return "trial " + std::to_string(taken + 1) + ": part " + std::to_string(part) + " was not felt";
-        if (scales.empty()) p.click("Answer: number 1");
-        else p.click("Pause");
+            if (!(scales.empty() ? fall() : shake(part)))
+                return "trial " + std::to_string(taken + 1) + ": part " + std::to_string(part) +
+                       " was not felt";
+        if (scales.empty())
+            p.click("Answer: number 1");
+        else
+            p.click("Pause");
         for (const std::string& scale : scales) {
-            const juce::String title = juce::String{scale}.substring(0, 1).toUpperCase() + juce::String{scale}.substring(1);
+            const juce::String title =
+                juce::String{scale}.substring(0, 1).toUpperCase() + juce::String{scale}.substring(1);
             if (!p.canUse(title)) return title.toStdString() + " cannot be set";
             auto* slider = p.find(title);
-            p.clickAt(p.view.getLocalPoint(slider, slider->getLocalBounds().toFloat().getCentre().translated(60.0f, 0.0f)));
+            p.clickAt(p.view.getLocalPoint(
+                slider, slider->getLocalBounds().toFloat().getCentre().translated(60.0f, 0.0f)));
         }
         p.click("Next");
-        return test::runUntil([&] { return p.experiment().trialsTaken() > taken; }) ? "" : "trial " + std::to_string(taken + 1) + " was not taken";
+        return test::runUntil([&] { return p.experiment().trialsTaken() > taken; })
+                   ? ""
+                   : "trial " + std::to_string(taken + 1) + " was not taken";
     }
 
     bool fall() {
         auto& p = participant_;
         const int before = p.screen()->plays();
         p.space();
-        const bool isBegun = test::runUntil([&] { return p.screen()->plays() > before && p.screen()->isFeeling(); });
+        const bool isBegun =
+            test::runUntil([&] { return p.screen()->plays() > before && p.screen()->isFeeling(); });
         return isBegun && test::runUntil([&] { return p.pump(), !p.screen()->isFeeling(); });
     }
 
@@ -64,11 +77,13 @@ private:
         auto& p = participant_;
         auto& world = p.screen()->world().world();
         p.type(juce::String{part});
-        if (!test::runUntil([&] { return p.pump(), world.isMoving() && p.screen()->plays() == part; })) return false;
+        if (!test::runUntil([&] { return p.pump(), world.isMoving() && p.screen()->plays() == part; }))
+            return false;
         auto& view = *dynamic_cast<WorldView*>(p.find("World"));
         const double least = p.experiment().session().leastSeconds;
         for (int drag = 0; world.feltSeconds() < least + 0.3; ++drag) {
-            const auto body = p.view.getLocalPoint(&view, view.placeOfBody("large " + std::to_string(1 + drag % 3)));
+            const auto body =
+                p.view.getLocalPoint(&view, view.placeOfBody("large " + std::to_string(1 + drag % 3)));
             p.drag(body, body + juce::Point<float>{drag % 2 == 0 ? 60.0f : -60.0f, -40.0f}); // 18 mm
             p.key(drag % 8 < 4 ? juce::KeyPress::leftKey : juce::KeyPress::rightKey);
             test::runFor(0.15);

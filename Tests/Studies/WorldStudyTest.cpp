@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scripted participant takes shortened versions of the thesis' studies 5.2 and 5.3: sees the world move, drags, tilts, chooses, rates; the log
-// of every trial renders to what came out of the device, bit for bit.
+// A scripted participant takes shortened versions of the thesis' studies 5.2 and 5.3: sees the world move,
+// drags, tilts, chooses, rates; the log of every trial renders to what came out of the device, bit for bit.
+#include "Host/FakeAudioDevice.h"
+#include "Host/Recordings/ReadRecording.h"
+#include "Io/Text/CsvTable.h"
 #include "Participant.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "Scene/Sessions/SessionFile.h"
-#include "Io/Text/CsvTable.h"
-#include "Host/Recordings/ReadRecording.h"
-#include "Host/FakeAudioDevice.h"
 #include "TestPlaces.h"
 #include <cmath>
 #include <cstdlib>
@@ -21,7 +21,8 @@ namespace {
 /// A device that plays in real time, and keeps the first channel of what it plays.
 class Hands {
 public:
-    Hands() : thread_{[this] { run(); }} {}
+    Hands()
+        : thread_{[this] { run(); }} {}
     ~Hands() {
         stop_ = true;
         thread_.join();
@@ -42,7 +43,8 @@ private:
     void run() {
         while (!stop_) {
             const auto block = thing_.play(thing_.block);
-            if (const std::lock_guard lock{mutex_}; !block.empty()) felt_.insert(felt_.end(), block[0].begin(), block[0].end());
+            if (const std::lock_guard lock{mutex_}; !block.empty())
+                felt_.insert(felt_.end(), block[0].begin(), block[0].end());
             std::this_thread::sleep_for(std::chrono::microseconds{1'000'000 * thing_.block / 48'000});
         }
     }
@@ -86,14 +88,16 @@ protected:
         const auto table = rows();
         for (const auto& row : table.rows) {
             std::string words = row.cells[*table.column("render")];
-            for (std::size_t end; (end = words.find(" ; ")) != std::string::npos; words.erase(0, end + 3)) all.push_back(words.substr(0, end));
+            for (std::size_t end; (end = words.find(" ; ")) != std::string::npos; words.erase(0, end + 3))
+                all.push_back(words.substr(0, end));
             all.push_back(words);
         }
         return all;
     }
     /// What `physvib` makes of a call, in the folder of the trial file.
     std::vector<float> rendered(const std::string& call) const {
-        const auto run = "cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " + call + " --out again.wav > /dev/null";
+        const auto run = "cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " +
+                         call + " --out again.wav > /dev/null";
         EXPECT_EQ(std::system(run.c_str()), 0) << run;
         const auto wav = readRecording(folder.getChildFile("again.wav").getFullPathName().toStdString());
         EXPECT_TRUE(wav) << wav.error;
@@ -104,12 +108,14 @@ protected:
         std::size_t most = 0, at = 0;
         for (std::size_t i = 0; i < felt.size(); ++i) {
             if (felt[i] != samples[0]) continue;
-            const auto n = static_cast<std::size_t>(std::ranges::mismatch(samples, felt.subspan(i)).in1 - samples.begin());
+            const auto n = static_cast<std::size_t>(std::ranges::mismatch(samples, felt.subspan(i)).in1 -
+                                                    samples.begin());
             if (n > most) most = n, at = i;
         }
         std::ostringstream words;
         words << most << " of " << samples.size() << " samples agree";
-        if (most < samples.size() && at + most < felt.size()) words << ", then " << felt[at + most] << " for " << samples[most];
+        if (most < samples.size() && at + most < felt.size())
+            words << ", then " << felt[at + most] << " for " << samples[most];
         return words.str();
     }
     /// Each call renders to a stretch of what was felt, in their order, from its first sound to its end.
@@ -120,9 +126,11 @@ protected:
             auto samples = rendered(call);
             const auto sounds = std::ranges::find_if(samples, [](float s) { return s != 0.0f; });
             ASSERT_NE(sounds, samples.end()) << call << ": nothing was to be felt";
-            const auto last = std::find_if(samples.rbegin(), samples.rend(), [](float s) { return s != 0.0f; }).base();
+            const auto last =
+                std::find_if(samples.rbegin(), samples.rend(), [](float s) { return s != 0.0f; }).base();
             const auto found = std::search(from, felt.end(), sounds, last);
-            ASSERT_NE(found, felt.end()) << call << ": was not what came out of the device; " << agreement({sounds, last}, {from, felt.end()});
+            ASSERT_NE(found, felt.end()) << call << ": was not what came out of the device; "
+                                         << agreement({sounds, last}, {from, felt.end()});
             from = found + (last - sounds);
         }
     }
@@ -132,7 +140,8 @@ protected:
     test::Participant p{hands.types(), "Fake:hands"};
 };
 
-constexpr const char* fallingObjects = R"({"physvib_protocol": 1, "name": "short", "seed": 7, "sounds": [{"frequency_hz": 80, "file": "synthetic-1"},
+constexpr const char* fallingObjects =
+    R"({"physvib_protocol": 1, "name": "short", "seed": 7, "sounds": [{"frequency_hz": 80, "file": "synthetic-1"},
   {"frequency_hz": 349, "file": "synthetic-1"}, {"frequency_hz": 430, "file": "synthetic-1"}], "closing_question": "How did you choose?",
   "conditions": [{"name": "drop", "layout": "phone1", "stimuli": "world", "factors": [{"name": "pair", "values": ["wood-wood"]}, {"name": "height", "values": ["1"]}],
     "call": "render drop --set pair={pair} --set height={height} --set falls=once --seconds 0.8 --layout phone1 --method {alternative} --sound-match rms --level-db {level_db}"}],
@@ -149,7 +158,9 @@ TEST_F(AWorldInAStudy, FallsIsFeltAndChosenAndEveryLogRendersWhatWasFelt) {
         ASSERT_TRUE(test::runUntil([&] { return p.screen()->plays() > before && p.screen()->isFeeling(); }));
         auto& view = *dynamic_cast<WorldView*>(p.find("World"));
         const auto start = view.placeOfBody("wood sphere");
-        EXPECT_TRUE(test::runUntil([&] { return p.pump(), view.placeOfBody("wood sphere").y > start.y + 20.0f; })) << "it falls";
+        EXPECT_TRUE(test::runUntil([&] {
+            return p.pump(), view.placeOfBody("wood sphere").y > start.y + 20.0f;
+        })) << "it falls";
         ASSERT_TRUE(test::runUntil([&] { return p.pump(), !p.screen()->isFeeling(); }));
         p.pump();
     };
@@ -172,13 +183,16 @@ TEST_F(AWorldInAStudy, FallsIsFeltAndChosenAndEveryLogRendersWhatWasFelt) {
     comment->setText("The first one rang.");
     p.click("Next");
     EXPECT_EQ(p.screen()->page(), StudyScreen::Page::done);
-    EXPECT_EQ(folder.getChildFile("short-P01.comment.txt").loadFileAsString(), "How did you choose?\n\nThe first one rang.\n");
+    EXPECT_EQ(folder.getChildFile("short-P01.comment.txt").loadFileAsString(),
+              "How did you choose?\n\nThe first one rang.\n");
     const auto all = calls();
     ASSERT_EQ(all.size(), 3u + 2u * 2u);
     EXPECT_EQ(all.front(), "render short-P01.felt/trial-0001-1.json");
-    const auto softer = loadSession(folder.getChildFile("short-P01.felt/trial-0001-3.json").getFullPathName().toStdString());
+    const auto softer =
+        loadSession(folder.getChildFile("short-P01.felt/trial-0001-3.json").getFullPathName().toStdString());
     ASSERT_TRUE(softer) << softer.error;
-    EXPECT_NEAR(softer.value.shaping.gain, std::pow(10.0, -14.0 / 20.0), 1e-12) << "at the level that was set";
+    EXPECT_NEAR(softer.value.shaping.gain, std::pow(10.0, -14.0 / 20.0), 1e-12)
+        << "at the level that was set";
     expectFelt(all);
 }
 
@@ -197,16 +211,24 @@ TEST_F(AWorldInAStudy, IsDraggedTiltedAndRatedAndEveryLogRendersWhatWasFelt) {
         auto& view = *dynamic_cast<WorldView*>(p.find("World"));
         for (int part = 1; part <= 3; ++part) {
             EXPECT_FALSE(p.isAnswerOpen("Pause")) << "not each was felt for long enough";
-            if (part == 2) p.type("2");
-            else p.click("Feel number " + juce::String{part});
-            ASSERT_TRUE(test::runUntil([&] { return p.pump(), p.screen()->isFeeling() && p.screen()->world().world().isMoving() && p.screen()->plays() == part; }));
+            if (part == 2)
+                p.type("2");
+            else
+                p.click("Feel number " + juce::String{part});
+            ASSERT_TRUE(test::runUntil([&] {
+                return p.pump(), p.screen()->isFeeling() && p.screen()->world().world().isMoving() &&
+                                     p.screen()->plays() == part;
+            }));
             const auto start = view.placeOfBody("large 1");
-            EXPECT_TRUE(test::runUntil([&] { return p.pump(), view.placeOfBody("large 1").y > start.y + 20.0f; })) << "the world moves";
+            EXPECT_TRUE(test::runUntil([&] {
+                return p.pump(), view.placeOfBody("large 1").y > start.y + 20.0f;
+            })) << "the world moves";
             const auto ball = p.view.getLocalPoint(&view, view.placeOfBody("large 2"));
             p.drag(ball, ball + juce::Point<float>{24.0f, -32.0f}); // 10 mm
             for (int k = 0; k < 6; ++k) p.key(juce::KeyPress::leftKey);
             const double before = p.screen()->world().world().feltSeconds();
-            EXPECT_TRUE(test::runUntil([&] { return p.pump(), p.screen()->world().world().feltSeconds() > before + 0.7; }));
+            EXPECT_TRUE(test::runUntil(
+                [&] { return p.pump(), p.screen()->world().world().feltSeconds() > before + 0.7; }));
             EXPECT_EQ(p.find("Realism"), nullptr) << "rated when the world stands still";
         }
         p.click("Pause");
@@ -214,7 +236,8 @@ TEST_F(AWorldInAStudy, IsDraggedTiltedAndRatedAndEveryLogRendersWhatWasFelt) {
         EXPECT_FALSE(p.isAnswerOpen("Next"));
         for (const char* scale : {"Realism", "Liking"}) {
             auto* slider = p.find(scale);
-            p.clickAt(p.view.getLocalPoint(slider, slider->getLocalBounds().toFloat().getCentre().translated(trial == 0 ? 120.0f : -120.0f, 0.0f)));
+            p.clickAt(p.view.getLocalPoint(slider, slider->getLocalBounds().toFloat().getCentre().translated(
+                                                       trial == 0 ? 120.0f : -120.0f, 0.0f)));
         }
         p.click("Next");
     }
@@ -227,15 +250,19 @@ TEST_F(AWorldInAStudy, IsDraggedTiltedAndRatedAndEveryLogRendersWhatWasFelt) {
         const auto name = nameOf(saved.value.shaping.method);
         EXPECT_EQ(std::string(name.begin(), name.end()), methods[i / 3]);
         const auto& inputs = saved.value.log.takes.at(0).inputs;
-        const auto dragged = std::ranges::find_if(inputs, [](const LiveInput& input) { return std::holds_alternative<ImpulseAction>(input.action); });
+        const auto dragged = std::ranges::find_if(inputs, [](const LiveInput& input) {
+            return std::holds_alternative<ImpulseAction>(input.action);
+        });
         ASSERT_NE(dragged, inputs.end());
         const auto& push = std::get<ImpulseAction>(dragged->action).newtonSeconds;
         EXPECT_NEAR(std::hypot(push.x, push.y), 320.0, 0.1);
         ASSERT_TRUE(std::holds_alternative<TiltAction>(inputs.back().action));
-        EXPECT_NEAR(std::get<TiltAction>(inputs.back().action).angleRadians, -juce::degreesToRadians(30.0), 1e-9);
+        EXPECT_NEAR(std::get<TiltAction>(inputs.back().action).angleRadians, -juce::degreesToRadians(30.0),
+                    1e-9);
     }
     expectFelt(all);
-    for (const double peak : levels(1, "peak_g")) EXPECT_NEAR(peak, 1.5, 0.015) << "a fixed level, whatever hit what";
+    for (const double peak : levels(1, "peak_g"))
+        EXPECT_NEAR(peak, 1.5, 0.015) << "a fixed level, whatever hit what";
     for (const double rms : levels(1, "rms_g")) EXPECT_GT(rms, 0.0);
     for (const double peak : levels(0, "peak_g")) EXPECT_GT(peak, 0.0);
 }
@@ -246,14 +273,17 @@ TEST_F(AWorldInAStudy, IsPlayedWithAndRatedByKeysAlone) {
     auto& world = p.screen()->world().world();
     for (int part = 1; part <= 3; ++part) {
         p.type(juce::String{part});
-        ASSERT_TRUE(test::runUntil([&] { return p.pump(), world.isMoving() && p.screen()->plays() == part; }));
+        ASSERT_TRUE(
+            test::runUntil([&] { return p.pump(), world.isMoving() && p.screen()->plays() == part; }));
         p.key(juce::KeyPress::rightKey);
         EXPECT_TRUE(test::runUntil([&] { return p.pump(), world.feltSeconds() > 0.7; }));
     }
     p.space();
     ASSERT_TRUE(p.canUse("Realism"));
     EXPECT_TRUE(test::runUntil([&] { return p.pump(), p.find("Realism")->hasKeyboardFocus(true); }));
-    for (const int code : {juce::KeyPress::rightKey, juce::KeyPress::tabKey, juce::KeyPress::leftKey, juce::KeyPress::returnKey}) p.key(code);
+    for (const int code : {juce::KeyPress::rightKey, juce::KeyPress::tabKey, juce::KeyPress::leftKey,
+                           juce::KeyPress::returnKey})
+        p.key(code);
     EXPECT_EQ(p.experiment().trialsTaken(), 1);
     const auto table = rows();
     EXPECT_EQ(table.rows.at(0).cells[*table.column("realism")], "51");
@@ -262,8 +292,10 @@ TEST_F(AWorldInAStudy, IsPlayedWithAndRatedByKeysAlone) {
 
 TEST_F(AWorldInAStudy, ASceneAndWordsMayLieBesideTheProtocol) {
     folder.getChildFile("own.json").replaceWithText(utf8(sceneJson(findScene("drop").value)));
-    folder.getChildFile("words.json").replaceWithText(R"({"physvib_words": 1, "name": "xx", "language": "X", "texts": {"Begin": "Los"}})");
-    begin(R"({"physvib_protocol": 1, "name": "short", "words": "words.json", "conditions": [{"name": "own", "layout": "phone1", "stimuli": "world",
+    folder.getChildFile("words.json")
+        .replaceWithText(R"({"physvib_words": 1, "name": "xx", "language": "X", "texts": {"Begin": "Los"}})");
+    begin(
+        R"({"physvib_protocol": 1, "name": "short", "words": "words.json", "conditions": [{"name": "own", "layout": "phone1", "stimuli": "world",
   "factors": [{"name": "scene", "values": ["own"]}], "call": "render {scene}.json --seconds 0.2 --layout phone1"}], "sessions": [{"name": "main", "task": "estimate"}]})");
     EXPECT_EQ(p.screen()->words()("Begin"), "Los");
     p.click("Next");

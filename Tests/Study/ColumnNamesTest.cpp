@@ -20,9 +20,11 @@ TEST(ColumnNames, ATableOfPsychoPyIsReadByTheNamesThatItHas) {
     const NamedText file{psychopy, "p.csv", columns};
     const auto read = readIdentification({&file, 1});
     ASSERT_TRUE(read) << read.error;
-    EXPECT_EQ(read.value.conditions.front().trials, (std::vector<IdentificationTrial>{{"A", "A", "7"}, {"B", "A", "7"}}));
+    EXPECT_EQ(read.value.conditions.front().trials,
+              (std::vector<IdentificationTrial>{{"A", "A", "7"}, {"B", "A", "7"}}));
     ASSERT_EQ(read.value.warnings.size(), 1u);
-    EXPECT_EQ(read.value.warnings.front(), "p.csv: rows left out, with nothing in one of the named columns: 1");
+    EXPECT_EQ(read.value.warnings.front(),
+              "p.csv: rows left out, with nothing in one of the named columns: 1");
     const NamedText plain{psychopy, "p.csv"};
     EXPECT_EQ(readIdentification({&plain, 1}).error, "p.csv:1: expected a name for every column");
 }
@@ -35,16 +37,19 @@ TEST(ColumnNames, OnlyNamedColumnsCountAndFaultsNameTheLine) {
     EXPECT_EQ(ratings.value.scales, std::vector<std::string>{"realism"});
     const auto wrong = names({"stimulus=sound", "realism=key_resp.keys"});
     const NamedText other{psychopy, "p.csv", wrong};
-    EXPECT_EQ(readRatings({&other, 1}).error, "p.csv:2: column realism: expected a number from 0 to 100, found \"A\"");
+    EXPECT_EQ(readRatings({&other, 1}).error,
+              "p.csv:2: column realism: expected a number from 0 to 100, found \"A\"");
     const auto missing = names({"stimulus=picture"});
     const NamedText none{psychopy, "p.csv", missing};
     EXPECT_EQ(readRatings({&none, 1}).error, "p.csv: expected a column picture, found none");
 }
 
 TEST(ColumnNames, TruePlacesInPixelsBecomeRowsAndColumns) {
-    const std::string text = "who,true_x,true_y,touch_x,touch_y\nP,100,50,123,0\nP,500,50,615,635\nP,100,350,1230,127\n";
+    const std::string text =
+        "who,true_x,true_y,touch_x,touch_y\nP,100,50,123,0\nP,500,50,615,635\nP,100,350,1230,127\n";
     // y upwards
-    const auto columns = names({"participant=who", "target_x=true_x", "target_y=true_y", "x=touch_x:0:1230", "y=touch_y:635:0"});
+    const auto columns = names(
+        {"participant=who", "target_x=true_x", "target_y=true_y", "x=touch_x:0:1230", "y=touch_y:635:0"});
     const NamedText file{text, "t.csv", columns};
     const auto read = readLocations({&file, 1});
     ASSERT_TRUE(read) << read.error;
@@ -59,7 +64,8 @@ TEST(ColumnNames, TruePlacesInPixelsBecomeRowsAndColumns) {
     EXPECT_NEAR(trials[2].y, 0.8, 1e-9);
     const auto outside = names({"target_x=true_x", "target_y=true_y", "x=touch_x:0:1000", "y=touch_y:0:635"});
     const NamedText other{text, "t.csv", outside};
-    EXPECT_EQ(readLocations({&other, 1}).error, "t.csv:4: column x: expected a number from 0 to 1, found \"1.23\"");
+    EXPECT_EQ(readLocations({&other, 1}).error,
+              "t.csv:4: column x: expected a number from 0 to 1, found \"1.23\"");
     const auto words = names({"target_x=who", "target_y=true_y", "x=touch_x:0:1230", "y=touch_y:0:635"});
     const NamedText wrong{text, "t.csv", words};
     EXPECT_EQ(readLocations({&wrong, 1}).error, "t.csv:2: column target_x: expected a number, found \"P\"");
@@ -73,15 +79,19 @@ TEST(ColumnNames, ASimulationStaysMarked) {
 }
 
 TEST(ColumnNames, WordsThatNameNothingAreRefused) {
-    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"response"}).error, "expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found \"response\"");
-    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b", "a=c"}).error, "expected each name once, found \"a\" twice");
+    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"response"}).error,
+              "expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found \"response\"");
+    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b", "a=c"}).error,
+              "expected each name once, found \"a\" twice");
     EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b=c"}).value.front().theirs, "b=c");
-    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b:c:1"}).value.front().theirs, "b:c:1") << "no two numbers: a name with colons";
+    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b:c:1"}).value.front().theirs, "b:c:1")
+        << "no two numbers: a name with colons";
     EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b:0:1"}).value.front().theirs, "b");
 }
 
 TEST(ColumnNames, PartsOfAConditionAreFactorsAndRowsCanBeChosen) {
-    const std::string text = "participant,condition,score\nP,PHONE-3x3,1\nP,PHONE-4x4,2\nP,RING-3x3,3\nP,RING-4x4,4\n";
+    const std::string text =
+        "participant,condition,score\nP,PHONE-3x3,1\nP,PHONE-4x4,2\nP,RING-3x3,3\nP,RING-4x4,4\n";
     const NamedText file{text, "t.csv"};
     const auto read = readLongTable({&file, 1}, {"score", {"condition.1", "condition.2"}, "", ""});
     ASSERT_TRUE(read) << read.error;
@@ -90,8 +100,10 @@ TEST(ColumnNames, PartsOfAConditionAreFactorsAndRowsCanBeChosen) {
     const auto ring = readLongTable({&file, 1}, {"score", {"condition.2"}, "", "", {"condition.1=RING"}});
     ASSERT_TRUE(ring) << ring.error;
     EXPECT_EQ(Design::of(ring.value.table).values, (std::vector<double>{3, 4}));
-    EXPECT_EQ(readLongTable({&file, 1}, {"score", {"condition.3"}, "", ""}).error, "t.csv:2: column condition: expected 3 parts between hyphens, found \"PHONE-3x3\"");
-    EXPECT_EQ(readLongTable({&file, 1}, {"score", {"condition"}, "", "", {"hand=left"}}).error.substr(0, 5), "t.csv");
+    EXPECT_EQ(readLongTable({&file, 1}, {"score", {"condition.3"}, "", ""}).error,
+              "t.csv:2: column condition: expected 3 parts between hyphens, found \"PHONE-3x3\"");
+    EXPECT_EQ(readLongTable({&file, 1}, {"score", {"condition"}, "", "", {"hand=left"}}).error.substr(0, 5),
+              "t.csv");
 }
 
 } // namespace

@@ -37,7 +37,8 @@ TEST(ConfusionMatrix, GridLabelsAreOrderedByNumber) {
 TEST(ConfusionMatrix, GridLabelsAreTwoNumbersFromOne) {
     EXPECT_EQ(parseGridCell("2,5"), (GridCell{2, 5}));
     EXPECT_EQ(parseGridCell(" 2 , 5 "), (GridCell{2, 5}));
-    for (const char* bad : {"", ",", "2", "2,", ",5", "0,1", "-1,2", "1,2,3", "a,b", "99999999999,1"}) EXPECT_FALSE(parseGridCell(bad)) << bad;
+    for (const char* bad : {"", ",", "2", "2,", ",5", "0,1", "-1,2", "1,2,3", "a,b", "99999999999,1"})
+        EXPECT_FALSE(parseGridCell(bad)) << bad;
 }
 
 TEST(ConfusionMatrix, ToleranceCountsNeighboursAsTheStimulus) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A measured coupling is read as it was written, and a bad one is named by its place.
 #include "Study/Files/CouplingFile.h"
-#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Support/FileTesting.h"
 
 namespace physvib {
 namespace {
 
-const std::string good = R"({"physvib_coupling": 1, "name": "mine", "source": "measured by hand", "measured": [
+const std::string good =
+    R"({"physvib_coupling": 1, "name": "mine", "source": "measured by hand", "measured": [
   {"frequency_hz": 100, "magnitude": [[1, 0.2], [0.25, 1]], "phase_deg": [[0, -90], [180, 0]]},
   {"frequency_hz": 200, "magnitude": [[1, 0.125], [0.5, 0.875]], "phase_deg": [[0, 0], [0, 0]]}]})";
 
@@ -34,20 +35,31 @@ TEST(CouplingFile, IsReadRowByRow) {
 
 TEST(CouplingFile, FaultsNameTheirPlace) {
     EXPECT_EQ(errorOf("0.25", "-0.25"), "c.json: measured[0].magnitude[1][0]: expected 0 to 4, found -0.25");
-    EXPECT_EQ(errorOf("0.25", "\"much\""), "c.json: measured[0].magnitude[1][0]: expected a number, found a string");
+    EXPECT_EQ(errorOf("0.25", "\"much\""),
+              "c.json: measured[0].magnitude[1][0]: expected a number, found a string");
     EXPECT_EQ(errorOf("0.25", "1e999").rfind("c.json: ", 0), 0u);
-    EXPECT_EQ(errorOf("-90", "-900"), "c.json: measured[0].phase_deg[0][1]: expected -360 to 360, found -900");
-    EXPECT_EQ(errorOf("0.875", "0"), "c.json: measured[1].magnitude[1][1]: expected an enchanter that moves by its own drive, found 0");
-    EXPECT_EQ(errorOf("[0.25, 1]]", "[0.25]]"), "c.json: measured[0].magnitude[1]: expected 2 items, found 1");
-    EXPECT_EQ(errorOf("[[0, -90], [180, 0]]", "[[0, -90]]"), "c.json: measured[0].phase_deg: expected 2 items, found 1");
-    EXPECT_EQ(errorOf("[[1, 0.125], [0.5, 0.875]], \"phase_deg\": [[0, 0], [0, 0]]", "[[1]], \"phase_deg\": [[0]]"),
-              "c.json: measured[1].magnitude: expected as many enchanters as at the first frequency, 2, found 1");
-    EXPECT_EQ(errorOf("200", "100"), "c.json: measured[1].frequency_hz: expected frequencies that rise, found 100 after 100");
+    EXPECT_EQ(errorOf("-90", "-900"),
+              "c.json: measured[0].phase_deg[0][1]: expected -360 to 360, found -900");
+    EXPECT_EQ(
+        errorOf("0.875", "0"),
+        "c.json: measured[1].magnitude[1][1]: expected an enchanter that moves by its own drive, found 0");
+    EXPECT_EQ(errorOf("[0.25, 1]]", "[0.25]]"),
+              "c.json: measured[0].magnitude[1]: expected 2 items, found 1");
+    EXPECT_EQ(errorOf("[[0, -90], [180, 0]]", "[[0, -90]]"),
+              "c.json: measured[0].phase_deg: expected 2 items, found 1");
+    EXPECT_EQ(
+        errorOf("[[1, 0.125], [0.5, 0.875]], \"phase_deg\": [[0, 0], [0, 0]]", "[[1]], \"phase_deg\": [[0]]"),
+        "c.json: measured[1].magnitude: expected as many enchanters as at the first frequency, 2, found 1");
+    EXPECT_EQ(errorOf("200", "100"),
+              "c.json: measured[1].frequency_hz: expected frequencies that rise, found 100 after 100");
     EXPECT_EQ(errorOf("100", "0"), "c.json: measured[0].frequency_hz: expected 1 to 20000, found 0");
-    EXPECT_EQ(errorOf("\"phase_deg\": [[0, -90]", "\"phase_rad\": [[0, -90]"), "c.json: measured[0]: unknown field \"phase_rad\"");
+    EXPECT_EQ(errorOf("\"phase_deg\": [[0, -90]", "\"phase_rad\": [[0, -90]"),
+              "c.json: measured[0]: unknown field \"phase_rad\"");
     EXPECT_EQ(errorOf("\"name\": \"mine\", ", ""), "c.json: field \"name\" is missing");
-    EXPECT_EQ(errorOf("\"physvib_coupling\": 1", "\"physvib_coupling\": 2"), "c.json: physvib_coupling: made for a newer PhysVib: expected a version up to 1, found 2");
-    EXPECT_EQ(readCoupling(R"({"physvib_coupling": 1, "name": "", "source": "", "measured": []})", "c").error, "c: measured: expected 1 to 256 items, found 0");
+    EXPECT_EQ(errorOf("\"physvib_coupling\": 1", "\"physvib_coupling\": 2"),
+              "c.json: physvib_coupling: made for a newer PhysVib: expected a version up to 1, found 2");
+    EXPECT_EQ(readCoupling(R"({"physvib_coupling": 1, "name": "", "source": "", "measured": []})", "c").error,
+              "c: measured: expected 1 to 256 items, found 0");
 }
 
 TEST(CouplingFile, NoAccidentGetsPastTheReaderUnnoticed) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compensated drives within their limit, and where the phantom's centroid lands on a 7 x 5 grid with and without them.
+// Compensated drives within their limit, and where the phantom's centroid lands on a 7 x 5 grid with and
+// without them.
 #include "Study/Coupling.h"
 #include "Core/PhantomPanner.h"
 #include <cmath>
@@ -55,7 +56,8 @@ double errorOf(const CouplingMatrix& truth, const CouplingMatrix& drives) {
 
 TEST(Coupling, WithoutCouplingTheDriveIsWhatIsWanted) {
     const CouplingMatrix none(4), drives = compensationMatrix(none);
-    for (std::size_t k = 0; k < drives.entries.size(); ++k) EXPECT_NEAR(std::abs(drives.entries[k] - none.entries[k]), 0.0, 1e-8);
+    for (std::size_t k = 0; k < drives.entries.size(); ++k)
+        EXPECT_NEAR(std::abs(drives.entries[k] - none.entries[k]), 0.0, 1e-8);
     EXPECT_NEAR(strongestDrive(none), 1.0, 1e-4);
 }
 
@@ -71,9 +73,11 @@ TEST(Coupling, NoGainsOfAPannerDriveMoreThanThreeDecibelsMore) {
         for (const double degrees : {0.0, 60.0, 120.0, 180.0}) {
             const CouplingMatrix drives = compensationMatrix(coupled(share, degrees));
             double most = 0.0;
-            for (int draw = 0; draw < 200; ++draw) { // corners of all gains, where the strongest drive is, first
+            for (int draw = 0; draw < 200; ++draw) { // corners of all gains, where the strongest drive is,
+                                                     // first
                 ComplexAmplitudes wanted(4);
-                for (std::size_t j = 0; j < 4; ++j) wanted[j] = draw < 16 ? (draw >> j & 1) : random.uniform();
+                for (std::size_t j = 0; j < 4; ++j)
+                    wanted[j] = draw < 16 ? (draw >> j & 1) : random.uniform();
                 for (const auto& d : drives.times(wanted)) most = std::max(most, std::abs(d));
             }
             EXPECT_LE(most, 1.41254) << share << ' ' << degrees;
@@ -105,15 +109,19 @@ TEST(Coupling, AKnownCouplingIsMadeUpForAndAMisjudgedOneInPart) {
                 misjudged += errorOf(truth, plain) / draws;
                 after += errorOf(truth, drives) / draws;
             }
-            const std::string name = std::to_string(static_cast<int>(100 * share)) + "_" + std::to_string(static_cast<int>(degrees));
-            ::testing::Test::RecordProperty("before_matched_" + name, std::to_string(before) + " " + std::to_string(matched));
-            ::testing::Test::RecordProperty("before_mismatched_" + name, std::to_string(misjudged) + " " + std::to_string(after));
+            const std::string name = std::to_string(static_cast<int>(100 * share)) + "_" +
+                                     std::to_string(static_cast<int>(degrees));
+            ::testing::Test::RecordProperty("before_matched_" + name,
+                                            std::to_string(before) + " " + std::to_string(matched));
+            ::testing::Test::RecordProperty("before_mismatched_" + name,
+                                            std::to_string(misjudged) + " " + std::to_string(after));
             if (share < 0.4 || degrees < 180.0) {
                 const bool isWithinLimit = share < 0.2 || degrees < 180.0;
                 EXPECT_LT(matched, (isWithinLimit ? 0.1 : 0.55) * before) << name;
                 EXPECT_LT(after, 0.7 * misjudged) << name;
             } else {
-                EXPECT_GT(matched, before) << "four that cancel each other out: 3 dB are not enough, Docs/coupling.md says so";
+                EXPECT_GT(matched, before)
+                    << "four that cancel each other out: 3 dB are not enough, Docs/coupling.md says so";
             }
         }
 }
@@ -121,14 +129,16 @@ TEST(Coupling, AKnownCouplingIsMadeUpForAndAMisjudgedOneInPart) {
 TEST(Coupling, DrivesBetweenTwoFrequenciesAreBetweenTheirsAndBeyondThemTheNearest) {
     const MeasuredCoupling measured{{100.0, 300.0}, {coupled(0.1, 0.0), coupled(0.2, 90.0)}};
     const CouplingDrives drives(measured);
-    const CouplingMatrix low = compensationMatrix(measured.matrices[0]), high = compensationMatrix(measured.matrices[1]);
+    const CouplingMatrix low = compensationMatrix(measured.matrices[0]),
+                         high = compensationMatrix(measured.matrices[1]);
     const double gains[] = {1.0, 0.5, 0.25, 0.0};
     const auto expectAt = [&](double hz, double share) {
         double inPhase[4], ahead[4];
         drives.view().apply(hz, gains, inPhase, ahead);
         for (std::size_t i = 0; i < 4; ++i) {
             std::complex<double> sum;
-            for (std::size_t j = 0; j < 4; ++j) sum += gains[j] * ((1.0 - share) * low.at(i, j) + share * high.at(i, j));
+            for (std::size_t j = 0; j < 4; ++j)
+                sum += gains[j] * ((1.0 - share) * low.at(i, j) + share * high.at(i, j));
             EXPECT_NEAR(inPhase[i], sum.real(), 1e-12) << hz;
             EXPECT_NEAR(ahead[i], sum.imag(), 1e-12) << hz;
         }

@@ -19,7 +19,8 @@ Protocol protocolOf(StimulusSet stimuli, std::vector<SessionPlan> sessions) {
     return p;
 }
 
-std::vector<TrialRecord> runWhole(const Protocol& p, const Participant& participant, const ObserverSettings& settings = {}) {
+std::vector<TrialRecord> runWhole(const Protocol& p, const Participant& participant,
+                                  const ObserverSettings& settings = {}) {
     Experiment experiment{p, participant};
     const SimulatedObserver observer{settings, p, participant};
     std::vector<TrialRecord> records;
@@ -31,13 +32,16 @@ std::vector<TrialRecord> runWhole(const Protocol& p, const Participant& particip
     return records;
 }
 
-const Protocol patterns = protocolOf(PatternSet{2}, {{.name = "training", .isTraining = true, .task = StudyTask::explore}, {.name = "main", .breakBeforeSeconds = 120.0}});
+const Protocol patterns =
+    protocolOf(PatternSet{2}, {{.name = "training", .isTraining = true, .task = StudyTask::explore},
+                               {.name = "main", .breakBeforeSeconds = 120.0}});
 
 TEST(Experiment, TrainingShowsEveryPatternAndTheMainSessionEachOnce) {
     const auto records = runWhole(patterns, {});
     ASSERT_EQ(records.size(), 28u + 28u);
     std::map<std::string, int> felt, asked;
-    for (const auto& [trial, answer] : records) trial.session == 0 ? ++felt[answer.response] : ++asked[trial.stimulus];
+    for (const auto& [trial, answer] : records)
+        trial.session == 0 ? ++felt[answer.response] : ++asked[trial.stimulus];
     EXPECT_EQ(felt.size(), 28u);
     EXPECT_EQ(asked.size(), 28u);
     EXPECT_EQ(records[28].trial.restSeconds, 120.0);
@@ -50,7 +54,10 @@ TEST(Experiment, WhoExploresSaysWhenTheTrainingEndsAndAFileOfItGoesOnThere) {
         for (int n = 0; n < touches; ++n) records.push_back(experiment.take({.place = FieldPlace{0.5, 0.5}}));
         return records;
     };
-    const auto p = protocolOf(GridSet{2, 2}, {{.name = "training", .isTraining = true, .task = StudyTask::explore, .fewestTouches = 3}, {.name = "main", .task = StudyTask::locate}});
+    const auto p =
+        protocolOf(GridSet{2, 2},
+                   {{.name = "training", .isTraining = true, .task = StudyTask::explore, .fewestTouches = 3},
+                    {.name = "main", .task = StudyTask::locate}});
     Experiment experiment{p, {}, true};
     auto records = felt(experiment, 2);
     EXPECT_FALSE(experiment.mayEnd());
@@ -69,7 +76,8 @@ TEST(Experiment, WhoExploresSaysWhenTheTrainingEndsAndAFileOfItGoesOnThere) {
 }
 
 TEST(Experiment, ABreakLiesBetweenConditionsAsBeforeSessions) {
-    auto p = protocolOf(GridSet{2, 1}, {{.name = "training", .isTraining = true, .task = StudyTask::explore}, {.name = "main", .breakBeforeSeconds = 120.0}});
+    auto p = protocolOf(GridSet{2, 1}, {{.name = "training", .isTraining = true, .task = StudyTask::explore},
+                                        {.name = "main", .breakBeforeSeconds = 120.0}});
     p.conditions.push_back(p.conditions.front());
     p.conditions.back().name = "other";
     p.conditionBreakSeconds = 60.0;
@@ -108,7 +116,8 @@ TEST(Experiment, RecordsOfAnotherStudyAreRefused) {
     const auto whole = runWhole(patterns, {});
     Experiment experiment{patterns, {"P02", 2}};
     for (std::size_t i = 0; i < 28; ++i) ASSERT_EQ(experiment.redo(whole[i]), "");
-    EXPECT_EQ(experiment.redo(whole[28]).rfind("expected the stimulus ", 0), 0u) << "the other participant's order";
+    EXPECT_EQ(experiment.redo(whole[28]).rfind("expected the stimulus ", 0), 0u)
+        << "the other participant's order";
     EXPECT_EQ(experiment.redo(whole[29]), "expected trial 1");
     EXPECT_EQ(experiment.trialsTaken(), 28);
     auto broken = whole[0];
@@ -123,21 +132,34 @@ TEST(Experiment, AnswersAreCheckedByTask) {
     EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 1.1}}), "expected a place on the field");
     EXPECT_EQ(experiment.refusal({.place = FieldPlace{std::nan(""), 0.0}}), "expected a place on the field");
     EXPECT_EQ(experiment.refusal({.response = "1,1"}), "expected a place on the field");
-    EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 0.5}, .plays = 0}), "expected that the stimulus was felt");
+    EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 0.5}, .plays = 0}),
+              "expected that the stimulus was felt");
 }
 
 TEST(Experiment, FreeTouchesAreCountedNotListed) {
-    const auto p = protocolOf(GridSet{7, 5}, {{.name = "training", .isTraining = true, .task = StudyTask::explore, .fewestTouches = 100}, {.name = "main", .task = StudyTask::locate, .repetitions = 5}});
+    const auto p = protocolOf(
+        GridSet{7, 5},
+        {{.name = "training", .isTraining = true, .task = StudyTask::explore, .fewestTouches = 100},
+         {.name = "main", .task = StudyTask::locate, .repetitions = 5}});
     const auto records = runWhole(p, {});
     EXPECT_EQ(records.size(), 100u + 175u);
     EXPECT_TRUE(records.front().answer.place);
-    EXPECT_EQ(callsOf(p, records.front()).rfind("stimulus phantom --at ", 0), 0u) << callsOf(p, records.front());
+    EXPECT_EQ(callsOf(p, records.front()).rfind("stimulus phantom --at ", 0), 0u)
+        << callsOf(p, records.front());
     EXPECT_EQ(callsOf(p, records.back()).rfind("stimulus phantom --grid 7x5 --cell ", 0), 0u);
 }
 
 TEST(Experiment, BothButtonOrdersOfEveryConditionAppearOncePerBlock) {
-    SessionPlan main{.name = "main", .task = StudyTask::choose, .order = SessionPlan::Order::blocks, .repetitions = 2, .alternatives = {{"RM"}, {"SV"}}, .bothOrders = true};
-    const auto p = protocolOf(CallSet{{{"pair", {"a", "b", "c"}}, {"size", {"1", "2", "3"}}, {"height", {"1", "2", "3"}}}, "render drop {pair} {alternative}"}, {main});
+    SessionPlan main{.name = "main",
+                     .task = StudyTask::choose,
+                     .order = SessionPlan::Order::blocks,
+                     .repetitions = 2,
+                     .alternatives = {{"RM"}, {"SV"}},
+                     .bothOrders = true};
+    const auto p = protocolOf(
+        CallSet{{{"pair", {"a", "b", "c"}}, {"size", {"1", "2", "3"}}, {"height", {"1", "2", "3"}}},
+                "render drop {pair} {alternative}"},
+        {main});
     const auto records = runWhole(p, {});
     ASSERT_EQ(records.size(), 108u);
     std::map<std::pair<std::string, std::string>, int> seen;
@@ -148,9 +170,18 @@ TEST(Experiment, BothButtonOrdersOfEveryConditionAppearOncePerBlock) {
 }
 
 TEST(Experiment, AdjustedLevelsHoldInLaterSessions) {
-    SessionPlan matching{.name = "matching", .isTraining = true, .task = StudyTask::adjust, .repetitions = 2, .alternatives = {{"RM"}, {"SV"}}, .adjustment = Adjustment{"RM"}};
-    SessionPlan main{.name = "main", .task = StudyTask::choose, .alternatives = {{"RM"}, {"SV"}}, .levelsFrom = "matching"};
-    const auto p = protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {matching, main});
+    SessionPlan matching{.name = "matching",
+                         .isTraining = true,
+                         .task = StudyTask::adjust,
+                         .repetitions = 2,
+                         .alternatives = {{"RM"}, {"SV"}},
+                         .adjustment = Adjustment{"RM"}};
+    SessionPlan main{.name = "main",
+                     .task = StudyTask::choose,
+                     .alternatives = {{"RM"}, {"SV"}},
+                     .levelsFrom = "matching"};
+    const auto p = protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"},
+                              {matching, main});
     Experiment experiment{p, {}};
     std::map<std::string, double> sums;
     while (experiment.trial().task == StudyTask::adjust) {
@@ -162,15 +193,23 @@ TEST(Experiment, AdjustedLevelsHoldInLaterSessions) {
     EXPECT_FALSE(experiment.adjustedDb(0, "matching", "z"));
     while (!experiment.isDone()) {
         const Trial trial = experiment.trial();
-        for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(trial.partLevelsDb[i], trial.parts[i] == "RM" ? sums[trial.stimulus] / 2 : 0.0, 1e-12);
+        for (std::size_t i = 0; i < 2; ++i)
+            EXPECT_NEAR(trial.partLevelsDb[i], trial.parts[i] == "RM" ? sums[trial.stimulus] / 2 : 0.0,
+                        1e-12);
         experiment.take({.response = "RM"});
     }
 }
 
 TEST(Experiment, AdjustmentsMayStartAnywhereByTheSeed) {
-    SessionPlan matching{.name = "matching", .task = StudyTask::adjust, .repetitions = 20, .alternatives = {{"RM"}, {"SV"}},
-                         .adjustment = Adjustment{.alternative = "RM", .stepDb = 2.0, .leastDb = -10.0, .mostDb = 5.0, .startsAnywhere = true}};
-    const auto p = protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {matching});
+    SessionPlan matching{
+        .name = "matching",
+        .task = StudyTask::adjust,
+        .repetitions = 20,
+        .alternatives = {{"RM"}, {"SV"}},
+        .adjustment = Adjustment{
+            .alternative = "RM", .stepDb = 2.0, .leastDb = -10.0, .mostDb = 5.0, .startsAnywhere = true}};
+    const auto p =
+        protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {matching});
     std::set<double> starts;
     for (const auto& record : runWhole(p, {})) {
         const double step = (record.trial.levelDb + 10.0) / 2.0;
@@ -184,7 +223,10 @@ TEST(Experiment, AdjustmentsMayStartAnywhereByTheSeed) {
 }
 
 TEST(Experiment, LevelsOfExpertsHoldForTheAlternativeThatTheyMoved) {
-    SessionPlan main{.name = "main", .task = StudyTask::choose, .alternatives = {{"RM"}, {"SV", 1.0}}, .levelsFile = "levels.csv"};
+    SessionPlan main{.name = "main",
+                     .task = StudyTask::choose,
+                     .alternatives = {{"RM"}, {"SV", 1.0}},
+                     .levelsFile = "levels.csv"};
     auto p = protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {main});
     EXPECT_EQ(levelsFault(p), "levels.csv: expected a level of A, a, found none");
     using Kind = LevelTrial::Kind;
@@ -200,14 +242,24 @@ TEST(Experiment, LevelsOfExpertsHoldForTheAlternativeThatTheyMoved) {
     EXPECT_EQ(levelsFault(p), "");
     for (const auto& record : runWhole(p, {}))
         for (std::size_t i = 0; i < 2; ++i)
-            EXPECT_EQ(record.trial.partLevelsDb[i], record.trial.parts[i] == "SV" ? 1.0 : record.trial.stimulus == "a" ? -3.0 : 3.0);
+            EXPECT_EQ(record.trial.partLevelsDb[i], record.trial.parts[i] == "SV"  ? 1.0
+                                                    : record.trial.stimulus == "a" ? -3.0
+                                                                                   : 3.0);
     p.levels = averageLevels(experts, "AV");
     EXPECT_EQ(levelsFault(p), "levels.csv: expected levels of an alternative of session main, found AV");
 }
 
 TEST(Experiment, RatingsWaitForEveryObject) {
-    SessionPlan main{.name = "main", .task = StudyTask::rate, .repetitions = 10, .leastSeconds = 10.0, .breakEvery = 20, .breakSeconds = 120.0, .objects = {"a", "b", "c"}, .scales = {"realism", "harmony", "liking"}};
-    const auto p = protocolOf(CallSet{{{"method", {"1", "2", "3", "4", "5", "6", "7", "8"}}}, "render {object} {method}"}, {main});
+    SessionPlan main{.name = "main",
+                     .task = StudyTask::rate,
+                     .repetitions = 10,
+                     .leastSeconds = 10.0,
+                     .breakEvery = 20,
+                     .breakSeconds = 120.0,
+                     .objects = {"a", "b", "c"},
+                     .scales = {"realism", "harmony", "liking"}};
+    const auto p = protocolOf(
+        CallSet{{{"method", {"1", "2", "3", "4", "5", "6", "7", "8"}}}, "render {object} {method}"}, {main});
     Experiment experiment{p, {}};
     TrialProgress progress{experiment.session(), experiment.trial()};
     for (std::size_t part = 0; part < 3; ++part) {
@@ -247,13 +299,17 @@ TEST(Staircase, TwoDownOneUpFindsTheLevelOf71PercentCorrect) {
     Staircase stairs{plan};
     SeededRandom random{5};
     constexpr double noiseDb = 3.0; // of either of two levels: 70.7 % at 0.545 sqrt(2) noise
-    while (!stairs.isDone()) stairs.answer(stairs.levelDb() + noiseDb * random.normal() > noiseDb * random.normal());
+    while (!stairs.isDone())
+        stairs.answer(stairs.levelDb() + noiseDb * random.normal() > noiseDb * random.normal());
     EXPECT_NEAR(stairs.thresholdDb(), 0.545 * std::sqrt(2.0) * noiseDb, 0.5);
     EXPECT_EQ(stairs.reversals().size(), 60u);
 }
 
 TEST(Staircase, EndsAndIsDoneAgainByTheSameAnswers) {
-    SessionPlan main{.name = "main", .task = StudyTask::choose, .alternatives = {{"standard"}, {"stronger"}}, .staircase = StaircasePlan{.alternative = "stronger"}};
+    SessionPlan main{.name = "main",
+                     .task = StudyTask::choose,
+                     .alternatives = {{"standard"}, {"stronger"}},
+                     .staircase = StaircasePlan{.alternative = "stronger"}};
     const auto p = protocolOf(GridSet{1, 1}, {main});
     const auto records = runWhole(p, {});
     EXPECT_GT(records.size(), 8u);

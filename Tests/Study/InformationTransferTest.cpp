@@ -12,7 +12,8 @@ namespace {
 
 std::vector<IdentificationTrial> identity(int stimuli, int each) {
     std::vector<IdentificationTrial> trials;
-    for (int i = 0; i < stimuli * each; ++i) trials.push_back({std::to_string(i % stimuli), std::to_string(i % stimuli)});
+    for (int i = 0; i < stimuli * each; ++i)
+        trials.push_back({std::to_string(i % stimuli), std::to_string(i % stimuli)});
     return trials;
 }
 
@@ -38,10 +39,12 @@ TEST(InformationTransfer, OfIndependentAnswersIsZero) {
 }
 
 TEST(InformationTransfer, OfNothingOrOneStimulusIsZeroAndNoNumberIsMissing) {
-    for (const auto& trials : {std::vector<IdentificationTrial>{}, {{"a", "a"}}, {{"a", "b"}}, {{"a", "b"}, {"a", "c"}}}) {
+    for (const auto& trials :
+         {std::vector<IdentificationTrial>{}, {{"a", "a"}}, {{"a", "b"}}, {{"a", "b"}, {"a", "c"}}}) {
         const auto it = informationTransfer(ConfusionMatrix{trials});
         EXPECT_EQ(it.bits, 0.0);
-        EXPECT_TRUE(std::isfinite(it.biasBits) && std::isfinite(it.leastBits) && std::isfinite(it.mostBits) && std::isfinite(it.trialsPerCell));
+        EXPECT_TRUE(std::isfinite(it.biasBits) && std::isfinite(it.leastBits) && std::isfinite(it.mostBits) &&
+                    std::isfinite(it.trialsPerCell));
     }
 }
 
@@ -57,7 +60,8 @@ struct Channel {
         const auto below = [blur](double x) { return 0.5 * std::erfc(-x / blur / std::numbers::sqrt2); };
         for (int i = 0; i < size; ++i)
             for (int j = 0; j < size; ++j)
-                shares[std::size_t(i)][std::size_t(j)] = (j == size - 1 ? 1.0 : below(j - i + 0.5)) - (j == 0 ? 0.0 : below(j - i - 0.5));
+                shares[std::size_t(i)][std::size_t(j)] =
+                    (j == size - 1 ? 1.0 : below(j - i + 0.5)) - (j == 0 ? 0.0 : below(j - i - 0.5));
     }
     double trueBits() const {
         const auto n = static_cast<double>(shares.size());
@@ -75,7 +79,8 @@ struct Channel {
         for (std::size_t i = 0; i < shares.size(); ++i)
             for (std::size_t k = 0; k < each; ++k) {
                 std::size_t j = 0;
-                for (double left = random.uniform(); j + 1 < shares.size() && left >= shares[i][j]; ++j) left -= shares[i][j];
+                for (double left = random.uniform(); j + 1 < shares.size() && left >= shares[i][j]; ++j)
+                    left -= shares[i][j];
                 trials.push_back({std::to_string(i), std::to_string(j)});
             }
         return ConfusionMatrix{trials};
@@ -96,7 +101,8 @@ Errors meanErrors(const Channel& channel, double perCell, int runs) {
     const auto each = static_cast<std::size_t>(std::lround(perCell * size));
     for (int run = 0; run < runs; ++run) {
         const auto it = informationTransfer(channel.sample(random, each));
-        const double miller = (size - 1.0) * (size - 1.0) / (2.0 * size * static_cast<double>(each) * std::numbers::ln2);
+        const double miller =
+            (size - 1.0) * (size - 1.0) / (2.0 * size * static_cast<double>(each) * std::numbers::ln2);
         e.plain += (it.bits - truth) / runs;
         e.miller += (it.bits - miller - truth) / runs;
         e.corrected += (it.correctedBits() - truth) / runs;
@@ -113,8 +119,9 @@ TEST(InformationTransfer, EstimatesOnSimulatedDataOfKnownTruth) {
         for (const double perCell : {0.2, 0.5, 1.0, 2.0, 5.0, 10.0}) {
             constexpr int runs = 60;
             const Errors e = meanErrors(channel, perCell, runs);
-            std::printf("%4.1f  %5.2f  %11.1f  %+6.3f  %+6.3f  %+9.3f  %+6.3f (%d of %d)\n", blur, channel.trueBits(), perCell, e.plain, e.miller, e.corrected, e.bound,
-                        e.boundTooHigh, runs);
+            std::printf("%4.1f  %5.2f  %11.1f  %+6.3f  %+6.3f  %+9.3f  %+6.3f (%d of %d)\n", blur,
+                        channel.trueBits(), perCell, e.plain, e.miller, e.corrected, e.bound, e.boundTooHigh,
+                        runs);
             EXPECT_GE(e.plain, -0.005) << "biased upward, or not at all";
             EXPECT_LE(std::abs(e.corrected), std::max(std::abs(e.miller), std::abs(e.plain)) + 0.002);
             if (perCell >= trialsPerCellForCorrection) {
@@ -128,14 +135,16 @@ TEST(InformationTransfer, EstimatesOnSimulatedDataOfKnownTruth) {
 
 TEST(InformationTransfer, ParticipantsTransferForThemselves) {
     std::vector<IdentificationTrial> trials;
-    for (const char* stimulus : {"a", "b", "c", "d"}) trials.push_back({stimulus, stimulus, "P1"}), trials.push_back({stimulus, "a", "P2"});
+    for (const char* stimulus : {"a", "b", "c", "d"})
+        trials.push_back({stimulus, stimulus, "P1"}), trials.push_back({stimulus, "a", "P2"});
     const auto transfers = transferByParticipant(trials);
     ASSERT_EQ(transfers.size(), 2u);
     EXPECT_EQ(transfers[1].participant, "P2");
     EXPECT_NEAR(transfers[0].transfer.bits, 2.0, 1e-12);
     EXPECT_NEAR(transfers[1].transfer.bits, 0.0, 1e-12);
     EXPECT_EQ(transfers[1].matrix.correct(), 1u);
-    EXPECT_LT(informationTransfer(ConfusionMatrix{trials}).bits, 1.0) << "pooled, one participant's guesses take from the other";
+    EXPECT_LT(informationTransfer(ConfusionMatrix{trials}).bits, 1.0)
+        << "pooled, one participant's guesses take from the other";
 }
 
 } // namespace

@@ -8,12 +8,14 @@
 namespace physvib {
 namespace {
 
-const PercentCounts phoneLinear{"PHONE-LINEAR", 5, 7, {2.87, 3.18, 3.39, 3.46, 3.22, 2.62, 3.45, 0.01, 1.60, 3.26, 1.42, 2.77, 0.76, 1.20,
-                                                       6.51, 1.22, 3.14, 4.20, 3.64, 1.74, 3.11, 3.45, 1.17, 1.95, 3.77, 3.57, 1.03, 3.53,
-                                                       2.84, 2.56, 3.99, 5.41, 4.15, 2.42, 3.35}};
-const PercentCounts ringLogarithm{"RING-LOGARITHM", 5, 7, {3.69, 4.93, 3.10, 2.22, 1.44, 3.63, 3.60, 2.09, 2.20, 1.34, 0.87, 2.53, 1.06, 1.56,
-                                                           3.25, 2.52, 3.16, 6.54, 2.93, 3.05, 2.90, 1.65, 1.78, 3.04, 3.44, 3.12, 2.29, 2.97,
-                                                           2.62, 3.56, 2.29, 3.90, 3.24, 4.05, 3.45}};
+const PercentCounts phoneLinear{"PHONE-LINEAR", 5, 7, {2.87, 3.18, 3.39, 3.46, 3.22, 2.62, 3.45, 0.01, 1.60,
+                                                       3.26, 1.42, 2.77, 0.76, 1.20, 6.51, 1.22, 3.14, 4.20,
+                                                       3.64, 1.74, 3.11, 3.45, 1.17, 1.95, 3.77, 3.57, 1.03,
+                                                       3.53, 2.84, 2.56, 3.99, 5.41, 4.15, 2.42, 3.35}};
+const PercentCounts ringLogarithm{
+    "RING-LOGARITHM", 5, 7, {3.69, 4.93, 3.10, 2.22, 1.44, 3.63, 3.60, 2.09, 2.20, 1.34, 0.87, 2.53,
+                             1.06, 1.56, 3.25, 2.52, 3.16, 6.54, 2.93, 3.05, 2.90, 1.65, 1.78, 3.04,
+                             3.44, 3.12, 2.29, 2.97, 2.62, 3.56, 2.29, 3.90, 3.24, 4.05, 3.45}};
 
 TEST(PercentCounts, PublishedTablesGiveThePublishedResolutions) {
     const auto phone = perceptualResolution(phoneLinear), ring = perceptualResolution(ringLogarithm);
@@ -26,7 +28,8 @@ TEST(PercentCounts, PublishedTablesGiveThePublishedResolutions) {
 }
 
 TEST(PercentCounts, TheThresholdIsInclusive) {
-    EXPECT_EQ(perceptualResolution(phoneLinear, 1.4286).rows, 3u) << "the exact half of a uniform cell: 7 x 3";
+    EXPECT_EQ(perceptualResolution(phoneLinear, 1.4286).rows, 3u)
+        << "the exact half of a uniform cell: 7 x 3";
     const PercentCounts sums{"sums", 1, 2, {0.71 + 0.71, 98.58}}; // in binary a little off 1.42
     EXPECT_EQ(perceptualResolution(sums).columns, 2u);
     const PercentCounts exact{"exact", 1, 2, {1.42, 98.58}}, below{"below", 1, 2, {1.41, 98.59}};
@@ -69,7 +72,8 @@ std::pair<std::size_t, std::size_t> bruteForce(const PercentCounts& counts, doub
             const GridMerge merge{groups(counts.columns, c), groups(counts.rows, r)};
             const std::size_t cells = merge.columnGroups.size() * merge.rowGroups.size();
             const auto grid = merged(counts, merge);
-            if (std::ranges::any_of(grid.percent, [=](double p) { return p < least - 1e-9; }) || cells < best) continue;
+            if (std::ranges::any_of(grid.percent, [=](double p) { return p < least - 1e-9; }) || cells < best)
+                continue;
             ties = cells > best ? 1 : ties + 1;
             best = cells;
         }
@@ -80,7 +84,8 @@ TEST(PercentCounts, MergingFindsWhatBruteForceFinds) {
     SeededRandom random{7};
     for (int i = 0; i < 200; ++i) {
         PercentCounts counts{"random", 1 + random.below(5), 1 + random.below(6), {}};
-        for (std::size_t k = 0; k < counts.rows * counts.columns; ++k) counts.percent.push_back(static_cast<double>(random.below(6)));
+        for (std::size_t k = 0; k < counts.rows * counts.columns; ++k)
+            counts.percent.push_back(static_cast<double>(random.below(6)));
         const double threshold = 0.5 + static_cast<double>(random.below(12));
         const auto found = perceptualResolution(counts, threshold);
         const auto [cells, ties] = bruteForce(counts, threshold);

@@ -15,10 +15,13 @@ TEST(PinkNoise, HasTheSamePowerInEveryOctave) {
     std::vector<double> power(6, 0.0); // octaves 8-16, 16-32, ... 256-512 of 2048 bins
     for (int s = 0; s < segments; ++s) {
         std::vector<double> samples(size);
-        for (int n = 0; n < size; ++n) samples[std::size_t(n)] = noise.next() * (0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * n / size));
+        for (int n = 0; n < size; ++n)
+            samples[std::size_t(n)] =
+                noise.next() * (0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * n / size));
         for (std::size_t octave = 0; octave < power.size(); ++octave)
             for (int k = 0; k < 8; ++k) { // eight bins stand for the octave
-                const double bin = 8.0 * std::exp2(static_cast<double>(octave)) * std::exp2((k + 0.5) / 8.0), w = 2.0 * std::numbers::pi * bin / size;
+                const double bin = 8.0 * std::exp2(static_cast<double>(octave)) * std::exp2((k + 0.5) / 8.0),
+                             w = 2.0 * std::numbers::pi * bin / size;
                 double re = 0.0, im = 0.0, c = 1.0, si = 0.0;
                 const double cw = std::cos(w), sw = std::sin(w);
                 for (const double x : samples) {

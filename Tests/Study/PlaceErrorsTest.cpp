@@ -67,8 +67,9 @@ TEST(PlaceErrors, TablesOfOtherProgramsAreReadWithTargetsAnywhere) {
     EXPECT_EQ(readLocations({&file, 1}).error,
               "t.csv: column target_x: expected at most 16 different places, found more; `physvib analyse "
               "places` takes targets on no grid");
-    const auto line = parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x"})
-                          .value; // a line, and places as names
+    const auto line =
+        parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x"}).value; // a line, and
+                                                                                          // places as names
     const NamedText onALine{text, "t.csv", line};
     const auto one = readPlaces({&onALine, 1});
     ASSERT_TRUE(one) << one.error;
@@ -98,8 +99,7 @@ TEST(PlaceErrors, OurOwnRowsHaveTheirGridInTheCall) {
     ASSERT_EQ(read.value.conditions.size(), 2u);
     EXPECT_EQ(read.value.conditions[0].trials,
               (std::vector<PlaceTrial>{{"P1", "2,1", 0.125, 0.75, 0.225, 0.85}}));
-    EXPECT_EQ(read.value.conditions[1].trials,
-              (std::vector<PlaceTrial>{{"P1", "1,4", 1.0, 0.0, 1.0, 0.5}}))
+    EXPECT_EQ(read.value.conditions[1].trials, (std::vector<PlaceTrial>{{"P1", "1,4", 1.0, 0.0, 1.0, 0.5}}))
         << "corners unless the call says middles";
     ASSERT_EQ(read.value.warnings.size(), 1u);
     EXPECT_NE(read.value.warnings[0].find("shares of the field's width and height"), std::string::npos);
@@ -108,7 +108,8 @@ TEST(PlaceErrors, OurOwnRowsHaveTheirGridInTheCall) {
         const std::string other = head + "P1,a,main,locate,\"2,3\",3,2,0.2,0.8," + wrong + "\n";
         const NamedText bad{other, "t.csv"};
         const auto refused = readPlaces({&bad, 1});
-        if (std::string_view{wrong} == "--grid 4x2") EXPECT_TRUE(refused) << refused.error;
+        if (std::string_view{wrong} == "--grid 4x2")
+            EXPECT_TRUE(refused) << refused.error;
         else
             EXPECT_EQ(refused.error.find("t.csv:2: column render: expected a call with the --grid that the "
                                          "target is of, found "),

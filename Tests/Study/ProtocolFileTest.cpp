@@ -11,7 +11,8 @@ namespace physvib {
 namespace {
 
 const std::string head = R"({ "physvib_protocol": 1, "name": "p", )";
-const std::string oneGrid = R"("conditions": [{ "name": "A", "stimuli": "grid", "columns": 3, "rows": 3 }], )";
+const std::string oneGrid =
+    R"("conditions": [{ "name": "A", "stimuli": "grid", "columns": 3, "rows": 3 }], )";
 
 TEST(ProtocolFile, TheShortestProtocolHasDefaults) {
     const auto p = readProtocol(head + oneGrid + R"("sessions": [{ "name": "main" }] })", "p.json");
@@ -23,37 +24,64 @@ TEST(ProtocolFile, TheShortestProtocolHasDefaults) {
 
 TEST(ProtocolFile, FaultsAreNamedByTheirField) {
     const auto fault = [](const std::string& text) { return readProtocol(text, "p.json").error; };
-    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "repetitions": 0 }] })"), "p.json: sessions[0].repetitions: expected 1 to 1000, found 0");
+    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "repetitions": 0 }] })"),
+              "p.json: sessions[0].repetitions: expected 1 to 1000, found 0");
     EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "guess" }] })"),
-              "p.json: sessions[0].task: expected one of explore, identify, locate, choose, rate, adjust, estimate, found \"guess\"");
-    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "order": "random", "sound": 1 }] })"), "p.json: sessions[0]: unknown field \"sound\"");
-    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate" }] })"), "p.json: sessions[0].scales: expected them of the task rate, and of no other");
-    EXPECT_EQ(fault(head + R"("conditions": [{ "name": "A", "stimuli": "grid", "columns": 17, "rows": 3 }], "sessions": [{ "name": "main" }] })"),
-              "p.json: conditions[0].columns: expected 1 to 16, found 17");
-    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate", "scales": ["x"] }] })"),
-              "p.json: scales: expected names that no other column of a trial file has, found \"x\"");
-    EXPECT_EQ(fault(head + oneGrid + R"("words": "../ko.json", "sessions": [{ "name": "main" }] })"), "p.json: words: expected a name, or a file in the folder or below");
-    EXPECT_EQ(fault(R"({ "physvib_protocol": 2 })"), "p.json: physvib_protocol: made for a newer PhysVib: expected a version up to 1, found 2");
-    EXPECT_EQ(fault("{"), "p.json: line 1, column 2: syntax error while parsing object key - unexpected end of input; expected string literal");
+              "p.json: sessions[0].task: expected one of explore, identify, locate, choose, rate, adjust, "
+              "estimate, found \"guess\"");
+    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "order": "random", "sound": 1 }] })"),
+              "p.json: sessions[0]: unknown field \"sound\"");
+    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate" }] })"),
+              "p.json: sessions[0].scales: expected them of the task rate, and of no other");
+    EXPECT_EQ(
+        fault(
+            head +
+            R"("conditions": [{ "name": "A", "stimuli": "grid", "columns": 17, "rows": 3 }], "sessions": [{ "name": "main" }] })"),
+        "p.json: conditions[0].columns: expected 1 to 16, found 17");
+    EXPECT_EQ(
+        fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate", "scales": ["x"] }] })"),
+        "p.json: scales: expected names that no other column of a trial file has, found \"x\"");
+    EXPECT_EQ(fault(head + oneGrid + R"("words": "../ko.json", "sessions": [{ "name": "main" }] })"),
+              "p.json: words: expected a name, or a file in the folder or below");
+    EXPECT_EQ(fault(R"({ "physvib_protocol": 2 })"),
+              "p.json: physvib_protocol: made for a newer PhysVib: expected a version up to 1, found 2");
+    EXPECT_EQ(fault("{"), "p.json: line 1, column 2: syntax error while parsing object key - unexpected end "
+                          "of input; expected string literal");
 }
 
 TEST(ProtocolFile, AWorldIsASceneThatIsWatchedAndMayHaveHands) {
     const auto worldOf = [](const std::string& more) {
-        return readProtocol(head + R"("conditions": [{ "name": "A", "stimuli": "world", "factors": [{ "name": "pair", "values": ["wood-wood"] }], )" + more + R"( }], "sessions": [{ "name": "main" }] })", "p.json");
+        return readProtocol(
+            head +
+                R"("conditions": [{ "name": "A", "stimuli": "world", "factors": [{ "name": "pair", "values": ["wood-wood"] }], )" +
+                more + R"( }], "sessions": [{ "name": "main" }] })",
+            "p.json");
     };
-    const auto watched = worldOf(R"("call": "render drop --set pair={pair}")"), played = worldOf(R"("call": "render box-study --set pair={pair}", "hands": true)");
+    const auto watched = worldOf(R"("call": "render drop --set pair={pair}")"),
+               played = worldOf(R"("call": "render box-study --set pair={pair}", "hands": true)");
     ASSERT_TRUE(watched && played) << watched.error << played.error;
     EXPECT_FALSE(std::get<WorldSet>(watched.value.conditions[0].stimuli).hasHands);
     EXPECT_TRUE(std::get<WorldSet>(played.value.conditions[0].stimuli).hasHands);
     EXPECT_EQ(stimuliOf(played.value.conditions[0]).front().label, "wood-wood");
-    EXPECT_EQ(worldOf(R"("call": "stimulus phantom --at 0.5,0.5 {pair}")").error, "p.json: conditions[0].call: expected render and a scene, which a world needs");
+    EXPECT_EQ(worldOf(R"("call": "stimulus phantom --at 0.5,0.5 {pair}")").error,
+              "p.json: conditions[0].call: expected render and a scene, which a world needs");
 }
 
 TEST(ProtocolFile, ScalesHaveADefinitionEachAndTwoAnchors) {
-    const auto fault = [](const std::string& more) { return readProtocol(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate", "scales": ["a", "b"], )" + more + "}] }", "p.json").error; };
-    EXPECT_EQ(fault(R"("definitions": ["It was a.", "It was b."], "anchors": ["no", "yes"], "show_numbers": true)"), "");
-    EXPECT_EQ(fault(R"("definitions": ["It was a."])"), "p.json: sessions[0].definitions: expected one of each scale");
-    EXPECT_EQ(fault(R"("anchors": ["no", "so so", "yes"])"), "p.json: sessions[0].anchors: expected two, of the left end and of the right");
+    const auto fault = [](const std::string& more) {
+        return readProtocol(head + oneGrid +
+                                R"("sessions": [{ "name": "main", "task": "rate", "scales": ["a", "b"], )" +
+                                more + "}] }",
+                            "p.json")
+            .error;
+    };
+    EXPECT_EQ(
+        fault(R"("definitions": ["It was a.", "It was b."], "anchors": ["no", "yes"], "show_numbers": true)"),
+        "");
+    EXPECT_EQ(fault(R"("definitions": ["It was a."])"),
+              "p.json: sessions[0].definitions: expected one of each scale");
+    EXPECT_EQ(fault(R"("anchors": ["no", "so so", "yes"])"),
+              "p.json: sessions[0].anchors: expected two, of the left end and of the right");
 }
 
 TEST(ProtocolFile, EveryBuiltInProtocolIsReadBackAsWritten) {
@@ -132,10 +160,22 @@ std::map<std::string, int> mainTrials(const Protocol& p) {
 
 TEST(ProtocolFile, TheThesisStudiesHaveTheirNumbersOfTrials) {
     const auto counts = [](const char* name) { return mainTrials(findProtocol(name).value); };
-    EXPECT_EQ(counts("patterns"), (std::map<std::string, int>{{"PHONE-2", 28}, {"PHONE-3", 78}, {"PHONE-4", 168}, {"RING-2", 28}, {"RING-3", 78}, {"RING-4", 168}}));
-    EXPECT_EQ(counts("phantom-grids"),
-              (std::map<std::string, int>{{"PHONE-3x3", 90}, {"PHONE-4x4", 160}, {"PHONE-5x5", 250}, {"RING-3x3", 90}, {"RING-4x4", 160}, {"RING-5x5", 250}}));
-    EXPECT_EQ(counts("phantom-places"), (std::map<std::string, int>{{"PHONE-LINEAR", 175}, {"PHONE-LOGARITHM", 175}, {"RING-LINEAR", 175}, {"RING-LOGARITHM", 175}}));
+    EXPECT_EQ(counts("patterns"), (std::map<std::string, int>{{"PHONE-2", 28},
+                                                              {"PHONE-3", 78},
+                                                              {"PHONE-4", 168},
+                                                              {"RING-2", 28},
+                                                              {"RING-3", 78},
+                                                              {"RING-4", 168}}));
+    EXPECT_EQ(counts("phantom-grids"), (std::map<std::string, int>{{"PHONE-3x3", 90},
+                                                                   {"PHONE-4x4", 160},
+                                                                   {"PHONE-5x5", 250},
+                                                                   {"RING-3x3", 90},
+                                                                   {"RING-4x4", 160},
+                                                                   {"RING-5x5", 250}}));
+    EXPECT_EQ(
+        counts("phantom-places"),
+        (std::map<std::string, int>{
+            {"PHONE-LINEAR", 175}, {"PHONE-LOGARITHM", 175}, {"RING-LINEAR", 175}, {"RING-LOGARITHM", 175}}));
     EXPECT_EQ(counts("model-or-sound"), (std::map<std::string, int>{{"drop", 108}}));
     EXPECT_EQ(counts("eight-methods"), (std::map<std::string, int>{{"box", 80}}));
 }

@@ -25,25 +25,46 @@ TEST(Protocol, FaultsAreNamedByTheirField) {
         return validate(p);
     };
     EXPECT_EQ(fault([](Protocol&) {}), "");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::choose; }), "sessions[0].alternatives: expected two or more, found 0");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].alternatives = {{"a"}, {"b"}}; }), "sessions[0].alternatives: expected them of the tasks choose and adjust only");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::rate; }), "sessions[0].scales: expected them of the task rate, and of no other");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::explore; }), "sessions[0].task: expected explore in a training session only");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions.push_back(p.sessions[0]); }), "sessions: expected a name of its own for each");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].levelsFrom = "main"; }), "sessions[0].levels_from: expected an earlier session of the task adjust");
-    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{4}, p.sessions[0].task = StudyTask::locate; }),
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::choose; }),
+              "sessions[0].alternatives: expected two or more, found 0");
+    EXPECT_EQ(fault([](Protocol& p) {
+                  p.sessions[0].alternatives = {{"a"}, {"b"}};
+              }),
+              "sessions[0].alternatives: expected them of the tasks choose and adjust only");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::rate; }),
+              "sessions[0].scales: expected them of the task rate, and of no other");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::explore; }),
+              "sessions[0].task: expected explore in a training session only");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions.push_back(p.sessions[0]); }),
+              "sessions: expected a name of its own for each");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].levelsFrom = "main"; }),
+              "sessions[0].levels_from: expected an earlier session of the task adjust");
+    EXPECT_EQ(fault([](Protocol& p) {
+                  p.conditions[0].stimuli = PatternSet{4}, p.sessions[0].task = StudyTask::locate;
+              }),
               "conditions[0].stimuli: expected a grid, which the task locate needs");
-    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{26}; }), "conditions[0].stimuli: expected at most 4096 of them");
-    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{2, {0.1, 0.1}}; }), "conditions[0].stimuli: expected no two of the same label");
-    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{2, {0.1004}}; }), "conditions[0].pulse_s: expected whole milliseconds");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::rate, p.sessions[0].scales = {"a", "a"}; }), "sessions[0].scales: expected a name of its own for each");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{26}; }),
+              "conditions[0].stimuli: expected at most 4096 of them");
+    EXPECT_EQ(fault([](Protocol& p) {
+                  p.conditions[0].stimuli = PatternSet{2, {0.1, 0.1}};
+              }),
+              "conditions[0].stimuli: expected no two of the same label");
+    EXPECT_EQ(fault([](Protocol& p) {
+                  p.conditions[0].stimuli = PatternSet{2, {0.1004}};
+              }),
+              "conditions[0].pulse_s: expected whole milliseconds");
+    EXPECT_EQ(fault([](Protocol& p) {
+                  p.sessions[0].task = StudyTask::rate, p.sessions[0].scales = {"a", "a"};
+              }),
+              "sessions[0].scales: expected a name of its own for each");
     EXPECT_EQ(fault([](Protocol& p) {
                   p.sessions[0].task = StudyTask::adjust;
                   p.sessions[0].alternatives = {{"a"}, {"b"}};
                   p.sessions[0].adjustment = Adjustment{"a", 0.0, 1.0, 5.0, -5.0};
               }),
               "sessions[0].adjustment: expected least_db <= start_db <= most_db");
-    EXPECT_EQ(fault([](Protocol& p) { p.conditions.clear(); }), "conditions: expected one or more, found none");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions.clear(); }),
+              "conditions: expected one or more, found none");
 }
 
 TEST(Protocol, CallsRenderAndReadInTheirFolder) {
@@ -55,14 +76,25 @@ TEST(Protocol, CallsRenderAndReadInTheirFolder) {
     EXPECT_EQ(fault("render drop --set pair={a} --sound 80=wood/a.wav --layout phone1"), "");
     EXPECT_EQ(fault("stimulus phantom --at 0.5,0.5 --level-g {a}"), "");
     EXPECT_EQ(fault("frobnicate {a}"), "conditions[0].call: expected render or stimulus, and what they take");
-    EXPECT_EQ(fault("render {a}; touch x"), "conditions[0].call: expected letters, digits, spaces and _-+.,:=/%");
-    EXPECT_EQ(fault("render {a}", {"$(touch x)"}), "conditions[0].call: expected letters, digits, spaces and _-+.,:=/%") << "what a value brings";
-    EXPECT_EQ(fault("render {a} {c}"), "conditions[0].call: expected names of factors in braces, or alternative, object, level_db; found {c}");
-    EXPECT_EQ(fault("render /home/x/scene.json"), "conditions[0].call: expected files in the folder or below, found /home/x/scene.json");
-    EXPECT_EQ(fault("render drop --layout a/../../x.json"), "conditions[0].call: expected files in the folder or below, found a/../../x.json");
-    EXPECT_EQ(fault("render drop --sound 80=/x.wav"), "conditions[0].call: expected files in the folder or below, found 80=/x.wav");
-    EXPECT_EQ(fault("render {a}{a}", {std::string(1000, 'a')}), "conditions[0].call: expected at most 2000 bytes with its recordings, found 2007") << "it stands in every row";
-    EXPECT_EQ(fault("render {a}", {"{b}{b}{b}"}), "conditions[0].factors: expected names and values without braces") << "sixteen of them would fill the memory";
+    EXPECT_EQ(fault("render {a}; touch x"),
+              "conditions[0].call: expected letters, digits, spaces and _-+.,:=/%");
+    EXPECT_EQ(fault("render {a}", {"$(touch x)"}),
+              "conditions[0].call: expected letters, digits, spaces and _-+.,:=/%")
+        << "what a value brings";
+    EXPECT_EQ(fault("render {a} {c}"), "conditions[0].call: expected names of factors in braces, or "
+                                       "alternative, object, level_db; found {c}");
+    EXPECT_EQ(fault("render /home/x/scene.json"),
+              "conditions[0].call: expected files in the folder or below, found /home/x/scene.json");
+    EXPECT_EQ(fault("render drop --layout a/../../x.json"),
+              "conditions[0].call: expected files in the folder or below, found a/../../x.json");
+    EXPECT_EQ(fault("render drop --sound 80=/x.wav"),
+              "conditions[0].call: expected files in the folder or below, found 80=/x.wav");
+    EXPECT_EQ(fault("render {a}{a}", {std::string(1000, 'a')}),
+              "conditions[0].call: expected at most 2000 bytes with its recordings, found 2007")
+        << "it stands in every row";
+    EXPECT_EQ(fault("render {a}", {"{b}{b}{b}"}),
+              "conditions[0].factors: expected names and values without braces")
+        << "sixteen of them would fill the memory";
 }
 
 TEST(Protocol, NamesFilesInItsFolderOnly) {
@@ -71,11 +103,21 @@ TEST(Protocol, NamesFilesInItsFolderOnly) {
         change(p);
         return validate(p);
     };
-    EXPECT_EQ(fault([](Protocol& p) { p.sounds = {{80.0, "synthetic-1"}, {349.0, "my sounds/ball.wav"}}; }), "");
-    EXPECT_EQ(fault([](Protocol& p) { p.sounds = {{80.0, "synthetic-1"}, {349.0, "/home/x/ball.wav"}}; }),
-              "sounds[1].file: expected a file in the folder or below, of plain characters; others are given with --sound");
-    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].layout = "../x.json"; }), "conditions[0].layout: expected a name, or a file in the folder or below");
-    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = GridSet{16, 16}, p.sessions[0].repetitions = 1000; }), "conditions[0].stimuli: expected at most 100000 trials in session main");
+    EXPECT_EQ(fault([](Protocol& p) {
+                  p.sounds = {{80.0, "synthetic-1"}, {349.0, "my sounds/ball.wav"}};
+              }),
+              "");
+    EXPECT_EQ(fault([](Protocol& p) {
+                  p.sounds = {{80.0, "synthetic-1"}, {349.0, "/home/x/ball.wav"}};
+              }),
+              "sounds[1].file: expected a file in the folder or below, of plain characters; others are given "
+              "with --sound");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].layout = "../x.json"; }),
+              "conditions[0].layout: expected a name, or a file in the folder or below");
+    EXPECT_EQ(fault([](Protocol& p) {
+                  p.conditions[0].stimuli = GridSet{16, 16}, p.sessions[0].repetitions = 1000;
+              }),
+              "conditions[0].stimuli: expected at most 100000 trials in session main");
 }
 
 TEST(Protocol, StimuliAreCountedAsTheyAreMade) {
@@ -91,7 +133,8 @@ TEST(Protocol, StimuliAreCountedAsTheyAreMade) {
     check(PatternSet{4}, 168, "A-100");
     check(PatternSet{2, {0.05, 0.2, 0.4}}, 42, "A-50");
     check(GridSet{7, 5}, 35, "1,1");
-    check(CallSet{{{"pair", {"wood", "steel"}}, {"size", {"small", "large", "huge"}}}, "render {pair}"}, 6, "pair=wood size=small");
+    check(CallSet{{{"pair", {"wood", "steel"}}, {"size", {"small", "large", "huge"}}}, "render {pair}"}, 6,
+          "pair=wood size=small");
     check(CallSet{{{"method", {"AV-FV-DRV", "AF-FF-DRF"}}}, "render {method}"}, 2, "AV-FV-DRV");
 }
 
@@ -118,7 +161,8 @@ TEST(StudyOrder, ConditionsOfAGroupStayTogether) {
     p.conditionOrder = Protocol::ConditionOrder::latinSquare;
     p.conditions.clear();
     for (const char* group : {"PHONE", "RING"})
-        for (const char* name : {"2", "3", "4"}) p.conditions.push_back({std::string(group) + name, group, "phone4", 205.0, 1.0, GridSet{2, 2}});
+        for (const char* name : {"2", "3", "4"})
+            p.conditions.push_back({std::string(group) + name, group, "phone4", 205.0, 1.0, GridSet{2, 2}});
     std::set<std::vector<std::size_t>> orders;
     for (int number = 1; number <= 12; ++number) {
         const auto order = conditionOrder(p, number);
@@ -134,7 +178,8 @@ TEST(StudyOrder, ConditionsOfAGroupStayTogether) {
 TEST(StudyOrder, SessionsHoldEveryStimulusAsOftenAsAsked) {
     SessionPlan session;
     session.repetitions = 5;
-    for (const auto order : {SessionPlan::Order::given, SessionPlan::Order::random, SessionPlan::Order::blocks}) {
+    for (const auto order :
+         {SessionPlan::Order::given, SessionPlan::Order::random, SessionPlan::Order::blocks}) {
         session.order = order;
         SeededRandom random{3};
         const auto trials = sessionOrder(session, 7, random);
@@ -144,7 +189,9 @@ TEST(StudyOrder, SessionsHoldEveryStimulusAsOftenAsAsked) {
         for (const auto& [stimulus, times] : counts) EXPECT_EQ(times, 5);
         std::set<std::size_t> firstBlock;
         for (std::size_t i = 0; i < 7; ++i) firstBlock.insert(trials[i].stimulus);
-        if (order != SessionPlan::Order::random) { EXPECT_EQ(firstBlock.size(), 7u); }
+        if (order != SessionPlan::Order::random) {
+            EXPECT_EQ(firstBlock.size(), 7u);
+        }
     }
 }
 

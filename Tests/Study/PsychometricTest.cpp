@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Psychometric functions against R's glm and simulated observers, intervals by how often they hold, QUEST+ against a staircase.
+// Psychometric functions against R's glm and simulated observers, intervals by how often they hold, QUEST+
+// against a staircase.
+#include "Study/Statistics/Psychometric.h"
 #include "Study/SeededRandom.h"
 #include "Study/Staircase.h"
 #include "Study/Statistics/Bootstrap.h"
 #include "Study/Statistics/Moments.h"
 #include "Study/Statistics/PowerLaw.h"
-#include "Study/Statistics/Psychometric.h"
 #include "Study/Statistics/QuestPlus.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@
 namespace physvib {
 namespace {
 
-constexpr PsychometricShape shapes[] = {PsychometricShape::logistic, PsychometricShape::normal, PsychometricShape::weibull};
+constexpr PsychometricShape shapes[] = {PsychometricShape::logistic, PsychometricShape::normal,
+                                        PsychometricShape::weibull};
 
 TEST(Psychometric, ThresholdAndWidthMeanTheSameForEveryShape) {
     for (const auto shape : shapes) {
@@ -28,7 +30,8 @@ TEST(Psychometric, ThresholdAndWidthMeanTheSameForEveryShape) {
 
 TEST(Psychometric, WithoutGuessesItIsTheModelOfRsGlm) {
     const std::vector<LevelCount> counts{{-6, 3, 30}, {-3, 8, 30}, {0, 14, 30}, {3, 25, 30}, {6, 29, 30}};
-    const double thresholds[] = {-0.429167327062, -0.465371305764, 0.0806596061844}, widths[] = {13.441199548498, 12.836988906085, 14.1962160473825};
+    const double thresholds[] = {-0.429167327062, -0.465371305764, 0.0806596061844},
+                 widths[] = {13.441199548498, 12.836988906085, 14.1962160473825};
     for (std::size_t i = 0; i < 3; ++i) {
         const auto fit = fitPsychometric(counts, {shapes[i], 0.0, 0.0});
         ASSERT_EQ(fit.fault, "");
@@ -38,7 +41,8 @@ TEST(Psychometric, WithoutGuessesItIsTheModelOfRsGlm) {
 }
 
 /// Trials of a two-alternative choice at eight levels.
-std::vector<LevelCount> observed(const PsychometricFunction& truth, std::uint64_t each, SeededRandom& random) {
+std::vector<LevelCount> observed(const PsychometricFunction& truth, std::uint64_t each,
+                                 SeededRandom& random) {
     std::vector<LevelCount> counts;
     for (int i = 0; i < 8; ++i) {
         LevelCount count{truth.threshold + truth.width * (0.25 * i - 0.8), 0, each};
@@ -53,7 +57,8 @@ TEST(Psychometric, SimulatedObserversAreFoundWithoutBias) {
     for (const auto shape : shapes) {
         std::vector<double> errors;
         for (int observer = 0; observer < 500 / 3; ++observer) {
-            const PsychometricFunction truth{shape, 20.0 * random.uniform(), 2.0 + 6.0 * random.uniform(), 0.5, 0.04 * random.uniform()};
+            const PsychometricFunction truth{shape, 20.0 * random.uniform(), 2.0 + 6.0 * random.uniform(),
+                                             0.5, 0.04 * random.uniform()};
             const auto fit = fitPsychometric(observed(truth, 60, random), {shape});
             ASSERT_EQ(fit.fault, "");
             errors.push_back((fit.function.threshold - truth.threshold) / truth.width);
@@ -67,11 +72,13 @@ TEST(Psychometric, WhatCannotBeFittedIsNamed) {
     EXPECT_EQ(fitPsychometric({}, {shapes[0]}).fault, "expected trials, found none");
     const std::vector<LevelCount> one{{2, 3, 5}}, flat{{1, 5, 5}, {2, 7, 7}};
     EXPECT_EQ(fitPsychometric(one, {shapes[0]}).fault, "expected trials at two or more levels, found one");
-    EXPECT_EQ(fitPsychometric(flat, {shapes[0]}).fault, "expected answers that change with the level, found the same share at every one");
+    EXPECT_EQ(fitPsychometric(flat, {shapes[0]}).fault,
+              "expected answers that change with the level, found the same share at every one");
     // no finite width is likeliest
     for (const auto& steps : {std::vector<LevelCount>{{1, 0, 5}, {2, 5, 5}}, {{1, 5, 5}, {2, 0, 5}}}) {
         const auto fit = fitPsychometric(steps, {shapes[2]});
-        EXPECT_TRUE(std::isfinite(fit.function.threshold) && std::isfinite(fit.function.width) && std::isfinite(fit.logLikelihood));
+        EXPECT_TRUE(std::isfinite(fit.function.threshold) && std::isfinite(fit.function.width) &&
+                    std::isfinite(fit.logLikelihood));
     }
 }
 
@@ -83,8 +90,10 @@ TEST(Psychometric, IntervalsOfFittedParticipantsHoldAsOftenAsTheySay) {
     for (int study = 0; study < studies; ++study) {
         std::vector<double> thresholds;
         for (int p = 0; p < participants; ++p) {
-            const PsychometricFunction truth{shapes[study % 3], 5.0 + random.normal(), 3.0 + 3.0 * random.uniform(), 0.5, 0.02};
-            thresholds.push_back(fitPsychometric(observed(truth, 60, random), {truth.shape}).function.threshold);
+            const PsychometricFunction truth{shapes[study % 3], 5.0 + random.normal(),
+                                             3.0 + 3.0 * random.uniform(), 0.5, 0.02};
+            thresholds.push_back(
+                fitPsychometric(observed(truth, 60, random), {truth.shape}).function.threshold);
             off += thresholds.back() - truth.threshold;
             widths += truth.width;
         }
@@ -93,7 +102,8 @@ TEST(Psychometric, IntervalsOfFittedParticipantsHoldAsOftenAsTheySay) {
     }
     EXPECT_LT(std::abs(off), 0.02 * widths);
     EXPECT_NEAR(held, 0.95 * studies, 0.02 * studies);
-    std::cout << "bias " << 100.0 * off / widths << " % of the width, intervals hold in " << 100.0 * held / studies << " %\n";
+    std::cout << "bias " << 100.0 * off / widths << " % of the width, intervals hold in "
+              << 100.0 * held / studies << " %\n";
 }
 
 TEST(Bootstrap, IntervalsOfTwelveParticipantsHoldAsOftenAsTheySay) {
@@ -113,7 +123,8 @@ TEST(Bootstrap, IntervalsOfTwelveParticipantsHoldAsOftenAsTheySay) {
 TEST(Bootstrap, FewParticipantsHaveAnIntervalToo) {
     const std::vector<double> two{1, 3}, same{2, 2, 2};
     const auto interval = bootstrapMean(two);
-    EXPECT_NEAR(interval.most - 2.0, 12.706204736174698, 1e-9) << "Student's t, where there is nothing to draw from";
+    EXPECT_NEAR(interval.most - 2.0, 12.706204736174698, 1e-9)
+        << "Student's t, where there is nothing to draw from";
     EXPECT_EQ(bootstrapMean(same).least, 2.0);
     EXPECT_EQ(bootstrapMean(std::span{two}.first(1)).most, 1.0);
 }
@@ -132,11 +143,20 @@ TEST(QuestPlus, NeedsTwoThirdsOfAStaircasesTrialsForItsError) {
     double questSquares = 0.0, staircaseSquares = 0.0;
     int staircaseTrials = 0, questTrials = 0;
     for (int observer = 0; observer < 150; ++observer) {
-        const PsychometricFunction truth{PsychometricShape::weibull, 6.0 + 10.0 * random.uniform(), 3.0 + 5.0 * random.uniform(), 0.5, 0.02};
+        const PsychometricFunction truth{PsychometricShape::weibull, 6.0 + 10.0 * random.uniform(),
+                                         3.0 + 5.0 * random.uniform(), 0.5, 0.02};
         const double wanted = truth.levelOf(std::sqrt(0.5)); // what two down, one up aims at
-        Staircase staircase{StaircasePlan{.alternative = "a", .startDb = 25.0, .stepDb = 4.0, .leastStepDb = 1.0, .leastDb = 0.0, .mostDb = 30.0, .down = 2, .reversals = 12}};
+        Staircase staircase{StaircasePlan{.alternative = "a",
+                                          .startDb = 25.0,
+                                          .stepDb = 4.0,
+                                          .leastStepDb = 1.0,
+                                          .leastDb = 0.0,
+                                          .mostDb = 30.0,
+                                          .down = 2,
+                                          .reversals = 12}};
         int trials = 0;
-        for (; !staircase.isDone(); ++trials) staircase.answer(random.chance(truth.probability(staircase.levelDb())));
+        for (; !staircase.isDone(); ++trials)
+            staircase.answer(random.chance(truth.probability(staircase.levelDb())));
         QuestPlus quest{questPlanOfTests()};
         while (quest.trials() < 2 * trials / 3) quest.answer(random.chance(truth.probability(quest.level())));
         staircaseTrials += trials, questTrials += quest.trials();
@@ -145,8 +165,9 @@ TEST(QuestPlus, NeedsTwoThirdsOfAStaircasesTrialsForItsError) {
     }
     EXPECT_LE(questTrials, 2 * staircaseTrials / 3);
     EXPECT_LE(questSquares, staircaseSquares);
-    std::cout << "error, dB: QUEST+ " << std::sqrt(questSquares / 150) << " in " << questTrials / 150 << " trials, staircase " << std::sqrt(staircaseSquares / 150) << " in "
-              << staircaseTrials / 150 << '\n';
+    std::cout << "error, dB: QUEST+ " << std::sqrt(questSquares / 150) << " in " << questTrials / 150
+              << " trials, staircase " << std::sqrt(staircaseSquares / 150) << " in " << staircaseTrials / 150
+              << '\n';
 }
 
 TEST(QuestPlus, BeliefGetsNarrower) {
@@ -162,7 +183,8 @@ TEST(QuestPlus, IntervalsHoldTheirShareOfTheBelief) {
     for (int i = 0; i <= 30; ++i) plan.thresholds.push_back(i);
     plan.levels = plan.thresholds;
     plan.widths = {3, 6, 12};
-    EXPECT_NEAR(QuestPlus{plan}.thresholdHalfInterval(0.95), 0.95 * 15.5, 1e-9) << "all alike likely, half a step beyond both ends";
+    EXPECT_NEAR(QuestPlus{plan}.thresholdHalfInterval(0.95), 0.95 * 15.5, 1e-9)
+        << "all alike likely, half a step beyond both ends";
     plan.thresholds = {4.0};
     EXPECT_EQ(QuestPlus{plan}.thresholdHalfInterval(0.95), 0.0) << "nothing else is possible";
     plan.thresholds = {4.0, 5.0, 8.0};

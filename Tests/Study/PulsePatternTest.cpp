@@ -17,7 +17,8 @@ TEST(PulsePattern, NoTwoAreAlikeAndAllStayOnTheirEnchanters) {
     const auto patterns = allPulsePatterns(4);
     for (auto p = patterns.begin(); p != patterns.end(); ++p) {
         EXPECT_EQ(std::count(patterns.begin(), patterns.end(), *p), 1);
-        EXPECT_TRUE(std::all_of(p->enchanters.begin(), p->enchanters.end(), [](int e) { return e >= 0 && e < 4; }));
+        EXPECT_TRUE(
+            std::all_of(p->enchanters.begin(), p->enchanters.end(), [](int e) { return e >= 0 && e < 4; }));
     }
 }
 

@@ -24,11 +24,17 @@ Protocol withSession(SessionPlan session) {
     return p;
 }
 
-const QuestMethod method{.alternative = "stronger", .mostDb = 30.0, .stepDb = 1.0, .leastWidthDb = 3.0, .mostWidthDb = 12.0, .trials = 40};
+const QuestMethod method{.alternative = "stronger",
+                         .mostDb = 30.0,
+                         .stepDb = 1.0,
+                         .leastWidthDb = 3.0,
+                         .mostWidthDb = 12.0,
+                         .trials = 40};
 
 Protocol questProtocol(const QuestMethod& quest) { return withSession({.quest = quest}); }
 
-/// An observer whose answers follow a known function of the level, through a whole study: the rows that it leaves.
+/// An observer whose answers follow a known function of the level, through a whole study: the rows that it
+/// leaves.
 std::vector<TrialRecord> recordsOf(const Protocol& p, const PsychometricFunction& truth, int number) {
     Experiment experiment{p, {"P", number}};
     SeededRandom random{static_cast<std::uint64_t>(number), "answers"};
@@ -41,10 +47,12 @@ std::vector<TrialRecord> recordsOf(const Protocol& p, const PsychometricFunction
 }
 
 /// As an analysis gets them from a file.
-std::vector<LevelTrial> levelTrialsOf(const Protocol& p, const std::vector<TrialRecord>& records, const std::string& participant) {
+std::vector<LevelTrial> levelTrialsOf(const Protocol& p, const std::vector<TrialRecord>& records,
+                                      const std::string& participant) {
     std::vector<LevelTrial> trials;
     for (const auto& record : records) {
-        LevelTrial trial{LevelTrial::Kind::staircase, participant, "A", record.trial.stimulus, record.trial.levelDb};
+        LevelTrial trial{LevelTrial::Kind::staircase, participant, "A", record.trial.stimulus,
+                         record.trial.levelDb};
         if (const auto& quest = p.sessions[0].quest) {
             trial.kind = LevelTrial::Kind::quest;
             trial.value = *isCorrect(p, record) ? 1.0 : 0.0;
@@ -55,12 +63,22 @@ std::vector<LevelTrial> levelTrialsOf(const Protocol& p, const std::vector<Trial
     return trials;
 }
 
-LevelSummary summaryOf(const Protocol& p, const std::vector<TrialRecord>& records) { return summariseLevels(levelTrialsOf(p, records, "P")).front(); }
+LevelSummary summaryOf(const Protocol& p, const std::vector<TrialRecord>& records) {
+    return summariseLevels(levelTrialsOf(p, records, "P")).front();
+}
 
-PsychometricFunction someObserver(SeededRandom& random) { return {PsychometricShape::weibull, 6.0 + 10.0 * random.uniform(), 4.0 + 5.0 * random.uniform(), 0.5, 0.02}; }
+PsychometricFunction someObserver(SeededRandom& random) {
+    return {PsychometricShape::weibull, 6.0 + 10.0 * random.uniform(), 4.0 + 5.0 * random.uniform(), 0.5,
+            0.02};
+}
 
 TEST(QuestMethod, ErrsNoMoreThanAStaircaseWithTwoThirdsOfItsTrials) {
-    const Protocol stairs = withSession({.staircase = StaircasePlan{.alternative = "stronger", .startDb = 25.0, .stepDb = 4.0, .leastStepDb = 1.0, .mostDb = 30.0, .reversals = 12}});
+    const Protocol stairs = withSession({.staircase = StaircasePlan{.alternative = "stronger",
+                                                                    .startDb = 25.0,
+                                                                    .stepDb = 4.0,
+                                                                    .leastStepDb = 1.0,
+                                                                    .mostDb = 30.0,
+                                                                    .reversals = 12}});
     SeededRandom random{21, "observers"};
     double stairsSquares = 0.0, questSquares = 0.0;
     std::size_t stairsTrials = 0, questTrials = 0;
@@ -79,7 +97,8 @@ TEST(QuestMethod, ErrsNoMoreThanAStaircaseWithTwoThirdsOfItsTrials) {
     }
     EXPECT_LE(questTrials, 2 * stairsTrials / 3);
     EXPECT_LE(questSquares, stairsSquares);
-    std::cout << "error, dB: QUEST+ " << std::sqrt(questSquares / observers) << " in " << questTrials / observers << " trials, staircase " << std::sqrt(stairsSquares / observers)
+    std::cout << "error, dB: QUEST+ " << std::sqrt(questSquares / observers) << " in "
+              << questTrials / observers << " trials, staircase " << std::sqrt(stairsSquares / observers)
               << " in " << stairsTrials / observers << '\n';
 }
 
@@ -87,7 +106,9 @@ TEST(QuestMethod, ErrsNoMoreThanAStaircaseWithTwoThirdsOfItsTrials) {
 PsychometricFunction plannedObserver(SeededRandom& random) {
     // seven widths, each for half a step to either side
     const double share = (7.0 * random.uniform() - 0.5) / 6.0;
-    return {PsychometricShape::weibull, -0.5 + 31.0 * random.uniform(), method.leastWidthDb * std::pow(method.mostWidthDb / method.leastWidthDb, share), 0.5, method.lapse};
+    return {PsychometricShape::weibull, -0.5 + 31.0 * random.uniform(),
+            method.leastWidthDb * std::pow(method.mostWidthDb / method.leastWidthDb, share), 0.5,
+            method.lapse};
 }
 
 TEST(QuestMethod, ThresholdsAreUnbiasedAndIntervalsHold) {
@@ -106,8 +127,11 @@ TEST(QuestMethod, ThresholdsAreUnbiasedAndIntervalsHold) {
         }
         EXPECT_LT(std::abs(off), 0.02 * widths);
         EXPECT_GE(held, 0.93 * observers);
-        if (draw == plannedObserver) EXPECT_LE(held, 0.97 * observers) << "of those in the middle of what is thought possible more may be held";
-        std::cout << "bias " << 100.0 * off / widths << " % of the width, intervals hold in " << 100.0 * held / observers << " %\n";
+        if (draw == plannedObserver)
+            EXPECT_LE(held, 0.97 * observers)
+                << "of those in the middle of what is thought possible more may be held";
+        std::cout << "bias " << 100.0 * off / widths << " % of the width, intervals hold in "
+                  << 100.0 * held / observers << " %\n";
     }
 }
 
@@ -130,7 +154,8 @@ TEST(QuestMethod, GoesOnAfterEveryCutWithTheLevelsThatWouldHaveBeen) {
     Experiment other{p, {}};
     TrialRecord moved = records.front();
     moved.trial.levelDb += 1.0;
-    EXPECT_EQ(other.redo(moved).rfind("expected the level ", 0), 0u) << "a row of another level is another answer";
+    EXPECT_EQ(other.redo(moved).rfind("expected the level ", 0), 0u)
+        << "a row of another level is another answer";
 }
 
 TEST(QuestMethod, EndsOnceTheThresholdIsKnownWellEnough) {
@@ -149,14 +174,18 @@ TEST(QuestMethod, SeveralParticipantsAndSessionsAreKeptApart) {
     std::vector<LevelTrial> trials;
     double mean = 0.0;
     for (int number = 1; number <= 3; ++number) {
-        const auto records = recordsOf(p, {PsychometricShape::weibull, 6.0 + 2.0 * number, 6.0, 0.5, 0.02}, number);
+        const auto records =
+            recordsOf(p, {PsychometricShape::weibull, 6.0 + 2.0 * number, 6.0, 0.5, 0.02}, number);
         mean += summaryOf(p, records).estimate / 3.0;
         for (const char* session : {"one", "two"})
-            for (LevelTrial trial : levelTrialsOf(p, records, "P" + std::to_string(number))) trial.session = session, trials.push_back(trial);
+            for (LevelTrial trial : levelTrialsOf(p, records, "P" + std::to_string(number)))
+                trial.session = session, trials.push_back(trial);
     }
     std::vector<LevelTrial> one;
-    std::ranges::copy_if(trials, std::back_inserter(one), [](const LevelTrial& trial) { return trial.participant == "P1"; });
-    const double half = summaryOf(p, recordsOf(p, {PsychometricShape::weibull, 8.0, 6.0, 0.5, 0.02}, 1)).halfInterval;
+    std::ranges::copy_if(trials, std::back_inserter(one),
+                         [](const LevelTrial& trial) { return trial.participant == "P1"; });
+    const double half =
+        summaryOf(p, recordsOf(p, {PsychometricShape::weibull, 8.0, 6.0, 0.5, 0.02}, 1)).halfInterval;
     EXPECT_NEAR(summariseLevels(one).front().halfInterval, half / std::sqrt(2.0), 1e-12) << "a mean of two";
     const auto summaries = summariseLevels(trials);
     ASSERT_EQ(summaries.size(), 1u);
@@ -173,9 +202,12 @@ TEST(QuestMethod, ItsWordsAreThePlan) {
     EXPECT_EQ(plan->levels, questPlan(method, 0.5).levels);
     EXPECT_EQ(plan->levels.size(), 31u);
     EXPECT_EQ(plan->widths, questPlan(method, 0.5).widths);
-    for (const char* bad : {"", "weibull", "cosine guess 0.5 lapse 0.02 levels_db 0 1 30 widths_db 3 12", "weibull guess 0 lapse 0.02 levels_db 0 1 30 widths_db 3 12",
-                            "weibull guess 0.5 lapse 0.02 levels_db 0 0 30 widths_db 3 12", "weibull guess 0.5 lapse 0.02 levels_db 0 1e-9 30 widths_db 3 12",
-                            "weibull guess 0.5 lapse 0.02 levels_db 0 1 nan widths_db 3 12", "weibull guess 0.5 lapse 0 levels_db 0 1 30 widths_db 3 12"})
+    for (const char* bad : {"", "weibull", "cosine guess 0.5 lapse 0.02 levels_db 0 1 30 widths_db 3 12",
+                            "weibull guess 0 lapse 0.02 levels_db 0 1 30 widths_db 3 12",
+                            "weibull guess 0.5 lapse 0.02 levels_db 0 0 30 widths_db 3 12",
+                            "weibull guess 0.5 lapse 0.02 levels_db 0 1e-9 30 widths_db 3 12",
+                            "weibull guess 0.5 lapse 0.02 levels_db 0 1 nan widths_db 3 12",
+                            "weibull guess 0.5 lapse 0 levels_db 0 1 30 widths_db 3 12"})
         EXPECT_FALSE(questPlan(std::string_view{bad})) << bad;
 }
 
@@ -185,13 +217,20 @@ TEST(QuestMethod, WhatMakesNoSenseIsRefusedByItsField) {
         change(p.sessions[0]);
         return validate(p);
     };
-    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->alternative = "weaker"; }), "sessions[0].quest.alternative: expected the name of an alternative");
-    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->mostDb = 0.0; }), "sessions[0].quest: expected least_db < most_db");
-    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->leastWidthDb = 13.0; }), "sessions[0].quest: expected least_width_db <= most_width_db");
-    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->stepDb = 0.1; }), "sessions[0].quest.step_db: expected at most 201 levels, found 301");
-    EXPECT_EQ(fault([](SessionPlan& s) { s.bothOrders = true; }), "sessions[0].quest: expected alternatives in random order");
-    EXPECT_EQ(fault([](SessionPlan& s) { s.staircase = StaircasePlan{.alternative = "stronger"}; }), "sessions[0].quest: expected it or a staircase, found both");
-    EXPECT_EQ(fault([](SessionPlan& s) { s.task = StudyTask::identify, s.alternatives.clear(); }), "sessions[0].quest: expected it of the task choose only");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->alternative = "weaker"; }),
+              "sessions[0].quest.alternative: expected the name of an alternative");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->mostDb = 0.0; }),
+              "sessions[0].quest: expected least_db < most_db");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->leastWidthDb = 13.0; }),
+              "sessions[0].quest: expected least_width_db <= most_width_db");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->stepDb = 0.1; }),
+              "sessions[0].quest.step_db: expected at most 201 levels, found 301");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.bothOrders = true; }),
+              "sessions[0].quest: expected alternatives in random order");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.staircase = StaircasePlan{.alternative = "stronger"}; }),
+              "sessions[0].quest: expected it or a staircase, found both");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.task = StudyTask::identify, s.alternatives.clear(); }),
+              "sessions[0].quest: expected it of the task choose only");
 }
 
 } // namespace

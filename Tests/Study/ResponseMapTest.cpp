@@ -9,10 +9,12 @@
 namespace physvib {
 namespace {
 
-std::vector<LocationTrial> cloud(int column, int row, double x, double y, double spread, int count, SeededRandom& random) {
+std::vector<LocationTrial> cloud(int column, int row, double x, double y, double spread, int count,
+                                 SeededRandom& random) {
     std::vector<LocationTrial> trials;
     for (int i = 0; i < count; ++i)
-        trials.push_back({column, row, std::clamp(x + spread * random.normal(), 0.0, 1.0), std::clamp(y + spread * random.normal(), 0.0, 1.0)});
+        trials.push_back({column, row, std::clamp(x + spread * random.normal(), 0.0, 1.0),
+                          std::clamp(y + spread * random.normal(), 0.0, 1.0)});
     return trials;
 }
 
@@ -30,7 +32,8 @@ TEST(ResponseMap, MeansAndSampleCovariances) {
 TEST(ResponseMap, EqualNormalsDivideTheFieldAtTheMiddle) {
     std::vector<LocationTrial> trials;
     for (const int column : {1, 2})
-        for (const auto& [dx, dy] : {std::pair{0.1, 0.0}, {-0.1, 0.0}, {0.0, 0.1}, {0.0, -0.1}}) trials.push_back({column, 1, 0.25 + 0.5 * (column - 1) + dx, 0.5 + dy});
+        for (const auto& [dx, dy] : {std::pair{0.1, 0.0}, {-0.1, 0.0}, {0.0, 0.1}, {0.0, -0.1}})
+            trials.push_back({column, 1, 0.25 + 0.5 * (column - 1) + dx, 0.5 + dy});
     const auto made = resolveCondition("two", trials);
     EXPECT_NEAR(made.counts.at(0, 0), 50.0, 1e-9);
     EXPECT_NEAR(made.counts.sum(), 100.0, 1e-9);
@@ -45,7 +48,8 @@ TEST(ResponseMap, WellSeparatedTargetsKeepTheWholeGrid) {
     std::vector<LocationTrial> trials;
     for (int r = 1; r <= 5; ++r)
         for (int c = 1; c <= 7; ++c)
-            for (const auto& trial : cloud(c, r, (c - 0.5) / 7, (r - 0.5) / 5, 0.02, 30, random)) trials.push_back(trial);
+            for (const auto& trial : cloud(c, r, (c - 0.5) / 7, (r - 0.5) / 5, 0.02, 30, random))
+                trials.push_back(trial);
     const auto made = resolveCondition("all", trials);
     EXPECT_EQ(made.resolution.columns, 7u);
     EXPECT_EQ(made.resolution.rows, 5u);
@@ -55,9 +59,9 @@ TEST(ResponseMap, WellSeparatedTargetsKeepTheWholeGrid) {
 TEST(ResponseMap, SingularAndSparseTargetsBorrowThePooledCovarianceAndSaySo) {
     SeededRandom random{4};
     auto trials = cloud(1, 1, 0.2, 0.5, 0.05, 20, random);
-    trials.push_back({2, 1, 0.5, 0.5});                                                        // one response
-    for (int i = 0; i < 5; ++i) trials.push_back({3, 1, 0.8 + 0.01 * i, 0.4 + 0.02 * i});      // on one line
-    for (int i = 0; i < 5; ++i) trials.push_back({5, 1, 0.95, 0.5});                           // all the same
+    trials.push_back({2, 1, 0.5, 0.5});                                                   // one response
+    for (int i = 0; i < 5; ++i) trials.push_back({3, 1, 0.8 + 0.01 * i, 0.4 + 0.02 * i}); // on one line
+    for (int i = 0; i < 5; ++i) trials.push_back({5, 1, 0.95, 0.5});                      // all the same
     const auto made = resolveCondition("sparse", trials);
     ASSERT_EQ(made.normals.fault, "");
     EXPECT_FALSE(made.normals.normals[0].isBorrowed);
@@ -73,10 +77,15 @@ TEST(ResponseMap, FewBlurredResponsesLeaveTheNumberOfCellsToChance) {
     std::vector<LocationTrial> sure, blurred;
     for (int column = 1; column <= 4; ++column)
         for (int row = 1; row <= 3; ++row) {
-            for (const auto& trial : cloud(column, row, 0.25 * column - 0.125, row / 3.0 - 1.0 / 6.0, 0.01, 10, random)) sure.push_back(trial);
-            for (const auto& trial : cloud(column, row, 0.25 * column - 0.125, row / 3.0 - 1.0 / 6.0, 0.25, 10, random)) blurred.push_back(trial);
+            for (const auto& trial :
+                 cloud(column, row, 0.25 * column - 0.125, row / 3.0 - 1.0 / 6.0, 0.01, 10, random))
+                sure.push_back(trial);
+            for (const auto& trial :
+                 cloud(column, row, 0.25 * column - 0.125, row / 3.0 - 1.0 / 6.0, 0.25, 10, random))
+                blurred.push_back(trial);
         }
-    const CellSpread none = cellSpread(sure, defaultPercentThreshold, 50), wide = cellSpread(blurred, defaultPercentThreshold, 50);
+    const CellSpread none = cellSpread(sure, defaultPercentThreshold, 50),
+                     wide = cellSpread(blurred, defaultPercentThreshold, 50);
     EXPECT_EQ(none.mean, 12.0);
     EXPECT_EQ(none.deviation, 0.0);
     EXPECT_GT(wide.deviation, 0.3);
@@ -87,7 +96,8 @@ TEST(ResponseMap, FewBlurredResponsesLeaveTheNumberOfCellsToChance) {
 TEST(ResponseMap, WhatAllowsNoNormalIsNamed) {
     EXPECT_NE(responseNormals({}).fault, "");
     EXPECT_NE(responseNormals({{1, 1, 0.5, 0.5}}).fault, "");
-    EXPECT_NE(responseNormals({{1, 1, 0.5, 0.5}, {1, 1, 0.5, 0.5}, {2, 1, 0.6, 0.5}, {2, 1, 0.6, 0.5}}).fault, "");
+    EXPECT_NE(responseNormals({{1, 1, 0.5, 0.5}, {1, 1, 0.5, 0.5}, {2, 1, 0.6, 0.5}, {2, 1, 0.6, 0.5}}).fault,
+              "");
     EXPECT_TRUE(resolveCondition("none", {}).map.empty());
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests over participants against R (the tables in R/ and the script that made them), and bad designs, which are refused by name.
+// Tests over participants against R (the tables in R/ and the script that made them), and bad designs, which
+// are refused by name.
 #include "Study/Statistics/Distributions.h"
 #include "Study/Statistics/LongTable.h"
 #include "Study/Statistics/Pairs.h"
@@ -22,8 +23,10 @@ namespace {
 std::vector<std::string> partsOf(const std::string& text, char at) {
     std::vector<std::string> parts{""};
     for (const char c : text)
-        if (c == at) parts.emplace_back();
-        else parts.back() += c;
+        if (c == at)
+            parts.emplace_back();
+        else
+            parts.back() += c;
     return parts;
 }
 
@@ -33,15 +36,20 @@ Design designOf(const std::string& levels, const std::string& groups, const std:
     if (levels != "-")
         for (const auto& size : partsOf(levels, 'x')) sizes.push_back(std::stoul(size));
     const std::vector<std::string> names{"a", "b", "c"};
-    LongTable table{"y", {names.begin(), names.begin() + static_cast<std::ptrdiff_t>(sizes.size())}, groups == "-" ? "" : "g"};
+    LongTable table{"y",
+                    {names.begin(), names.begin() + static_cast<std::ptrdiff_t>(sizes.size())},
+                    groups == "-" ? "" : "g"};
     std::size_t cells = 1;
     for (const auto size : sizes) cells *= size;
     std::size_t at = 0;
     for (const std::string& value : partsOf(values, ',')) {
         const std::size_t participant = at / cells;
         std::vector<std::string> own(sizes.size());
-        for (std::size_t cell = at++ % cells, i = sizes.size(); i-- > 0; cell /= sizes[i]) own[i] = std::to_string(cell % sizes[i] + 1);
-        if (value != "NA") table.add("P" + std::to_string(participant), {own.begin(), own.end()}, groups == "-" ? "" : groups.substr(participant, 1), std::stod(value));
+        for (std::size_t cell = at++ % cells, i = sizes.size(); i-- > 0; cell /= sizes[i])
+            own[i] = std::to_string(cell % sizes[i] + 1);
+        if (value != "NA")
+            table.add("P" + std::to_string(participant), {own.begin(), own.end()},
+                      groups == "-" ? "" : groups.substr(participant, 1), std::stod(value));
     }
     return Design::of(table);
 }
@@ -58,7 +66,8 @@ const std::map<std::string, std::function<TestReport(const Design&)>> testsByNam
     {"pairs-ranks", [](const Design& d) { return pairs(d, PairTest::ranks, Correction::bonferroni); }},
 };
 
-/// Within a millionth; p below 1e-12 (and what is rounding in either program) absolutely. "?": R has no figure where there is one.
+/// Within a millionth; p below 1e-12 (and what is rounding in either program) absolutely. "?": R has no
+/// figure where there is one.
 bool agrees(std::optional<double> ours, const std::string& theirs) {
     if (theirs == "?") return ours && std::isfinite(*ours);
     if (theirs.empty() || !ours) return theirs.empty() && !ours;
@@ -75,7 +84,9 @@ double relativeError(std::optional<double> ours, const std::string& theirs) {
 
 /// The columns df1 to mauchly_p of results.csv, without n.
 std::vector<std::optional<double>> numbersOf(const TestLine& l) {
-    std::vector<std::optional<double>> numbers{l.df1, l.df2, l.statistic, l.p, l.pCorrected, l.epsilon, l.effectSize, static_cast<double>(l.n), {}, {}, {}, {}};
+    std::vector<std::optional<double>> numbers{
+        l.df1, l.df2, l.statistic, l.p, l.pCorrected, l.epsilon, l.effectSize, static_cast<double>(l.n),
+        {},    {},    {},          {}};
     if (l.sphericity) {
         numbers[8] = l.sphericity->epsilonHuynhFeldt, numbers[9] = l.sphericity->pHuynhFeldt;
         numbers[10] = l.sphericity->mauchlyW, numbers[11] = l.sphericity->mauchlyP;
@@ -90,7 +101,8 @@ TEST(Statistics, AsInR) {
     std::map<std::string, Design> known;
     std::string line;
     std::getline(designs, line);
-    for (std::string id, levels, groups, values; designs >> id >> levels >> groups >> values;) known.emplace(id, designOf(levels, groups, values));
+    for (std::string id, levels, groups, values; designs >> id >> levels >> groups >> values;)
+        known.emplace(id, designOf(levels, groups, values));
     ASSERT_GE(known.size(), 100u);
     std::map<std::pair<std::string, std::string>, std::pair<TestReport, std::size_t>> reports;
     std::size_t compared = 0, refused = 0;
@@ -113,15 +125,20 @@ TEST(Statistics, AsInR) {
         EXPECT_EQ(ours.effect, cells[2]) << line;
         const auto numbers = numbersOf(ours);
         for (std::size_t i = 0; i < numbers.size(); ++i) {
-            EXPECT_TRUE(agrees(numbers[i], cells[i + 3])) << columns[i + 3] << ": ours is " << (numbers[i] ? std::to_string(*numbers[i]) : "none") << "\n" << line;
+            EXPECT_TRUE(agrees(numbers[i], cells[i + 3]))
+                << columns[i + 3] << ": ours is " << (numbers[i] ? std::to_string(*numbers[i]) : "none")
+                << "\n"
+                << line;
             largest = std::max(largest, relativeError(numbers[i], cells[i + 3]));
             ++compared;
         }
     }
-    for (const auto& [id, report] : reports) EXPECT_EQ(report.second, report.first.lines.size()) << id.first << " " << id.second;
+    for (const auto& [id, report] : reports)
+        EXPECT_EQ(report.second, report.first.lines.size()) << id.first << " " << id.second;
     EXPECT_GT(compared, 5000u);
     RecordProperty("designs", static_cast<int>(known.size()));
-    std::cout << known.size() << " designs, " << reports.size() << " tests, " << compared << " figures, " << refused << " refused by both; largest relative error " << largest << '\n';
+    std::cout << known.size() << " designs, " << reports.size() << " tests, " << compared << " figures, "
+              << refused << " refused by both; largest relative error " << largest << '\n';
 }
 
 TEST(Statistics, ExactTailsAsTabled) {
@@ -136,7 +153,8 @@ TEST(Statistics, ExactTailsAsTabled) {
 Design oneFactor(std::vector<std::vector<double>> rows) {
     LongTable table{"y", {"a"}, ""};
     for (std::size_t p = 0; p < rows.size(); ++p)
-        for (std::size_t c = 0; c < rows[p].size(); ++c) table.add("P" + std::to_string(p), {std::to_string(c)}, "", rows[p][c]);
+        for (std::size_t c = 0; c < rows[p].size(); ++c)
+            table.add("P" + std::to_string(p), {std::to_string(c)}, "", rows[p][c]);
     return Design::of(table);
 }
 
@@ -151,15 +169,26 @@ TEST(Statistics, BadDesignsAreRefusedByName) {
     all(oneFactor({{1}, {2}, {3}}), "column a: expected two or more levels, found only 0");
     all(oneFactor({{5, 5}, {5, 5}, {5, 5}}), "found none");
     all(oneFactor({{1, 2}}), "expected two or more participants, found only P0");
-    all(oneFactor({{1}, {2, 3, 4}}).fault.empty() ? oneFactor({{1}, {2, 3}, {4}}) : Design{}, "expected two or more participants, found only P1");
-    EXPECT_NE(shapiroByCell(oneFactor({{1, 2}, {2, 3}})).fault.find("a=0: expected 3 to 5000 participants, found 2"), std::string::npos);
-    EXPECT_NE(shapiroByCell(oneFactor({{1, 2}, {1, 3}, {1, 4}})).fault.find("a=0: expected values that differ"), std::string::npos);
-    EXPECT_NE(wilcoxon(oneFactor({{1, 2, 3}, {2, 4, 1}})).fault.find("expected two levels, found 3"), std::string::npos);
+    all(oneFactor({{1}, {2, 3, 4}}).fault.empty() ? oneFactor({{1}, {2, 3}, {4}}) : Design{},
+        "expected two or more participants, found only P1");
+    EXPECT_NE(shapiroByCell(oneFactor({{1, 2}, {2, 3}}))
+                  .fault.find("a=0: expected 3 to 5000 participants, found 2"),
+              std::string::npos);
+    EXPECT_NE(
+        shapiroByCell(oneFactor({{1, 2}, {1, 3}, {1, 4}})).fault.find("a=0: expected values that differ"),
+        std::string::npos);
+    EXPECT_NE(wilcoxon(oneFactor({{1, 2, 3}, {2, 4, 1}})).fault.find("expected two levels, found 3"),
+              std::string::npos);
 }
 
 TEST(Statistics, DifferencesThatAreTheSameForEveryoneHaveNoMauchlyTest) {
-    for (const auto& rows : {std::vector<std::vector<double>>{{2, 5, 1, 0}, {3, 4, 1, 0}, {3, 2, 1, 0}, {1, 2, 1, 0}},
-                             {{0.1, 0.7, 1.3, 3.1}, {0.3, 0.1, -0.1, 2.2}, {0.2, 0.9, 1.6, 4.7}, {0.6, 0.7, 0.8, 1.9}, {0.5, 0.2, -0.1, 0.4}}}) { // as much from the first to the second as on
+    for (const auto& rows :
+         {std::vector<std::vector<double>>{{2, 5, 1, 0}, {3, 4, 1, 0}, {3, 2, 1, 0}, {1, 2, 1, 0}},
+          {{0.1, 0.7, 1.3, 3.1},
+           {0.3, 0.1, -0.1, 2.2},
+           {0.2, 0.9, 1.6, 4.7},
+           {0.6, 0.7, 0.8, 1.9},
+           {0.5, 0.2, -0.1, 0.4}}}) { // as much from the first to the second as on
         const TestReport report = repeatedMeasures(oneFactor(rows));
         ASSERT_EQ(report.fault, "");
         ASSERT_TRUE(report.lines[0].sphericity);
@@ -171,32 +200,39 @@ TEST(Statistics, DifferencesThatAreTheSameForEveryoneHaveNoMauchlyTest) {
 TEST(Statistics, TablesThatAreMostlyEmptyTakeNoMemory) {
     LongTable table{"y", {"a"}, ""};
     for (int p = 0; p < 20'000; ++p) table.add("P" + std::to_string(p), {std::to_string(p % 1000)}, "", p);
-    EXPECT_EQ(Design::of(table).fault, "expected at most 10000000 values, found 20000 participants with 1000 combinations of levels");
+    EXPECT_EQ(Design::of(table).fault,
+              "expected at most 10000000 values, found 20000 participants with 1000 combinations of levels");
 }
 
 TEST(Statistics, NoFigureIsMissingHoweverLargeOrSmallTheValues) {
     for (const double scale : {1e100, 1.0, 1e-90, 1e-150, 1e-300})
         for (const auto& [name, test] : testsByName) {
             const bool isOfGroups = name == "mann-whitney" || name == "kruskal-wallis";
-            LongTable table{"y", isOfGroups ? std::vector<std::string>{} : std::vector<std::string>{"a"}, isOfGroups ? "g" : ""};
+            LongTable table{"y", isOfGroups ? std::vector<std::string>{} : std::vector<std::string>{"a"},
+                            isOfGroups ? "g" : ""};
             for (int p = 0; p < 8; ++p)
                 for (int c = 0; c < (isOfGroups ? 1 : 2); ++c) {
                     const std::string level = std::to_string(c);
                     const std::vector<std::string_view> levels(isOfGroups ? 0 : 1, level);
-                    table.add("P" + std::to_string(p), levels, isOfGroups ? (p % 2 ? "x" : "y") : "", scale * ((p * 5 + c * 3) % 7 + 0.5 * p * c));
+                    table.add("P" + std::to_string(p), levels, isOfGroups ? (p % 2 ? "x" : "y") : "",
+                              scale * ((p * 5 + c * 3) % 7 + 0.5 * p * c));
                 }
             const auto report = test(Design::of(table));
             EXPECT_EQ(report.fault.empty(), !report.lines.empty()) << name;
             for (const auto& line : report.lines)
-                for (const auto& number : numbersOf(line)) EXPECT_TRUE(std::isfinite(number.value_or(0.0))) << name << " at " << scale;
+                for (const auto& number : numbersOf(line))
+                    EXPECT_TRUE(std::isfinite(number.value_or(0.0))) << name << " at " << scale;
         }
 }
 
 TEST(Statistics, WhatIsMissingIsNamed) {
     LongTable table{"y", {"a", "b"}, "g"};
-    const auto add = [&](const char* p, const char* a, const char* b, const char* g, double y) { table.add(p, {a, b}, g, y); };
+    const auto add = [&](const char* p, const char* a, const char* b, const char* g, double y) {
+        table.add(p, {a, b}, g, y);
+    };
     for (const char* p : {"P1", "P2", "P3", "P4"})
-        for (const char* a : {"x", "y"}) add(p, a, "u", p[1] < '3' ? "old" : "new", p[1] + (*a == 'x') * p[1] % 3);
+        for (const char* a : {"x", "y"})
+            add(p, a, "u", p[1] < '3' ? "old" : "new", p[1] + (*a == 'x') * p[1] % 3);
     add("P1", "x", "v", "old", 3);
     EXPECT_EQ(Design::of(table).fault, "expected every combination of levels, found no value of a=y:b=v");
     for (const char* p : {"P1", "P2", "P3"}) add(p, "y", "v", p[1] < '3' ? "old" : "new", 4);
@@ -215,7 +251,8 @@ TEST(Statistics, WhatIsMissingIsNamed) {
 TEST(Statistics, FirstLevelMeansFirstInTheFile) {
     EXPECT_EQ(*wilcoxon(oneFactor({{3, 1}, {5, 2}, {9, 3}})).lines[0].statistic, 6.0);
     LongTable table{"y", {}, "g"};
-    for (int i = 0; i < 3; ++i) table.add("z" + std::to_string(i), {}, "z", 10 + i), table.add("a" + std::to_string(i), {}, "a", i);
+    for (int i = 0; i < 3; ++i)
+        table.add("z" + std::to_string(i), {}, "z", 10 + i), table.add("a" + std::to_string(i), {}, "a", i);
     const auto report = mannWhitney(Design::of(table));
     EXPECT_EQ(*report.lines[0].statistic, 9.0);
     EXPECT_EQ(*report.lines[0].effectSize, 1.0);

@@ -13,7 +13,8 @@ auto readOne(Read read, std::string_view text) {
 }
 
 TEST(StudyCsv, TrialsByCondition) {
-    const auto data = readOne(readIdentification, "condition,stimulus,response,extra\nA,x,y,1\nB,x,x,2\nA,y,y,3\n");
+    const auto data =
+        readOne(readIdentification, "condition,stimulus,response,extra\nA,x,y,1\nB,x,x,2\nA,y,y,3\n");
     ASSERT_TRUE(data) << data.error;
     ASSERT_EQ(data.value.conditions.size(), 2u);
     EXPECT_EQ(data.value.conditions[0].name, "A");
@@ -25,12 +26,16 @@ TEST(StudyCsv, TrialsWithoutAResponseAreLeftOutAndTold) {
     const auto data = readOne(readIdentification, "stimulus,response\nx,x\ny,\nz,\n");
     ASSERT_TRUE(data) << data.error;
     EXPECT_EQ(data.value.conditions.front().trials.size(), 1u);
-    EXPECT_EQ(data.value.warnings, std::vector<std::string>{"f.csv:3: no response; trials left out for that: 2"});
-    EXPECT_EQ(readOne(readIdentification, "stimulus,response\ny,\n").error, "f.csv: expected trials of this kind, found none");
+    EXPECT_EQ(data.value.warnings,
+              std::vector<std::string>{"f.csv:3: no response; trials left out for that: 2"});
+    EXPECT_EQ(readOne(readIdentification, "stimulus,response\ny,\n").error,
+              "f.csv: expected trials of this kind, found none");
 }
 
 TEST(StudyCsv, TrainingAndOtherTasksDoNotCount) {
-    const auto data = readOne(readIdentification, "observer,phase,task,stimulus,response\nsimulated-PHONE,training,identify,x,y\nsimulated-PHONE,main,identify,x,x\nsimulated-PHONE,main,rate,x,\n");
+    const auto data = readOne(readIdentification,
+                              "observer,phase,task,stimulus,response\nsimulated-PHONE,training,identify,x,"
+                              "y\nsimulated-PHONE,main,identify,x,x\nsimulated-PHONE,main,rate,x,\n");
     ASSERT_TRUE(data) << data.error;
     EXPECT_EQ(data.value.conditions.front().trials.size(), 1u);
     EXPECT_TRUE(data.value.isSimulated);
@@ -39,10 +44,14 @@ TEST(StudyCsv, TrainingAndOtherTasksDoNotCount) {
 TEST(StudyCsv, ResponsesOutsideTheFieldAreRefused) {
     const std::string head = "condition,target_column,target_row,x,y\n";
     ASSERT_TRUE(readOne(readLocations, head + "A,7,5,0,1\n"));
-    EXPECT_EQ(readOne(readLocations, head + "A,1,1,0.5,0.5\nA,1,1,1.5,0.5\n").error, "f.csv:3: column x: expected a number from 0 to 1, found \"1.5\"");
-    EXPECT_EQ(readOne(readLocations, head + "A,1,1,0.5,nan\n").error, "f.csv:2: column y: expected a number from 0 to 1, found \"nan\"");
-    EXPECT_EQ(readOne(readLocations, head + "A,0,1,0.5,0.5\n").error, "f.csv:2: column target_column: expected a whole number from 1 to 16, found \"0\"");
-    EXPECT_EQ(readOne(readLocations, "condition,x\nA,1\n").error, "f.csv: expected a column target_column, found none");
+    EXPECT_EQ(readOne(readLocations, head + "A,1,1,0.5,0.5\nA,1,1,1.5,0.5\n").error,
+              "f.csv:3: column x: expected a number from 0 to 1, found \"1.5\"");
+    EXPECT_EQ(readOne(readLocations, head + "A,1,1,0.5,nan\n").error,
+              "f.csv:2: column y: expected a number from 0 to 1, found \"nan\"");
+    EXPECT_EQ(readOne(readLocations, head + "A,0,1,0.5,0.5\n").error,
+              "f.csv:2: column target_column: expected a whole number from 1 to 16, found \"0\"");
+    EXPECT_EQ(readOne(readLocations, "condition,x\nA,1\n").error,
+              "f.csv: expected a column target_column, found none");
 }
 
 TEST(StudyCsv, RatingsAreTheColumnsThatNoTrialFileHas) {
@@ -50,19 +59,23 @@ TEST(StudyCsv, RatingsAreTheColumnsThatNoTrialFileHas) {
     ASSERT_TRUE(ratings) << ratings.error;
     EXPECT_EQ(ratings.value.scales, (std::vector<std::string>{"realism", "liking"}));
     EXPECT_EQ(ratings.value.data.conditions.front().trials.front().scores, (std::vector<double>{70, 80.5}));
-    EXPECT_EQ(readOne(readRatings, "condition,realism\nA,101\n").error, "f.csv:2: column realism: expected a number from 0 to 100, found \"101\"");
-    EXPECT_EQ(readOne(readRatings, "condition\nA\n").error, "f.csv: expected a column per rating scale, found none");
+    EXPECT_EQ(readOne(readRatings, "condition,realism\nA,101\n").error,
+              "f.csv:2: column realism: expected a number from 0 to 100, found \"101\"");
+    EXPECT_EQ(readOne(readRatings, "condition\nA\n").error,
+              "f.csv: expected a column per rating scale, found none");
 }
 
 TEST(StudyCsv, ChoicesByConditionOrStimulus) {
     const auto data = readOne(readChoices, "participant,condition,choice\nP1,wood,RM\nP2,steel,SV\n");
     ASSERT_TRUE(data) << data.error;
     EXPECT_EQ(data.value.conditions.front().trials[1].condition, "steel");
-    EXPECT_EQ(readOne(readChoices, "condition,choice\nwood,\n").error, "f.csv:2: column choice: expected a label, found \"\"");
+    EXPECT_EQ(readOne(readChoices, "condition,choice\nwood,\n").error,
+              "f.csv:2: column choice: expected a label, found \"\"");
 }
 
 TEST(StudyCsv, PercentCountsAreReadBackAsWritten) {
-    const std::vector<PercentCounts> counts{{"A, linear", 2, 2, {12.5, 1.0 / 3.0, 0.0, 50.0}}, {"B", 1, 2, {99.0, 1.0}}};
+    const std::vector<PercentCounts> counts{{"A, linear", 2, 2, {12.5, 1.0 / 3.0, 0.0, 50.0}},
+                                            {"B", 1, 2, {99.0, 1.0}}};
     const std::string text = percentCountsCsv(counts, {"0", {{"observer", "simulated"}}});
     const auto data = readOne(readPercentCounts, text);
     ASSERT_TRUE(data) << data.error;
@@ -73,9 +86,12 @@ TEST(StudyCsv, PercentCountsAreReadBackAsWritten) {
 }
 
 TEST(StudyCsv, BadPercentCountsAreNamed) {
-    EXPECT_EQ(readOne(readPercentCounts, "condition,row,c1\nA,1,5\nA,3,5\n").error, "f.csv:3: column row: expected row 2 of the condition, found \"3\"");
-    EXPECT_EQ(readOne(readPercentCounts, "condition,row,c1\nA,1,-5\n").error, "f.csv:2: column c1: expected a number from 0 to 100, found \"-5\"");
-    EXPECT_EQ(readOne(readPercentCounts, "condition,row\nA,1\n").error, "f.csv: expected a column c1, found none");
+    EXPECT_EQ(readOne(readPercentCounts, "condition,row,c1\nA,1,5\nA,3,5\n").error,
+              "f.csv:3: column row: expected row 2 of the condition, found \"3\"");
+    EXPECT_EQ(readOne(readPercentCounts, "condition,row,c1\nA,1,-5\n").error,
+              "f.csv:2: column c1: expected a number from 0 to 100, found \"-5\"");
+    EXPECT_EQ(readOne(readPercentCounts, "condition,row\nA,1\n").error,
+              "f.csv: expected a column c1, found none");
 }
 
 TEST(StudyCsv, LabelsAndConditionsAreBounded) {
@@ -84,8 +100,10 @@ TEST(StudyCsv, LabelsAndConditionsAreBounded) {
         labels += "s" + std::to_string(i) + ",a\n";
         conditions += "c" + std::to_string(i) + ",a,a\n";
     }
-    EXPECT_EQ(readOne(readIdentification, labels).error, "f.csv: expected at most 2048 different stimuli and responses, found more");
-    EXPECT_EQ(readOne(readIdentification, conditions).error, "f.csv: expected at most 4096 conditions, found more");
+    EXPECT_EQ(readOne(readIdentification, labels).error,
+              "f.csv: expected at most 2048 different stimuli and responses, found more");
+    EXPECT_EQ(readOne(readIdentification, conditions).error,
+              "f.csv: expected at most 4096 conditions, found more");
 }
 
 } // namespace

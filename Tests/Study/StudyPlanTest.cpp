@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a protocol will ask for, against counts by hand.
-#include "Study/Files/ProtocolFile.h"
 #include "Study/StudyPlan.h"
+#include "Study/Files/ProtocolFile.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -28,7 +28,8 @@ TEST(StudyPlan, EveryPartOfEveryStimulusIsPlannedAtItsHighestLevel) {
     ASSERT_EQ(planned.size(), 54u);
     for (const PlannedStimulus& s : planned) EXPECT_EQ(s.highestDb, s.part == "SV" ? -8.0 : -2.0) << s.part;
     const TrialJob job = planned.front().job(builtIn("model-or-sound"));
-    EXPECT_NE(std::get<WrittenCall>(job).words.find("--level-db -2"), std::string::npos) << std::get<WrittenCall>(job).words;
+    EXPECT_NE(std::get<WrittenCall>(job).words.find("--level-db -2"), std::string::npos)
+        << std::get<WrittenCall>(job).words;
     EXPECT_EQ(plannedStimuli(builtIn("patterns")).size(), 2u * (28u + 78u + 168u));
     EXPECT_EQ(plannedStimuli(builtIn("eight-methods")).size(), 24u);
 }
@@ -42,7 +43,8 @@ TEST(StudyPlan, LevelsAddUpAsAnExperimentAddsThem) {
         EXPECT_EQ(s.session, 1u);
     }
     const StaircasePlan staircase = *builtIn("level-steps").sessions[0].staircase;
-    for (const PlannedStimulus& s : plannedStimuli(builtIn("level-steps"))) EXPECT_EQ(s.highestDb, s.part == staircase.alternative ? staircase.mostDb : 0.0);
+    for (const PlannedStimulus& s : plannedStimuli(builtIn("level-steps")))
+        EXPECT_EQ(s.highestDb, s.part == staircase.alternative ? staircase.mostDb : 0.0);
 }
 
 TEST(StudyPlan, TrialsAreThoseOfTheProtocol) {
@@ -52,7 +54,8 @@ TEST(StudyPlan, TrialsAreThoseOfTheProtocol) {
     EXPECT_NEAR(time.seconds, 135 * (2.0 + PlannedTime::answerSeconds) + 180.0, 1e-6);
     EXPECT_NEAR(time.longestStretchSeconds, (27 + 54) * (2.0 + PlannedTime::answerSeconds), 1e-6);
     double trials = 0.0;
-    for (const PlannedTrials& planned : plannedTrials(builtIn("model-or-sound"))) trials += planned.part == "SV" ? planned.count : 0;
+    for (const PlannedTrials& planned : plannedTrials(builtIn("model-or-sound")))
+        trials += planned.part == "SV" ? planned.count : 0;
     EXPECT_EQ(trials, 135.0);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The page that users read names every task of the table.
-#include "Io/Disk/ReadFile.h"
 #include "Study/StudyTasks.h"
+#include "Io/Disk/ReadFile.h"
 #include "TestPlaces.h"
 #include <gtest/gtest.h>
 
@@ -11,7 +11,9 @@ namespace {
 TEST(StudyTasks, EachHasALineInTheTableOfProtocols) {
     const auto studies = readFile(PHYSVIB_SOURCE_DIR "/Docs/protocols.md", 1'000'000);
     ASSERT_TRUE(studies) << studies.error;
-    for (const auto& task : studyTasks) EXPECT_NE(studies.value.find("\n| `" + std::string{task.name} + "` | "), std::string::npos) << task.name;
+    for (const auto& task : studyTasks)
+        EXPECT_NE(studies.value.find("\n| `" + std::string{task.name} + "` | "), std::string::npos)
+            << task.name;
 }
 
 TEST(StudyTasks, NamesAreFoundAndOthersAreNot) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What counts is on the disk: every fsync of this program is seen here, with what stood at the file's place
 // at that moment.
-#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Study/Experiment.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Study/Files/TrialLog.h"
-#include "Study/Experiment.h"
 #include "Study/SimulatedObserver.h"
+#include "Support/FileTesting.h"
 #include <cerrno>
 #include <functional>
 #include <sys/stat.h>

@@ -5,10 +5,10 @@
 #if !defined(_WIN32)
 #include "Support/FullDisk.h"
 #endif
-#include "Study/Files/ProtocolFile.h"
 #include "Io/Disk/ReadFile.h"
-#include "Study/Files/StudyCsv.h"
 #include "Study/Experiment.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Study/Files/StudyCsv.h"
 #include "Study/SimulatedObserver.h"
 #include <cmath>
 #include <fstream>
@@ -24,7 +24,8 @@ std::string wholeFile(const Protocol& p) {
     Experiment experiment{p, participant};
     const SimulatedObserver observer{{}, p, participant};
     std::string text = trialHeader(p, participant, "0");
-    while (!experiment.isDone()) text += trialRow(p, participant, experiment.take(observer.answer(experiment)));
+    while (!experiment.isDone())
+        text += trialRow(p, participant, experiment.take(observer.answer(experiment)));
     return text;
 }
 
@@ -49,7 +50,8 @@ TEST(TrialLog, EveryProtocolsRowsAreTheExperimentAgain) {
 TEST(TrialLog, ManyLongCallsOfATrialAreReadBack) {
     Protocol p = findProtocol("magnitudes").value;
     p.conditions.resize(1);
-    p.conditions[0].stimuli = CallSet{{{"n", {"one"}}}, "render drop --set pair={object} --layout " + std::string(1500, 'l')};
+    p.conditions[0].stimuli =
+        CallSet{{{"n", {"one"}}}, "render drop --set pair={object} --layout " + std::string(1500, 'l')};
     p.sessions.resize(1);
     p.sessions[0].task = StudyTask::rate;
     p.sessions[0].scales = {"liking"};
@@ -65,7 +67,8 @@ TEST(TrialLog, ManyLongCallsOfATrialAreReadBack) {
 TEST(TrialLog, NumbersThatAnObserverGivesOfAnyLevelAreReadBack) {
     Protocol p = findProtocol("magnitudes").value;
     p.conditions.resize(1);
-    p.conditions[0].stimuli = CallSet{{{"level_g", {"1e-60", "0.1", "1e60"}}}, "stimulus phantom --level-g {level_g}"};
+    p.conditions[0].stimuli =
+        CallSet{{{"level_g", {"1e-60", "0.1", "1e60"}}}, "stimulus phantom --level-g {level_g}"};
     const auto log = readTrialLog(wholeFile(p), "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
     Experiment experiment{p, participant};
@@ -81,27 +84,36 @@ TEST(TrialLog, CutAnywhereTheWholeRowsRemain) {
     const std::string text = wholeFile(protocol);
     const std::size_t rows = readTrialLog(text, "t.csv", protocol, participant).value.records.size();
     for (std::size_t bytes = 0; bytes < text.size(); bytes += 13) {
-        const auto log = readTrialLog(std::string_view{text}.substr(0, bytes), "t.csv", protocol, participant);
+        const auto log =
+            readTrialLog(std::string_view{text}.substr(0, bytes), "t.csv", protocol, participant);
         ASSERT_TRUE(log) << log.error;
         EXPECT_LE(log.value.wholeBytes, bytes);
         EXPECT_LT(log.value.records.size(), rows);
-        if (log.value.wholeBytes > 0) { EXPECT_EQ(text[log.value.wholeBytes - 1], '\n'); }
+        if (log.value.wholeBytes > 0) {
+            EXPECT_EQ(text[log.value.wholeBytes - 1], '\n');
+        }
     }
 }
 
 TEST(TrialLog, FilesOfOthersAreRefused) {
     const Protocol p = findProtocol("level-steps").value;
     const std::string text = wholeFile(p);
-    const auto refusal = [&](const Protocol& protocol, const Participant& who) { return readTrialLog(text, "t.csv", protocol, who).error; };
+    const auto refusal = [&](const Protocol& protocol, const Participant& who) {
+        return readTrialLog(text, "t.csv", protocol, who).error;
+    };
     EXPECT_EQ(refusal(p, participant), "");
     EXPECT_EQ(refusal(p, {"P02", 1, "simulated"}), "t.csv:1: expected trials of participant P02, found P01");
     EXPECT_EQ(refusal(p, {"P01", 2, "simulated"}), "t.csv:1: expected trials of number 2, found 1");
-    EXPECT_EQ(refusal(p, {"P01", 1, "person"}), "t.csv:1: expected trials of observer person, found simulated");
-    EXPECT_EQ(refusal(findProtocol("magnitudes").value, participant), "t.csv:1: expected trials of protocol magnitudes, found level-steps");
+    EXPECT_EQ(refusal(p, {"P01", 1, "person"}),
+              "t.csv:1: expected trials of observer person, found simulated");
+    EXPECT_EQ(refusal(findProtocol("magnitudes").value, participant),
+              "t.csv:1: expected trials of protocol magnitudes, found level-steps");
     Protocol changed = p;
     changed.seed = 9;
     EXPECT_EQ(refusal(changed, participant), "t.csv:1: expected trials of seed 9, found 1");
-    EXPECT_EQ(readTrialLog("my diary", "t.csv", p, participant).error, "t.csv:1: expected a trial file of physvib, found something else") << "even a single line without an end";
+    EXPECT_EQ(readTrialLog("my diary", "t.csv", p, participant).error,
+              "t.csv:1: expected a trial file of physvib, found something else")
+        << "even a single line without an end";
 }
 
 TEST(TrialLog, WhatWasFeltIsKeptAndTheExposureComesBack) {
@@ -110,7 +122,8 @@ TEST(TrialLog, WhatWasFeltIsKeptAndTheExposureComesBack) {
     Answer answer{.response = "stronger"};
     answer.felt = {{0.25, 0.125}, {1.0 / 3.0, 0.2}};
     answer.exposure = 0.0123456789;
-    const std::string text = trialHeader(p, participant, "0") + trialRow(p, participant, experiment.take(answer));
+    const std::string text =
+        trialHeader(p, participant, "0") + trialRow(p, participant, experiment.take(answer));
     EXPECT_TRUE(text.ends_with(",0.25|0.333333,0.125|0.2,0.0123457,,,,,\n")) << text;
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
@@ -123,7 +136,8 @@ TEST(TrialLog, AProtocolThatHasChangedSinceIsToldAsThat) {
     Protocol changed = p;
     changed.sessions.front().question = "Which one is stronger now?";
     EXPECT_EQ(readTrialLog(text, "t.csv", changed, participant).error,
-              "t.csv:1: was begun with another version of the protocol level-steps (hash " + protocolHash(p) + ", now " + protocolHash(changed) +
+              "t.csv:1: was begun with another version of the protocol level-steps (hash " + protocolHash(p) +
+                  ", now " + protocolHash(changed) +
                   "), so it does not go on: keep it, and begin anew in another folder");
 }
 
@@ -132,7 +146,8 @@ TEST(TrialLog, BadRowsAreNamed) {
     std::string text = wholeFile(p);
     const std::size_t at = text.find(",choose,");
     text.replace(text.find("P01,simulated,PHONE", at - 60), 19, "P01,simulated,GLOVE");
-    EXPECT_EQ(readTrialLog(text, "t.csv", p, participant).error, "t.csv:3: column condition: expected a condition of the protocol, found \"GLOVE\"");
+    EXPECT_EQ(readTrialLog(text, "t.csv", p, participant).error,
+              "t.csv:3: column condition: expected a condition of the protocol, found \"GLOVE\"");
 }
 
 class TrialLogFiles : public FolderTest {
@@ -141,7 +156,8 @@ protected:
         FolderTest::SetUp();
         path = folder / "t.csv";
     }
-    /// As a study does: what the file has is done again, the rest is answered and kept; `change(answer)` before.
+    /// As a study does: what the file has is done again, the rest is answered and kept; `change(answer)`
+    /// before.
     template <class Change>
     void goOn(const Protocol& p, Change change) const {
         TrialLogFile log{path, p, participant, "0"};
@@ -162,7 +178,8 @@ protected:
 TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
     const Protocol p = findProtocol("magnitudes").value;
     const std::string text = wholeFile(p);
-    for (const std::size_t bytes : {std::size_t{0}, std::size_t{40}, text.size() / 3, text.size() / 2, text.size() - 1}) {
+    for (const std::size_t bytes :
+         {std::size_t{0}, std::size_t{40}, text.size() / 3, text.size() / 2, text.size() - 1}) {
         std::ofstream{path, std::ios::binary} << text.substr(0, bytes);
         goOn(p, [](Answer&) {});
         EXPECT_EQ(readFile(path, 1'000'000).value, text) << bytes;
@@ -174,13 +191,16 @@ TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
 
 TEST_F(TrialLogFiles, OfOlderVersionsGoOnInTheirOwnColumns) {
     const Protocol p = findProtocol("magnitudes").value;
-    for (const auto& [newest, columns] : {std::pair{",peak_g,rms_g,a8_m_per_s2", std::size_t{8}}, {",limiter_db,master_db", std::size_t{5}}}) {
+    for (const auto& [newest, columns] : {std::pair{",peak_g,rms_g,a8_m_per_s2", std::size_t{8}},
+                                          {",limiter_db,master_db", std::size_t{5}}}) {
         std::string old;
         std::istringstream lines{wholeFile(p)};
         for (std::string line; std::getline(lines, line);) {
             const std::size_t at = line.find(newest);
-            if (at != std::string::npos) line.resize(at);
-            else if (line.ends_with(std::string(columns, ','))) line.resize(line.size() - columns);
+            if (at != std::string::npos)
+                line.resize(at);
+            else if (line.ends_with(std::string(columns, ',')))
+                line.resize(line.size() - columns);
             old += line + "\n";
         }
         ASSERT_EQ(old.find(newest), std::string::npos);
@@ -210,7 +230,8 @@ TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
     const SimulatedObserver observer{{}, p, participant};
     {
         TrialLogFile log{path, p, participant, "0"};
-        EXPECT_EQ((TrialLogFile{path, p, participant, "0"}.error()), path.string() + ": another program is writing it: the participant's study runs already");
+        EXPECT_EQ((TrialLogFile{path, p, participant, "0"}.error()),
+                  path.string() + ": another program is writing it: the participant's study runs already");
         EXPECT_TRUE(log.append(experiment.take(observer.answer(experiment))));
     }
     const TrialLogFile next{path, p, participant, "0"};
@@ -229,7 +250,8 @@ TEST_F(TrialLogFiles, AFullDiskLeavesWholeRows) {
             TrialLogFile log{path, p, participant, "0"};
             Experiment experiment{p, participant};
             const SimulatedObserver observer{{}, p, participant};
-            while (!experiment.isDone() && log.append(experiment.take(observer.answer(experiment)))) {}
+            while (!experiment.isDone() && log.append(experiment.take(observer.answer(experiment)))) {
+            }
             EXPECT_EQ(log.error(), path.string() + ": cannot be written: File too large");
         }
         const std::string kept = readFile(path, 1'000'000).value;
@@ -253,11 +275,13 @@ TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
     ASSERT_EQ(read.value.size(), 1u);
     EXPECT_EQ(read.value[0].kind, LevelTrial::Kind::quest);
     EXPECT_EQ(read.value[0].trials, 30u);
-    EXPECT_NEAR(read.value[0].estimate, 0.674 * std::sqrt(2.0) * 2.0, read.value[0].halfInterval) << "75 % of comparisons with 2 dB of noise";
+    EXPECT_NEAR(read.value[0].estimate, 0.674 * std::sqrt(2.0) * 2.0, read.value[0].halfInterval)
+        << "75 % of comparisons with 2 dB of noise";
     const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20,,,,,,,,\n";
     ASSERT_NE(text.rfind(words), std::string::npos);
     text.replace(text.rfind(words), words.size(), ",weibull,,,,,,,,\n");
-    EXPECT_EQ(summaries().error, "t.csv:32: column quest: expected the words of a QUEST+ session, found \"weibull\"");
+    EXPECT_EQ(summaries().error,
+              "t.csv:32: column quest: expected the words of a QUEST+ session, found \"weibull\"");
 }
 
 TEST(TrialLog, AnalysesReadIt) {
@@ -280,7 +304,8 @@ TEST(TrialLog, AnalysesReadIt) {
     EXPECT_EQ(readChoices(std::span{&file, 1}).value.conditions.front().trials.size(), 108u);
     text = trialsOf("eight-methods");
     file = one(text);
-    EXPECT_EQ(readRatings(std::span{&file, 1}).value.scales, (std::vector<std::string>{"realism", "harmony", "liking"}));
+    EXPECT_EQ(readRatings(std::span{&file, 1}).value.scales,
+              (std::vector<std::string>{"realism", "harmony", "liking"}));
 }
 
 } // namespace

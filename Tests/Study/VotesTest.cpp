@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Intervals and tests against tabled values; grouping of choices and ratings; the choice of icons.
+#include "Study/Votes.h"
 #include "Study/LevelTrials.h"
 #include "Study/Proportion.h"
 #include "Study/TactileIcons.h"
-#include "Study/Votes.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -21,7 +21,10 @@ TEST(Proportion, WilsonsIntervalAsTabled) {
 }
 
 TEST(Votes, ChoicesAreSharedOutByConditionAndFactor) {
-    const auto summaries = summariseChoices({{"P1", "pair=wood size=small", "RM"}, {"P1", "pair=wood size=large", "SV"}, {"P2", "pair=wood size=small", "RM"}, {"P2", "pair=steel size=small", "RM"}});
+    const auto summaries = summariseChoices({{"P1", "pair=wood size=small", "RM"},
+                                             {"P1", "pair=wood size=large", "SV"},
+                                             {"P2", "pair=wood size=small", "RM"},
+                                             {"P2", "pair=steel size=small", "RM"}});
     ASSERT_EQ(summaries.front().condition, "all");
     EXPECT_EQ(summaries.front().participants, 2u);
     EXPECT_NEAR(summaries.front().shares[0].share, 0.75, 1e-12);
@@ -36,7 +39,8 @@ TEST(Votes, ChoicesAreSharedOutByConditionAndFactor) {
 TEST(Votes, ThirteenForAndSevenAgainstIsNoDecision) {
     std::vector<ChoiceTrial> trials;
     for (int p = 0; p < 20; ++p)
-        for (int t = 0; t < 100; ++t) trials.push_back({"P" + std::to_string(p), "", t < (p < 13 ? 60 + p : 30 - p) ? "RM" : "SV"});
+        for (int t = 0; t < 100; ++t)
+            trials.push_back({"P" + std::to_string(p), "", t < (p < 13 ? 60 + p : 30 - p) ? "RM" : "SV"});
     const auto all = summariseChoices(trials).front();
     EXPECT_EQ(all.participants, 20u);
     EXPECT_EQ(all.trials, 2000u);
@@ -51,7 +55,10 @@ TEST(Votes, ThirteenForAndSevenAgainstIsNoDecision) {
 }
 
 TEST(Votes, RatingsOfTheThesisMethodsAlsoShowTheirParts) {
-    const auto summaries = summariseRatings({{"P1", "AV-FV-DRV", {80, 60}}, {"P2", "AV-FV-DRV", {70, 60}}, {"P1", "AF-FF-DRF", {30, 40}}, {"P2", "AF-FF-DRF", {40, 40}}});
+    const auto summaries = summariseRatings({{"P1", "AV-FV-DRV", {80, 60}},
+                                             {"P2", "AV-FV-DRV", {70, 60}},
+                                             {"P1", "AF-FF-DRF", {30, 40}},
+                                             {"P2", "AF-FF-DRF", {40, 40}}});
     ASSERT_EQ(summaries.size(), 2u + 6u);
     EXPECT_EQ(summaries[1].condition, "AV-FV-DRV");
     EXPECT_NEAR(summaries[1].means[0], 75.0, 1e-12);
@@ -70,8 +77,10 @@ TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
 
 TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     std::vector<LevelTrial> trials;
-    for (const double level : {8.0, 8.0, 6.0, 6.0, 4.0, 5.0, 5.0, 4.5, 5.0, 4.5}) trials.push_back({LevelTrial::Kind::staircase, "P1", "A", "s", level});
-    for (const double level : {2.0, 1.0}) trials.push_back({LevelTrial::Kind::staircase, "P2", "A", "t", level});
+    for (const double level : {8.0, 8.0, 6.0, 6.0, 4.0, 5.0, 5.0, 4.5, 5.0, 4.5})
+        trials.push_back({LevelTrial::Kind::staircase, "P1", "A", "s", level});
+    for (const double level : {2.0, 1.0})
+        trials.push_back({LevelTrial::Kind::staircase, "P2", "A", "t", level});
     const auto summaries = summariseLevels(trials);
     ASSERT_EQ(summaries.size(), 1u);
     EXPECT_EQ(summaries[0].reversals, 4u); // at 4, 5, 4.5 and 5
@@ -81,7 +90,10 @@ TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
 
 TEST(LevelTrials, MatchesAreMeansAndMagnitudesGeometricMeans) {
     using Kind = LevelTrial::Kind;
-    const auto summaries = summariseLevels({{Kind::adjustment, "P1", "A", "s", 0, -3}, {Kind::adjustment, "P1", "A", "s", 0, -5}, {Kind::magnitude, "P1", "A", "s", 0, 1}, {Kind::magnitude, "P2", "A", "s", 0, 100}});
+    const auto summaries = summariseLevels({{Kind::adjustment, "P1", "A", "s", 0, -3},
+                                            {Kind::adjustment, "P1", "A", "s", 0, -5},
+                                            {Kind::magnitude, "P1", "A", "s", 0, 1},
+                                            {Kind::magnitude, "P2", "A", "s", 0, 100}});
     ASSERT_EQ(summaries.size(), 2u);
     EXPECT_NEAR(summaries[0].estimate, -4.0, 1e-12);
     EXPECT_NEAR(summaries[1].estimate, 10.0, 1e-12);
@@ -90,13 +102,16 @@ TEST(LevelTrials, MatchesAreMeansAndMagnitudesGeometricMeans) {
 
 TEST(TactileIcons, TheMostConfusedAreDroppedFirst) {
     std::vector<IdentificationTrial> trials;
-    const auto add = [&](const char* s, const char* r, int n) { trials.insert(trials.end(), static_cast<std::size_t>(n), {s, r}); };
+    const auto add = [&](const char* s, const char* r, int n) {
+        trials.insert(trials.end(), static_cast<std::size_t>(n), {s, r});
+    };
     add("a", "a", 10);
     add("b", "b", 6), add("b", "c", 4);
     add("c", "c", 7), add("c", "b", 3);
     add("d", "d", 9), add("d", "a", 1);
     const ConfusionMatrix matrix{trials};
-    EXPECT_EQ(leastConfused(matrix, 3), (std::vector<std::size_t>{0, 2, 3})) << "of b and c the one with fewer correct answers goes";
+    EXPECT_EQ(leastConfused(matrix, 3), (std::vector<std::size_t>{0, 2, 3}))
+        << "of b and c the one with fewer correct answers goes";
     EXPECT_EQ(leastConfused(matrix, 9).size(), 4u);
     EXPECT_NEAR(shareCorrect(matrix, 1), 0.6, 1e-12);
     EXPECT_NEAR(bitsFor(8), 3.0, 1e-12);

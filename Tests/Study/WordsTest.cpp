@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Words of a language: what is wrong with a file of them, and what the Korean ones have to hold.
-#include "Study/Files/ProtocolFile.h"
 #include "Study/Files/Words.h"
+#include "Study/Files/ProtocolFile.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -20,7 +20,8 @@ TEST(Words, ATextThatIsNotThereStaysEnglish) {
 
 TEST(Words, FaultsAreNamedByTheirText) {
     const auto fault = [](const std::string& texts) { return readWords(head + texts + "}", "x.json").error; };
-    EXPECT_EQ(fault(R"({"trial {n}": "Versuch"})"), "x.json: texts.trial {n}: expected the same names in braces as in the English text");
+    EXPECT_EQ(fault(R"({"trial {n}": "Versuch"})"),
+              "x.json: texts.trial {n}: expected the same names in braces as in the English text");
     EXPECT_EQ(fault(R"({"Begin": 1})"), "x.json: texts.Begin: expected a string, found a number");
     EXPECT_EQ(fault("[]"), "x.json: texts: expected an object, found an array");
 }
@@ -28,12 +29,15 @@ TEST(Words, FaultsAreNamedByTheirText) {
 TEST(Words, TheKoreanOnesHaveAllThatBuiltInProtocolsAsk) {
     const Words& korean = builtInWords().front();
     EXPECT_EQ(korean.name, "ko");
-    const auto expect = [&](const std::string& text) { EXPECT_TRUE(text.empty() || korean.texts.contains(text)) << text; };
+    const auto expect = [&](const std::string& text) {
+        EXPECT_TRUE(text.empty() || korean.texts.contains(text)) << text;
+    };
     for (const Protocol& protocol : builtInProtocols()) {
         expect(protocol.closingQuestion);
         for (const SessionPlan& session : protocol.sessions) {
             expect(session.question);
-            for (const auto* list : {&session.scales, &session.definitions, &session.anchors, &session.objects})
+            for (const auto* list :
+                 {&session.scales, &session.definitions, &session.anchors, &session.objects})
                 for (const std::string& text : *list) expect(text);
         }
     }

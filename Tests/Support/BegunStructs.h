@@ -20,11 +20,15 @@ void expectBegunWithin(int (*init)(Struct*, std::size_t)) {
         ASSERT_EQ(init(&part, size), PHYSVIB_OK);
         ASSERT_EQ(part.size, size);
         part.size = sizeof whole;
-        const auto *got = reinterpret_cast<const unsigned char*>(&part), *full = reinterpret_cast<const unsigned char*>(&whole);
+        const auto *got = reinterpret_cast<const unsigned char*>(&part),
+                   *full = reinterpret_cast<const unsigned char*>(&whole);
         ASSERT_TRUE(std::equal(got, got + size, full)) << size;
-        ASSERT_TRUE(std::all_of(got + size, got + sizeof whole, [](unsigned char byte) { return byte == 0xAB; })) << size;
+        ASSERT_TRUE(std::all_of(got + size, got + sizeof whole, [](unsigned char byte) {
+            return byte == 0xAB;
+        })) << size;
     }
-    for (const std::size_t size : {std::size_t{0}, std::size_t{7}, sizeof whole + 1}) EXPECT_EQ(init(&whole, size), PHYSVIB_ERROR_ARGUMENT);
+    for (const std::size_t size : {std::size_t{0}, std::size_t{7}, sizeof whole + 1})
+        EXPECT_EQ(init(&whole, size), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_EQ(init(nullptr, sizeof whole), PHYSVIB_ERROR_ARGUMENT);
 }
 

@@ -59,12 +59,14 @@ inline std::vector<BoardFrame> boardClosedForm(const std::vector<BoardEvent>& ev
     constexpr double rate = limits::board::sampleRateHz, grid = limits::board::gridPerHz;
     ReferenceSums sums(frames);
     for (const BoardEvent& e : events) {
-        const std::size_t end = e.durationMs > 0 ? std::min<std::size_t>(frames, e.frame + e.durationMs * 8u) : frames;
+        const std::size_t end =
+            e.durationMs > 0 ? std::min<std::size_t>(frames, e.frame + e.durationMs * 8u) : frames;
         for (std::size_t n = e.frame; n < end; ++n) {
             const double t = static_cast<double>(n - e.frame) / rate;
             const double fall = std::exp(-e.decay16 / grid * t);
             if (fall < 1e-7) break;
-            const double y = std::sin(2.0 * std::numbers::pi * e.frequency16 / grid * t) * fall / limits::board::amplitudeUnit;
+            const double y = std::sin(2.0 * std::numbers::pi * e.frequency16 / grid * t) * fall /
+                             limits::board::amplitudeUnit;
             for (std::size_t j = 0; j < 4; ++j) sums[n][j] += e.amplitudes[j] * y;
         }
     }
@@ -87,9 +89,9 @@ inline std::vector<BoardFrame> boardClosedForm(const std::vector<BoardEvent>& ev
 struct BoardListSettings {
     int events = 100;
     std::uint32_t firstFrame = 400, spanFrames = 16000;
-    int materials = 20;          ///< distinct (f, tau)
-    double loudest = 0.2;        ///< of full scale
-    double gatedShare = 0.0;     ///< events with a duration
+    int materials = 20;      ///< distinct (f, tau)
+    double loudest = 0.2;    ///< of full scale
+    double gatedShare = 0.0; ///< events with a duration
 };
 
 /// Sorted by onset; equal seeds, equal lists.
@@ -104,43 +106,58 @@ inline std::vector<BoardEvent> randomBoardEvents(const BoardListSettings& s, std
     for (auto& e : events) {
         e = kinds[static_cast<std::size_t>(random.below(s.materials))];
         e.frame = s.firstFrame + static_cast<std::uint32_t>(random.below(s.spanFrames));
-        if (random.uniform(0, 1) < s.gatedShare) e.durationMs = static_cast<std::uint16_t>(1 + random.below(200));
-        for (auto& a : e.amplitudes) a = static_cast<std::int16_t>(random.uniform(-s.loudest, s.loudest) * limits::board::amplitudeUnit);
+        if (random.uniform(0, 1) < s.gatedShare)
+            e.durationMs = static_cast<std::uint16_t>(1 + random.below(200));
+        for (auto& a : e.amplitudes)
+            a = static_cast<std::int16_t>(random.uniform(-s.loudest, s.loudest) *
+                                          limits::board::amplitudeUnit);
     }
-    std::stable_sort(events.begin(), events.end(), [](const BoardEvent& a, const BoardEvent& b) { return a.frame < b.frame; });
+    std::stable_sort(events.begin(), events.end(),
+                     [](const BoardEvent& a, const BoardEvent& b) { return a.frame < b.frame; });
     return events;
 }
 
-/// What so many tones that move are made of from `firstFrame` to `endFrame`, each leg joined to the one before; sorted by onset.
-inline std::vector<BoardLeg> randomBoardLegs(int tones, std::uint32_t firstFrame, std::uint32_t endFrame, int mostFrames, std::uint32_t seed) {
+/// What so many tones that move are made of from `firstFrame` to `endFrame`, each leg joined to the one
+/// before; sorted by onset.
+inline std::vector<BoardLeg> randomBoardLegs(int tones, std::uint32_t firstFrame, std::uint32_t endFrame,
+                                             int mostFrames, std::uint32_t seed) {
     Random random{seed};
     std::vector<BoardLeg> legs;
     for (int tone = 0; tone < tones; ++tone) {
         BoardLeg leg;
-        leg.turn = static_cast<std::uint32_t>(random.uniform(40.0, 400.0) / limits::board::sampleRateHz * 4294967296.0);
+        leg.turn = static_cast<std::uint32_t>(random.uniform(40.0, 400.0) / limits::board::sampleRateHz *
+                                              4294967296.0);
         std::uint32_t phase = 0;
-        for (leg.frame = firstFrame + static_cast<std::uint32_t>(random.below(200)); leg.frame < endFrame; leg.frame += leg.frames) {
+        for (leg.frame = firstFrame + static_cast<std::uint32_t>(random.below(200)); leg.frame < endFrame;
+             leg.frame += leg.frames) {
             leg.frames = static_cast<std::uint16_t>(mostFrames - random.below(mostFrames / 4));
             leg.phase16 = static_cast<std::uint16_t>(phase >> 16);
             leg.decay16 = static_cast<std::uint16_t>(random.below(3) * 50);
             leg.start = leg.end;
-            for (auto& a : leg.end) a = static_cast<std::int16_t>(random.uniform(-0.2, 0.2) * limits::board::amplitudeUnit);
+            for (auto& a : leg.end)
+                a = static_cast<std::int16_t>(random.uniform(-0.2, 0.2) * limits::board::amplitudeUnit);
             legs.push_back(leg);
             phase += leg.turn * leg.frames;
         }
     }
-    std::stable_sort(legs.begin(), legs.end(), [](const BoardLeg& a, const BoardLeg& b) { return a.frame < b.frame; });
+    std::stable_sort(legs.begin(), legs.end(),
+                     [](const BoardLeg& a, const BoardLeg& b) { return a.frame < b.frame; });
     return legs;
 }
 
 /// The board's renderer on this computer: each event is scheduled `lead` frames ahead.
-inline std::vector<BoardFrame> renderBoardEvents(BoardRenderer& renderer, const std::vector<BoardEvent>& events, std::size_t frames, std::uint32_t lead = 64,
+inline std::vector<BoardFrame> renderBoardEvents(BoardRenderer& renderer,
+                                                 const std::vector<BoardEvent>& events, std::size_t frames,
+                                                 std::uint32_t lead = 64,
                                                  const std::vector<BoardLeg>& legs = {}) {
     std::vector<BoardFrame> codes;
     BoardRenderer::Codes block;
-    for (std::size_t next = 0, nextLeg = 0; codes.size() < frames; codes.insert(codes.end(), block.begin(), block.end())) {
-        while (next < events.size() && events[next].frame < codes.size() + lead) renderer.schedule(events[next++]);
-        while (nextLeg < legs.size() && legs[nextLeg].frame < codes.size() + lead) renderer.schedule(legs[nextLeg++]);
+    for (std::size_t next = 0, nextLeg = 0; codes.size() < frames;
+         codes.insert(codes.end(), block.begin(), block.end())) {
+        while (next < events.size() && events[next].frame < codes.size() + lead)
+            renderer.schedule(events[next++]);
+        while (nextLeg < legs.size() && legs[nextLeg].frame < codes.size() + lead)
+            renderer.schedule(legs[nextLeg++]);
         renderer.render(block);
     }
     codes.resize(frames);

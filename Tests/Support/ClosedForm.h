@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a render must be: the sum of Eq. 5.1 over all events, in double precision with library functions, written
-// without any of the renderer's code but the event type. Gains come from the caller.
+// What a render must be: the sum of Eq. 5.1 over all events, in double precision with library functions,
+// written without any of the renderer's code but the event type. Gains come from the caller.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include <cmath>
@@ -14,8 +14,10 @@ namespace physvib::test {
 using Signal = std::vector<std::vector<double>>; // [channel][frame]
 using GainLaw = std::function<void(double x, double y, double* gains)>;
 
-/// sum of A g_j sin(2 pi f t) exp(-tau t), t = n/rate - t_e, over events with t_e <= n/rate (< t_e + duration).
-inline Signal closedForm(const std::vector<CollisionEvent>& events, int rate, int channels, int frames, const GainLaw& law) {
+/// sum of A g_j sin(2 pi f t) exp(-tau t), t = n/rate - t_e, over events with t_e <= n/rate (< t_e +
+/// duration).
+inline Signal closedForm(const std::vector<CollisionEvent>& events, int rate, int channels, int frames,
+                         const GainLaw& law) {
     Signal sum(static_cast<std::size_t>(channels), std::vector<double>(static_cast<std::size_t>(frames)));
     std::vector<double> gains(64);
     for (const auto& e : events) {
@@ -26,7 +28,8 @@ inline Signal closedForm(const std::vector<CollisionEvent>& events, int rate, in
             if (e.durationNs > 0 && sinceNsTimesRate >= e.durationNs * rate) break;
             const double t = static_cast<double>(sinceNsTimesRate) * 1e-9 / rate;
             if (e.decayPerSecond * t > 16.2) break; // -140.7 dB
-            const double x = e.amplitude * std::sin(2.0 * std::numbers::pi * e.frequencyHz * t) * std::exp(-e.decayPerSecond * t);
+            const double x = e.amplitude * std::sin(2.0 * std::numbers::pi * e.frequencyHz * t) *
+                             std::exp(-e.decayPerSecond * t);
             for (std::size_t j = 0; j < sum.size(); ++j) sum[j][static_cast<std::size_t>(n)] += gains[j] * x;
         }
     }
@@ -47,7 +50,8 @@ inline double relativeError(const Signal& expected, const std::vector<std::vecto
 /// Seeded random numbers that are the same with every library.
 class Random {
 public:
-    explicit Random(std::uint32_t seed) : engine_{seed} {}
+    explicit Random(std::uint32_t seed)
+        : engine_{seed} {}
     double uniform(double low, double high) {
         return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
     }
@@ -58,25 +62,29 @@ private:
     std::mt19937 engine_;
 };
 
-/// `count` events in time order within `seconds`: f 20-1000 Hz, tau 0.5-150 /s, anywhere between frames; one in five
-/// has a duration, half of them share `materials` (frequency, decay) pairs.
-inline std::vector<CollisionEvent> randomEvents(int count, double seconds, std::uint32_t seed, int materials = 8) {
+/// `count` events in time order within `seconds`: f 20-1000 Hz, tau 0.5-150 /s, anywhere between frames; one
+/// in five has a duration, half of them share `materials` (frequency, decay) pairs.
+inline std::vector<CollisionEvent> randomEvents(int count, double seconds, std::uint32_t seed,
+                                                int materials = 8) {
     Random random{seed};
     std::vector<std::pair<double, double>> shared;
-    for (int m = 0; m < materials; ++m) shared.emplace_back(random.logUniform(20, 1000), random.logUniform(0.5, 150));
+    for (int m = 0; m < materials; ++m)
+        shared.emplace_back(random.logUniform(20, 1000), random.logUniform(0.5, 150));
     std::vector<CollisionEvent> events(static_cast<std::size_t>(count));
     for (auto& e : events) {
         e.timeNs = static_cast<std::int64_t>(random.uniform(0, seconds) * 1e9);
         e.frequencyHz = random.logUniform(20, 1000);
         e.decayPerSecond = random.logUniform(0.5, 150);
         if (materials > 0 && random.below(2) == 0)
-            std::tie(e.frequencyHz, e.decayPerSecond) = shared[static_cast<std::size_t>(random.below(materials))];
+            std::tie(e.frequencyHz, e.decayPerSecond) =
+                shared[static_cast<std::size_t>(random.below(materials))];
         e.amplitude = random.uniform(0.01, 1.0);
         e.x = random.uniform(0, 1);
         e.y = random.uniform(0, 1);
         if (random.below(5) == 0) e.durationNs = static_cast<std::int64_t>(random.uniform(0.001, 0.5) * 1e9);
     }
-    std::stable_sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.timeNs < b.timeNs; });
+    std::stable_sort(events.begin(), events.end(),
+                     [](const auto& a, const auto& b) { return a.timeNs < b.timeNs; });
     return events;
 }
 

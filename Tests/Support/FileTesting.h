@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of Files share: seeded numbers, mutated texts, files and a folder of their own, a locale with a comma.
+// What the tests of Files share: seeded numbers, mutated texts, files and a folder of their own, a locale
+// with a comma.
 #pragma once
 #include "Io/Disk/ReadFile.h"
 #include "Support/Mutations.h"
@@ -28,7 +29,9 @@ inline double anyDouble(std::mt19937& random) {
     }
 }
 
-inline void put(const std::filesystem::path& path, std::string_view bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+inline void put(const std::filesystem::path& path, std::string_view bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
 inline std::string contentOf(const std::filesystem::path& path) { return readFile(path, 1'000'000).value; }
 
 /// A fresh empty folder for one test, gone afterwards.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Memory and time of what goes on for hours of simulated time. Memory is asserted, times are told: of this thread's processor
-// time, and the least of runs side by side that do the same, so that a step that is slow is so by itself.
+// Memory and time of what goes on for hours of simulated time. Memory is asserted, times are told: of this
+// thread's processor time, and the least of runs side by side that do the same, so that a step that is slow
+// is so by itself.
 #pragma once
 #include <algorithm>
 #include <cstdio>
@@ -19,7 +20,8 @@ inline double hoursWanted() {
     return hours != nullptr ? std::atof(hours) : 10.0;
 }
 
-/// What the program has asked for and not given back; what the system holds for it beside that comes and goes.
+/// What the program has asked for and not given back; what the system holds for it beside that comes and
+/// goes.
 inline double memoryMb() {
     const auto now = mallinfo2();
     return static_cast<double>(now.uordblks + now.hblkhd) / 1e6;
@@ -50,7 +52,9 @@ public:
 
     void expectFlat() {
         endHour();
-        for (std::size_t h = 1; h < hours_.size(); ++h) EXPECT_LT(hours_[h] - hours_[0], 1.0) << "MB more than after the first hour, after hour " << h + 1;
+        for (std::size_t h = 1; h < hours_.size(); ++h)
+            EXPECT_LT(hours_[h] - hours_[0], 1.0)
+                << "MB more than after the first hour, after hour " << h + 1;
     }
 
 private:
@@ -70,7 +74,9 @@ private:
         const float p99 = sorted[count * 99 / 100], most = sorted.back();
         sorted.clear();
         hours_.push_back(memoryMb());
-        std::printf("%s: hour %zu: %.2f MB; a step %.1f us (median), %.1f (99 %%), %.1f (most), %.3f %% above twice the median\n", what_.c_str(), hours_.size(), hours_.back(), median, p99, most,
+        std::printf("%s: hour %zu: %.2f MB; a step %.1f us (median), %.1f (99 %%), %.1f (most), %.3f %% "
+                    "above twice the median\n",
+                    what_.c_str(), hours_.size(), hours_.back(), median, p99, most,
                     100.0 * static_cast<double>(slow) / static_cast<double>(count));
         std::fflush(stdout);
     }

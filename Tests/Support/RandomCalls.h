@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bytes as calls of the library for other languages: any call, in any order, with any handle, number or pointer.
+// Bytes as calls of the library for other languages: any call, in any order, with any handle, number or
+// pointer.
 #pragma once
 #include <array>
 #include <cmath>
@@ -42,15 +43,25 @@ private:
 
     std::uint8_t byte() { return at_ < end_ ? *at_++ : std::uint8_t{0}; }
     int small() { return static_cast<int>(byte() % 8) - 1; }
-    physvib_int64 ns() { return byte() % 16 == 0 ? std::numeric_limits<physvib_int64>::min() + byte() : 1000000LL * byte(); }
+    physvib_int64 ns() {
+        return byte() % 16 == 0 ? std::numeric_limits<physvib_int64>::min() + byte() : 1000000LL * byte();
+    }
     bool isRare() { return byte() % 32 == 0; }
     double number() {
         constexpr double inf = std::numeric_limits<double>::infinity();
-        static constexpr double odd[] = {0.0, -1.0, 1.0, inf, -inf, std::numeric_limits<double>::quiet_NaN(), 1.0e308, PHYSVIB_UNKNOWN, 1.0e-310, 0.01};
+        static constexpr double odd[] = {0.0,      -1.0,
+                                         1.0,      inf,
+                                         -inf,     std::numeric_limits<double>::quiet_NaN(),
+                                         1.0e308,  PHYSVIB_UNKNOWN,
+                                         1.0e-310, 0.01};
         const std::uint8_t b = byte();
         return b % 4 == 0 ? odd[b / 4 % std::size(odd)] : b / 16.0;
     }
-    physvib_renderer renderer() { return isRare() ? reinterpret_cast<physvib_renderer>(ns()) : isRare() ? reinterpret_cast<physvib_renderer>(worlds_[0]) : renderers_[byte() % 4]; }
+    physvib_renderer renderer() {
+        return isRare()   ? reinterpret_cast<physvib_renderer>(ns())
+               : isRare() ? reinterpret_cast<physvib_renderer>(worlds_[0])
+                          : renderers_[byte() % 4];
+    }
     physvib_world world() { return isRare() ? reinterpret_cast<physvib_world>(ns()) : worlds_[byte() % 4]; }
 
     /// Now and then none, one of another version, or one whose numbers are anything.
@@ -61,7 +72,9 @@ private:
         if (isRare()) values.size = byte();
         if (isRare()) { // past the size; all members are numbers, for which every pattern is a value
             auto* bytes = reinterpret_cast<unsigned char*>(&values);
-            for (std::size_t i = 0; i < 8; ++i) bytes[sizeof values.size + byte() * std::size_t{8} % (sizeof values - sizeof values.size)] = byte();
+            for (std::size_t i = 0; i < 8; ++i)
+                bytes[sizeof values.size + byte() * std::size_t{8} % (sizeof values - sizeof values.size)] =
+                    byte();
         }
         return &values;
     }
@@ -102,11 +115,15 @@ private:
         case 5: return physvib_renderer_strike(renderer(), event());
         case 6:
         case 7: return pull();
-        case 8: return physvib_renderer_pull_interleaved(renderer(), isRare() ? nullptr : samples_.data(), 4, 1 + byte());
+        case 8:
+            return physvib_renderer_pull_interleaved(renderer(), isRare() ? nullptr : samples_.data(), 4,
+                                                     1 + byte());
         case 9: return physvib_renderer_set_gain(renderer(), ns(), small(), number());
         case 10: return physvib_renderer_set_mute(renderer(), ns(), small(), byte());
         case 11: return physvib_renderer_set_level(renderer(), ns(), number());
-        case 12: return physvib_renderer_set_layout(renderer(), ns(), of(rendererSettings_, physvib_renderer_settings_init));
+        case 12:
+            return physvib_renderer_set_layout(renderer(), ns(),
+                                               of(rendererSettings_, physvib_renderer_settings_init));
         case 13: return physvib_renderer_silence(renderer(), ns(), ns());
         case 14: return physvib_renderer_latency_frames(renderer());
         case 15: return physvib_renderer_get_status(renderer(), of(status_, physvib_renderer_status_init));
@@ -114,7 +131,8 @@ private:
         case 17:
         case 18: return setBody();
         case 19: return physvib_world_remove_body(world(), small());
-        case 20: return physvib_world_move(world(), small(), number(), number(), number(), number(), number());
+        case 20:
+            return physvib_world_move(world(), small(), number(), number(), number(), number(), number());
         case 21: return physvib_world_pair(world(), small(), small(), 100.0 * number(), number(), number());
         case 22: return physvib_world_begin_step(world(), number() / 100.0, number());
         case 23:
@@ -125,7 +143,10 @@ private:
         case 28: return physvib_world_end_step(world());
         case 29: return physvib_world_take(world(), isRare() ? nullptr : events_.data(), small(), byte() % 2);
         case 30: return physvib_world_send(world(), renderer(), ns(), byte() % 2);
-        default: return physvib_world_time_ns(world()) < 0 ? 0 : physvib_play_out_ns(48000 * small(), byte(), byte(), number());
+        default:
+            return physvib_world_time_ns(world()) < 0
+                       ? 0
+                       : physvib_play_out_ns(48000 * small(), byte(), byte(), number());
         }
     }
 
@@ -134,17 +155,21 @@ private:
         physvib_renderer& kept = renderers_[alive(renderers_)];
         renderers_[3] = kept;
         physvib_renderer_free(kept);
-        return physvib_renderer_create(of(rendererSettings_, physvib_renderer_settings_init), isRare() ? nullptr : &kept);
+        return physvib_renderer_create(of(rendererSettings_, physvib_renderer_settings_init),
+                                       isRare() ? nullptr : &kept);
     }
     physvib_int64 createWorld() {
         physvib_world& kept = worlds_[alive(worlds_)];
         if (kept != nullptr && !isRare()) return 0;
         worlds_[3] = kept;
         physvib_world_free(kept);
-        return physvib_world_create(of(worldSettings_, physvib_world_settings_init), isRare() ? nullptr : &kept);
+        return physvib_world_create(of(worldSettings_, physvib_world_settings_init),
+                                    isRare() ? nullptr : &kept);
     }
     template <class Names>
-    std::size_t alive(const Names&) { return byte() % 2; }
+    std::size_t alive(const Names&) {
+        return byte() % 2;
+    }
 
     physvib_int64 setBody() {
         physvib_body* const values = of(body_, physvib_body_init);

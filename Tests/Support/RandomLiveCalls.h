@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bytes as calls of the library with devices and sessions: any call, in any order, with any handle, number or pointer; on no device.
+// Bytes as calls of the library with devices and sessions: any call, in any order, with any handle, number or
+// pointer; on no device.
 #pragma once
 #include <array>
 #include <cmath>
@@ -45,18 +46,29 @@ private:
     bool isVeryRare() { return isRare() && byte() % 64 == 0; }
     int small() { return static_cast<int>(byte() % 8) - 1; }
     physvib_int64 impossible() {
-        static constexpr physvib_int64 odd[] = {std::numeric_limits<physvib_int64>::min(), std::numeric_limits<physvib_int64>::max(), -1};
+        static constexpr physvib_int64 odd[] = {std::numeric_limits<physvib_int64>::min(),
+                                                std::numeric_limits<physvib_int64>::max(), -1};
         return odd[byte() % std::size(odd)];
     }
     physvib_int64 ns() { return isRare() ? impossible() : 1'000'000LL * byte(); }
     double number() {
         constexpr double inf = std::numeric_limits<double>::infinity();
-        static constexpr double odd[] = {0.0, -1.0, 1.0, inf, -inf, std::numeric_limits<double>::quiet_NaN(), 1.0e308, PHYSVIB_UNKNOWN, 1.0e-310, -12.0};
+        static constexpr double odd[] = {0.0,      -1.0,
+                                         1.0,      inf,
+                                         -inf,     std::numeric_limits<double>::quiet_NaN(),
+                                         1.0e308,  PHYSVIB_UNKNOWN,
+                                         1.0e-310, -12.0};
         const std::uint8_t b = byte();
         return b % 4 == 0 ? odd[b / 4 % std::size(odd)] : b / 16.0;
     }
-    physvib_live live() { return isRare() ? reinterpret_cast<physvib_live>(ns()) : isRare() ? reinterpret_cast<physvib_live>(world_) : lives_[byte() % 16 == 0]; }
-    physvib_session session() { return isRare() ? reinterpret_cast<physvib_session>(ns()) : sessions_[byte() % 4]; }
+    physvib_live live() {
+        return isRare()   ? reinterpret_cast<physvib_live>(ns())
+               : isRare() ? reinterpret_cast<physvib_live>(world_)
+                          : lives_[byte() % 16 == 0];
+    }
+    physvib_session session() {
+        return isRare() ? reinterpret_cast<physvib_session>(ns()) : sessions_[byte() % 4];
+    }
     physvib_world world() { return isRare() ? reinterpret_cast<physvib_world>(lives_[0]) : world_; }
 
     /// Now and then none, one of another version, or one whose numbers are anything.
@@ -67,7 +79,9 @@ private:
         if (isRare()) values.size = byte();
         if (isRare()) {
             auto* bytes = reinterpret_cast<unsigned char*>(&values);
-            for (std::size_t i = 0; i < 8; ++i) bytes[sizeof values.size + byte() * std::size_t{8} % (sizeof values - sizeof values.size)] = byte();
+            for (std::size_t i = 0; i < 8; ++i)
+                bytes[sizeof values.size + byte() * std::size_t{8} % (sizeof values - sizeof values.size)] =
+                    byte();
         }
         return &values;
     }
@@ -100,15 +114,20 @@ private:
         case 12: return physvib_live_set_level(live(), number());
         case 13: return physvib_live_silence(live(), byte() % 2);
         case 14: return physvib_live_get_status(live(), of(status_, physvib_live_status_init));
-        case 15: return physvib_session_load(isRare() ? nullptr : "/nowhere/session.json", isRare() ? nullptr : &sessions_[2]);
+        case 15:
+            return physvib_session_load(isRare() ? nullptr : "/nowhere/session.json",
+                                        isRare() ? nullptr : &sessions_[2]);
         case 16:
         case 17: return createSession();
         case 18: return isRare() ? physvib_session_free(session()) : 0;
         case 19: return physvib_session_save(session(), isRare() ? nullptr : "/nowhere/session.json");
         case 20: return physvib_session_length_ns(session());
-        case 21: return physvib_session_get_renderer(session(), of(renderer_, physvib_renderer_settings_init));
+        case 21:
+            return physvib_session_get_renderer(session(), of(renderer_, physvib_renderer_settings_init));
         case 22: return physvib_session_events(session(), ns(), isRare() ? nullptr : events_.data(), small());
-        default: return physvib_session_render(session(), 8000 * small(), isRare() ? impossible() : byte(), isRare() ? nullptr : samples_.data());
+        default:
+            return physvib_session_render(session(), 8000 * small(), isRare() ? impossible() : byte(),
+                                          isRare() ? nullptr : samples_.data());
         }
     }
 
@@ -120,7 +139,8 @@ private:
         const physvib_live_settings* const settings = of(settings_, physvib_live_settings_init);
         // without an end, or no file
         std::memset(settings_.save, isRare() ? 'x' : '\0', sizeof settings_.save);
-        const int code = physvib_live_open(devices[byte() % 4], of(renderer_, physvib_renderer_settings_init), settings, isRare() ? nullptr : &made);
+        const int code = physvib_live_open(devices[byte() % 4], of(renderer_, physvib_renderer_settings_init),
+                                           settings, isRare() ? nullptr : &made);
         if (made != nullptr) lives_[0] = made;
         return code;
     }
@@ -137,7 +157,8 @@ private:
         physvib_session& kept = sessions_[byte() % 2];
         sessions_[3] = kept;
         physvib_session_free(kept);
-        return physvib_session_create(of(renderer_, physvib_renderer_settings_init), events(), small(), ns(), isRare() ? nullptr : &kept);
+        return physvib_session_create(of(renderer_, physvib_renderer_settings_init), events(), small(), ns(),
+                                      isRare() ? nullptr : &kept);
     }
 
     const std::uint8_t *at_ = nullptr, *end_ = nullptr;

@@ -34,12 +34,13 @@ struct Rendered {
 };
 
 /// Renders `frames` without the limiter's latency; block sizes are taken from `blocks` in turn.
-inline Rendered renderEvents(const std::vector<CollisionEvent>& events, const RendererSettings& settings, int frames,
-                             const std::vector<int>& blocks = {256}) {
+inline Rendered renderEvents(const std::vector<CollisionEvent>& events, const RendererSettings& settings,
+                             int frames, const std::vector<int>& blocks = {256}) {
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settings);
     const int latency = renderer->latencyFrames(), total = frames + latency;
-    Channels all(static_cast<std::size_t>(settings.channels), std::vector<float>(static_cast<std::size_t>(total)));
+    Channels all(static_cast<std::size_t>(settings.channels),
+                 std::vector<float>(static_cast<std::size_t>(total)));
     ListSource source{events};
     for (int done = 0, turn = 0; done < total; ++turn) {
         const int block = std::min(blocks[static_cast<std::size_t>(turn) % blocks.size()], total - done);

@@ -18,9 +18,12 @@ namespace test {
 inline const std::vector<InstructionSet>& runnableSets() {
     static const std::vector<InstructionSet> sets = [] {
         std::vector<InstructionSet> here;
-        for (const auto set : {InstructionSet::scalar, InstructionSet::sse4, InstructionSet::avx2, InstructionSet::avx512, InstructionSet::neon}) {
-            if (isAvailable(set)) here.push_back(set);
-            else std::cout << "[ not here ] no " << nameOf(set) << " in this program on this processor\n";
+        for (const auto set : {InstructionSet::scalar, InstructionSet::sse4, InstructionSet::avx2,
+                               InstructionSet::avx512, InstructionSet::neon}) {
+            if (isAvailable(set))
+                here.push_back(set);
+            else
+                std::cout << "[ not here ] no " << nameOf(set) << " in this program on this processor\n";
         }
         return here;
     }();
@@ -30,7 +33,9 @@ inline const std::vector<InstructionSet>& runnableSets() {
 /// A test that is run once per set.
 class OnEachSet : public ::testing::TestWithParam<InstructionSet> {};
 inline auto eachSet() { return ::testing::ValuesIn(runnableSets()); }
-inline std::string setName(const ::testing::TestParamInfo<InstructionSet>& info) { return std::string{nameOf(info.param)}; }
+inline std::string setName(const ::testing::TestParamInfo<InstructionSet>& info) {
+    return std::string{nameOf(info.param)};
+}
 
 } // namespace test
 } // namespace physvib

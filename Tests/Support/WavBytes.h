@@ -20,7 +20,9 @@ inline std::string wavBytes(const WavHeader& header, const std::string& samples)
     const auto number = [&](std::uint32_t value, int width) {
         for (int i = 0; i < width; ++i) bytes += static_cast<char>(value >> (8 * i) & 255);
     };
-    const std::uint32_t data = header.dataBytes > 0 ? header.dataBytes : static_cast<std::uint32_t>(samples.size()), frame = header.channels * header.bits / 8;
+    const std::uint32_t data = header.dataBytes > 0 ? header.dataBytes
+                                                    : static_cast<std::uint32_t>(samples.size()),
+                        frame = header.channels * header.bits / 8;
     bytes += "RIFF";
     number(data + 36, 4);
     bytes += "WAVEfmt ";

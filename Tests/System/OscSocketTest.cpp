@@ -11,7 +11,9 @@ namespace {
 constexpr int soon = 10'000, atOnce = 20;
 const std::string here = "127.0.0.1";
 
-std::string textOf(const std::optional<std::span<const char>>& packet) { return packet ? std::string{packet->begin(), packet->end()} : std::string{"nothing"}; }
+std::string textOf(const std::optional<std::span<const char>>& packet) {
+    return packet ? std::string{packet->begin(), packet->end()} : std::string{"nothing"};
+}
 
 TEST(OscSockets, APacketArrivesWholeAndItsAnswerComesBack) {
     auto in = OscSocket::listening(here, 0);

@@ -31,9 +31,7 @@ bool hearsHello() {
     return false;
 }
 
-std::string shellWord(const std::string& text) {
-    return '"' + text + '"';
-}
+std::string shellWord(const std::string& text) { return '"' + text + '"'; }
 
 TEST(Processes, StandardInputIsReadAsItComesAndEnds) {
     EXPECT_EQ(std::system(("echo hello| " + shellWord(self) + ' ' + spokenTo).c_str()), 0);

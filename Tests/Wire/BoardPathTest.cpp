@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What moves, on a board of protocol 2: within one step of the converters of what the computer's own renderer plays, in few legs.
+// What moves, on a board of protocol 2: within one step of the converters of what the computer's own renderer
+// plays, in few legs.
+#include "Wire/BoardPath.h"
 #include "Support/BoardReference.h"
 #include "Support/Rendering.h"
-#include "Wire/BoardPath.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -21,7 +22,7 @@ CollisionEvent diagonal(Spread spread, double amplitude) {
     e.durationNs = 1'000'000'000;
     e.frequencyHz = 205.0;
     e.amplitude = amplitude;
-    e.y = 1.0; // A
+    e.y = 1.0;                                      // A
     e.course = {1.0, 0.0, e.durationNs, 0, spread}; // D
     return e;
 }
@@ -62,7 +63,8 @@ std::vector<test::BoardFrame> onTheBoard(const std::vector<BoardLeg>& legs, std:
     std::vector<test::BoardFrame> codes;
     BoardRenderer::Codes block;
     for (std::size_t next = 0; codes.size() < frames; codes.insert(codes.end(), block.begin(), block.end())) {
-        for (; next < legs.size() && legs[next].frame < codes.size() + 20; ++next) EXPECT_TRUE(renderer->schedule(legs[next]));
+        for (; next < legs.size() && legs[next].frame < codes.size() + 20; ++next)
+            EXPECT_TRUE(renderer->schedule(legs[next]));
         renderer->render(block);
     }
     codes.resize(frames);
@@ -71,16 +73,19 @@ std::vector<test::BoardFrame> onTheBoard(const std::vector<BoardLeg>& legs, std:
 }
 
 /// Every sixth sample of the computer's renderer, as the converters would round it.
-std::vector<test::BoardFrame> onTheDesk(const std::vector<CollisionEvent>& events, const RendererSettings& settings, std::size_t frames) {
+std::vector<test::BoardFrame> onTheDesk(const std::vector<CollisionEvent>& events,
+                                        const RendererSettings& settings, std::size_t frames) {
     const auto felt = test::renderEvents(events, settings, static_cast<int>(frames) * perBoardFrame).channels;
     std::vector<test::BoardFrame> codes(frames);
     for (std::size_t n = 0; n < frames; ++n)
         for (std::size_t j = 0; j < 4; ++j)
-            codes[n][j] = static_cast<std::uint8_t>(std::clamp(static_cast<int>(std::floor(felt[j][n * perBoardFrame] * 127.0 + 128.5)), 0, 255));
+            codes[n][j] = static_cast<std::uint8_t>(
+                std::clamp(static_cast<int>(std::floor(felt[j][n * perBoardFrame] * 127.0 + 128.5)), 0, 255));
     return codes;
 }
 
-std::size_t expectOneStep(const std::vector<CollisionEvent>& events, const RendererSettings& settings, std::size_t frames = 8800) {
+std::size_t expectOneStep(const std::vector<CollisionEvent>& events, const RendererSettings& settings,
+                          std::size_t frames = 8800) {
     const auto legs = legsOf(events, settings.panner);
     EXPECT_LE(test::worstDifference(onTheBoard(legs, frames), onTheDesk(events, settings, frames)), 1);
     return legs.size();
@@ -129,11 +134,13 @@ TEST(BoardPath, APathOfSeveralPlacesIsOneTone) {
         around.push_back(e);
     }
     const auto legs = legsOf(around, deskOf().panner);
-    for (std::size_t i = 1; i < legs.size(); ++i) EXPECT_EQ(legs[i].frame, legs[i - 1].frame + legs[i - 1].frames) << i;
+    for (std::size_t i = 1; i < legs.size(); ++i)
+        EXPECT_EQ(legs[i].frame, legs[i - 1].frame + legs[i - 1].frames) << i;
     expectOneStep(around, deskOf(), 4400);
 }
 
-// The clock is learnt anew between two legs, and the device's is another by some ppm: nothing of it may be heard as a step.
+// The clock is learnt anew between two legs, and the device's is another by some ppm: nothing of it may be
+// heard as a step.
 TEST(BoardPath, AClockThatIsCorrectedMakesNoStep) {
     test::Random random{9};
     BoardPath path{diagonal(Spread::equal, 1.0), deskRate};
@@ -148,7 +155,8 @@ TEST(BoardPath, AClockThatIsCorrectedMakesNoStep) {
     const auto codes = onTheBoard(legs, 8200);
     int steepest = 0;
     for (std::size_t n = 1; n < codes.size(); ++n)
-        for (std::size_t j = 0; j < 4; ++j) steepest = std::max(steepest, std::abs(codes[n][j] - codes[n - 1][j]));
+        for (std::size_t j = 0; j < 4; ++j)
+            steepest = std::max(steepest, std::abs(codes[n][j] - codes[n - 1][j]));
     EXPECT_LE(steepest, 23) << "the tone's own at full scale is 20.4, a leg that catches up a little more";
 }
 
@@ -161,7 +169,8 @@ TEST(BoardPath, InAHurryItIsLongerThanItsLawAsksForAndSaysSo) {
     EXPECT_FALSE(path.isCoarse());
 }
 
-// A device that stands still for a while: legs that would be over before they are due must not be made again and again.
+// A device that stands still for a while: legs that would be over before they are due must not be made again
+// and again.
 TEST(BoardPath, AClockThatJumpsIsFollowed) {
     CollisionEvent rest = diagonal(Spread::equal, 0.5);
     rest.timeNs = rest.course.sinceNs = 1'000'000'000;

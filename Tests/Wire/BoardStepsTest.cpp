@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A path on the board: steps without gaps, of bounded number, each as strong and where it is to be.
+#include "Wire/BoardSteps.h"
 #include "Core/BoardRenderer.h"
 #include "Core/PhantomPanner.h"
-#include "Wire/BoardSteps.h"
 #include "Wire/BoardStrike.h"
 #include <gtest/gtest.h>
 #include <memory>
@@ -47,7 +47,8 @@ TEST(BoardSteps, FollowEachOtherInWholeMillisecondsAndPeriods) {
             end += step.durationNs;
         }
         EXPECT_EQ(end, second);
-        EXPECT_LE(std::abs(std::remainder(hz * static_cast<double>(steps[0].durationNs) * 1e-9, 1.0)), 0.03) << hz;
+        EXPECT_LE(std::abs(std::remainder(hz * static_cast<double>(steps[0].durationNs) * 1e-9, 1.0)), 0.03)
+            << hz;
     }
 }
 

@@ -57,7 +57,8 @@ TEST(StrikeBacklog, FullItLosesTheWeakestAndCounts) {
     EXPECT_EQ(stronger, StrikeBacklog::capacity - 1);
 }
 
-// More than a line carries, in the batches of a world's steps, known 30 ms before they are felt: what is sent is in time.
+// More than a line carries, in the batches of a world's steps, known 30 ms before they are felt: what is sent
+// is in time.
 TEST(StrikeBacklog, WhatIsMoreThanTheLineCarriesIsThinnedNotLate) {
     constexpr std::int64_t ms = 1'000'000, each = 1'389'000, transit = 6 * ms, known = 30 * ms;
     for (const int perSecond : {500, 700, 1000, 2000, 5000}) {
@@ -66,7 +67,9 @@ TEST(StrikeBacklog, WhatIsMoreThanTheLineCarriesIsThinnedNotLate) {
         std::uint64_t told = 0, sent = 0, late = 0, strong = 0;
         for (std::int64_t now = 0; now < 3000 * ms; now += ms) {
             if (now % (10 * ms) == 0)
-                for (int i = 0; i < perSecond / 100; ++i, ++told) backlog.push(strike(now + known + i * 1000 * ms / perSecond, told % 20 == 0 ? 4000 : 100 + static_cast<int>(told * 7919 % 100)));
+                for (int i = 0; i < perSecond / 100; ++i, ++told)
+                    backlog.push(strike(now + known + i * 1000 * ms / perSecond,
+                                        told % 20 == 0 ? 4000 : 100 + static_cast<int>(told * 7919 % 100)));
             backlog.keepTo({std::max(now, lineFree), each, transit});
             for (; !backlog.empty() && lineFree - now < 4 * ms; backlog.pop(), ++sent) {
                 lineFree = std::max(now, lineFree) + each;

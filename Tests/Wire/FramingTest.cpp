@@ -44,8 +44,8 @@ TEST(Cobs, RoundTripsEverythingWithoutAZero) {
 
 TEST(Cobs, BrokenFramesAreRefused) {
     Bytes out(8);
-    EXPECT_EQ(cobsDecode(Bytes{5, 1, 2}, out), -1);       // group longer than the frame
-    EXPECT_EQ(cobsDecode(Bytes{3, 0, 2}, out), -1);       // a zero inside
+    EXPECT_EQ(cobsDecode(Bytes{5, 1, 2}, out), -1); // group longer than the frame
+    EXPECT_EQ(cobsDecode(Bytes{3, 0, 2}, out), -1); // a zero inside
     EXPECT_EQ(cobsDecode(Bytes{0}, out), -1);
     EXPECT_EQ(cobsDecode(encoded(Bytes(9, 7)), out), -1); // does not fit
 }

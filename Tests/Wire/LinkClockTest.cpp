@@ -26,7 +26,8 @@ void ping(LinkClock& clock, Line& line, double now) {
 // The worst error of a played onset, in seconds, from `from` to `to`; pings as BoardLink sends them.
 double worstError(LinkClock& clock, Line& line, double from, double to) {
     double worst = 0;
-    for (double t = from; t < to; t += clock.isReady() ? 1.0 / wire::pingsPerSecond : 1.0 / wire::firstPingsPerSecond) {
+    for (double t = from; t < to;
+         t += clock.isReady() ? 1.0 / wire::pingsPerSecond : 1.0 / wire::firstPingsPerSecond) {
         ping(clock, line, t);
         if (!clock.isReady()) continue;
         const double event = t + 0.1; // placed up to a ping ahead
@@ -41,7 +42,9 @@ TEST(LinkClock, HoldsOnsetsWithinTwoMillisecondsForTenMinutes) {
         line.drift = drift;
         LinkClock clock;
         const double first = worstError(clock, line, 0, 10), later = worstError(clock, line, 10, 600);
-        std::cout << "drift " << drift * 1e6 << " ppm: worst onset error " << first * 1e3 << " ms in the first 10 s, " << later * 1e3 << " ms to 600 s, uncertainty " << clock.uncertaintySeconds() * 1e3 << " ms\n";
+        std::cout << "drift " << drift * 1e6 << " ppm: worst onset error " << first * 1e3
+                  << " ms in the first 10 s, " << later * 1e3 << " ms to 600 s, uncertainty "
+                  << clock.uncertaintySeconds() * 1e3 << " ms\n";
         EXPECT_LT(later, 0.002);
         EXPECT_LT(first, 0.002);
         EXPECT_NEAR(clock.drift(), drift, 50e-6);
@@ -71,8 +74,13 @@ TEST(LinkClock, GoesOnWhenTheBoardsCounterIsOver) {
         for (double t = 0; t < 60; t += clock.isReady() ? 0.1 : 0.02) {
             const double there = t + line.delay(), frames = line.boardSeconds(there) * 8000;
             const auto counted = static_cast<std::uint32_t>(static_cast<std::uint64_t>(frames));
-            clock.add(ns(t), clock.unwrapped(counted, static_cast<std::uint8_t>((frames - std::floor(frames)) * 256.0)), ns(there + line.delay()));
-            if (clock.isReady()) worst = std::max(worst, std::abs(clock.frameAt(ns(t + 0.1)) / 8000 - line.boardSeconds(t + 0.1)));
+            clock.add(
+                ns(t),
+                clock.unwrapped(counted, static_cast<std::uint8_t>((frames - std::floor(frames)) * 256.0)),
+                ns(there + line.delay()));
+            if (clock.isReady())
+                worst =
+                    std::max(worst, std::abs(clock.frameAt(ns(t + 0.1)) / 8000 - line.boardSeconds(t + 0.1)));
         }
         EXPECT_LT(worst, 0.002) << wrapsAfter;
         EXPECT_GT(clock.frameAt(ns(60)), over);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Messages: round trips, the compact form, versions, and a decoder in a storm of broken bytes.
-#include "Wire/FrameDecoder.h"
 #include "Wire/Messages.h"
+#include "Wire/FrameDecoder.h"
 #include <gtest/gtest.h>
 #include <map>
 #include <random>
@@ -54,7 +54,9 @@ TEST(Messages, AStrikeComesBackAsItWas) {
 
 TEST(Messages, ALegComesBackAsItWas) {
     std::mt19937 random{3};
-    const auto any = [&](auto& field) { field = static_cast<std::remove_reference_t<decltype(field)>>(random() % 7 == 0 ? 0 : random()); };
+    const auto any = [&](auto& field) {
+        field = static_cast<std::remove_reference_t<decltype(field)>>(random() % 7 == 0 ? 0 : random());
+    };
     for (int i = 0; i < 10000; ++i) {
         wire::Leg sent, got;
         sent.visit(any);
@@ -69,7 +71,8 @@ TEST(Messages, ALegComesBackAsItWas) {
 TEST(Messages, EveryFieldOfTelemetryTravels) {
     wire::Telemetry sent;
     std::uint32_t n = 0x81020304;
-    sent.visit([&](auto& field) { field = static_cast<std::remove_reference_t<decltype(field)>>(n += 0x01010101); });
+    sent.visit(
+        [&](auto& field) { field = static_cast<std::remove_reference_t<decltype(field)>>(n += 0x01010101); });
     wire::Telemetry got;
     ASSERT_TRUE(read(framed(sent), got));
     std::vector<std::uint64_t> a, b;
@@ -99,19 +102,23 @@ TEST(Messages, TheCompactFormKeepsAllButHalfAStepOfAmplitude) {
     for (int i = 0; i < 10000; ++i) {
         auto sent = someStrike(random, 7);
         sent.event.durationMs = 0;
-        for (auto& a : sent.event.amplitudes) a = static_cast<std::int16_t>(static_cast<int>(random() % 8191) - 4096);
-        ASSERT_EQ(wire::fitsCompact(sent.event), *std::max_element(sent.event.amplitudes.begin(), sent.event.amplitudes.end()) < 4080);
+        for (auto& a : sent.event.amplitudes)
+            a = static_cast<std::int16_t>(static_cast<int>(random() % 8191) - 4096);
+        ASSERT_EQ(wire::fitsCompact(sent.event),
+                  *std::max_element(sent.event.amplitudes.begin(), sent.event.amplitudes.end()) < 4080);
         if (!wire::fitsCompact(sent.event)) continue;
         wire::CompactStrike got;
         const Bytes frame = framed(wire::compact(sent));
         ASSERT_TRUE(read(frame, got));
         ASSERT_EQ(frame.size(), 16u) << "720 a second";
-        const std::uint32_t now = sent.event.frame + static_cast<std::uint32_t>(static_cast<int>(random() % 60000) - 30000);
+        const std::uint32_t now =
+            sent.event.frame + static_cast<std::uint32_t>(static_cast<int>(random() % 60000) - 30000);
         const auto back = wire::expand(got, now).event;
         EXPECT_EQ(back.frame, sent.event.frame);
         EXPECT_EQ(back.frequency16, sent.event.frequency16);
         EXPECT_EQ(back.decay16, sent.event.decay16);
-        for (std::size_t j = 0; j < 4; ++j) ASSERT_LE(std::abs(back.amplitudes[j] - sent.event.amplitudes[j]), 16);
+        for (std::size_t j = 0; j < 4; ++j)
+            ASSERT_LE(std::abs(back.amplitudes[j] - sent.event.amplitudes[j]), 16);
     }
     BoardEvent cut;
     cut.durationMs = 1;
@@ -130,8 +137,9 @@ TEST(Messages, AReaderSkipsFieldsOfLaterVersionsAndRefusesShortOnes) {
     EXPECT_FALSE(wire::decode(payload, stop)) << "another type";
 }
 
-// Strikes over a line that flips, drops, doubles and inserts bytes. A frame that no fault has touched must arrive, or at
-// most the one after a fault must not; a frame that was never sent must not, beyond the CRC's chance of 2^-16.
+// Strikes over a line that flips, drops, doubles and inserts bytes. A frame that no fault has touched must
+// arrive, or at most the one after a fault must not; a frame that was never sent must not, beyond the CRC's
+// chance of 2^-16.
 TEST(FrameDecoder, AMillionFramesThroughNoise) {
     std::mt19937 random{20};
     wire::FrameDecoder decoder;
@@ -160,8 +168,10 @@ TEST(FrameDecoder, AMillionFramesThroughNoise) {
             for (; copies > 0; --copies) {
                 wire::Strike got;
                 if (!wire::decode(decoder.feed(byte), got)) continue;
-                if (got.event == sent.event && got.sequence == sent.sequence) hasArrived = true;
-                else ++wrong;
+                if (got.event == sent.event && got.sequence == sent.sequence)
+                    hasArrived = true;
+                else
+                    ++wrong;
             }
         }
         touched += isClean ? 0 : 1;
@@ -175,12 +185,14 @@ TEST(FrameDecoder, AMillionFramesThroughNoise) {
     EXPECT_GT(arrived, frames - touched - touched / 10);
     RecordProperty("touched", touched);
     RecordProperty("wrong", wrong);
-    std::cout << "frames " << frames << ", touched by noise " << touched << ", arrived " << arrived << ", wrong " << wrong << ", bad " << decoder.bad() << '\n';
+    std::cout << "frames " << frames << ", touched by noise " << touched << ", arrived " << arrived
+              << ", wrong " << wrong << ", bad " << decoder.bad() << '\n';
 }
 
 TEST(FrameDecoder, ALineWithoutAZeroIsOneBadFrame) {
     wire::FrameDecoder decoder;
-    for (int i = 0; i < 100000; ++i) EXPECT_TRUE(decoder.feed(static_cast<std::uint8_t>(1 + i % 255)).empty());
+    for (int i = 0; i < 100000; ++i)
+        EXPECT_TRUE(decoder.feed(static_cast<std::uint8_t>(1 + i % 255)).empty());
     decoder.feed(0);
     EXPECT_EQ(decoder.bad(), 1u);
     wire::Ping ping;

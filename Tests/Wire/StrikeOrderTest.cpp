@@ -13,7 +13,10 @@ struct Stream {
     /// The next strike, 60 ms before its onset.
     bool next() { return order.isNew(++sequence, frame += 11, frame - 480); }
     /// That of `ago` strikes before, once more.
-    bool again(int ago) { return order.isNew(static_cast<std::uint8_t>(sequence - ago), frame - 11u * static_cast<std::uint32_t>(ago), frame - 480); }
+    bool again(int ago) {
+        return order.isNew(static_cast<std::uint8_t>(sequence - ago),
+                           frame - 11u * static_cast<std::uint32_t>(ago), frame - 480);
+    }
 };
 
 TEST(StrikeOrder, NothingIsPlayedTwice) {

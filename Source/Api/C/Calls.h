@@ -28,11 +28,15 @@ inline int fail(int code, std::string_view line) noexcept {
     return code;
 }
 
-inline int unknownHandle() noexcept { return fail(PHYSVIB_ERROR_HANDLE, "handle: expected one of this kind that has not been freed"); }
+inline int unknownHandle() noexcept {
+    return fail(PHYSVIB_ERROR_HANDLE, "handle: expected one of this kind that has not been freed");
+}
 inline int nothingThere(std::string_view line) noexcept { return fail(PHYSVIB_ERROR_ARGUMENT, line); }
 
 /// Of a call that says "": fine.
-inline int resultOf(std::string_view fault, int code = PHYSVIB_ERROR_ARGUMENT) noexcept { return fault.empty() ? PHYSVIB_OK : fail(code, fault); }
+inline int resultOf(std::string_view fault, int code = PHYSVIB_ERROR_ARGUMENT) noexcept {
+    return fault.empty() ? PHYSVIB_OK : fail(code, fault);
+}
 
 /// What `call` returns, a code or a count; of an exception, a code.
 template <class Call>
@@ -64,20 +68,23 @@ Struct zeroed() noexcept {
 template <class Struct>
 int begin(Struct* filled, std::size_t size, const Struct& values) noexcept {
     if (filled == nullptr) return nothingThere("structure: expected one, found NULL");
-    if (size < sizeof size || size > sizeof values) return nothingThere("structure: expected its size, and a library that is as new as the header");
+    if (size < sizeof size || size > sizeof values)
+        return nothingThere("structure: expected its size, and a library that is as new as the header");
     std::memcpy(filled, &values, size);
     filled->size = size;
     return PHYSVIB_OK;
 }
 
-/// A structure of the caller's as this version knows it: what an older one lacks is as init has it. False, and said, if it is none.
+/// A structure of the caller's as this version knows it: what an older one lacks is as init has it. False,
+/// and said, if it is none.
 template <class Struct>
 bool take(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noexcept {
     init(&to, sizeof to);
     if (from == nullptr) return nothingThere("structure: expected one, found NULL"), false;
     std::size_t size = 0;
     std::memcpy(&size, from, sizeof size);
-    if (size < sizeof size || size > sizeof to) return nothingThere("structure: expected one that its _init has filled"), false;
+    if (size < sizeof size || size > sizeof to)
+        return nothingThere("structure: expected one that its _init has filled"), false;
     std::memcpy(&to, from, size);
     to.size = sizeof to;
     return true;

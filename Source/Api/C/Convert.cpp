@@ -11,7 +11,8 @@ std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexce
     layout.extentWidthMetres = from.extent_width_m;
     layout.extentHeightMetres = from.extent_height_m;
     layout.count = from.count;
-    for (int j = 0; j < from.count; ++j) layout.places[static_cast<std::size_t>(j)] = {from.x_m[j], from.y_m[j]};
+    for (int j = 0; j < from.count; ++j)
+        layout.places[static_cast<std::size_t>(j)] = {from.x_m[j], from.y_m[j]};
     if (!isValid(layout)) return "layout: expected an extent above 0 m and places that are numbers";
     to = layout;
     return {};
@@ -36,7 +37,8 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     if (!isSampleRate(from.rate_hz)) return "rate: expected 5000 to 192000 Hz";
     if (from.channels != 0 && (from.channels < layout.count || from.channels > limits::maxEnchanters))
         return "channels: expected 0, or as many as the layout has enchanters to 64";
-    if (from.law < 0 || from.law >= static_cast<int>(panningLaws.size())) return "law: expected one of PHYSVIB_LAW_...";
+    if (from.law < 0 || from.law >= static_cast<int>(panningLaws.size()))
+        return "law: expected one of PHYSVIB_LAW_...";
     if (!(from.exponent > 0.0 && from.exponent <= 1000.0)) return "exponent: expected more than 0, to 1000";
     if (!isSize(from.field_width_m) || !isSize(from.field_height_m)) return "field: expected 0 to 10^9 m";
     const double width = from.field_width_m > 0.0 ? from.field_width_m : layout.extentWidthMetres;
@@ -52,9 +54,15 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
 
 std::string_view faultOf(std::span<const physvib_event> events) noexcept {
     const auto isOut = [](const physvib_event& e) { return !isPlayable(eventOf(e)); };
-    if (std::ranges::any_of(events, isOut)) return "event: expected 0 to 20000 Hz, a decay of 0 to 2000 per second or a duration, below 5 Hz a decay of at least 1 per second, numbers, a time from 0 on";
-    if (std::ranges::any_of(events, [](int kind) { return kind < PHYSVIB_HIT || kind > PHYSVIB_SLIDE; }, &physvib_event::kind)) return "kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE";
-    if (!std::ranges::is_sorted(events, {}, &physvib_event::time_ns)) return "events: expected in the order of their times";
+    if (std::ranges::any_of(events, isOut))
+        return "event: expected 0 to 20000 Hz, a decay of 0 to 2000 per second or a duration, below 5 Hz a "
+               "decay of at least 1 per second, numbers, a time from 0 on";
+    if (std::ranges::any_of(
+            events, [](int kind) { return kind < PHYSVIB_HIT || kind > PHYSVIB_SLIDE; },
+            &physvib_event::kind))
+        return "kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE";
+    if (!std::ranges::is_sorted(events, {}, &physvib_event::time_ns))
+        return "events: expected in the order of their times";
     return {};
 }
 

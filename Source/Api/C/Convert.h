@@ -12,17 +12,35 @@
 namespace physvib::api {
 
 inline CollisionEvent eventOf(const physvib_event& e) noexcept {
-    const ContactKind kind = e.kind == PHYSVIB_ROLL ? ContactKind::roll : e.kind == PHYSVIB_SLIDE ? ContactKind::slide : ContactKind::hit;
-    return {e.time_ns, e.frequency_hz, e.decay_per_s, e.amplitude, e.x_m, e.y_m, e.duration_ns, {e.fixture, e.other, e.impulse_n_s, e.mass_kg, kind}};
+    const ContactKind kind = e.kind == PHYSVIB_ROLL    ? ContactKind::roll
+                             : e.kind == PHYSVIB_SLIDE ? ContactKind::slide
+                                                       : ContactKind::hit;
+    return {e.time_ns, e.frequency_hz, e.decay_per_s, e.amplitude,
+            e.x_m,     e.y_m,          e.duration_ns, {e.fixture, e.other, e.impulse_n_s, e.mass_kg, kind}};
 }
-static_assert(PHYSVIB_HIT == static_cast<int>(ContactKind::hit) && PHYSVIB_ROLL == static_cast<int>(ContactKind::roll) && PHYSVIB_SLIDE == static_cast<int>(ContactKind::slide));
+static_assert(PHYSVIB_HIT == static_cast<int>(ContactKind::hit) &&
+              PHYSVIB_ROLL == static_cast<int>(ContactKind::roll) &&
+              PHYSVIB_SLIDE == static_cast<int>(ContactKind::slide));
 
 inline physvib_event eventOf(const CollisionEvent& e) noexcept {
-    return {e.timeNs, e.durationNs, e.frequencyHz, e.decayPerSecond, e.amplitude, e.x, e.y,
-            e.source.impulseNewtonSeconds, e.source.massKg, e.source.fixture, e.source.other, static_cast<int>(e.source.kind), 0};
+    return {e.timeNs,
+            e.durationNs,
+            e.frequencyHz,
+            e.decayPerSecond,
+            e.amplitude,
+            e.x,
+            e.y,
+            e.source.impulseNewtonSeconds,
+            e.source.massKg,
+            e.source.fixture,
+            e.source.other,
+            static_cast<int>(e.source.kind),
+            0};
 }
 
-inline std::optional<double> optional(double value) noexcept { return value == PHYSVIB_UNKNOWN ? std::nullopt : std::optional{value}; }
+inline std::optional<double> optional(double value) noexcept {
+    return value == PHYSVIB_UNKNOWN ? std::nullopt : std::optional{value};
+}
 
 /// Settings as a renderer takes them; what is wrong, and what was expected, or empty.
 std::string_view convert(const physvib_renderer_settings& from, RendererSettings& to) noexcept;

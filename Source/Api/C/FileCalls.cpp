@@ -4,10 +4,10 @@
 #include "Contacts/Texture.h"
 #include "Core/OfflineLoop.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Scene/EventsCsv.h"
-#include "Scene/LayoutFile.h"
 #include "Io/Text/NameList.h"
 #include "Io/Wav/WavSink.h"
+#include "Scene/EventsCsv.h"
+#include "Scene/LayoutFile.h"
 #include <memory>
 #include <physvib/Version.h>
 #include <vector>
@@ -35,12 +35,14 @@ struct ListSource {
 /// As many as there is room for; how many there are.
 physvib_int64 listTo(physvib_event* events, physvib_int64 capacity, const std::vector<CollisionEvent>& list) {
     const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(list));
-    std::transform(list.begin(), list.begin() + count, events, [](const CollisionEvent& e) { return eventOf(e); });
+    std::transform(list.begin(), list.begin() + count, events,
+                   [](const CollisionEvent& e) { return eventOf(e); });
     return std::ssize(list);
 }
 
 int fieldTo(const char* from, auto read, int code, double* width, double* height) {
-    if (!from || !width || !height) return nothingThere("events: expected a list and places for its field, found NULL");
+    if (!from || !width || !height)
+        return nothingThere("events: expected a list and places for its field, found NULL");
     const Result<EventList> list = read(from);
     if (!list) return fail(code, list.error);
     *width = list.value.field.widthMetres;
@@ -51,7 +53,11 @@ int fieldTo(const char* from, auto read, int code, double* width, double* height
 } // namespace
 
 const char* physvib_version(void) { return PHYSVIB_VERSION; }
-const char* physvib_law_name(int law) { return law < 0 || law >= static_cast<int>(panningLaws.size()) ? nullptr : panningLaws[static_cast<std::size_t>(law)].name.data(); }
+const char* physvib_law_name(int law) {
+    return law < 0 || law >= static_cast<int>(panningLaws.size())
+               ? nullptr
+               : panningLaws[static_cast<std::size_t>(law)].name.data();
+}
 const char* physvib_error(void) { return lastError().data(); }
 
 int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t size) {
@@ -63,7 +69,9 @@ int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t s
     return begin(settings, size, values);
 }
 
-int physvib_renderer_status_init(physvib_renderer_status* status, size_t size) { return begin(status, size, zeroed<physvib_renderer_status>()); }
+int physvib_renderer_status_init(physvib_renderer_status* status, size_t size) {
+    return begin(status, size, zeroed<physvib_renderer_status>());
+}
 
 int physvib_world_settings_init(physvib_world_settings* settings, size_t size) {
     auto values = zeroed<physvib_world_settings>();
@@ -88,18 +96,24 @@ int physvib_contact_init(physvib_contact* contact, size_t size) {
     auto values = zeroed<physvib_contact>();
     values.a = values.b = -1;
     values.normal_y = 1.0;
-    values.impulse_n_s = values.approach_m_per_s = values.effective_mass_kg = values.fraction = values.along_a_m_per_s = values.along_b_m_per_s = PHYSVIB_UNKNOWN;
+    values.impulse_n_s = values.approach_m_per_s = values.effective_mass_kg = values.fraction =
+        values.along_a_m_per_s = values.along_b_m_per_s = PHYSVIB_UNKNOWN;
     values.point_id = PHYSVIB_POINT_NONE;
     return begin(contact, size, values);
 }
 
-int physvib_world_counts_init(physvib_world_counts* counts, size_t size) { return begin(counts, size, zeroed<physvib_world_counts>()); }
+int physvib_world_counts_init(physvib_world_counts* counts, size_t size) {
+    return begin(counts, size, zeroed<physvib_world_counts>());
+}
 
 int physvib_layout_preset(const char* name, physvib_layout* layout) {
     EnchanterLayout preset;
-    if (name == nullptr || layout == nullptr) return nothingThere("layout: expected a name and a place for it, found NULL");
+    if (name == nullptr || layout == nullptr)
+        return nothingThere("layout: expected a name and a place for it, found NULL");
     return guarded([&] {
-        if (!layoutPreset(name, preset)) return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected " + listedByNumber(layoutPresetNames, " to ", " or "));
+        if (!layoutPreset(name, preset))
+            return fail(PHYSVIB_ERROR_ARGUMENT,
+                        "layout: expected " + listedByNumber(layoutPresetNames, " to ", " or "));
         *layout = layoutOf(preset);
         return PHYSVIB_OK;
     });
@@ -107,7 +121,8 @@ int physvib_layout_preset(const char* name, physvib_layout* layout) {
 
 int physvib_layout_load(const char* path, physvib_layout* layout) {
     return guarded([&] {
-        if (path == nullptr || layout == nullptr) return nothingThere("layout: expected a path and a place for it, found NULL");
+        if (path == nullptr || layout == nullptr)
+            return nothingThere("layout: expected a path and a place for it, found NULL");
         const auto loaded = loadLayout(path);
         if (!loaded) return fail(PHYSVIB_ERROR_FILE, loaded.error);
         *layout = layoutOf(loaded.value.geometry);
@@ -117,7 +132,8 @@ int physvib_layout_load(const char* path, physvib_layout* layout) {
 
 int physvib_layout_parse(const char* text, physvib_layout* layout) {
     return guarded([&] {
-        if (text == nullptr || layout == nullptr) return nothingThere("layout: expected a text and a place for it, found NULL");
+        if (text == nullptr || layout == nullptr)
+            return nothingThere("layout: expected a text and a place for it, found NULL");
         const auto read = readLayout(text, "layout");
         if (!read) return fail(PHYSVIB_ERROR_ARGUMENT, read.error);
         *layout = layoutOf(read.value.geometry);
@@ -127,19 +143,23 @@ int physvib_layout_parse(const char* text, physvib_layout* layout) {
 
 int physvib_layout_save(const char* path, const char* name, const physvib_layout* layout) {
     return guarded([&] {
-        if (path == nullptr || name == nullptr || layout == nullptr) return nothingThere("layout: expected a path, a name and a layout, found NULL");
+        if (path == nullptr || name == nullptr || layout == nullptr)
+            return nothingThere("layout: expected a path, a name and a layout, found NULL");
         EnchanterLayout geometry;
-        if (const auto fault = convert(*layout, geometry); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        if (const auto fault = convert(*layout, geometry); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         const std::string text = layoutJson(describeLayout(name, geometry));
         // nobody could load it
-        if (const auto again = readLayout(text, name); !again) return fail(PHYSVIB_ERROR_ARGUMENT, again.error);
+        if (const auto again = readLayout(text, name); !again)
+            return fail(PHYSVIB_ERROR_ARGUMENT, again.error);
         return written(writeFile(path, text));
     });
 }
 
 physvib_int64 physvib_events_load(const char* path, physvib_event* events, physvib_int64 capacity) {
     return guarded([&]() -> physvib_int64 {
-        if (path == nullptr || capacity < 0 || (capacity > 0 && events == nullptr)) return nothingThere("events: expected a path and a place for them");
+        if (path == nullptr || capacity < 0 || (capacity > 0 && events == nullptr))
+            return nothingThere("events: expected a path and a place for them");
         const auto loaded = loadEventsCsv(path);
         if (!loaded) return fail(PHYSVIB_ERROR_FILE, loaded.error);
         return listTo(events, capacity, loaded.value.events);
@@ -172,13 +192,15 @@ int physvib_events_save(const char* path, const physvib_event* events, physvib_i
 int physvib_events_save_field(const char* path, const physvib_event* events, physvib_int64 count,
                               double width, double height) {
     return guarded([&] {
-        if (path == nullptr || events == nullptr || count < 1) return nothingThere("events: expected a path and at least one event");
+        if (path == nullptr || events == nullptr || count < 1)
+            return nothingThere("events: expected a path and at least one event");
         const FieldSize field{width, height};
         if (!(field == FieldSize{}) && !isField(field))
             return fail(PHYSVIB_ERROR_ARGUMENT, "field: expected 0.001 to 1e6 m, or 0 and 0");
         const std::span list{events, static_cast<std::size_t>(count)};
         if (const auto fault = faultOf(list); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
-        const bool hasKinds = std::ranges::any_of(list, [](int kind) { return kind != PHYSVIB_HIT; }, &physvib_event::kind);
+        const bool hasKinds = std::ranges::any_of(
+            list, [](int kind) { return kind != PHYSVIB_HIT; }, &physvib_event::kind);
         std::string text = eventsCsvHead({PHYSVIB_VERSION, {}}, field, hasKinds);
         for (const physvib_event& event : list) appendEventRow(text, eventOf(event), hasKinds);
         return written(writeFile(path, text));
@@ -187,42 +209,53 @@ int physvib_events_save_field(const char* path, const physvib_event* events, phy
 
 int physvib_wav_save(const char* path, const float* samples, int channels, physvib_int64 frames, int rateHz) {
     return guarded([&] {
-        if (path == nullptr || samples == nullptr) return nothingThere("sound: expected a path and samples, found NULL");
-        if (channels < 1 || channels > limits::maxEnchanters || !isSampleRate(rateHz) || frames < 1 || !fitsWav(channels, frames))
-            return fail(PHYSVIB_ERROR_ARGUMENT, "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB");
+        if (path == nullptr || samples == nullptr)
+            return nothingThere("sound: expected a path and samples, found NULL");
+        if (channels < 1 || channels > limits::maxEnchanters || !isSampleRate(rateHz) || frames < 1 ||
+            !fitsWav(channels, frames))
+            return fail(PHYSVIB_ERROR_ARGUMENT,
+                        "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB");
         WavSink file{path, channels, rateHz};
         std::vector<const float*> block(static_cast<std::size_t>(channels));
         for (physvib_int64 from = 0; from < frames && file.error().empty(); from += limits::maxBlockFrames) {
-            for (int j = 0; j < channels; ++j) block[static_cast<std::size_t>(j)] = samples + j * frames + from;
-            file.write(block.data(), static_cast<int>(std::min<physvib_int64>(frames - from, limits::maxBlockFrames)));
+            for (int j = 0; j < channels; ++j)
+                block[static_cast<std::size_t>(j)] = samples + j * frames + from;
+            file.write(block.data(),
+                       static_cast<int>(std::min<physvib_int64>(frames - from, limits::maxBlockFrames)));
         }
         return written(file.finish());
     });
 }
 
-int physvib_render(const physvib_renderer_settings* settings, const physvib_event* events, physvib_int64 count, physvib_int64 frames, float* samples) {
+int physvib_render(const physvib_renderer_settings* settings, const physvib_event* events,
+                   physvib_int64 count, physvib_int64 frames, float* samples) {
     return guarded([&] {
         physvib_renderer_settings taken;
         RendererSettings wanted;
         if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const auto fault = convert(taken, wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        if (const auto fault = convert(taken, wanted); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         if (count < 0 || (count > 0 && events == nullptr) || frames < 0 || (frames > 0 && samples == nullptr))
             return nothingThere("render: expected events and a place for samples");
         ListSource source{{events, static_cast<std::size_t>(count)}};
-        if (const auto fault = faultOf(source.events); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        if (const auto fault = faultOf(source.events); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         const auto renderer = std::make_unique<HapticRenderer>();
-        if (!renderer->prepare(wanted)) return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
+        if (!renderer->prepare(wanted))
+            return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
         constexpr int blockFrames = 256;
         const int channels = wanted.outputs();
         std::vector<float> memory(static_cast<std::size_t>(channels * blockFrames));
         std::vector<float*> out;
         for (int j = 0; j < channels; ++j) out.push_back(memory.data() + j * blockFrames);
         std::int64_t done = 0;
-        renderFromStart(*renderer, source, out.data(), channels, frames, blockFrames, [&](const float* const* block, int n) {
-            for (int j = 0; j < channels; ++j) std::copy_n(block[j], n, samples + j * frames + done);
-            done += n;
-            return true;
-        });
+        renderFromStart(*renderer, source, out.data(), channels, frames, blockFrames,
+                        [&](const float* const* block, int n) {
+                            for (int j = 0; j < channels; ++j)
+                                std::copy_n(block[j], n, samples + j * frames + done);
+                            done += n;
+                            return true;
+                        });
         return PHYSVIB_OK;
     });
 }

@@ -13,8 +13,8 @@
 
 namespace physvib::api {
 
-/// Up to 256 objects of one kind. A name is the place in the table and a count of what has been there, so it is used once only
-/// (on machines of 64 bits; on others it comes back after 2^20).
+/// Up to 256 objects of one kind. A name is the place in the table and a count of what has been there, so it
+/// is used once only (on machines of 64 bits; on others it comes back after 2^20).
 template <class Object, std::uintptr_t Kind>
 class Handles {
 public:

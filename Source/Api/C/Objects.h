@@ -46,7 +46,11 @@ inline Handles<World, 2>& worlds() {
     return *all;
 }
 
-inline auto use(physvib_renderer renderer) noexcept { return renderers().use(reinterpret_cast<std::uintptr_t>(renderer)); }
-inline auto use(physvib_world world) noexcept { return worlds().use(reinterpret_cast<std::uintptr_t>(world)); }
+inline auto use(physvib_renderer renderer) noexcept {
+    return renderers().use(reinterpret_cast<std::uintptr_t>(renderer));
+}
+inline auto use(physvib_world world) noexcept {
+    return worlds().use(reinterpret_cast<std::uintptr_t>(world));
+}
 
 } // namespace physvib::api

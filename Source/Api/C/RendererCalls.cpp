@@ -18,11 +18,16 @@ int change(physvib_renderer name, const RenderControl& control) noexcept {
     const auto renderer = use(name);
     if (!renderer) return unknownHandle();
     if (!isTime(control.timeNs)) return fail(PHYSVIB_ERROR_ARGUMENT, wrongTime);
-    if (control.channel < 0 || control.channel >= renderer->channels) return fail(PHYSVIB_ERROR_ARGUMENT, "channel: expected one of the renderer");
-    if (!(control.value >= 0.0F && control.value <= 10000.0F)) return fail(PHYSVIB_ERROR_ARGUMENT, "gain: expected 0 to 10000");
-    if (control.panner.channels() > renderer->channels) return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected at most as many enchanters as channels");
+    if (control.channel < 0 || control.channel >= renderer->channels)
+        return fail(PHYSVIB_ERROR_ARGUMENT, "channel: expected one of the renderer");
+    if (!(control.value >= 0.0F && control.value <= 10000.0F))
+        return fail(PHYSVIB_ERROR_ARGUMENT, "gain: expected 0 to 10000");
+    if (control.panner.channels() > renderer->channels)
+        return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected at most as many enchanters as channels");
     const std::lock_guard lock{renderer->producers};
-    return renderer->source.controls.push(control) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
+    return renderer->source.controls.push(control)
+               ? PHYSVIB_OK
+               : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
 }
 
 RenderControl controlOf(RenderControl::Kind kind, physvib_int64 timeNs, int channel, double value) {
@@ -74,9 +79,11 @@ int physvib_renderer_create(const physvib_renderer_settings* settings, physvib_r
         physvib_renderer_settings taken;
         RendererSettings wanted;
         if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const auto fault = convert(taken, wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        if (const auto fault = convert(taken, wanted); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         auto made = std::make_unique<Renderer>();
-        if (!made->renderer.prepare(wanted)) return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
+        if (!made->renderer.prepare(wanted))
+            return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
         made->rateHz = wanted.sampleRateHz;
         made->channels = wanted.outputs();
         const std::uintptr_t name = renderers().add(std::move(made));
@@ -96,13 +103,16 @@ int physvib_renderer_strike(physvib_renderer name, const physvib_event* event) {
     if (event == nullptr) return nothingThere("event: expected one, found NULL");
     if (const auto fault = faultOf({event, 1}); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
     const std::lock_guard lock{renderer->producers};
-    return renderer->source.events.push(eventOf(*event)) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "events: expected at most 8192 that wait");
+    return renderer->source.events.push(eventOf(*event))
+               ? PHYSVIB_OK
+               : fail(PHYSVIB_ERROR_FULL, "events: expected at most 8192 that wait");
 }
 
 int physvib_renderer_pull(physvib_renderer name, float* const* channels, int count, int frames) {
     if (channels == nullptr) return PHYSVIB_ERROR_ARGUMENT;
     return pull(name, count, frames, [=](Renderer& renderer) noexcept {
-        if (std::any_of(channels, channels + count, [](const float* channel) { return channel == nullptr; })) return PHYSVIB_ERROR_ARGUMENT;
+        if (std::any_of(channels, channels + count, [](const float* channel) { return channel == nullptr; }))
+            return PHYSVIB_ERROR_ARGUMENT;
         std::array<float*, limits::maxEnchanters> at{};
         for (int done = 0; done < frames;) {
             const int block = std::min(frames - done, limits::maxBlockFrames);
@@ -126,7 +136,8 @@ int physvib_renderer_pull_interleaved(physvib_renderer name, float* samples, int
             renderer.renderer.render(renderer.source, at.data(), part);
             for (int n = 0; n < part; ++n)
                 for (int j = 0; j < count; ++j)
-                    samples[static_cast<std::ptrdiff_t>(done + n) * count + j] = block[static_cast<std::size_t>(j)][static_cast<std::size_t>(n)];
+                    samples[static_cast<std::ptrdiff_t>(done + n) * count + j] =
+                        block[static_cast<std::size_t>(j)][static_cast<std::size_t>(n)];
             done += part;
         }
         return PHYSVIB_OK;
@@ -145,7 +156,8 @@ int physvib_renderer_set_level(physvib_renderer renderer, physvib_int64 timeNs, 
     return change(renderer, controlOf(RenderControl::Kind::level, timeNs, 0, gain));
 }
 
-int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 timeNs, const physvib_renderer_settings* settings) {
+int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 timeNs,
+                                const physvib_renderer_settings* settings) {
     physvib_renderer_settings taken;
     RendererSettings wanted;
     if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
@@ -169,7 +181,8 @@ int physvib_renderer_latency_frames(physvib_renderer name) {
 
 int physvib_renderer_get_status(physvib_renderer name, physvib_renderer_status* status) {
     physvib_renderer_status told;
-    if (!take<physvib_renderer_status>(status, told, physvib_renderer_status_init)) return PHYSVIB_ERROR_ARGUMENT;
+    if (!take<physvib_renderer_status>(status, told, physvib_renderer_status_init))
+        return PHYSVIB_ERROR_ARGUMENT;
     const auto renderer = use(name);
     if (!renderer) return unknownHandle();
     const std::lock_guard lock{renderer->readers};
@@ -187,9 +200,13 @@ int physvib_renderer_get_status(physvib_renderer name, physvib_renderer_status* 
 }
 
 physvib_int64 physvib_play_out_ns(int rateHz, int blockFrames, int stepsPerSecond, double longestGapSeconds) {
-    const bool isPossible = isSampleRate(rateHz) && blockFrames >= 1 && blockFrames <= limits::maxBlockFrames && stepsPerSecond >= 1 &&
-                            stepsPerSecond <= 1'000'000 && longestGapSeconds >= 0.0 && longestGapSeconds <= 60.0;
-    if (!isPossible) return fail(PHYSVIB_ERROR_ARGUMENT, "play-out delay: expected 5000 to 192000 Hz, 1 to 8192 frames, 1 to 10^6 steps/s, a gap of 0 to 60 s");
+    const bool isPossible = isSampleRate(rateHz) && blockFrames >= 1 &&
+                            blockFrames <= limits::maxBlockFrames && stepsPerSecond >= 1 &&
+                            stepsPerSecond <= 1'000'000 && longestGapSeconds >= 0.0 &&
+                            longestGapSeconds <= 60.0;
+    if (!isPossible)
+        return fail(PHYSVIB_ERROR_ARGUMENT, "play-out delay: expected 5000 to 192000 Hz, 1 to 8192 frames, 1 "
+                                            "to 10^6 steps/s, a gap of 0 to 60 s");
     ClockLaw law;
     law.sampleRateHz = rateHz;
     law.blockFrames = blockFrames;

@@ -24,7 +24,10 @@ auto in(physvib_world name, Call call) noexcept -> decltype(call(std::declval<Wo
 }
 
 int inOrder(std::string_view fault) noexcept {
-    return resultOf(fault, fault.starts_with("step:") || fault.starts_with("contact:") || fault.starts_with("time:") ? PHYSVIB_ERROR_ORDER : PHYSVIB_ERROR_ARGUMENT);
+    return resultOf(fault,
+                    fault.starts_with("step:") || fault.starts_with("contact:") || fault.starts_with("time:")
+                        ? PHYSVIB_ERROR_ORDER
+                        : PHYSVIB_ERROR_ARGUMENT);
 }
 
 bool convert(const physvib_world_settings* from, ImpactSettings& to) {
@@ -59,7 +62,8 @@ HapticFixture fixtureOf(const physvib_body& body) {
     values.surface = body.surface;
     values.gain = body.gain;
     values.handMassKg = optional(body.hand_mass_kg);
-    values.texture = {body.grain_m, body.roughness, body.is_ridged != 0 ? GrainPattern::regular : GrainPattern::random, body.rolling};
+    values.texture = {body.grain_m, body.roughness,
+                      body.is_ridged != 0 ? GrainPattern::regular : GrainPattern::random, body.rolling};
     for (std::size_t i = 0; i < values.overtones.size(); ++i)
         values.overtones[i] = {body.overtone_hz[i], body.overtone_decay_per_s[i], body.overtone_amplitude[i]};
     return values;
@@ -90,7 +94,8 @@ FedContact contactOf(const physvib_contact& from) {
     return contact;
 }
 
-int tell(physvib_world name, const physvib_contact* contact, std::string_view (ContactFeed::*call)(const FedContact&)) noexcept {
+int tell(physvib_world name, const physvib_contact* contact,
+         std::string_view (ContactFeed::*call)(const FedContact&)) noexcept {
     return in(name, [&](World& world) {
         physvib_contact taken;
         if (!take(contact, taken, physvib_contact_init)) return PHYSVIB_ERROR_ARGUMENT;
@@ -113,7 +118,8 @@ int physvib_world_create(const physvib_world_settings* settings, physvib_world* 
         *world = nullptr;
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const std::string_view fault = faultOf(wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        if (const std::string_view fault = faultOf(wanted); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         const std::uintptr_t name = worlds().add(std::make_unique<World>(wanted));
         if (name == 0) return fail(PHYSVIB_ERROR_FULL, "worlds: expected at most 256");
         *world = reinterpret_cast<physvib_world>(name);
@@ -121,14 +127,17 @@ int physvib_world_create(const physvib_world_settings* settings, physvib_world* 
     });
 }
 
-int physvib_world_free(physvib_world world) { return worlds().remove(reinterpret_cast<std::uintptr_t>(world)) ? PHYSVIB_OK : unknownHandle(); }
+int physvib_world_free(physvib_world world) {
+    return worlds().remove(reinterpret_cast<std::uintptr_t>(world)) ? PHYSVIB_OK : unknownHandle();
+}
 
 int physvib_world_configure(physvib_world name, const physvib_world_settings* settings) {
     return in(name, [&](World& world) {
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
         // builds without exceptions would keep the lock
-        if (const std::string_view fault = faultOf(wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        if (const std::string_view fault = faultOf(wanted); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         world.feed.configure(wanted);
         return PHYSVIB_OK;
     });
@@ -138,8 +147,10 @@ int physvib_world_set_body(physvib_world name, int body, const physvib_body* val
     return in(name, [&](World& world) {
         physvib_body taken;
         if (!take(values, taken, physvib_body_init)) return PHYSVIB_ERROR_ARGUMENT;
-        if (taken.voice < PHYSVIB_VOICE_OWN || taken.voice > PHYSVIB_VOICE_BOTH) return fail(PHYSVIB_ERROR_ARGUMENT, "voice: expected one of PHYSVIB_VOICE_...");
-        return resultOf(world.feed.set(body, {taken.mass_kg, taken.inertia_kg_m2, taken.gravity_scale}, fixtureOf(taken)));
+        if (taken.voice < PHYSVIB_VOICE_OWN || taken.voice > PHYSVIB_VOICE_BOTH)
+            return fail(PHYSVIB_ERROR_ARGUMENT, "voice: expected one of PHYSVIB_VOICE_...");
+        return resultOf(world.feed.set(body, {taken.mass_kg, taken.inertia_kg_m2, taken.gravity_scale},
+                                       fixtureOf(taken)));
     });
 }
 
@@ -148,27 +159,41 @@ int physvib_world_remove_body(physvib_world name, int body) {
 }
 
 int physvib_world_move(physvib_world name, int body, double x, double y, double vx, double vy, double spin) {
-    return in(name, [&](World& world) { return resultOf(world.feed.move(body, vectorOf(x, y), {vectorOf(vx, vy), static_cast<float>(spin)})); });
+    return in(name, [&](World& world) {
+        return resultOf(world.feed.move(body, vectorOf(x, y), {vectorOf(vx, vy), static_cast<float>(spin)}));
+    });
 }
 
 int physvib_world_moved(physvib_world name, int body, double vx, double vy, double spin) {
-    return in(name, [&](World& world) { return inOrder(world.feed.moved(body, {vectorOf(vx, vy), static_cast<float>(spin)})); });
+    return in(name, [&](World& world) {
+        return inOrder(world.feed.moved(body, {vectorOf(vx, vy), static_cast<float>(spin)}));
+    });
 }
 
-int physvib_world_pair(physvib_world name, int surface, int other, double frequencyHz, double decayPerSecond, double gain) {
-    return in(name, [&](World& world) { return resultOf(world.feed.setPair(surface, other, {frequencyHz, decayPerSecond, {}, gain})); });
+int physvib_world_pair(physvib_world name, int surface, int other, double frequencyHz, double decayPerSecond,
+                       double gain) {
+    return in(name, [&](World& world) {
+        return resultOf(world.feed.setPair(surface, other, {frequencyHz, decayPerSecond, {}, gain}));
+    });
 }
 
 int physvib_world_begin_step(physvib_world name, double seconds, double gravity) {
     return in(name, [&](World& world) {
-        if (!(seconds >= 0.0 && seconds <= longestStepSeconds)) return fail(PHYSVIB_ERROR_ARGUMENT, "step: expected 0 to 3600 s");
+        if (!(seconds >= 0.0 && seconds <= longestStepSeconds))
+            return fail(PHYSVIB_ERROR_ARGUMENT, "step: expected 0 to 3600 s");
         return inOrder(world.feed.beginStep(world.feed.timeNs() + std::llround(seconds * 1.0e9), gravity));
     });
 }
 
-int physvib_world_touch(physvib_world world, const physvib_contact* contact) { return tell(world, contact, &ContactFeed::touch); }
-int physvib_world_begin(physvib_world world, const physvib_contact* contact) { return tell(world, contact, &ContactFeed::begin); }
-int physvib_world_push(physvib_world world, const physvib_contact* contact) { return tell(world, contact, &ContactFeed::push); }
+int physvib_world_touch(physvib_world world, const physvib_contact* contact) {
+    return tell(world, contact, &ContactFeed::touch);
+}
+int physvib_world_begin(physvib_world world, const physvib_contact* contact) {
+    return tell(world, contact, &ContactFeed::begin);
+}
+int physvib_world_push(physvib_world world, const physvib_contact* contact) {
+    return tell(world, contact, &ContactFeed::push);
+}
 
 int physvib_world_end(physvib_world name, int a, int b) {
     return in(name, [&](World& world) { return inOrder(world.feed.end(a, b)); });
@@ -182,12 +207,15 @@ physvib_int64 physvib_world_time_ns(physvib_world name) {
     return in(name, [&](World& world) -> physvib_int64 { return world.feed.timeNs(); });
 }
 
-physvib_int64 physvib_world_take(physvib_world name, physvib_event* events, physvib_int64 capacity, int atOnce) {
+physvib_int64 physvib_world_take(physvib_world name, physvib_event* events, physvib_int64 capacity,
+                                 int atOnce) {
     return in(name, [&](World& world) -> physvib_int64 {
-        if (capacity < 0 || (capacity > 0 && events == nullptr)) return nothingThere("events: expected a place for them");
+        if (capacity < 0 || (capacity > 0 && events == nullptr))
+            return nothingThere("events: expected a place for them");
         collect(world, atOnce != 0);
         const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(world.taken));
-        std::transform(world.taken.begin(), world.taken.begin() + count, events, [](const CollisionEvent& e) { return eventOf(e); });
+        std::transform(world.taken.begin(), world.taken.begin() + count, events,
+                       [](const CollisionEvent& e) { return eventOf(e); });
         world.taken.erase(world.taken.begin(), world.taken.begin() + count);
         return count;
     });
@@ -197,7 +225,8 @@ physvib_int64 physvib_world_send(physvib_world name, physvib_renderer to, physvi
     return in(name, [&](World& world) -> physvib_int64 {
         const auto renderer = use(to);
         if (!renderer) return unknownHandle();
-        if (laterNs < 0 || laterNs > limits::maxTimeNs / 2) return fail(PHYSVIB_ERROR_ARGUMENT, "delay: expected 0 to 5 10^16 ns");
+        if (laterNs < 0 || laterNs > limits::maxTimeNs / 2)
+            return fail(PHYSVIB_ERROR_ARGUMENT, "delay: expected 0 to 5 10^16 ns");
         collect(world, atOnce != 0);
         physvib_int64 sent = 0;
         const std::lock_guard lock{renderer->producers};
@@ -211,11 +240,14 @@ physvib_int64 physvib_world_send(physvib_world name, physvib_renderer to, physvi
 }
 
 physvib_int64 physvib_world_thinned(physvib_world name) {
-    return in(name, [&](World& world) -> physvib_int64 { return static_cast<physvib_int64>(world.feed.thinned()); });
+    return in(name, [&](World& world) -> physvib_int64 {
+        return static_cast<physvib_int64>(world.feed.thinned());
+    });
 }
 
 physvib_int64 physvib_world_drops(physvib_world name) {
-    return in(name, [&](World& world) -> physvib_int64 { return static_cast<physvib_int64>(world.feed.drops()); });
+    return in(name,
+              [&](World& world) -> physvib_int64 { return static_cast<physvib_int64>(world.feed.drops()); });
 }
 
 int physvib_world_get_counts(physvib_world name, physvib_world_counts* counts) {

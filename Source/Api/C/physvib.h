@@ -2,19 +2,23 @@
 /** @file
  * PhysVib for any language: contacts in, vibration out. C89 and later, C++.
  *
- * A haptic source (is_camera in fields) is a body whose impacts are felt. An impact becomes an event, a decaying sinusoid that is panned over 1 to 64
- * actuators (the thesis and some names here call an actuator an enchanter).
+ * A haptic source (is_camera in fields) is a body whose impacts are felt. An impact becomes an event, a
+ * decaying sinusoid that is panned over 1 to 64 actuators (the thesis and some names here call an actuator an
+ * enchanter).
  *
- * Link libphysvib (MIT). No function throws, ends the program, or keeps a pointer of the caller's after it has returned.
+ * Link libphysvib (MIT). No function throws, ends the program, or keeps a pointer of the caller's after it
+ * has returned.
  *
- * Results. A function that returns int, or a count, returns PHYSVIB_OK (0) or the count, or one of the errors below, which are less
- * than 0; then nothing has changed, and physvib_error() says in one line what was expected. Handles are not addresses: one that
- * is null, invented, of another kind or freed gives PHYSVIB_ERROR_HANDLE.
+ * Results. A function that returns int, or a count, returns PHYSVIB_OK (0) or the count, or one of the errors
+ * below, which are less than 0; then nothing has changed, and physvib_error() says in one line what was
+ * expected. Handles are not addresses: one that is null, invented, of another kind or freed gives
+ * PHYSVIB_ERROR_HANDLE.
  *
  * Units are SI and part of the names. Times are whole nanoseconds; a renderer's time 0 is its first frame.
  *
- * Threads. "Any thread": any, several at once. "One at a time": any, and a second one waits for the first. "R": for the audio callback; wait-free:
- * it never allocates, frees, locks, waits or calls the system; one thread at a time.
+ * Threads. "Any thread": any, several at once. "One at a time": any, and a second one waits for the first.
+ * "R": for the audio callback; wait-free: it never allocates, frees, locks, waits or calls the system; one
+ * thread at a time.
  *
  * What may change, and what not: Docs/stable.md. */
 #ifndef PHYSVIB_PHYSVIB_H
@@ -38,7 +42,8 @@ typedef long long physvib_int64; /**< of 64 bits */
 #endif
 
 #if defined(__GNUC__)
-#define PHYSVIB_UNUSED __attribute__((unused)) /**< of functions in headers of engines, of which a program may call a few */
+#define PHYSVIB_UNUSED                                                                                       \
+    __attribute__((unused)) /**< of functions in headers of engines, of which a program may call a few */
 #else
 #define PHYSVIB_UNUSED
 #endif
@@ -60,8 +65,8 @@ extern "C" {
 #define PHYSVIB_UNKNOWN (-1.0e300) /**< value of a number that may be left out; NaN is an error */
 #define PHYSVIB_MAX_ENCHANTERS 64  /**< actuators of a layout */
 
-typedef struct physvib_renderer_name *physvib_renderer; /**< events in, samples out */
-typedef struct physvib_world_name *physvib_world;       /**< contacts in, events out */
+typedef struct physvib_renderer_name* physvib_renderer; /**< events in, samples out */
+typedef struct physvib_world_name* physvib_world;       /**< contacts in, events out */
 
 #define PHYSVIB_HIT 0   /**< kind of an event: two bodies met */
 #define PHYSVIB_ROLL 1  /**< a body rolled over a grain of a surface */
@@ -70,21 +75,23 @@ typedef struct physvib_world_name *physvib_world;       /**< contacts in, events
 /** An event: amplitude * sin(2 pi frequency_hz t) * exp(-decay_per_s t), t = time since time_ns. */
 typedef struct physvib_event {
     physvib_int64 time_ns;     /**< onset, from 0 on */
-    physvib_int64 duration_ns; /**< 0: until it has decayed; a decay of 0 needs a duration, and 5 Hz or more; below, it is at least 1 */
+    physvib_int64 duration_ns; /**< 0: until it has decayed; a decay of 0 needs a duration, and 5 Hz or more;
+                                  below, it is at least 1 */
     double frequency_hz;       /**< above 0, to 20,000 */
     double decay_per_s;        /**< 0 to 2,000 */
     double amplitude;          /**< 1: full scale of an actuator */
     double x_m;                /**< place in the field, from its lower left corner, to the right */
     double y_m;                /**< the same, upwards */
-    double impulse_n_s;        /**< of the impact; 0: unknown. This and what follows is not needed for samples */
-    double mass_kg;            /**< of the haptic source; 0: unknown */
-    int fixture;               /**< the haptic source; -1: unknown */
-    int other;                 /**< the body that it collided with; -1: unknown */
-    int kind;                  /**< PHYSVIB_HIT (0) and so on */
-    int unused;                /**< 0 */
+    double impulse_n_s; /**< of the impact; 0: unknown. This and what follows is not needed for samples */
+    double mass_kg;     /**< of the haptic source; 0: unknown */
+    int fixture;        /**< the haptic source; -1: unknown */
+    int other;          /**< the body that it collided with; -1: unknown */
+    int kind;           /**< PHYSVIB_HIT (0) and so on */
+    int unused;         /**< 0 */
 } physvib_event;
 
-/** Places of the actuators: channel j at x_m[j], y_m[j] from the lower left corner of the extent, onto which the field is mapped. */
+/** Places of the actuators: channel j at x_m[j], y_m[j] from the lower left corner of the extent, onto which
+ * the field is mapped. */
 typedef struct physvib_layout {
     double extent_width_m;              /**< above 0 */
     double extent_height_m;             /**< above 0 */
@@ -98,21 +105,23 @@ typedef struct physvib_layout {
 #define PHYSVIB_LAW_LOG_OUTER 2 /**< of panning: see Docs/panning.md */
 #define PHYSVIB_LAW_ENERGY 3    /**< of panning: see Docs/panning.md */
 
-/* Fill a structure that has a `size` with its ..._init(&it, sizeof it), then change what you like. Structures grow at their end only: of a program
- * that was built with a shorter one, only that part is read and written. */
+/* Fill a structure that has a `size` with its ..._init(&it, sizeof it), then change what you like. Structures
+ * grow at their end only: of a program that was built with a shorter one, only that part is read and written.
+ */
 
 /** Settings of a renderer; defaults in brackets. */
 typedef struct physvib_renderer_settings {
     size_t size;  /**< set by init */
     int rate_hz;  /**< 5,000 to 192,000 (48,000) */
     int channels; /**< 0: as many as the layout has actuators; more are silent, to PHYSVIB_MAX_ENCHANTERS */
-    int law;      /**< (PHYSVIB_LAW_LINEAR; with it and exponent 1, events of kind PHYSVIB_ROLL and PHYSVIB_SLIDE are panned by
-                       PHYSVIB_LAW_ENERGY, so that what travels is felt where it is; any other law is that of all) */
-    int limiter;  /**< (1); 0: samples may exceed 1 */
-    double exponent;        /**< of the law (1) */
-    double field_width_m;   /**< that x spans; 0: the layout's extent (0) */
-    double field_height_m;  /**< that y spans; 0: the layout's extent (0) */
-    physvib_layout layout;  /**< (phone4) */
+    int law; /**< (PHYSVIB_LAW_LINEAR; with it and exponent 1, events of kind PHYSVIB_ROLL and PHYSVIB_SLIDE
+                are panned by PHYSVIB_LAW_ENERGY, so that what travels is felt where it is; any other law is
+                that of all) */
+    int limiter;           /**< (1); 0: samples may exceed 1 */
+    double exponent;       /**< of the law (1) */
+    double field_width_m;  /**< that x spans; 0: the layout's extent (0) */
+    double field_height_m; /**< that y spans; 0: the layout's extent (0) */
+    physvib_layout layout; /**< (phone4) */
 } physvib_renderer_settings;
 
 /** Status of a renderer. */
@@ -129,10 +138,12 @@ typedef struct physvib_renderer_status {
 
 /** How contacts become events; defaults in brackets. */
 typedef struct physvib_world_settings {
-    size_t size;               /**< set by init */
-    int is_muted;              /**< 1: no events (0) */
-    int hits_per_step;         /**< maximum of impacts that become events in a step, the strongest first; -1: all (-1) */
-    int at_body;               /**< 1: events are at the body's centre, see physvib_world_move; 0: at the point of contact (0) */
+    size_t size;       /**< set by init */
+    int is_muted;      /**< 1: no events (0) */
+    int hits_per_step; /**< maximum of impacts that become events in a step, the strongest first; -1: all (-1)
+                        */
+    int at_body; /**< 1: events are at the body's centre, see physvib_world_move; 0: at the point of contact
+                    (0) */
     int drops_hits_of_removed; /**< 1: removing a body also removes its events that have not been taken (0) */
     double field_width_m;      /**< v_max of Eq. 5.7 is one field width per second (1) */
     double field_x_m;          /**< where its lower left corner is in the world (0) */
@@ -141,7 +152,8 @@ typedef struct physvib_world_settings {
     double normalisation_s_per_m; /**< A* of Eq. 5.4 (PHYSVIB_UNKNOWN: by the field's width) */
     double hand_mass_kg;          /**< m_h of Eq. 5.4 (PHYSVIB_UNKNOWN: the largest mass in the world) */
     double drive_gain;            /**< (1) */
-    double threshold_m_per_s;     /**< an impact that changes the velocity of the lighter body by less is ignored (0.15) */
+    double threshold_m_per_s; /**< an impact that changes the velocity of the lighter body by less is ignored
+                                 (0.15) */
 } physvib_world_settings;
 
 #define PHYSVIB_VOICE_OWN 0   /**< the haptic source vibrates with its own values */
@@ -150,61 +162,72 @@ typedef struct physvib_world_settings {
 
 /** A body: its mass, its vibration, whether it is a haptic source; defaults in brackets. */
 typedef struct physvib_body {
-    size_t size;   /**< set by init */
-    int is_camera; /**< 1: it is a haptic source, its impacts are felt (0) */
-    int voice;     /**< (PHYSVIB_VOICE_OWN) */
-    int surface;   /**< number of its surface, above 0, for physvib_world_pair (0: none) */
-    double mass_kg;         /**< 0: it does not move, as a floor or a wall */
-    double inertia_kg_m2;   /**< about its centre of mass; 0: every impact is taken to go through it */
-    double gravity_scale;   /**< (1) */
-    double frequency_hz;    /**< at which it vibrates; 0: not at all (0) */
-    double decay_per_s;     /**< of its vibration (0) */
-    double static_mass_kg;  /**< mass for Eq. 5.4 of a haptic source whose mass_kg is 0 */
-    double gain;            /**< of its events as a haptic source (1) */
-    double hand_mass_kg;    /**< m_h for this haptic source (PHYSVIB_UNKNOWN: the world's) */
-    double overtone_hz[3];          /**< further modes; 0: none (0) */
+    size_t size;           /**< set by init */
+    int is_camera;         /**< 1: it is a haptic source, its impacts are felt (0) */
+    int voice;             /**< (PHYSVIB_VOICE_OWN) */
+    int surface;           /**< number of its surface, above 0, for physvib_world_pair (0: none) */
+    double mass_kg;        /**< 0: it does not move, as a floor or a wall */
+    double inertia_kg_m2;  /**< about its centre of mass; 0: every impact is taken to go through it */
+    double gravity_scale;  /**< (1) */
+    double frequency_hz;   /**< at which it vibrates; 0: not at all (0) */
+    double decay_per_s;    /**< of its vibration (0) */
+    double static_mass_kg; /**< mass for Eq. 5.4 of a haptic source whose mass_kg is 0 */
+    double gain;           /**< of its events as a haptic source (1) */
+    double hand_mass_kg;   /**< m_h for this haptic source (PHYSVIB_UNKNOWN: the world's) */
+    double overtone_hz[3]; /**< further modes; 0: none (0) */
     double overtone_decay_per_s[3]; /**< of these (0) */
     double overtone_amplitude[3];   /**< relative to the first mode (1) */
-    double grain_m;   /**< distance of the grains of its surface, each of which excites it when a body rolls or slides over it (0: smooth, silent), see Docs/lasting-contacts.md */
+    double grain_m; /**< distance of the grains of its surface, each of which excites it when a body rolls or
+                       slides over it (0: smooth, silent), see Docs/lasting-contacts.md */
     double roughness; /**< strength of its grains, 0 to 1000 (1) */
     double rolling;   /**< amplitude of rolling, as a share of that of sliding, 0 to 1 (0.2) */
     int is_ridged;    /**< 1: grains at equal distances, a tone (0) */
 } physvib_body;
 
-#define PHYSVIB_POINT_NONE (-1)     /**< of point_id: the points of a pair are not distinguished */
-#define PHYSVIB_POINT_BY_PLACE (-2) /**< of point_id: points are distinguished by place; physvib_world_move says how far a point may have slid */
+#define PHYSVIB_POINT_NONE (-1) /**< of point_id: the points of a pair are not distinguished */
+#define PHYSVIB_POINT_BY_PLACE                                                                               \
+    (-2) /**< of point_id: points are distinguished by place; physvib_world_move says how far a point may    \
+            have slid */
 
-#define PHYSVIB_SOFT 1       /**< of is_soft: the impulse of one step is a load, and no measure of an impact */
-#define PHYSVIB_SOFT_WHOLE 2 /**< of is_soft: the same, but it is all that the bodies were given in the step. Where it is clearly more than speed and
-                                  masses say (what is struck is supported, or hangs in joints), it is the impact */
+#define PHYSVIB_SOFT 1 /**< of is_soft: the impulse of one step is a load, and no measure of an impact */
+#define PHYSVIB_SOFT_WHOLE                                                                                   \
+    2 /**< of is_soft: the same, but it is all that the bodies were given in the step. Where it is clearly   \
+         more than speed and masses say (what is struck is supported, or hangs in joints), it is the impact                              \
+       */
 
-/** Two bodies touch. Set the impulse, or the approach speed, or neither if physvib_world_move reports the motions. */
+/** Two bodies touch. Set the impulse, or the approach speed, or neither if physvib_world_move reports the
+ * motions. */
 typedef struct physvib_contact {
-    size_t size;               /**< set by init */
-    int a;                     /**< a body */
-    int b;                     /**< the other */
-    double x_m;                /**< where, in the plane of the field */
-    double y_m;                /**< where, in the plane of the field */
-    double normal_x;           /**< of length 1, from a to b (0) */
-    double normal_y;           /**< of length 1, from a to b (1) */
-    double impulse_n_s;        /**< along the normal, in this step (PHYSVIB_UNKNOWN) */
-    double tangential_n_s;     /**< across the normal (0) */
-    double approach_m_per_s;   /**< approach speed before the engine's solver (PHYSVIB_UNKNOWN) */
-    double restitution;        /**< 0 to 1; used where no impulse is set (0) */
-    double effective_mass_kg;  /**< used where no impulse is set (PHYSVIB_UNKNOWN: from masses, inertias and places) */
-    double fraction;           /**< when they touched, in steps after this one's start, -1 to 1 (PHYSVIB_UNKNOWN: by gap and approach) */
-    double gap_m;              /**< between the surfaces when the engine looked; below 0: they overlap (0) */
-    double gap_fraction;       /**< when that was, in steps after this one's start, 0 to 1 (0) */
-    double along_a_m_per_s;    /**< for a contact that lasts on a body with grains, with its impulse: how fast the point moves along a's surface. Rolling: as
-                                  along b's; sliding: 0 along what drags its own point (PHYSVIB_UNKNOWN) */
-    double along_b_m_per_s;    /**< the same along b's (PHYSVIB_UNKNOWN) */
-    int is_soft;               /**< PHYSVIB_SOFT or PHYSVIB_SOFT_WHOLE: the impulse of one step is no measure of an impact, which follows from speed and restitution;
-                                  the impulse is the load of a pair that keeps touching (0) */
-    int unused;                /**< 0 */
-    int point_id;              /**< identifies the point within its pair: a number from 0 on, or PHYSVIB_POINT_BY_PLACE. A point that was not
-                                  there in the step before and approaches fast is an impact even while its pair touches (PHYSVIB_POINT_NONE: the
-                                  pair is reported as a whole) */
-    int is_impulse_of_pair;    /**< 1: the impulses are those of the whole pair, repeated with each of its points (0) */
+    size_t size;              /**< set by init */
+    int a;                    /**< a body */
+    int b;                    /**< the other */
+    double x_m;               /**< where, in the plane of the field */
+    double y_m;               /**< where, in the plane of the field */
+    double normal_x;          /**< of length 1, from a to b (0) */
+    double normal_y;          /**< of length 1, from a to b (1) */
+    double impulse_n_s;       /**< along the normal, in this step (PHYSVIB_UNKNOWN) */
+    double tangential_n_s;    /**< across the normal (0) */
+    double approach_m_per_s;  /**< approach speed before the engine's solver (PHYSVIB_UNKNOWN) */
+    double restitution;       /**< 0 to 1; used where no impulse is set (0) */
+    double effective_mass_kg; /**< used where no impulse is set (PHYSVIB_UNKNOWN: from masses, inertias and
+                                 places) */
+    double fraction; /**< when they touched, in steps after this one's start, -1 to 1 (PHYSVIB_UNKNOWN: by gap
+                        and approach) */
+    double gap_m;    /**< between the surfaces when the engine looked; below 0: they overlap (0) */
+    double gap_fraction;    /**< when that was, in steps after this one's start, 0 to 1 (0) */
+    double along_a_m_per_s; /**< for a contact that lasts on a body with grains, with its impulse: how fast
+                               the point moves along a's surface. Rolling: as along b's; sliding: 0 along what
+                               drags its own point (PHYSVIB_UNKNOWN) */
+    double along_b_m_per_s; /**< the same along b's (PHYSVIB_UNKNOWN) */
+    int is_soft;  /**< PHYSVIB_SOFT or PHYSVIB_SOFT_WHOLE: the impulse of one step is no measure of an impact,
+                     which follows from speed and restitution;  the impulse is the load of a pair that keeps
+                     touching (0) */
+    int unused;   /**< 0 */
+    int point_id; /**< identifies the point within its pair: a number from 0 on, or PHYSVIB_POINT_BY_PLACE. A
+                     point that was not there in the step before and approaches fast is an impact even while
+                     its pair touches (PHYSVIB_POINT_NONE: the pair is reported as a whole) */
+    int is_impulse_of_pair; /**< 1: the impulses are those of the whole pair, repeated with each of its points
+                               (0) */
 } physvib_contact;
 
 /** What became of the contacts of a world, since it was created. */
@@ -213,138 +236,166 @@ typedef struct physvib_world_counts {
     physvib_int64 contacts;        /**< pairs that began to touch, and new points of touching pairs */
     physvib_int64 below_threshold; /**< of haptic sources (is_camera): slower than the threshold */
     physvib_int64 no_source;       /**< neither of the two bodies is a haptic source */
-    physvib_int64 unplayable;      /**< impacts without a frequency, a mass, or outside of what can be played */
-    physvib_int64 muted;           /**< by is_muted, or a gain of 0 */
-    physvib_int64 dropped;         /**< more in a step than there is room for, or than hits_per_step */
-    physvib_int64 events;          /**< events that were created */
-    double threshold_m_per_s;      /**< in effect: threshold_m_per_s, and at least 1.5 times what gravity adds in the last step */
+    physvib_int64 unplayable; /**< impacts without a frequency, a mass, or outside of what can be played */
+    physvib_int64 muted;      /**< by is_muted, or a gain of 0 */
+    physvib_int64 dropped;    /**< more in a step than there is room for, or than hits_per_step */
+    physvib_int64 events;     /**< events that were created */
+    double threshold_m_per_s; /**< in effect: threshold_m_per_s, and at least 1.5 times what gravity adds in
+                                 the last step */
 } physvib_world_counts;
 
 /** The version, "0.1.0". Any thread. */
-PHYSVIB_API const char *physvib_version(void);
+PHYSVIB_API const char* physvib_version(void);
 
-/** The name of a panning law, as options and files have it; they are numbered from 0 (PHYSVIB_LAW_...); NULL after the last one. Any thread. */
-PHYSVIB_API const char *physvib_law_name(int law);
+/** The name of a panning law, as options and files have it; they are numbered from 0 (PHYSVIB_LAW_...); NULL
+ * after the last one. Any thread. */
+PHYSVIB_API const char* physvib_law_name(int law);
 
-/** The last error of this thread, in one line; "" before the first. Valid until this thread's next call. physvib_renderer_pull sets
- * no text: it only returns its code. Any thread. */
-PHYSVIB_API const char *physvib_error(void);
+/** The last error of this thread, in one line; "" before the first. Valid until this thread's next call.
+ * physvib_renderer_pull sets no text: it only returns its code. Any thread. */
+PHYSVIB_API const char* physvib_error(void);
 
 /** The defaults, in brackets above; `size`: sizeof *settings. Any thread, as the five functions below. */
-PHYSVIB_API int physvib_renderer_settings_init(physvib_renderer_settings *settings, size_t size);
+PHYSVIB_API int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t size);
 /** Empty; `size`: sizeof *status. */
-PHYSVIB_API int physvib_renderer_status_init(physvib_renderer_status *status, size_t size);
+PHYSVIB_API int physvib_renderer_status_init(physvib_renderer_status* status, size_t size);
 /** The defaults; `size`: sizeof *settings. */
-PHYSVIB_API int physvib_world_settings_init(physvib_world_settings *settings, size_t size);
+PHYSVIB_API int physvib_world_settings_init(physvib_world_settings* settings, size_t size);
 /** The defaults; `size`: sizeof *body. */
-PHYSVIB_API int physvib_body_init(physvib_body *body, size_t size);
+PHYSVIB_API int physvib_body_init(physvib_body* body, size_t size);
 /** The defaults; `size`: sizeof *contact. */
-PHYSVIB_API int physvib_contact_init(physvib_contact *contact, size_t size);
+PHYSVIB_API int physvib_contact_init(physvib_contact* contact, size_t size);
 /** Empty; `size`: sizeof *counts. */
-PHYSVIB_API int physvib_world_counts_init(physvib_world_counts *counts, size_t size);
+PHYSVIB_API int physvib_world_counts_init(physvib_world_counts* counts, size_t size);
 
 /* ---- Layouts and files. Any thread; they allocate, and read or write files. ---- */
 
 /** By its name, such as "phone4"; Docs/panning.md lists them. */
-PHYSVIB_API int physvib_layout_preset(const char *name, physvib_layout *layout);
+PHYSVIB_API int physvib_layout_preset(const char* name, physvib_layout* layout);
 /** Layout files (JSON), see README.md. `path` is UTF-8. */
-PHYSVIB_API int physvib_layout_load(const char *path, physvib_layout *layout);
+PHYSVIB_API int physvib_layout_load(const char* path, physvib_layout* layout);
 /** The same from text in memory, zero-terminated. */
-PHYSVIB_API int physvib_layout_parse(const char *text, physvib_layout *layout);
+PHYSVIB_API int physvib_layout_parse(const char* text, physvib_layout* layout);
 /** The same; PHYSVIB_ERROR_ARGUMENT if it could not be loaded again. */
-PHYSVIB_API int physvib_layout_save(const char *path, const char *name, const physvib_layout *layout);
+PHYSVIB_API int physvib_layout_save(const char* path, const char* name, const physvib_layout* layout);
 
-/** Event lists (CSV), see Docs/events.md. Returns how many there are; writes the first `capacity` of them to `events`, which may be NULL if
- * `capacity` is 0. */
-PHYSVIB_API physvib_int64 physvib_events_load(const char *path, physvib_event *events, physvib_int64 capacity);
+/** Event lists (CSV), see Docs/events.md. Returns how many there are; writes the first `capacity` of them to
+ * `events`, which may be NULL if `capacity` is 0. */
+PHYSVIB_API physvib_int64 physvib_events_load(const char* path, physvib_event* events,
+                                              physvib_int64 capacity);
 /** The same from text in memory, zero-terminated. */
-PHYSVIB_API physvib_int64 physvib_events_parse(const char *text, physvib_event *events, physvib_int64 capacity);
+PHYSVIB_API physvib_int64 physvib_events_parse(const char* text, physvib_event* events,
+                                               physvib_int64 capacity);
 /** The field that the list says its places span, in metres, for a renderer's settings; 0 and 0 if it says
  * none. */
 PHYSVIB_API int physvib_events_load_field(const char* path, double* width_m, double* height_m);
 /** The same from text in memory, zero-terminated. */
 PHYSVIB_API int physvib_events_parse_field(const char* text, double* width_m, double* height_m);
 /** Writes playable events, in time order. */
-PHYSVIB_API int physvib_events_save(const char *path, const physvib_event *events, physvib_int64 count);
+PHYSVIB_API int physvib_events_save(const char* path, const physvib_event* events, physvib_int64 count);
 /** The same, and the field that their places span: 0.001 to 1e6 m, or 0 and 0 to say none. */
 PHYSVIB_API int physvib_events_save_field(const char* path, const physvib_event* events, physvib_int64 count,
                                           double width_m, double height_m);
 
 /** Writes 32-bit float samples; channel j's frame n is samples[j * frames + n]. */
-PHYSVIB_API int physvib_wav_save(const char *path, const float *samples, int channels, physvib_int64 frames, int rate_hz);
+PHYSVIB_API int physvib_wav_save(const char* path, const float* samples, int channels, physvib_int64 frames,
+                                 int rate_hz);
 
-/** Renders events, in time order, to samples[channel * frames + n], frame n at n / rate_hz; the same samples as `physvib render --from-events`. */
-PHYSVIB_API int physvib_render(const physvib_renderer_settings *settings, const physvib_event *events, physvib_int64 count,
-                               physvib_int64 frames, float *samples);
+/** Renders events, in time order, to samples[channel * frames + n], frame n at n / rate_hz; the same samples
+ * as `physvib render --from-events`. */
+PHYSVIB_API int physvib_render(const physvib_renderer_settings* settings, const physvib_event* events,
+                               physvib_int64 count, physvib_int64 frames, float* samples);
 
 /* ---- A renderer: events in, samples out. ---- */
 
-/** Creates a renderer; it takes 13 to 25 MB, depending on its channels. PHYSVIB_ERROR_FULL: there are 256. Any thread. */
-PHYSVIB_API int physvib_renderer_create(const physvib_renderer_settings *settings, physvib_renderer *renderer);
+/** Creates a renderer; it takes 13 to 25 MB, depending on its channels. PHYSVIB_ERROR_FULL: there are 256.
+ * Any thread. */
+PHYSVIB_API int physvib_renderer_create(const physvib_renderer_settings* settings,
+                                        physvib_renderer* renderer);
 /** Frees it; waits for a call that is running on another thread. Any thread but R. */
 PHYSVIB_API int physvib_renderer_free(physvib_renderer renderer);
 
-/** Plays an event at its time, or at once if that has passed. PHYSVIB_ERROR_FULL: 8,192 events are waiting to be pulled. One at a time. */
-PHYSVIB_API int physvib_renderer_strike(physvib_renderer renderer, const physvib_event *event);
+/** Plays an event at its time, or at once if that has passed. PHYSVIB_ERROR_FULL: 8,192 events are waiting to
+ * be pulled. One at a time. */
+PHYSVIB_API int physvib_renderer_strike(physvib_renderer renderer, const physvib_event* event);
 
-/** The next `frames` (1 or more) of each channel, in channels[channel][0..frames). `channel_count`: the renderer's. PHYSVIB_ERROR_BUSY. R. */
-PHYSVIB_API int physvib_renderer_pull(physvib_renderer renderer, float *const *channels, int channel_count, int frames);
+/** The next `frames` (1 or more) of each channel, in channels[channel][0..frames). `channel_count`: the
+ * renderer's. PHYSVIB_ERROR_BUSY. R. */
+PHYSVIB_API int physvib_renderer_pull(physvib_renderer renderer, float* const* channels, int channel_count,
+                                      int frames);
 /** The same frame by frame. R. */
-PHYSVIB_API int physvib_renderer_pull_interleaved(physvib_renderer renderer, float *samples, int channel_count, int frames);
+PHYSVIB_API int physvib_renderer_pull_interleaved(physvib_renderer renderer, float* samples,
+                                                  int channel_count, int frames);
 
-/** Sets the gain of a channel from that time on: 0 to 10,000, with a ramp of 10 ms. PHYSVIB_ERROR_FULL: 256 changes are waiting. One at a time. */
-PHYSVIB_API int physvib_renderer_set_gain(physvib_renderer renderer, physvib_int64 time_ns, int channel, double gain);
+/** Sets the gain of a channel from that time on: 0 to 10,000, with a ramp of 10 ms. PHYSVIB_ERROR_FULL: 256
+ * changes are waiting. One at a time. */
+PHYSVIB_API int physvib_renderer_set_gain(physvib_renderer renderer, physvib_int64 time_ns, int channel,
+                                          double gain);
 /** Mutes a channel (1) or not (0), in the same way. One at a time. */
-PHYSVIB_API int physvib_renderer_set_mute(physvib_renderer renderer, physvib_int64 time_ns, int channel, int is_muted);
+PHYSVIB_API int physvib_renderer_set_mute(physvib_renderer renderer, physvib_int64 time_ns, int channel,
+                                          int is_muted);
 /** Sets a gain of all channels, on top of their own, in the same way. One at a time. */
 PHYSVIB_API int physvib_renderer_set_level(physvib_renderer renderer, physvib_int64 time_ns, double gain);
-/** Changes the layout, law, exponent and field of later events; the other `settings` are ignored. At most as many actuators as channels. What
- * sounds already stays where it is. One at a time. */
-PHYSVIB_API int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 time_ns, const physvib_renderer_settings *settings);
-/** What sounds at that time fades out within 10 ms, and no event before `until_ns` is played. One at a time. */
-PHYSVIB_API int physvib_renderer_silence(physvib_renderer renderer, physvib_int64 time_ns, physvib_int64 until_ns);
+/** Changes the layout, law, exponent and field of later events; the other `settings` are ignored. At most as
+ * many actuators as channels. What sounds already stays where it is. One at a time. */
+PHYSVIB_API int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 time_ns,
+                                            const physvib_renderer_settings* settings);
+/** What sounds at that time fades out within 10 ms, and no event before `until_ns` is played. One at a time.
+ */
+PHYSVIB_API int physvib_renderer_silence(physvib_renderer renderer, physvib_int64 time_ns,
+                                         physvib_int64 until_ns);
 
 /** The latency of the limiter's look-ahead, in frames. Any thread. */
 PHYSVIB_API int physvib_renderer_latency_frames(physvib_renderer renderer);
 /** The status after the last pull. One at a time. */
-PHYSVIB_API int physvib_renderer_get_status(physvib_renderer renderer, physvib_renderer_status *status);
+PHYSVIB_API int physvib_renderer_get_status(physvib_renderer renderer, physvib_renderer_status* status);
 
-/** The output latency L (Docs/threads.md), in nanoseconds: an event of world time w that is played at w + L is in time, whatever block and step it falls
- * into, if the world's thread never pauses for longer than `longest_gap_s`. Any thread. */
-PHYSVIB_API physvib_int64 physvib_play_out_ns(int rate_hz, int block_frames, int steps_per_s, double longest_gap_s);
+/** The output latency L (Docs/threads.md), in nanoseconds: an event of world time w that is played at w + L
+ * is in time, whatever block and step it falls into, if the world's thread never pauses for longer than
+ * `longest_gap_s`. Any thread. */
+PHYSVIB_API physvib_int64 physvib_play_out_ns(int rate_hz, int block_frames, int steps_per_s,
+                                              double longest_gap_s);
 
 /* ---- A world: contacts in, events out. One at a time. ----
- * In each step call begin_step, move (where speeds or places are needed), touch for every pair that touches, end_step; then take or send.
- * Bodies are identified by numbers of the caller's, from 0 on, which events contain. */
+ * In each step call begin_step, move (where speeds or places are needed), touch for every pair that touches,
+ * end_step; then take or send. Bodies are identified by numbers of the caller's, from 0 on, which events
+ * contain. */
 
 /** `settings` may be NULL: the defaults. PHYSVIB_ERROR_FULL: there are 256. Any thread. */
-PHYSVIB_API int physvib_world_create(const physvib_world_settings *settings, physvib_world *world);
+PHYSVIB_API int physvib_world_create(const physvib_world_settings* settings, physvib_world* world);
 /** Frees it; waits for a call that is running on another thread. Any thread. */
 PHYSVIB_API int physvib_world_free(physvib_world world);
 /** Changes the settings from the next step on. */
-PHYSVIB_API int physvib_world_configure(physvib_world world, const physvib_world_settings *settings);
+PHYSVIB_API int physvib_world_configure(physvib_world world, const physvib_world_settings* settings);
 
 /** Adds a body, or changes its values. */
-PHYSVIB_API int physvib_world_set_body(physvib_world world, int body, const physvib_body *values);
+PHYSVIB_API int physvib_world_set_body(physvib_world world, int body, const physvib_body* values);
 /** Removes a body; not within a step. */
 PHYSVIB_API int physvib_world_remove_body(physvib_world world, int body);
 /** Sets centre of mass, velocity and spin before the engine's solver. */
-PHYSVIB_API int physvib_world_move(physvib_world world, int body, double x_m, double y_m, double vx_m_per_s, double vy_m_per_s, double spin_rad_per_s);
-/** Sets velocity and spin after the engine's solver, within a step and before its contacts, for engines that report no impulses: those of contacts
- * that are soft, or have none, then follow from the momentum of their two bodies. Give physvib_world_move the velocity without contacts, so including what
- * gravity adds in the step. Impacts are passed on along a row of bodies; a landing on a supported body is within 20 %; friction and joints are unknown. */
-PHYSVIB_API int physvib_world_moved(physvib_world world, int body, double vx_m_per_s, double vy_m_per_s, double spin_rad_per_s);
+PHYSVIB_API int physvib_world_move(physvib_world world, int body, double x_m, double y_m, double vx_m_per_s,
+                                   double vy_m_per_s, double spin_rad_per_s);
+/** Sets velocity and spin after the engine's solver, within a step and before its contacts, for engines that
+ * report no impulses: those of contacts that are soft, or have none, then follow from the momentum of their
+ * two bodies. Give physvib_world_move the velocity without contacts, so including what gravity adds in the
+ * step. Impacts are passed on along a row of bodies; a landing on a supported body is within 20 %; friction
+ * and joints are unknown. */
+PHYSVIB_API int physvib_world_moved(physvib_world world, int body, double vx_m_per_s, double vy_m_per_s,
+                                    double spin_rad_per_s);
 /** Sets the vibration of two kinds of surfaces that meet, whatever the haptic source's voice is. */
-PHYSVIB_API int physvib_world_pair(physvib_world world, int surface, int other, double frequency_hz, double decay_per_s, double gain);
+PHYSVIB_API int physvib_world_pair(physvib_world world, int surface, int other, double frequency_hz,
+                                   double decay_per_s, double gain);
 
-/** Begins a step of 0 to 3,600 seconds. Gravity: its magnitude, from which the load of resting bodies follows. */
+/** Begins a step of 0 to 3,600 seconds. Gravity: its magnitude, from which the load of resting bodies
+ * follows. */
 PHYSVIB_API int physvib_world_begin_step(physvib_world world, double seconds, double gravity_m_per_s2);
-/** For engines that list what touches: a pair that was not listed in the step before begins, one that is not listed again has ended. */
-PHYSVIB_API int physvib_world_touch(physvib_world world, const physvib_contact *contact);
+/** For engines that list what touches: a pair that was not listed in the step before begins, one that is not
+ * listed again has ended. */
+PHYSVIB_API int physvib_world_touch(physvib_world world, const physvib_contact* contact);
 /** For engines with callbacks: shapes that were apart meet. */
-PHYSVIB_API int physvib_world_begin(physvib_world world, const physvib_contact *contact);
+PHYSVIB_API int physvib_world_begin(physvib_world world, const physvib_contact* contact);
 /** For engines with callbacks: the impulse of a pair that keeps touching. */
-PHYSVIB_API int physvib_world_push(physvib_world world, const physvib_contact *contact);
+PHYSVIB_API int physvib_world_push(physvib_world world, const physvib_contact* contact);
 /** For engines with callbacks: a pair has separated. */
 PHYSVIB_API int physvib_world_end(physvib_world world, int a, int b);
 /** Ends the step. */
@@ -352,18 +403,23 @@ PHYSVIB_API int physvib_world_end_step(physvib_world world);
 
 /** The world's time after the last step, in nanoseconds. */
 PHYSVIB_API physvib_int64 physvib_world_time_ns(physvib_world world);
-/** Writes the events that are final (a step later, in order; or, with `at_once`, all of them), at most `capacity`; the others stay. Returns how many. */
-PHYSVIB_API physvib_int64 physvib_world_take(physvib_world world, physvib_event *events, physvib_int64 capacity, int at_once);
-/** Plays them with a renderer, `later_ns` (L) after their times. Returns how many. Events that do not fit into its queue are lost and counted there. */
-PHYSVIB_API physvib_int64 physvib_world_send(physvib_world world, physvib_renderer renderer, physvib_int64 later_ns, int at_once);
+/** Writes the events that are final (a step later, in order; or, with `at_once`, all of them), at most
+ * `capacity`; the others stay. Returns how many. */
+PHYSVIB_API physvib_int64 physvib_world_take(physvib_world world, physvib_event* events,
+                                             physvib_int64 capacity, int at_once);
+/** Plays them with a renderer, `later_ns` (L) after their times. Returns how many. Events that do not fit
+ * into its queue are lost and counted there. */
+PHYSVIB_API physvib_int64 physvib_world_send(physvib_world world, physvib_renderer renderer,
+                                             physvib_int64 later_ns, int at_once);
 /** Impacts lost so far because there were more in a step than fit. */
 PHYSVIB_API physvib_int64 physvib_world_drops(physvib_world world);
 /** Counts what became of all contacts so far. */
-PHYSVIB_API int physvib_world_get_counts(physvib_world world, physvib_world_counts *counts);
-/** Writes one sentence to `text`: the most likely reason why nothing, or not everything, is felt. `size` of `text`: 1 or more, 256 are enough. Returns the
- * length of the sentence. */
-PHYSVIB_API int physvib_world_explain(physvib_world world, char *text, size_t size);
-/** Grains left out so far because there were more than 2,000 a second at one contact, or 50,000 in all; the others are stronger by as much power. */
+PHYSVIB_API int physvib_world_get_counts(physvib_world world, physvib_world_counts* counts);
+/** Writes one sentence to `text`: the most likely reason why nothing, or not everything, is felt. `size` of
+ * `text`: 1 or more, 256 are enough. Returns the length of the sentence. */
+PHYSVIB_API int physvib_world_explain(physvib_world world, char* text, size_t size);
+/** Grains left out so far because there were more than 2,000 a second at one contact, or 50,000 in all; the
+ * others are stronger by as much power. */
 PHYSVIB_API physvib_int64 physvib_world_thinned(physvib_world world);
 
 #ifdef __cplusplus

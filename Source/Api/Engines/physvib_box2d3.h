@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Box2D 3 (3.0, 3.1 and its state of August 2026): physvib_box2d3_set gives a body its number (from 0 on) and its values; call
- * physvib_box2d3_step instead of b2World_Step. Shapes need no hit events, and no threshold of Box2D's matters: contacts are read after the step, so
- * landings slower than hitEventThreshold are felt, too. C and C++; one world, one thread. */
+/* Box2D 3 (3.0, 3.1 and its state of August 2026): physvib_box2d3_set gives a body its number (from 0 on) and
+ * its values; call physvib_box2d3_step instead of b2World_Step. Shapes need no hit events, and no threshold
+ * of Box2D's matters: contacts are read after the step, so landings slower than hitEventThreshold are felt,
+ * too. C and C++; one world, one thread. */
 #ifndef PHYSVIB_BOX2D3_H
 #define PHYSVIB_BOX2D3_H
 #include <box2d/box2d.h>
@@ -12,8 +13,9 @@
 #define PHYSVIB_BOX2D3_MOST 64 /**< contacts of a body in a step; more are an error */
 
 /* What changed its name from version to version. */
-#if defined(b2_maxPolygonVertices) /* 3.0 */
-#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse) /* of a sub-step: at least so much */
+#if defined(b2_maxPolygonVertices)                                       /* 3.0 */
+#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse) /* of a sub-step: at least so much  \
+                                                                          */
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetInertiaTensor(body)
 #else
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetRotationalInertia(body)
@@ -24,7 +26,8 @@
 #else
 #define PHYSVIB_BOX2D3_CENTRE(body) b2Body_GetWorldCenterOfMass(body)
 #endif
-#if !defined(PHYSVIB_BOX2D3_PUSHED) /* 3.1 counts each sub-step twice: as it is solved, and as it is relaxed */
+#if !defined(PHYSVIB_BOX2D3_PUSHED) /* 3.1 counts each sub-step twice: as it is solved, and as it is relaxed \
+                                     */
 #define PHYSVIB_BOX2D3_PUSHED(point) (0.5 * (double)(point)->totalNormalImpulse)
 #endif
 
@@ -36,33 +39,34 @@ typedef struct physvib_box2d3_number {
 
 /** State between two steps; zero it, and set `world` and `box2d`. */
 typedef struct physvib_box2d3 {
-    physvib_world world; /**< of PhysVib */
-    b2WorldId box2d;     /**< of Box2D */
-    double restitution_threshold; /**< of box2d, m/s; 0: 1, as b2DefaultWorldDef has it */
+    physvib_world world;                       /**< of PhysVib */
+    b2WorldId box2d;                           /**< of Box2D */
+    double restitution_threshold;              /**< of box2d, m/s; 0: 1, as b2DefaultWorldDef has it */
     double (*mix_restitution)(double, double); /**< of two shapes; NULL: the larger, as Box2D has it */
-    int code;            /**< the first error so far, or PHYSVIB_OK */
-    char error[160];     /**< what it was about */
-    physvib_box2d3_number *numbers; /**< by Box2D's index, from 1 on */
-    int capacity;        /**< of these */
+    int code;                                  /**< the first error so far, or PHYSVIB_OK */
+    char error[160];                           /**< what it was about */
+    physvib_box2d3_number* numbers;            /**< by Box2D's index, from 1 on */
+    int capacity;                              /**< of these */
 } physvib_box2d3;
 
-PHYSVIB_UNUSED static void physvib_box2d3_fail(physvib_box2d3 *haptics, int code, const char *line) {
+PHYSVIB_UNUSED static void physvib_box2d3_fail(physvib_box2d3* haptics, int code, const char* line) {
     if (haptics->code != PHYSVIB_OK || code >= 0) return;
     haptics->code = code;
     strncpy(haptics->error, line, sizeof haptics->error - 1);
 }
 
 /* The number of a body, -1 if it has none; user data stay yours. */
-PHYSVIB_UNUSED static int physvib_box2d3_id(const physvib_box2d3 *haptics, b2BodyId body) {
-    if (body.index1 >= haptics->capacity || !B2_ID_EQUALS(haptics->numbers[body.index1].body, body)) return -1;
+PHYSVIB_UNUSED static int physvib_box2d3_id(const physvib_box2d3* haptics, b2BodyId body) {
+    if (body.index1 >= haptics->capacity || !B2_ID_EQUALS(haptics->numbers[body.index1].body, body))
+        return -1;
     return haptics->numbers[body.index1].id;
 }
 
-PHYSVIB_UNUSED static int physvib_box2d3_grow(physvib_box2d3 *haptics, int index) {
+PHYSVIB_UNUSED static int physvib_box2d3_grow(physvib_box2d3* haptics, int index) {
     const int capacity = index < haptics->capacity ? haptics->capacity : 2 * index + 64;
-    physvib_box2d3_number *grown = haptics->numbers;
+    physvib_box2d3_number* grown = haptics->numbers;
     if (capacity == haptics->capacity) return 1;
-    grown = (physvib_box2d3_number *)realloc(grown, (size_t)capacity * sizeof *grown);
+    grown = (physvib_box2d3_number*)realloc(grown, (size_t)capacity * sizeof *grown);
     if (!grown) return 0;
     memset(grown + haptics->capacity, 0, (size_t)(capacity - haptics->capacity) * sizeof *grown);
     haptics->numbers = grown, haptics->capacity = capacity;
@@ -70,21 +74,23 @@ PHYSVIB_UNUSED static int physvib_box2d3_grow(physvib_box2d3 *haptics, int index
 }
 
 /* At the end; `world` is yours to free. */
-PHYSVIB_UNUSED static void physvib_box2d3_free(physvib_box2d3 *haptics) {
+PHYSVIB_UNUSED static void physvib_box2d3_free(physvib_box2d3* haptics) {
     free(haptics->numbers);
     haptics->numbers = NULL, haptics->capacity = 0;
 }
 
 /* Before b2DestroyBody. */
-PHYSVIB_UNUSED static int physvib_box2d3_remove(physvib_box2d3 *haptics, b2BodyId body) {
+PHYSVIB_UNUSED static int physvib_box2d3_remove(physvib_box2d3* haptics, b2BodyId body) {
     const int id = physvib_box2d3_id(haptics, body);
     if (id < 0) return PHYSVIB_OK;
     haptics->numbers[body.index1].id = -1;
     return physvib_world_remove_body(haptics->world, id);
 }
 
-/* Values of a body (from physvib_body_init); its mass, inertia and gravity scale are Box2D's. Call it again when these change. */
-PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3 *haptics, b2BodyId body, int id, physvib_body values) {
+/* Values of a body (from physvib_body_init); its mass, inertia and gravity scale are Box2D's. Call it again
+ * when these change. */
+PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3* haptics, b2BodyId body, int id,
+                                             physvib_body values) {
     const int falls = b2Body_GetType(body) == b2_dynamicBody;
     int code;
     values.mass_kg = falls ? b2Body_GetMass(body) : 0;
@@ -97,26 +103,36 @@ PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3 *haptics, b2BodyId b
     return PHYSVIB_OK;
 }
 
-PHYSVIB_UNUSED static double physvib_box2d3_pull(b2WorldId world, b2BodyId body, b2Vec2 normal) { /* m/s^2, along the normal */
+PHYSVIB_UNUSED static double physvib_box2d3_pull(b2WorldId world, b2BodyId body, b2Vec2 normal) { /* m/s^2,
+                                                                                                     along the
+                                                                                                     normal */
     const b2Vec2 g = b2World_GetGravity(world);
-    return b2Body_GetType(body) == b2_dynamicBody ? (double)b2Body_GetGravityScale(body) * (g.x * normal.x + g.y * normal.y) : 0;
+    return b2Body_GetType(body) == b2_dynamicBody
+               ? (double)b2Body_GetGravityScale(body) * (g.x * normal.x + g.y * normal.y)
+               : 0;
 }
 
-PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3 *haptics, const b2ContactData *found, int index, double seconds) {
-    const b2ManifoldPoint *point = &found->manifold.points[index];
+PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b2ContactData* found,
+                                                int index, double seconds) {
+    const b2ManifoldPoint* point = &found->manifold.points[index];
     const b2BodyId a = b2Shape_GetBody(found->shapeIdA), b = b2Shape_GetBody(found->shapeIdB);
     const b2Vec2 normal = found->manifold.normal;
-    const double pull = physvib_box2d3_pull(haptics->box2d, a, normal) - physvib_box2d3_pull(haptics->box2d, b, normal);
+    const double pull =
+        physvib_box2d3_pull(haptics->box2d, a, normal) - physvib_box2d3_pull(haptics->box2d, b, normal);
     const double speed = -point->normalVelocity, gap = fmax(0, point->separation);
-    const double root = speed * speed + 2 * pull * gap, least = haptics->restitution_threshold > 0 ? haptics->restitution_threshold : 1;
-    double one = b2Shape_GetRestitution(found->shapeIdA), other = b2Shape_GetRestitution(found->shapeIdB), meets, impulse = PHYSVIB_BOX2D3_PUSHED(point);
+    const double root = speed * speed + 2 * pull * gap,
+                 least = haptics->restitution_threshold > 0 ? haptics->restitution_threshold : 1;
+    double one = b2Shape_GetRestitution(found->shapeIdA), other = b2Shape_GetRestitution(found->shapeIdB),
+           meets, impulse = PHYSVIB_BOX2D3_PUSHED(point);
     physvib_contact contact;
-    if (impulse <= 0 && point->separation > 0) return; /* close, but not touching yet */
-    meets = speed > 0 && root > 0 ? sqrt(root) : speed; /* Box2D's speed is that at the start of the step; gravity goes on until they meet */
+    if (impulse <= 0 && point->separation > 0) return;  /* close, but not touching yet */
+    meets = speed > 0 && root > 0 ? sqrt(root) : speed; /* Box2D's speed is that at the start of the step;
+                                                           gravity goes on until they meet */
     physvib_contact_init(&contact, sizeof contact);
     contact.a = physvib_box2d3_id(haptics, a), contact.b = physvib_box2d3_id(haptics, b);
 #if defined(B2_NULL_INDEX)
-    contact.x_m = (double)PHYSVIB_BOX2D3_CENTRE(b).x + (double)point->anchorB.x, contact.y_m = (double)PHYSVIB_BOX2D3_CENTRE(b).y + (double)point->anchorB.y;
+    contact.x_m = (double)PHYSVIB_BOX2D3_CENTRE(b).x + (double)point->anchorB.x,
+    contact.y_m = (double)PHYSVIB_BOX2D3_CENTRE(b).y + (double)point->anchorB.y;
 #else
     contact.x_m = point->point.x, contact.y_m = point->point.y;
 #endif
@@ -127,50 +143,71 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3 *haptics, const b
     contact.impulse_n_s = impulse;
     contact.is_soft = PHYSVIB_SOFT_WHOLE;
     contact.point_id = point->id;
-    if (gap > 0 && speed + meets > 0) contact.fraction = fmin(1, 2 * gap / (speed + meets) / seconds);
-    else contact.gap_m = point->separation; /* they overlapped before */
-    if (contact.a < 0 || contact.b < 0) physvib_box2d3_fail(haptics, PHYSVIB_ERROR_ARGUMENT, "body: expected a number (physvib_box2d3_set) of every body that touches");
-    else physvib_box2d3_fail(haptics, physvib_world_touch(haptics->world, &contact), physvib_error());
+    if (gap > 0 && speed + meets > 0)
+        contact.fraction = fmin(1, 2 * gap / (speed + meets) / seconds);
+    else
+        contact.gap_m = point->separation; /* they overlapped before */
+    if (contact.a < 0 || contact.b < 0)
+        physvib_box2d3_fail(haptics, PHYSVIB_ERROR_ARGUMENT,
+                            "body: expected a number (physvib_box2d3_set) of every body that touches");
+    else
+        physvib_box2d3_fail(haptics, physvib_world_touch(haptics->world, &contact), physvib_error());
 }
 
-/* Contacts of a body that is awake, each of them once: with the second of its bodies, or with the first where that lies still. */
-PHYSVIB_UNUSED static void physvib_box2d3_body(physvib_box2d3 *haptics, b2BodyId body, double seconds) {
+/* Contacts of a body that is awake, each of them once: with the second of its bodies, or with the first where
+ * that lies still. */
+PHYSVIB_UNUSED static void physvib_box2d3_body(physvib_box2d3* haptics, b2BodyId body, double seconds) {
     b2ContactData found[PHYSVIB_BOX2D3_MOST];
     const int count = b2Body_GetContactData(body, found, PHYSVIB_BOX2D3_MOST);
     int i, p;
     if (b2Body_GetContactCapacity(body) > PHYSVIB_BOX2D3_MOST && count == PHYSVIB_BOX2D3_MOST)
-        physvib_box2d3_fail(haptics, PHYSVIB_ERROR_FULL, "contacts: expected at most PHYSVIB_BOX2D3_MOST of a body");
+        physvib_box2d3_fail(haptics, PHYSVIB_ERROR_FULL,
+                            "contacts: expected at most PHYSVIB_BOX2D3_MOST of a body");
     for (i = 0; i < count; ++i) {
         const b2BodyId a = b2Shape_GetBody(found[i].shapeIdA), b = b2Shape_GetBody(found[i].shapeIdB);
-        const int is_second = B2_ID_EQUALS(b, body), rests = b2Body_GetType(b) == b2_staticBody || !b2Body_IsAwake(b);
+        const int is_second = B2_ID_EQUALS(b, body),
+                  rests = b2Body_GetType(b) == b2_staticBody || !b2Body_IsAwake(b);
         if (!is_second && !(B2_ID_EQUALS(a, body) && rests)) continue;
-        for (p = 0; p < found[i].manifold.pointCount; ++p) physvib_box2d3_point(haptics, &found[i], p, seconds);
+        for (p = 0; p < found[i].manifold.pointCount; ++p)
+            physvib_box2d3_point(haptics, &found[i], p, seconds);
     }
 }
 
 /* Instead of b2World_Step. PHYSVIB_OK, or the first error since the beginning, which haptics->error names. */
-PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3 *haptics, double seconds, int sub_steps) {
+PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double seconds, int sub_steps) {
     const b2Vec2 g = b2World_GetGravity(haptics->box2d);
     b2BodyEvents moved;
     int i;
-    physvib_box2d3_fail(haptics, physvib_world_begin_step(haptics->world, seconds, sqrt((double)(g.x * g.x + g.y * g.y))), physvib_error());
+    physvib_box2d3_fail(
+        haptics, physvib_world_begin_step(haptics->world, seconds, sqrt((double)(g.x * g.x + g.y * g.y))),
+        physvib_error());
     for (i = 1; i < haptics->capacity; ++i) { /* as they would go on without contacts */
         const b2BodyId body = haptics->numbers[i].body;
         b2Vec2 v;
         double pull;
-        if (!body.index1 || haptics->numbers[i].id < 0 || !b2Body_IsValid(body) || b2Body_GetType(body) == b2_staticBody || !b2Body_IsAwake(body)) continue;
+        if (!body.index1 || haptics->numbers[i].id < 0 || !b2Body_IsValid(body) ||
+            b2Body_GetType(body) == b2_staticBody || !b2Body_IsAwake(body))
+            continue;
         v = b2Body_GetLinearVelocity(body);
         pull = b2Body_GetType(body) == b2_dynamicBody ? seconds * (double)b2Body_GetGravityScale(body) : 0;
-        physvib_box2d3_fail(haptics, physvib_world_move(haptics->world, haptics->numbers[i].id, PHYSVIB_BOX2D3_CENTRE(body).x, PHYSVIB_BOX2D3_CENTRE(body).y,
-                                                        v.x + pull * (double)g.x, v.y + pull * (double)g.y, b2Body_GetAngularVelocity(body)), physvib_error());
+        physvib_box2d3_fail(haptics,
+                            physvib_world_move(haptics->world, haptics->numbers[i].id,
+                                               PHYSVIB_BOX2D3_CENTRE(body).x, PHYSVIB_BOX2D3_CENTRE(body).y,
+                                               v.x + pull * (double)g.x, v.y + pull * (double)g.y,
+                                               b2Body_GetAngularVelocity(body)),
+                            physvib_error());
     }
     b2World_Step(haptics->box2d, (float)seconds, sub_steps);
     moved = b2World_GetBodyEvents(haptics->box2d);
-    for (i = 0; i < moved.moveCount; ++i) { /* what contacts pushed follows from momentum: what Box2D says of it differs from version to version */
+    for (i = 0; i < moved.moveCount; ++i) { /* what contacts pushed follows from momentum: what Box2D says of
+                                               it differs from version to version */
         const b2BodyId body = moved.moveEvents[i].bodyId;
         const b2Vec2 v = b2Body_GetLinearVelocity(body);
         if (physvib_box2d3_id(haptics, body) < 0) continue;
-        physvib_box2d3_fail(haptics, physvib_world_moved(haptics->world, physvib_box2d3_id(haptics, body), v.x, v.y, b2Body_GetAngularVelocity(body)), physvib_error());
+        physvib_box2d3_fail(haptics,
+                            physvib_world_moved(haptics->world, physvib_box2d3_id(haptics, body), v.x, v.y,
+                                                b2Body_GetAngularVelocity(body)),
+                            physvib_error());
     }
     for (i = 0; i < moved.moveCount; ++i) physvib_box2d3_body(haptics, moved.moveEvents[i].bodyId, seconds);
     physvib_box2d3_fail(haptics, physvib_world_end_step(haptics->world), physvib_error());
@@ -178,8 +215,10 @@ PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3 *haptics, double se
 }
 
 /* Why nothing is felt, in one sentence, to `text`. */
-PHYSVIB_UNUSED static void physvib_box2d3_explain(const physvib_box2d3 *haptics, char *text, size_t size) {
-    if (haptics->code == PHYSVIB_OK) physvib_world_explain(haptics->world, text, size);
-    else if (size > 0) strncpy(text, haptics->error, size - 1), text[size - 1] = 0;
+PHYSVIB_UNUSED static void physvib_box2d3_explain(const physvib_box2d3* haptics, char* text, size_t size) {
+    if (haptics->code == PHYSVIB_OK)
+        physvib_world_explain(haptics->world, text, size);
+    else if (size > 0)
+        strncpy(text, haptics->error, size - 1), text[size - 1] = 0;
 }
 #endif

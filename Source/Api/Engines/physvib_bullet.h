@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Bullet 3: attach, number the bodies (setUserIndex, from 0 on); call stepSimulation as before. The field is the plane x, y. C++17 and later.
+// Bullet 3: attach, number the bodies (setUserIndex, from 0 on); call stepSimulation as before. The field is
+// the plane x, y. C++17 and later.
 #pragma once
 #include <algorithm>
 #include <btBulletDynamicsCommon.h>
 #include <physvib/physvib.h>
 #include <string>
 
-/// Keep it while the world steps. Bullet has one tick callback of each kind: if you have your own, call begin and end from them.
+/// Keep it while the world steps. Bullet has one tick callback of each kind: if you have your own, call begin
+/// and end from them.
 class PhysVibBullet {
 public:
     /// Both must outlive it; `name` has bodies of the same numbers.
     PhysVibBullet(btDynamicsWorld& world, physvib_world name)
         : name_(name) {
-        world.setInternalTickCallback([](btDynamicsWorld* w, btScalar dt) { self(w).begin(*w, dt); }, this, true);
+        world.setInternalTickCallback([](btDynamicsWorld* w, btScalar dt) { self(w).begin(*w, dt); }, this,
+                                      true);
         world.setInternalTickCallback([](btDynamicsWorld* w, btScalar) { self(w).end(*w); }, this, false);
     }
     /// The first error so far, such as a body that touches without a number; empty: none.
@@ -22,9 +25,11 @@ public:
     void begin(btDynamicsWorld& world, double dt) {
         check(physvib_world_begin_step(name_, dt, world.getGravity().length()));
         for (int i = 0; i < world.getNumCollisionObjects(); ++i)
-            if (const btRigidBody* body = btRigidBody::upcast(world.getCollisionObjectArray()[i]); body != nullptr && body->getUserIndex() >= 0) {
+            if (const btRigidBody* body = btRigidBody::upcast(world.getCollisionObjectArray()[i]);
+                body != nullptr && body->getUserIndex() >= 0) {
                 const btVector3 &at = body->getCenterOfMassPosition(), &v = body->getLinearVelocity();
-                check(physvib_world_move(name_, body->getUserIndex(), at.x(), at.y(), v.x(), v.y(), body->getAngularVelocity().z()));
+                check(physvib_world_move(name_, body->getUserIndex(), at.x(), at.y(), v.x(), v.y(),
+                                         body->getAngularVelocity().z()));
             }
     }
     /// After it: what touches.
@@ -32,21 +37,23 @@ public:
         for (int i = 0; i < world.getDispatcher()->getNumManifolds(); ++i) {
             const btPersistentManifold& manifold = *world.getDispatcher()->getManifoldByIndexInternal(i);
             // a trigger
-            if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse()) continue;
+            if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse())
+                continue;
             for (int p = 0; p < manifold.getNumContacts(); ++p) {
                 const btManifoldPoint& point = manifold.getContactPoint(p);
                 // close, but not touching yet
                 if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue;
                 physvib_contact contact;
                 physvib_contact_init(&contact, sizeof contact);
-                contact.a = manifold.getBody0()->getUserIndex(), contact.b = manifold.getBody1()->getUserIndex();
+                contact.a = manifold.getBody0()->getUserIndex(),
+                contact.b = manifold.getBody1()->getUserIndex();
                 contact.x_m = point.getPositionWorldOnB().x(), contact.y_m = point.getPositionWorldOnB().y();
                 const btVector3 normal = inPlane(-point.m_normalWorldOnB);
                 if (normal.isZero()) continue; // across the field
                 contact.normal_x = normal.x(), contact.normal_y = normal.y();
                 contact.impulse_n_s = point.getAppliedImpulse();
                 contact.restitution = std::clamp(static_cast<double>(point.m_combinedRestitution), 0.0, 1.0);
-                contact.gap_m = point.getDistance(); // at the start of the step
+                contact.gap_m = point.getDistance();  // at the start of the step
                 contact.is_soft = PHYSVIB_SOFT_WHOLE; // it also pushes overlaps apart, or lets gaps be closed
                 contact.point_id = PHYSVIB_POINT_BY_PLACE;
                 check(physvib_world_touch(name_, &contact));
@@ -56,7 +63,9 @@ public:
     }
 
 private:
-    static PhysVibBullet& self(btDynamicsWorld* world) { return *static_cast<PhysVibBullet*>(world->getWorldUserInfo()); }
+    static PhysVibBullet& self(btDynamicsWorld* world) {
+        return *static_cast<PhysVibBullet*>(world->getWorldUserInfo());
+    }
     static btVector3 inPlane(const btVector3& normal) {
         const btVector3 flat(normal.x(), normal.y(), 0);
         return flat.length2() < btScalar(0.25) ? btVector3(0, 0, 0) : flat.normalized();

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Chipmunk 7: attach, number the shapes (cpShapeSetUserData, integers from 1 on), and step with physvib_chipmunk_step. A shape that
- * touches without a number is an error, which names it. Numbers from 0 on, as before: define PHYSVIB_NUMBERS_FROM_0; then a shape without one is
- * body 0. C99 and later, C++11 and later. */
+/* Chipmunk 7: attach, number the shapes (cpShapeSetUserData, integers from 1 on), and step with
+ * physvib_chipmunk_step. A shape that touches without a number is an error, which names it. Numbers from 0
+ * on, as before: define PHYSVIB_NUMBERS_FROM_0; then a shape without one is body 0. C99 and later, C++11 and
+ * later. */
 #ifndef PHYSVIB_CHIPMUNK_H
 #define PHYSVIB_CHIPMUNK_H
 #include <chipmunk/chipmunk.h>
@@ -13,15 +14,17 @@
 PHYSVIB_UNUSED static int physvib_chipmunk_code;
 PHYSVIB_UNUSED static char physvib_chipmunk_error[160];
 
-PHYSVIB_UNUSED static void physvib_chipmunk_check(int code, const char *line) {
+PHYSVIB_UNUSED static void physvib_chipmunk_check(int code, const char* line) {
     if (code >= 0 || physvib_chipmunk_code != PHYSVIB_OK) return;
     physvib_chipmunk_code = code;
     strncpy(physvib_chipmunk_error, line, sizeof physvib_chipmunk_error - 1);
 }
 
-PHYSVIB_UNUSED static int physvib_chipmunk_id(const cpShape *shape) { return (int)(intptr_t)cpShapeGetUserData(shape); }
+PHYSVIB_UNUSED static int physvib_chipmunk_id(const cpShape* shape) {
+    return (int)(intptr_t)cpShapeGetUserData(shape);
+}
 
-PHYSVIB_UNUSED static int physvib_chipmunk_is_numbered(const cpShape *shape) {
+PHYSVIB_UNUSED static int physvib_chipmunk_is_numbered(const cpShape* shape) {
 #ifdef PHYSVIB_NUMBERS_FROM_0
     return physvib_chipmunk_id(shape) >= 0;
 #else
@@ -29,14 +32,17 @@ PHYSVIB_UNUSED static int physvib_chipmunk_is_numbered(const cpShape *shape) {
 #endif
 }
 
-PHYSVIB_UNUSED static void physvib_chipmunk_move(physvib_world world, const cpShape *shape, const cpBody *body) {
+PHYSVIB_UNUSED static void physvib_chipmunk_move(physvib_world world, const cpShape* shape,
+                                                 const cpBody* body) {
     const cpVect at = cpBodyLocalToWorld(body, cpBodyGetCenterOfGravity(body)), v = cpBodyGetVelocity(body);
     if (!physvib_chipmunk_is_numbered(shape)) return; /* reported where it touches */
-    physvib_chipmunk_check(physvib_world_move(world, physvib_chipmunk_id(shape), at.x, at.y, v.x, v.y, cpBodyGetAngularVelocity(body)), physvib_error());
+    physvib_chipmunk_check(physvib_world_move(world, physvib_chipmunk_id(shape), at.x, at.y, v.x, v.y,
+                                              cpBodyGetAngularVelocity(body)),
+                           physvib_error());
 }
 
 /* Before the solver: the velocities with which the surfaces met. */
-PHYSVIB_UNUSED static cpBool physvib_chipmunk_look(cpArbiter *arbiter, cpSpace *space, cpDataPointer world) {
+PHYSVIB_UNUSED static cpBool physvib_chipmunk_look(cpArbiter* arbiter, cpSpace* space, cpDataPointer world) {
     CP_ARBITER_GET_SHAPES(arbiter, a, b);
     physvib_chipmunk_move((physvib_world)world, a, cpShapeGetBody(a));
     physvib_chipmunk_move((physvib_world)world, b, cpShapeGetBody(b));
@@ -44,28 +50,33 @@ PHYSVIB_UNUSED static cpBool physvib_chipmunk_look(cpArbiter *arbiter, cpSpace *
 }
 
 /* What gravity adds to what is pushed in this step: a load, and not part of an impact. */
-PHYSVIB_UNUSED static double physvib_chipmunk_load(cpSpace *space, cpBody *a, cpBody *b, cpVect normal) {
+PHYSVIB_UNUSED static double physvib_chipmunk_load(cpSpace* space, cpBody* a, cpBody* b, cpVect normal) {
     const double pull = cpvdot(cpSpaceGetGravity(space), normal) * cpSpaceGetCurrentTimeStep(space);
-    const int falls_a = cpBodyGetType(a) == CP_BODY_TYPE_DYNAMIC, falls_b = cpBodyGetType(b) == CP_BODY_TYPE_DYNAMIC;
+    const int falls_a = cpBodyGetType(a) == CP_BODY_TYPE_DYNAMIC,
+              falls_b = cpBodyGetType(b) == CP_BODY_TYPE_DYNAMIC;
     return falls_a == falls_b ? 0 : cpfmax(0, falls_a ? pull * cpBodyGetMass(a) : -pull * cpBodyGetMass(b));
 }
 
-PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter *arbiter, cpSpace *space, cpDataPointer world) {
+PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter* arbiter, cpSpace* space, cpDataPointer world) {
     CP_ARBITER_GET_SHAPES(arbiter, a, b);
     const cpVect normal = cpArbiterGetNormal(arbiter);
     const cpContactPointSet points = cpArbiterGetContactPointSet(arbiter);
     double impulse = cpfabs(cpvdot(cpArbiterTotalImpulse(arbiter), normal)); /* of either of the two */
     int i;
     if (!physvib_chipmunk_is_numbered(a) || !physvib_chipmunk_is_numbered(b)) {
-        physvib_chipmunk_check(PHYSVIB_ERROR_ARGUMENT, "shape: expected a number (cpShapeSetUserData, from 1 on) of every shape that touches");
+        physvib_chipmunk_check(
+            PHYSVIB_ERROR_ARGUMENT,
+            "shape: expected a number (cpShapeSetUserData, from 1 on) of every shape that touches");
         return;
     }
-    if (cpArbiterIsFirstContact(arbiter)) impulse -= physvib_chipmunk_load(space, cpShapeGetBody(a), cpShapeGetBody(b), normal);
+    if (cpArbiterIsFirstContact(arbiter))
+        impulse -= physvib_chipmunk_load(space, cpShapeGetBody(a), cpShapeGetBody(b), normal);
     for (i = 0; i < points.count; ++i) {
         physvib_contact contact;
         physvib_contact_init(&contact, sizeof contact);
         contact.a = physvib_chipmunk_id(a), contact.b = physvib_chipmunk_id(b);
-        contact.x_m = points.points[i].pointA.x, contact.y_m = points.points[i].pointA.y, contact.normal_x = normal.x, contact.normal_y = normal.y;
+        contact.x_m = points.points[i].pointA.x, contact.y_m = points.points[i].pointA.y,
+        contact.normal_x = normal.x, contact.normal_y = normal.y;
         contact.impulse_n_s = impulse;
         contact.is_impulse_of_pair = 1; /* Chipmunk reports no other */
         contact.restitution = cpfclamp01(cpArbiterGetRestitution(arbiter));
@@ -77,14 +88,17 @@ PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter *arbiter, cpSpace *sp
 }
 
 /* Takes the default handler; call look and push from handlers of your own. */
-PHYSVIB_UNUSED static void physvib_chipmunk_attach(cpSpace *space, physvib_world world) {
-    cpCollisionHandler *handler = cpSpaceAddDefaultCollisionHandler(space);
-    handler->preSolveFunc = physvib_chipmunk_look, handler->postSolveFunc = physvib_chipmunk_push, handler->userData = world;
+PHYSVIB_UNUSED static void physvib_chipmunk_attach(cpSpace* space, physvib_world world) {
+    cpCollisionHandler* handler = cpSpaceAddDefaultCollisionHandler(space);
+    handler->preSolveFunc = physvib_chipmunk_look, handler->postSolveFunc = physvib_chipmunk_push,
+    handler->userData = world;
 }
 
-/* Instead of cpSpaceStep. PHYSVIB_OK, or the first error so far, of which physvib_chipmunk_error says more. */
-PHYSVIB_UNUSED static int physvib_chipmunk_step(cpSpace *space, physvib_world world, double seconds) {
-    physvib_chipmunk_check(physvib_world_begin_step(world, seconds, cpvlength(cpSpaceGetGravity(space))), physvib_error());
+/* Instead of cpSpaceStep. PHYSVIB_OK, or the first error so far, of which physvib_chipmunk_error says more.
+ */
+PHYSVIB_UNUSED static int physvib_chipmunk_step(cpSpace* space, physvib_world world, double seconds) {
+    physvib_chipmunk_check(physvib_world_begin_step(world, seconds, cpvlength(cpSpaceGetGravity(space))),
+                           physvib_error());
     cpSpaceStep(space, seconds);
     physvib_chipmunk_check(physvib_world_end_step(world), physvib_error());
     return physvib_chipmunk_code;

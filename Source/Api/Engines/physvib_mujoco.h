@@ -1,26 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* MuJoCo 2: bodies are its body ids (0: the world); instead of mj_step call physvib_mujoco_step. The field is the plane x, z. Integrators: all
- * but RK4. Contacts are soft: their impulse is spread over many steps, so an impact follows from its speed and from a restitution that you choose. */
+/* MuJoCo 2: bodies are its body ids (0: the world); instead of mj_step call physvib_mujoco_step. The field is
+ * the plane x, z. Integrators: all but RK4. Contacts are soft: their impulse is spread over many steps, so an
+ * impact follows from its speed and from a restitution that you choose. */
 #ifndef PHYSVIB_MUJOCO_H
 #define PHYSVIB_MUJOCO_H
 #include <math.h>
 #include <mujoco/mujoco.h>
 #include <physvib/physvib.h>
 
-PHYSVIB_UNUSED static int physvib_mujoco_move(const mjModel *m, const mjData *d, physvib_world world, int body) {
+PHYSVIB_UNUSED static int physvib_mujoco_move(const mjModel* m, const mjData* d, physvib_world world,
+                                              int body) {
     mjtNum v[6];
     mj_objectVelocity(m, d, mjOBJ_BODY, body, v, 0);
     return physvib_world_move(world, body, d->xipos[3 * body], d->xipos[3 * body + 2], v[3], v[5], -v[1]);
 }
 
-PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel *m, const mjData *d, physvib_world world, int index, double restitution) {
-    const mjContact *found = &d->contact[index];
+PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d, physvib_world world,
+                                               int index, double restitution) {
+    const mjContact* found = &d->contact[index];
     mjtNum force[6];
     physvib_contact contact;
     if (found->dist > 0) return PHYSVIB_OK; /* close, but not touching yet */
     physvib_contact_init(&contact, sizeof contact);
     contact.a = m->geom_bodyid[found->geom1], contact.b = m->geom_bodyid[found->geom2];
-    contact.x_m = found->pos[0], contact.y_m = found->pos[2], contact.normal_x = found->frame[0], contact.normal_y = found->frame[2];
+    contact.x_m = found->pos[0], contact.y_m = found->pos[2], contact.normal_x = found->frame[0],
+    contact.normal_y = found->frame[2];
     mj_contactForce(m, d, index, force);
     contact.impulse_n_s = force[0] * m->opt.timestep;
     contact.restitution = restitution;
@@ -30,7 +34,8 @@ PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel *m, const mjData *d
     return physvib_world_touch(world, &contact);
 }
 
-PHYSVIB_UNUSED static int physvib_mujoco_step(const mjModel *m, mjData *d, physvib_world world, double restitution) {
+PHYSVIB_UNUSED static int physvib_mujoco_step(const mjModel* m, mjData* d, physvib_world world,
+                                              double restitution) {
     int i, code, refused = PHYSVIB_OK;
     mj_step1(m, d); /* contacts where bodies are now, velocities with which they came there */
     code = physvib_world_begin_step(world, m->opt.timestep, sqrt(mju_dot3(m->opt.gravity, m->opt.gravity)));

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* ODE: number the geoms (dGeomSetData, integers from 1 on); call physvib_ode_touch for each contact joint in your near callback, then step. A geom that
- * touches without a number is an error, which names it. Numbers from 0 on, as before: define PHYSVIB_NUMBERS_FROM_0; then a geom without one is
- * body 0. C99 and later, C++11 and later. */
+/* ODE: number the geoms (dGeomSetData, integers from 1 on); call physvib_ode_touch for each contact joint in
+ * your near callback, then step. A geom that touches without a number is an error, which names it. Numbers
+ * from 0 on, as before: define PHYSVIB_NUMBERS_FROM_0; then a geom without one is body 0. C99 and later,
+ * C++11 and later. */
 #ifndef PHYSVIB_ODE_H
 #define PHYSVIB_ODE_H
 #include <math.h>
@@ -14,15 +15,16 @@
 /** State between two steps; zero it, and set `world`. */
 typedef struct physvib_ode {
     physvib_world world; /**< of PhysVib */
-    int count; /**< of joints in this step; those beyond PHYSVIB_ODE_MOST are ignored */
+    int count;           /**< of joints in this step; those beyond PHYSVIB_ODE_MOST are ignored */
     dJointFeedback feedback[PHYSVIB_ODE_MOST]; /**< of each joint */
     physvib_contact contact[PHYSVIB_ODE_MOST]; /**< of each joint */
-    double pull_kg[PHYSVIB_ODE_MOST]; /**< of what falls onto another kind: its mass, towards the first geom or from it */
-    int code; /**< the first error so far, or PHYSVIB_OK */
-    char error[160]; /**< what it was about */
+    double pull_kg[PHYSVIB_ODE_MOST]; /**< of what falls onto another kind: its mass, towards the first geom
+                                         or from it */
+    int code;                         /**< the first error so far, or PHYSVIB_OK */
+    char error[160];                  /**< what it was about */
 } physvib_ode;
 
-PHYSVIB_UNUSED static void physvib_ode_check(physvib_ode *ode, int code, const char *line) {
+PHYSVIB_UNUSED static void physvib_ode_check(physvib_ode* ode, int code, const char* line) {
     if (code >= 0 || ode->code != PHYSVIB_OK) return;
     ode->code = code;
     strncpy(ode->error, line, sizeof ode->error - 1);
@@ -37,10 +39,14 @@ PHYSVIB_UNUSED static int physvib_ode_is_numbered(dGeomID geom) {
 }
 
 /* How far a point may slide from one step to the next. */
-PHYSVIB_UNUSED static void physvib_ode_move(physvib_ode *ode, dGeomID geom) {
+PHYSVIB_UNUSED static void physvib_ode_move(physvib_ode* ode, dGeomID geom) {
     dBodyID body = dGeomGetBody(geom);
     const dReal *at = body ? dBodyGetPosition(body) : NULL, *v = body ? dBodyGetLinearVel(body) : NULL;
-    if (body) physvib_ode_check(ode, physvib_world_move(ode->world, (int)(intptr_t)dGeomGetData(geom), at[0], at[1], v[0], v[1], dBodyGetAngularVel(body)[2]), physvib_error());
+    if (body)
+        physvib_ode_check(ode,
+                          physvib_world_move(ode->world, (int)(intptr_t)dGeomGetData(geom), at[0], at[1],
+                                             v[0], v[1], dBodyGetAngularVel(body)[2]),
+                          physvib_error());
 }
 
 PHYSVIB_UNUSED static double physvib_ode_mass(dGeomID geom) { /* 0: nothing moves it */
@@ -51,30 +57,33 @@ PHYSVIB_UNUSED static double physvib_ode_mass(dGeomID geom) { /* 0: nothing move
     return mass.mass;
 }
 
-PHYSVIB_UNUSED static double physvib_ode_speed(dGeomID geom, const dContactGeom *at) { /* along the normal */
+PHYSVIB_UNUSED static double physvib_ode_speed(dGeomID geom, const dContactGeom* at) { /* along the normal */
     dBodyID body = dGeomGetBody(geom);
     dVector3 v = {0, 0, 0, 0};
     if (body) dBodyGetPointVel(body, at->pos[0], at->pos[1], at->pos[2], v);
     return dCalcVectorDot3(v, at->normal);
 }
 
-/* In the near callback, after dJointCreateContact(...) and dJointAttach(joint, ...). Normals of ODE point into the first geom. */
-PHYSVIB_UNUSED static void physvib_ode_touch(physvib_ode *ode, dJointID joint, const dContactGeom *geom) {
-    physvib_contact *contact = &ode->contact[ode->count < PHYSVIB_ODE_MOST ? ode->count : 0];
+/* In the near callback, after dJointCreateContact(...) and dJointAttach(joint, ...). Normals of ODE point
+ * into the first geom. */
+PHYSVIB_UNUSED static void physvib_ode_touch(physvib_ode* ode, dJointID joint, const dContactGeom* geom) {
+    physvib_contact* contact = &ode->contact[ode->count < PHYSVIB_ODE_MOST ? ode->count : 0];
     const double a = physvib_ode_mass(geom->g1), b = physvib_ode_mass(geom->g2);
     if (ode->count == PHYSVIB_ODE_MOST) {
         physvib_ode_check(ode, PHYSVIB_ERROR_FULL, "joints: expected at most PHYSVIB_ODE_MOST in a step");
         return;
     }
     if (!physvib_ode_is_numbered(geom->g1) || !physvib_ode_is_numbered(geom->g2)) {
-        physvib_ode_check(ode, PHYSVIB_ERROR_ARGUMENT, "geom: expected a number (dGeomSetData, from 1 on) of every geom that touches");
+        physvib_ode_check(ode, PHYSVIB_ERROR_ARGUMENT,
+                          "geom: expected a number (dGeomSetData, from 1 on) of every geom that touches");
         return;
     }
     physvib_ode_move(ode, geom->g1);
     physvib_ode_move(ode, geom->g2);
     physvib_contact_init(contact, sizeof *contact);
     contact->a = (int)(intptr_t)dGeomGetData(geom->g1), contact->b = (int)(intptr_t)dGeomGetData(geom->g2);
-    contact->x_m = geom->pos[0], contact->y_m = geom->pos[1], contact->normal_x = -geom->normal[0], contact->normal_y = -geom->normal[1];
+    contact->x_m = geom->pos[0], contact->y_m = geom->pos[1], contact->normal_x = -geom->normal[0],
+    contact->normal_y = -geom->normal[1];
     contact->approach_m_per_s = physvib_ode_speed(geom->g2, geom) - physvib_ode_speed(geom->g1, geom);
     contact->gap_m = -geom->depth; /* at the start of the step */
     contact->point_id = PHYSVIB_POINT_BY_PLACE;
@@ -83,17 +92,19 @@ PHYSVIB_UNUSED static void physvib_ode_touch(physvib_ode *ode, dJointID joint, c
 }
 
 /* Instead of dWorldStep. PHYSVIB_OK, or the first error so far, which ode->error names. */
-PHYSVIB_UNUSED static int physvib_ode_step(physvib_ode *ode, dWorldID world, double seconds) {
+PHYSVIB_UNUSED static int physvib_ode_step(physvib_ode* ode, dWorldID world, double seconds) {
     dVector3 g;
     int i;
     dWorldGetGravity(world, g);
-    physvib_ode_check(ode, physvib_world_begin_step(ode->world, seconds, dCalcVectorLength3(g)), physvib_error());
+    physvib_ode_check(ode, physvib_world_begin_step(ode->world, seconds, dCalcVectorLength3(g)),
+                      physvib_error());
     dWorldStep(world, seconds);
     for (i = 0; i < ode->count; ++i) {
-        physvib_contact *contact = &ode->contact[i];
-        const dReal *f = ode->feedback[i].f1;
+        physvib_contact* contact = &ode->contact[i];
+        const dReal* f = ode->feedback[i].f1;
         const double pull = -ode->pull_kg[i] * (g[0] * contact->normal_x + g[1] * contact->normal_y);
-        contact->impulse_n_s = seconds * fabs(f[0] * contact->normal_x + f[1] * contact->normal_y); /* of either of the two */
+        contact->impulse_n_s =
+            seconds * fabs(f[0] * contact->normal_x + f[1] * contact->normal_y); /* of either of the two */
         /* What gravity adds in this step is a load, and not part of an impact. */
         if (contact->approach_m_per_s > 0.1 && pull > 0) contact->impulse_n_s -= seconds * pull;
         physvib_ode_check(ode, physvib_world_touch(ode->world, contact), physvib_error());

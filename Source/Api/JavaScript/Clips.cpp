@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Haptic files of others: read to samples, written from events.
-#include "Api/JavaScript/Exports.h"
 #include "Api/C/Convert.h"
+#include "Api/JavaScript/Exports.h"
 #include "Formats/ClipFile.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/ClipSound.h"
@@ -21,7 +21,9 @@ ClipFormat formatOf(const char* name) {
 }
 
 /// Only channel `channel`, as a format with one channel takes it.
-Clip oneOf(const Clip& all, int channel) { return {all.title, 0.0, 0.0, {all.channels[static_cast<std::size_t>(channel)]}}; }
+Clip oneOf(const Clip& all, int channel) {
+    return {all.title, 0.0, 0.0, {all.channels[static_cast<std::size_t>(channel)]}};
+}
 
 } // namespace
 
@@ -31,14 +33,17 @@ extern "C" {
 int PHYSVIB_JS(clip_read)(const char* bytes, int count, const char* name, int rateHz) {
     auto read = readClip({bytes, static_cast<std::size_t>(count)}, name, formatOf(name));
     if (!read) refuse(read.error);
-    if (const std::string fault = clipFault(read.value); !fault.empty()) refuse(std::string{name} + ": " + fault);
+    if (const std::string fault = clipFault(read.value); !fault.empty())
+        refuse(std::string{name} + ": " + fault);
     clip = std::move(read.value);
     sound = clipSound(clip, rateHz);
     text() = clip.leftOut;
     return static_cast<int>(clip.channels.size());
 }
 
-const float* PHYSVIB_JS(clip_samples)(int channel) { return sound.channels[static_cast<std::size_t>(channel)].data(); }
+const float* PHYSVIB_JS(clip_samples)(int channel) {
+    return sound.channels[static_cast<std::size_t>(channel)].data();
+}
 int PHYSVIB_JS(clip_frames)() { return static_cast<int>(sound.channels.front().size()); }
 
 /// Of one that has a place, x or y in the extent, m; of others not a number. Axis 2 and 3: the extent.
@@ -49,18 +54,24 @@ double PHYSVIB_JS(clip_place)(int channel, int axis) {
     return axis == 0 ? place->xMetres : place->yMetres;
 }
 
-/// Events as a clip of one channel per actuator. How many channels have something to play; what is refused does not return.
-int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_renderer_settings* settings, double error) {
+/// Events as a clip of one channel per actuator. How many channels have something to play; what is refused
+/// does not return.
+int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_renderer_settings* settings,
+                        double error) {
     const std::span list{events, static_cast<std::size_t>(count)};
     RendererSettings wanted;
     if (const auto fault = api::convert(*settings, wanted); !fault.empty()) refuse(fault);
     if (const auto fault = api::faultOf(list); !fault.empty()) refuse(fault);
-    if (list.size() > limits::maxClipStrikes) refuse("events: expected at most " + std::to_string(limits::maxClipStrikes));
+    if (list.size() > limits::maxClipStrikes)
+        refuse("events: expected at most " + std::to_string(limits::maxClipStrikes));
     if (!(error > 0.0 && error <= 0.5)) refuse("error: expected more than 0, to 0.5");
     std::vector<CollisionEvent> own;
     for (const physvib_event& event : list) own.push_back(api::eventOf(event));
     const PhantomPanner& panner = wanted.panner;
-    clip = clipOfStrikes(own, {error, static_cast<std::size_t>(panner.channels()), [&](const CollisionEvent& e, PhantomPanner::Gains& gains) { panner.gainsAt(e.x, e.y, gains); }});
+    clip = clipOfStrikes(own, {error, static_cast<std::size_t>(panner.channels()),
+                               [&](const CollisionEvent& e, PhantomPanner::Gains& gains) {
+                                   panner.gainsAt(e.x, e.y, gains);
+                               }});
     const LayoutDescription layout = describeLayout("layout", panner.layout());
     clip.extentWidthMetres = layout.geometry.extentWidthMetres;
     clip.extentHeightMetres = layout.geometry.extentHeightMetres;
@@ -72,7 +83,8 @@ int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_re
     return static_cast<int>(clip.channels.size());
 }
 
-/// The clip as a file of that name's format, to the text; of one channel (-1: all). 0: that channel plays nothing.
+/// The clip as a file of that name's format, to the text; of one channel (-1: all). 0: that channel plays
+/// nothing.
 int PHYSVIB_JS(clip_write)(const char* name, int channel) {
     const ClipFormat format = formatOf(name);
     const Clip one = channel < 0 ? clip : oneOf(clip, channel);
@@ -84,7 +96,9 @@ int PHYSVIB_JS(clip_write)(const char* name, int channel) {
 }
 
 int PHYSVIB_JS(clip_is_mono)(const char* name) { return isMono(formatOf(name)) ? 1 : 0; }
-const char* PHYSVIB_JS(clip_label)(int channel) { return clip.channels[static_cast<std::size_t>(channel)].label.c_str(); }
+const char* PHYSVIB_JS(clip_label)(int channel) {
+    return clip.channels[static_cast<std::size_t>(channel)].label.c_str();
+}
 }
 
 } // namespace physvib::js

@@ -14,7 +14,9 @@ extern "C" {
 
 // Exceptions end here: this C++ library has no way back to a handler. All of ours are std::exceptions.
 void* __cxa_allocate_exception(std::size_t bytes) noexcept { return std::malloc(bytes); }
-[[noreturn]] void __cxa_throw(void* thrown, std::type_info*, void (*)(void*)) { fail(static_cast<std::exception*>(thrown)->what()); }
+[[noreturn]] void __cxa_throw(void* thrown, std::type_info*, void (*)(void*)) {
+    fail(static_cast<std::exception*>(thrown)->what());
+}
 }
 
 std::string& text() noexcept {
@@ -29,14 +31,27 @@ void refuse(std::string_view line) {
 
 namespace {
 
-template <class T> struct Element { using Type = T; static constexpr int count = 1; };
-template <class T, std::size_t N> struct Element<T[N]> { using Type = T; static constexpr int count = static_cast<int>(N); };
+template <class T>
+struct Element {
+    using Type = T;
+    static constexpr int count = 1;
+};
+template <class T, std::size_t N>
+struct Element<T[N]> {
+    using Type = T;
+    static constexpr int count = static_cast<int>(N);
+};
 
-template <class T> constexpr char kind = 's'; // a structure
-template <> constexpr char kind<double> = 'd';
-template <> constexpr char kind<int> = 'i';
-template <> constexpr char kind<std::size_t> = 'u';
-template <> constexpr char kind<physvib_int64> = 'l';
+template <class T>
+constexpr char kind = 's'; // a structure
+template <>
+constexpr char kind<double> = 'd';
+template <>
+constexpr char kind<int> = 'i';
+template <>
+constexpr char kind<std::size_t> = 'u';
+template <>
+constexpr char kind<physvib_int64> = 'l';
 
 /// Four numbers of 32 bits, as JavaScript reads them.
 struct Member {
@@ -46,8 +61,9 @@ struct Member {
     int count;
 };
 
-#define MEMBER(structure, member) \
-    {#member, offsetof(structure, member), kind<Element<decltype(structure::member)>::Type>, Element<decltype(structure::member)>::count},
+#define MEMBER(structure, member)                                                                            \
+    {#member, offsetof(structure, member), kind<Element<decltype(structure::member)>::Type>,                 \
+     Element<decltype(structure::member)>::count},
 #define END(structure) {#structure, sizeof(structure), 0, 0},
 constexpr Member members[]{
 #include "Members.inc"

@@ -11,7 +11,8 @@ namespace physvib::js {
 /// The bytes that are read next, by js_text and js_text_bytes; all of them, with zeros inside.
 std::string& text() noexcept;
 
-/// Ends this instance: JavaScript throws, and nothing after it runs. It is thrown away then, as texts are read in an instance of their own.
+/// Ends this instance: JavaScript throws, and nothing after it runs. It is thrown away then, as texts are
+/// read in an instance of their own.
 [[noreturn]] void refuse(std::string_view line);
 
 } // namespace physvib::js

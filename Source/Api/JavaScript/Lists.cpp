@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Event lists as text, and the head of a sound file.
-#include "Api/JavaScript/Exports.h"
 #include "Api/C/Convert.h"
+#include "Api/JavaScript/Exports.h"
 #include "Io/Wav/WavHead.h"
 #include "Scene/EventsCsv.h"
 #include <physvib/Version.h>
@@ -13,7 +13,8 @@ extern "C" {
 /// An event list as text, with its field, if that is one; an error as those of physvib.h.
 int PHYSVIB_JS(events_text)(const physvib_event* events, int count, double width, double height) {
     const std::span list{events, static_cast<std::size_t>(count)};
-    if (const auto fault = api::faultOf(list); !fault.empty()) return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
+    if (const auto fault = api::faultOf(list); !fault.empty())
+        return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
     std::vector<CollisionEvent> own;
     own.reserve(list.size());
     for (const physvib_event& event : list) own.push_back(api::eventOf(event));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Included before all else: what a C++ library without threads and files lacks. An instance has one thread, so nobody is ever waited
-// for; what would ask for a file is compiled, and linked away.
+// Included before all else: what a C++ library without threads and files lacks. An instance has one thread,
+// so nobody is ever waited for; what would ask for a file is compiled, and linked away.
 #pragma once
 #include <filesystem>
 #include <mutex>
@@ -14,7 +14,7 @@ struct mutex {
 
 namespace this_thread {
 inline void yield() noexcept { __builtin_trap(); } // a wait that could never end
-}
+} // namespace this_thread
 
 namespace filesystem {
 file_status status(const path&, error_code&);
@@ -23,6 +23,6 @@ bool exists(const path&, error_code&);
 bool is_regular_file(file_status);
 bool is_regular_file(const path&, error_code&);
 uintmax_t file_size(const path&, error_code&);
-}
+} // namespace filesystem
 
 } // namespace std

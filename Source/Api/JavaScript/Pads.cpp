@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The two motors of a game controller, by the arithmetic of the native sink.
-#include "Api/JavaScript/Exports.h"
 #include "Api/C/Convert.h"
+#include "Api/JavaScript/Exports.h"
 #include "Core/Pads/PadMotors.h"
 #include <array>
 #include <limits>
@@ -26,17 +26,25 @@ struct Pad {
 
 extern "C" {
 
-/// `law`: numbers of a profile, as PadLaw has them: low and high (threshold, half, full, rise, fall), then the others. 0 and physvib_error()
-/// if they make no sense.
+/// `law`: numbers of a profile, as PadLaw has them: low and high (threshold, half, full, rise, fall), then
+/// the others. 0 and physvib_error() if they make no sense.
 Pad* PHYSVIB_JS(pad_create)(const double* law, double widthMetres, double heightMetres) {
-    if (!(widthMetres > 0.0 && widthMetres <= 1e9 && heightMetres > 0.0 && heightMetres <= 1e9)) return api::nothingThere("field: expected more than 0 m, to 10^9 m"), nullptr;
+    if (!(widthMetres > 0.0 && widthMetres <= 1e9 && heightMetres > 0.0 && heightMetres <= 1e9))
+        return api::nothingThere("field: expected more than 0 m, to 10^9 m"), nullptr;
     const auto motorAt = [](const double* at) { return PadMotor{at[0], at[1], at[2], at[3], at[4]}; };
-    const auto isFit = [](const PadMotor& m) { return m.threshold >= 0.0 && m.threshold < m.half && m.half < m.full && m.full <= 1.0 && m.riseSeconds > 0.0 && m.fallSeconds > 0.0; };
+    const auto isFit = [](const PadMotor& m) {
+        return m.threshold >= 0.0 && m.threshold < m.half && m.half < m.full && m.full <= 1.0 &&
+               m.riseSeconds > 0.0 && m.fallSeconds > 0.0;
+    };
     const PadLaw wanted{motorAt(law), motorAt(law + 5), law[10], law[11], law[12], law[13], law[14], law[15]};
-    if (!isFit(wanted.low) || !isFit(wanted.high)) return api::nothingThere("pad: expected 0 <= threshold < half < full <= 1, and times above 0 s"), nullptr;
-    if (!(wanted.commandsPerSecond >= 1.0 && wanted.commandsPerSecond <= 1000.0 && wanted.leadSeconds >= 0.0 && wanted.splitHz > 0.0 && wanted.side >= 0.0 && wanted.side <= 1.0 &&
+    if (!isFit(wanted.low) || !isFit(wanted.high))
+        return api::nothingThere("pad: expected 0 <= threshold < half < full <= 1, and times above 0 s"),
+               nullptr;
+    if (!(wanted.commandsPerSecond >= 1.0 && wanted.commandsPerSecond <= 1000.0 &&
+          wanted.leadSeconds >= 0.0 && wanted.splitHz > 0.0 && wanted.side >= 0.0 && wanted.side <= 1.0 &&
           wanted.floor > 0.0 && wanted.exponent > 0.0))
-        return api::nothingThere("pad: expected 1 to 1000 commands a second, and numbers as in Docs/pads.md"), nullptr;
+        return api::nothingThere("pad: expected 1 to 1000 commands a second, and numbers as in Docs/pads.md"),
+               nullptr;
     return new Pad{wanted, widthMetres, heightMetres};
 }
 
@@ -44,7 +52,8 @@ void PHYSVIB_JS(pad_free)(Pad* pad) { delete pad; }
 
 /// At the time at which it is to be felt. 0, or an error.
 int PHYSVIB_JS(pad_strike)(Pad* pad, const physvib_event* event) {
-    if (const auto fault = api::faultOf({event, 1}); !fault.empty()) return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
+    if (const auto fault = api::faultOf({event, 1}); !fault.empty())
+        return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
     pad->motors.strike(api::eventOf(*event), pad->grips);
     return PHYSVIB_OK;
 }

@@ -8,10 +8,12 @@
 #include <cstdlib>
 #include <cstring>
 
-static std::to_chars_result printed(char* first, char* last, const char* form, double number, std::uint32_t precision) {
+static std::to_chars_result printed(char* first, char* last, const char* form, double number,
+                                    std::uint32_t precision) {
     char text[1500]; // 309 digits, a point, and as many decimals as an exact double has
     const int length = std::snprintf(text, sizeof text, form, static_cast<int>(precision), number);
-    if (length < 0 || length >= static_cast<int>(sizeof text) || length > last - first) return {last, std::errc::value_too_large};
+    if (length < 0 || length >= static_cast<int>(sizeof text) || length > last - first)
+        return {last, std::errc::value_too_large};
     return {std::copy_n(text, length, first), std::errc{}};
 }
 
@@ -30,8 +32,10 @@ Shortest shortestOf(double number) {
     for (int least = 1, most = mostDigits; least <= most;) { // if so many do, more do as well
         const int some = (least + most) / 2;
         std::snprintf(text, sizeof text, "%.*e", some - 1, number);
-        if (std::strtod(text, nullptr) == number) most = some - 1, digits = some;
-        else least = some + 1;
+        if (std::strtod(text, nullptr) == number)
+            most = some - 1, digits = some;
+        else
+            least = some + 1;
     }
     std::snprintf(text, sizeof text, "%.*e", digits - 1, number);
     return {digits, std::atoi(std::strchr(text, 'e') + 1)};
@@ -53,11 +57,13 @@ std::to_chars_result __wrap__ZNSt3__216__d2s_buffered_nEPcS0_dNS_12chars_formatE
     return printed(first, last, "%.*e", number, static_cast<std::uint32_t>(digits - 1));
 }
 // NOLINTNEXTLINE(bugprone-reserved-identifier)
-std::to_chars_result __wrap__ZNSt3__220__d2fixed_buffered_nEPcS0_dj(char* first, char* last, double number, std::uint32_t precision) {
+std::to_chars_result __wrap__ZNSt3__220__d2fixed_buffered_nEPcS0_dj(char* first, char* last, double number,
+                                                                    std::uint32_t precision) {
     return printed(first, last, "%.*f", number, precision);
 }
 // NOLINTNEXTLINE(bugprone-reserved-identifier)
-std::to_chars_result __wrap__ZNSt3__218__d2exp_buffered_nEPcS0_dj(char* first, char* last, double number, std::uint32_t precision) {
+std::to_chars_result __wrap__ZNSt3__218__d2exp_buffered_nEPcS0_dj(char* first, char* last, double number,
+                                                                  std::uint32_t precision) {
     return printed(first, last, "%.*e", number, precision);
 }
 }

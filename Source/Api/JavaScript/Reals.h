@@ -12,9 +12,11 @@ namespace std { // NOLINT(cert-dcl58-cpp): this library has none
 // By strtod, which rounds rightly and knows one locale here; but for what from_chars does not take.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {
     const string text(first, last);
-    const bool isSigned = !text.empty() && text[0] == '-', isHex = text.size() > size_t{isSigned} + 1 && (text[isSigned + 1U] | 32) == 'x';
+    const bool isSigned = !text.empty() && text[0] == '-',
+               isHex = text.size() > size_t{isSigned} + 1 && (text[isSigned + 1U] | 32) == 'x';
     const char start = text.empty() ? ' ' : text[0];
-    if (start == '+' || (start >= '\t' && start <= '\r') || start == ' ') return {first, errc::invalid_argument};
+    if (start == '+' || (start >= '\t' && start <= '\r') || start == ' ')
+        return {first, errc::invalid_argument};
     char* end = nullptr;
     errno = 0;
     const double read = strtod(text.c_str(), &end);

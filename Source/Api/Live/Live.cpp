@@ -29,7 +29,12 @@ private:
 
     void timerCallback() override {
         drain();
-        LiveStatus now{live_.output_->status(), live_.session_.status().render, live_.output_->sampleRateHz(), live_.output_->blockFrames(), {}, {}};
+        LiveStatus now{live_.output_->status(),
+                       live_.session_.status().render,
+                       live_.output_->sampleRateHz(),
+                       live_.output_->blockFrames(),
+                       {},
+                       {}};
         for (const auto& sink : live_.settings_.sinks) now.sinks.push_back(sink->state());
         if (ticks_++ % (1000 / milliseconds) == 0) trouble_ = troubleNow();
         now.trouble = trouble_;
@@ -91,7 +96,8 @@ void Live::play(std::promise<std::string>& opened) {
     std::string error = output_->open(settings_.output);
     std::optional<SessionJournal> journal;
     if (error.empty() && !settings_.savePath.empty()) {
-        journal.emplace(settings_.savePath, session_, settings_.setup, Provenance{PHYSVIB_VERSION, {{"session", settings_.savePath}}});
+        journal.emplace(settings_.savePath, session_, settings_.setup,
+                        Provenance{PHYSVIB_VERSION, {{"session", settings_.savePath}}});
         error = journal->error();
     }
     const bool isOpen = error.empty();

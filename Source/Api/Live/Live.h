@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A session without a world of its own on a device and sinks beside it, with a message thread for it: what a program that has none is lent.
+// A session without a world of its own on a device and sinks beside it, with a message thread for it: what a
+// program that has none is lent.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SinkTable.h"
@@ -27,8 +28,9 @@ struct LiveStatus {
 struct LiveSettings {
     SessionSetup setup;
     AudioOutputSettings output;
-    Sinks sinks{};                      ///< ready
-    std::string savePath{};             ///< of the session as a file, beside which a list of its events stands; empty: none
+    Sinks sinks{};          ///< ready
+    std::string savePath{}; ///< of the session as a file, beside which a list of its events stands; empty:
+                            ///< none
 };
 
 /// One at a time in a process. Made and ended on any thread, the same for each.

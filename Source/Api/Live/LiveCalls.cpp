@@ -11,12 +11,15 @@ using namespace physvib::api;
 namespace {
 
 int post(Live& live, RenderControl control) {
-    return live.session().take({control}) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
+    return live.session().take({control})
+               ? PHYSVIB_OK
+               : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
 }
 
 int change(physvib_live name, RenderControl::Kind kind, int channel, double value) noexcept {
     return in(name, [&](Live& live) {
-        if (channel < 0 || channel >= live.session().channels()) return nothingThere("channel: expected one of the device's enchanters");
+        if (channel < 0 || channel >= live.session().channels())
+            return nothingThere("channel: expected one of the device's enchanters");
         if (!(value >= 0.0 && value <= 10000.0)) return nothingThere("gain: expected 0 to 10000");
         return post(live, {0, kind, channel, static_cast<float>(value), {}});
     });
@@ -30,27 +33,36 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
         // before all began: late, at once
         if (startNs != 0) events.back().timeNs = std::max<std::int64_t>(0, events.back().timeNs + startNs);
     }
-    if (!std::ranges::all_of(events, [](const CollisionEvent& e) { return isPlayable(e); })) return nothingThere("event: expected 0 to 20000 Hz, a decay or a duration, below 5 Hz a decay of at least 1 per second, numbers, a time from 0 on");
-    return live.session().take({Strikes{events, true}, 0}) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");
+    if (!std::ranges::all_of(events, [](const CollisionEvent& e) { return isPlayable(e); }))
+        return nothingThere("event: expected 0 to 20000 Hz, a decay or a duration, below 5 Hz a decay of at "
+                            "least 1 per second, numbers, a time from 0 on");
+    return live.session().take({Strikes{events, true}, 0})
+               ? PHYSVIB_OK
+               : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");
 }
 
 } // namespace
 
 const char* physvib_live_error() { return lastError().data(); }
 
-int physvib_live_status_init(physvib_live_status* status, size_t size) { return begin(status, size, zeroed<physvib_live_status>()); }
+int physvib_live_status_init(physvib_live_status* status, size_t size) {
+    return begin(status, size, zeroed<physvib_live_status>());
+}
 
 physvib_int64 physvib_live_now_ns(physvib_live name) {
     return in(name, [](Live& live) -> physvib_int64 { return live.session().timeline().presentNs(); });
 }
 
 physvib_int64 physvib_live_latency_ns(physvib_live name) {
-    return in(name, [](Live& live) -> physvib_int64 { return live.session().timeline().playOutFrames() * 1'000'000'000 / std::max(1, live.status().rateHz); });
+    return in(name, [](Live& live) -> physvib_int64 {
+        return live.session().timeline().playOutFrames() * 1'000'000'000 / std::max(1, live.status().rateHz);
+    });
 }
 
 int physvib_live_strike(physvib_live name, const physvib_event* events, physvib_int64 count) {
     return in(name, [&](Live& live) {
-        if (count < 0 || (events == nullptr && count > 0)) return nothingThere("events: expected some, found NULL");
+        if (count < 0 || (events == nullptr && count > 0))
+            return nothingThere("events: expected some, found NULL");
         return strike(live, {events, static_cast<std::size_t>(count)}, 0);
     });
 }
@@ -69,19 +81,24 @@ int physvib_live_align(physvib_live name, physvib_world world, physvib_int64* st
 
 physvib_int64 physvib_live_send(physvib_live name, physvib_world world, physvib_int64 startNs, int atOnce) {
     return in(name, [&](Live& live) -> physvib_int64 {
-        if (startNs < -limits::maxTimeNs / 4 || startNs > limits::maxTimeNs / 4) return nothingThere("start: expected at most 2.5 * 10^16 ns from 0");
+        if (startNs < -limits::maxTimeNs / 4 || startNs > limits::maxTimeNs / 4)
+            return nothingThere("start: expected at most 2.5 * 10^16 ns from 0");
         std::array<physvib_event, 128> part;
         for (physvib_int64 sent = 0;;) {
             const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), atOnce);
             if (count < 0) return fail(static_cast<int>(count), physvib_error());
-            if (const int code = strike(live, {part.data(), static_cast<std::size_t>(count)}, startNs); code != PHYSVIB_OK) return code;
+            if (const int code = strike(live, {part.data(), static_cast<std::size_t>(count)}, startNs);
+                code != PHYSVIB_OK)
+                return code;
             sent += count;
             if (count < static_cast<physvib_int64>(part.size())) return sent;
         }
     });
 }
 
-int physvib_live_set_gain(physvib_live live, int channel, double gain) { return change(live, RenderControl::Kind::gain, channel, gain); }
+int physvib_live_set_gain(physvib_live live, int channel, double gain) {
+    return change(live, RenderControl::Kind::gain, channel, gain);
+}
 
 int physvib_live_set_mute(physvib_live live, int channel, int isMuted) {
     return change(live, RenderControl::Kind::mute, channel, isMuted != 0 ? 1.0 : 0.0);
@@ -91,7 +108,8 @@ int physvib_live_set_layout(physvib_live name, const physvib_renderer_settings* 
     return in(name, [&](Live& live) {
         RendererSettings wanted;
         if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        if (wanted.panner.channels() > live.session().channels()) return nothingThere("layout: expected at most as many enchanters as channels");
+        if (wanted.panner.channels() > live.session().channels())
+            return nothingThere("layout: expected at most as many enchanters as channels");
         return post(live, {0, RenderControl::Kind::panner, 0, 0.0f, wanted.panner});
     });
 }
@@ -134,7 +152,8 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
         told.late = static_cast<physvib_int64>(now.render.late);
         told.rejected = static_cast<physvib_int64>(now.render.rejected);
         for (const SinkState& sink : now.sinks) { // more than one are told as one
-            if (told.board != PHYSVIB_BOARD_SOUGHT) told.board = sink.isReady ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;
+            if (told.board != PHYSVIB_BOARD_SOUGHT)
+                told.board = sink.isReady ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;
             told.board_sent += static_cast<physvib_int64>(sink.sent);
             told.board_lost += static_cast<physvib_int64>(sink.lost);
         }

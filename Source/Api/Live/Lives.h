@@ -36,8 +36,10 @@ inline float gainOf(double db) noexcept { return static_cast<float>(fromDecibels
 /// Null: as init has it. False, and said, if they are none.
 inline bool takeRenderer(const physvib_renderer_settings* from, RendererSettings& to) {
     physvib_renderer_settings taken;
-    if (from == nullptr) physvib_renderer_settings_init(&taken, sizeof taken);
-    else if (!take(from, taken, physvib_renderer_settings_init)) return false;
+    if (from == nullptr)
+        physvib_renderer_settings_init(&taken, sizeof taken);
+    else if (!take(from, taken, physvib_renderer_settings_init))
+        return false;
     const std::string_view fault = convert(taken, to);
     return fault.empty() || (nothingThere(fault), false);
 }

@@ -37,11 +37,13 @@ void closeAtExit() {
 
 std::string_view faultOf(const physvib_live_settings& s) noexcept {
     if (s.rate_hz != 0 && !isSampleRate(s.rate_hz)) return "rate: expected 0, or 5000 to 192000 Hz";
-    if (s.block_frames < 0 || s.block_frames > limits::maxBlockFrames) return "block: expected 0 to 8192 frames";
+    if (s.block_frames < 0 || s.block_frames > limits::maxBlockFrames)
+        return "block: expected 0 to 8192 frames";
     if (s.steps_per_s < 20 || s.steps_per_s > 1000) return "steps: expected 20 to 1000 per second";
     if (!(s.longest_gap_s >= 0.0 && s.longest_gap_s <= 1.0)) return "longest gap: expected 0 to 1 s";
     if (!isLevel(s.level_db)) return "level: expected -90 to 0 dB";
-    if (std::memchr(s.save, '\0', sizeof s.save) == nullptr) return "save: expected a path of at most 1023 bytes";
+    if (std::memchr(s.save, '\0', sizeof s.save) == nullptr)
+        return "save: expected a path of at most 1023 bytes";
     return {};
 }
 
@@ -60,9 +62,7 @@ SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& ren
 
 } // namespace
 
-physvib_live api::openLive() noexcept {
-    return reinterpret_cast<physvib_live>(openName.load());
-}
+physvib_live api::openLive() noexcept { return reinterpret_cast<physvib_live>(openName.load()); }
 
 int physvib_live_settings_init(physvib_live_settings* settings, size_t size) {
     auto values = zeroed<physvib_live_settings>();
@@ -72,20 +72,26 @@ int physvib_live_settings_init(physvib_live_settings* settings, size_t size) {
     return begin(settings, size, values);
 }
 
-int physvib_live_open(const char* device, const physvib_renderer_settings* renderer, const physvib_live_settings* settings, physvib_live* name) {
+int physvib_live_open(const char* device, const physvib_renderer_settings* renderer,
+                      const physvib_live_settings* settings, physvib_live* name) {
     return guarded([&] {
-        if (name == nullptr || device == nullptr) return nothingThere("live: expected a device and a place for it, found NULL");
+        if (name == nullptr || device == nullptr)
+            return nothingThere("live: expected a device and a place for it, found NULL");
         physvib_live_settings taken;
-        if (settings == nullptr) physvib_live_settings_init(&taken, sizeof taken);
-        else if (!take(settings, taken, physvib_live_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
+        if (settings == nullptr)
+            physvib_live_settings_init(&taken, sizeof taken);
+        else if (!take(settings, taken, physvib_live_settings_init))
+            return PHYSVIB_ERROR_ARGUMENT;
         RendererSettings wanted;
         if (const auto fault = faultOf(taken); !fault.empty()) return nothingThere(fault);
         if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
         const OutputNames outputs{device};
-        if (const auto fault = channelFault(outputs.sinks, wanted.outputs()); !fault.empty()) return nothingThere(fault);
+        if (const auto fault = channelFault(outputs.sinks, wanted.outputs()); !fault.empty())
+            return nothingThere(fault);
 
         const std::lock_guard lock{openMutex()};
-        if (openName != 0) return fail(PHYSVIB_ERROR_FULL, "live: expected the one that is open to be closed before");
+        if (openName != 0)
+            return fail(PHYSVIB_ERROR_FULL, "live: expected the one that is open to be closed before");
         LiveSettings all{setupOf(taken, wanted), {}, {}, taken.save};
         all.output.device = outputs.device;
         all.output.sampleRateHz = taken.rate_hz;
@@ -93,7 +99,8 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
         all.output.level = gainOf(taken.level_db);
         all.output.enchanters = wanted.panner.channels();
         const auto goesOn = [] { return true; };
-        if (const auto fault = openSinks(outputs.sinks, all.setup.panner, goesOn, all.sinks); !fault.empty()) return fail(PHYSVIB_ERROR_DEVICE, fault);
+        if (const auto fault = openSinks(outputs.sinks, all.setup.panner, goesOn, all.sinks); !fault.empty())
+            return fail(PHYSVIB_ERROR_DEVICE, fault);
         auto live = std::make_unique<Live>(std::move(all));
         if (const std::string error = live->open(); !error.empty()) return fail(PHYSVIB_ERROR_DEVICE, error);
         openName = lives().add(std::move(live));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Session files: read, made of strikes, written, rendered again.
 #include "Api/Live/Lives.h"
+#include "Host/Recordings/LoadRecordings.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/Sessions/SessionFile.h"
-#include "Host/Recordings/LoadRecordings.h"
 #include "Session/SessionRender.h"
 #include <algorithm>
 #include <cstring>
@@ -52,16 +52,19 @@ SceneTake emptyTake() {
 
 int physvib_session_load(const char* path, physvib_session* session) {
     return guarded([&] {
-        if (path == nullptr || session == nullptr) return nothingThere("session: expected a path and a place for it, found NULL");
+        if (path == nullptr || session == nullptr)
+            return nothingThere("session: expected a path and a place for it, found NULL");
         *session = nullptr;
         auto loaded = loadSession(path);
         return loaded ? keep(std::move(loaded.value), session) : fail(PHYSVIB_ERROR_FILE, loaded.error);
     });
 }
 
-int physvib_session_create(const physvib_renderer_settings* renderer, const physvib_event* events, physvib_int64 count, physvib_int64 lengthNs, physvib_session* session) {
+int physvib_session_create(const physvib_renderer_settings* renderer, const physvib_event* events,
+                           physvib_int64 count, physvib_int64 lengthNs, physvib_session* session) {
     return guarded([&] {
-        if (session == nullptr || count < 0 || (count > 0 && events == nullptr)) return nothingThere("session: expected events and a place for it, found NULL");
+        if (session == nullptr || count < 0 || (count > 0 && events == nullptr))
+            return nothingThere("session: expected events and a place for it, found NULL");
         *session = nullptr;
         RendererSettings wanted;
         if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
@@ -79,14 +82,17 @@ int physvib_session_create(const physvib_renderer_settings* renderer, const phys
     });
 }
 
-int physvib_session_free(physvib_session session) { return sessions().remove(reinterpret_cast<std::uintptr_t>(session)) ? PHYSVIB_OK : unknownHandle(); }
+int physvib_session_free(physvib_session session) {
+    return sessions().remove(reinterpret_cast<std::uintptr_t>(session)) ? PHYSVIB_OK : unknownHandle();
+}
 
 int physvib_session_save(physvib_session name, const char* path) {
     return of(name, [&](const SavedSession& session) {
         if (path == nullptr) return nothingThere("session: expected a path, found NULL");
         const std::string text = sessionJson(session, std::filesystem::path{path}.parent_path());
         // nobody could load it
-        if (const auto again = readSession(text, path); !again) return fail(PHYSVIB_ERROR_ARGUMENT, again.error);
+        if (const auto again = readSession(text, path); !again)
+            return fail(PHYSVIB_ERROR_ARGUMENT, again.error);
         return resultOf(writeFile(path, text), PHYSVIB_ERROR_FILE);
     });
 }
@@ -98,7 +104,8 @@ physvib_int64 physvib_session_length_ns(physvib_session name) {
 int physvib_session_get_renderer(physvib_session name, physvib_renderer_settings* renderer) {
     return of(name, [&](const SavedSession& session) {
         physvib_renderer_settings told;
-        if (!take<physvib_renderer_settings>(renderer, told, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!take<physvib_renderer_settings>(renderer, told, physvib_renderer_settings_init))
+            return PHYSVIB_ERROR_ARGUMENT;
         told.size = renderer->size;
         told.channels = session.channels;
         told.limiter = session.limiterEnabled ? 1 : 0;
@@ -112,14 +119,17 @@ int physvib_session_get_renderer(physvib_session name, physvib_renderer_settings
     });
 }
 
-physvib_int64 physvib_session_events(physvib_session name, physvib_int64 endNs, physvib_event* events, physvib_int64 capacity) {
+physvib_int64 physvib_session_events(physvib_session name, physvib_int64 endNs, physvib_event* events,
+                                     physvib_int64 capacity) {
     return of(name, [&](const SavedSession& session) -> physvib_int64 {
-        if (capacity < 0 || (capacity > 0 && events == nullptr)) return nothingThere("events: expected a place for them");
+        if (capacity < 0 || (capacity > 0 && events == nullptr))
+            return nothingThere("events: expected a place for them");
         if (!isWithinADay(endNs)) return nothingThere("end: expected nothing to a day");
         auto all = sessionEvents(session, endNs).events;
         std::ranges::transform(all, all.begin(), EventShaper{session.shaping});
         const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(all));
-        std::transform(all.begin(), all.begin() + count, events, [](const CollisionEvent& e) { return eventOf(e); });
+        std::transform(all.begin(), all.begin() + count, events,
+                       [](const CollisionEvent& e) { return eventOf(e); });
         return std::ssize(all);
     });
 }
@@ -127,7 +137,8 @@ physvib_int64 physvib_session_events(physvib_session name, physvib_int64 endNs, 
 int physvib_session_render(physvib_session name, int rateHz, physvib_int64 frames, float* samples) {
     return of(name, [&](const SavedSession& session) {
         if (!isSampleRate(rateHz)) return nothingThere("rate: expected 5000 to 192000 Hz");
-        if (frames < 0 || frames > rateHz * std::int64_t{86400} || (frames > 0 && samples == nullptr)) return nothingThere("render: expected a place for at most a day of samples");
+        if (frames < 0 || frames > rateHz * std::int64_t{86400} || (frames > 0 && samples == nullptr))
+            return nothingThere("render: expected a place for at most a day of samples");
         const auto recordings = loadRecordings(session.log);
         if (!recordings) return fail(PHYSVIB_ERROR_FILE, recordings.error);
         std::int64_t done = 0;

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /** @file
- * PhysVib on an audio device or a board, for any language: events and contacts in, vibration out; and session files. C89 and later, C++.
+ * PhysVib on an audio device or a board, for any language: events and contacts in, vibration out; and session
+ * files. C89 and later, C++.
  *
- * Link libphysvib-live, which is GPL (it has JUCE in it), and libphysvib. Results, units and the words "any thread" and "one at a time" are those
- * of physvib.h; physvib_live_error() returns the text of an error. No function here is for an audio callback: the library has one of
- * its own, which never allocates, locks or waits.
+ * Link libphysvib-live, which is GPL (it has JUCE in it), and libphysvib. Results, units and the words "any
+ * thread" and "one at a time" are those of physvib.h; physvib_live_error() returns the text of an error. No
+ * function here is for an audio callback: the library has one of its own, which never allocates, locks or
+ * waits.
  *
- * Time. physvib_live_now_ns() is the session time, which advances with the device's blocks. An event at session time t leaves for the device
- * at t + L, always, to a fraction of a frame; the output latency L is physvib_live_latency_ns(). A device starts with a ramp from silence, at -12 dB. */
+ * Time. physvib_live_now_ns() is the session time, which advances with the device's blocks. An event at
+ * session time t leaves for the device at t + L, always, to a fraction of a frame; the output latency L is
+ * physvib_live_latency_ns(). A device starts with a ramp from silence, at -12 dB. */
 #ifndef PHYSVIB_LIVE_H
 #define PHYSVIB_LIVE_H
 #include <physvib/physvib.h>
@@ -18,8 +21,9 @@ extern "C" {
 
 #define PHYSVIB_ERROR_DEVICE (-9) /**< not there, or does not start; also of a board */
 
-typedef struct physvib_live_name *physvib_live;       /**< a device, a board or both, open */
-typedef struct physvib_session_name *physvib_session; /**< a session that can be rendered; it does not change */
+typedef struct physvib_live_name* physvib_live;       /**< a device, a board or both, open */
+typedef struct physvib_session_name* physvib_session; /**< a session that can be rendered; it does not change
+                                                       */
 
 /** How a device is opened; defaults in brackets. */
 typedef struct physvib_live_settings {
@@ -27,9 +31,11 @@ typedef struct physvib_live_settings {
     int rate_hz;          /**< 0: the device default (0) */
     int block_frames;     /**< 0: the device default (0) */
     int steps_per_s;      /**< of your world: 20 to 1,000 (100) */
-    double longest_gap_s; /**< for which the thread that plays events may pause and still be in time: 0 to 1 (0.026) */
+    double longest_gap_s; /**< for which the thread that plays events may pause and still be in time: 0 to 1
+                             (0.026) */
     double level_db;      /**< of all channels: -90 to 0 (-12) */
-    char save[1024];      /**< a session file (.json, UTF-8) of all events, written while it plays, a list of its events beside it; "": none ("") */
+    char save[1024]; /**< a session file (.json, UTF-8) of all events, written while it plays, a list of its
+                        events beside it; "": none ("") */
 } physvib_live_settings;
 
 #define PHYSVIB_BOARD_NONE 0   /**< none was opened */
@@ -38,43 +44,46 @@ typedef struct physvib_live_settings {
 
 /** Status of a device. */
 typedef struct physvib_live_status {
-    size_t size;            /**< set by init */
-    int is_running;         /**< 1: the device asks for blocks */
-    int is_silent;          /**< 1: by physvib_live_silence() */
-    int rate_hz;            /**< of the device */
-    int block_frames;       /**< of the device */
-    int live_modes;         /**< modes that sound */
-    int losses;             /**< times the device was disconnected and opened again */
-    int xruns;              /**< as the device counts them; -1: it does not */
-    double load;            /**< of the last block: time taken by time that it lasts */
-    double worst_load;      /**< of all blocks */
-    physvib_int64 played;   /**< events played */
-    physvib_int64 late;     /**< of these: at once, after their time */
-    physvib_int64 rejected; /**< could not be played */
-    char trouble[256];      /**< what is missing, one line; "": nothing */
-    int board;              /**< PHYSVIB_BOARD_NONE and so on */
-    int unused;             /**< 0 */
+    size_t size;              /**< set by init */
+    int is_running;           /**< 1: the device asks for blocks */
+    int is_silent;            /**< 1: by physvib_live_silence() */
+    int rate_hz;              /**< of the device */
+    int block_frames;         /**< of the device */
+    int live_modes;           /**< modes that sound */
+    int losses;               /**< times the device was disconnected and opened again */
+    int xruns;                /**< as the device counts them; -1: it does not */
+    double load;              /**< of the last block: time taken by time that it lasts */
+    double worst_load;        /**< of all blocks */
+    physvib_int64 played;     /**< events played */
+    physvib_int64 late;       /**< of these: at once, after their time */
+    physvib_int64 rejected;   /**< could not be played */
+    char trouble[256];        /**< what is missing, one line; "": nothing */
+    int board;                /**< PHYSVIB_BOARD_NONE and so on */
+    int unused;               /**< 0 */
     physvib_int64 board_sent; /**< events sent to the board so far */
-    physvib_int64 board_lost; /**< of these lost: more than the line carries, too late, or not playable there */
+    physvib_int64 board_lost; /**< of these lost: more than the line carries, too late, or not playable there
+                               */
 } physvib_live_status;
 
 /** As physvib_error(), for the functions of this header. Any thread. */
-PHYSVIB_API const char *physvib_live_error(void);
+PHYSVIB_API const char* physvib_live_error(void);
 
 /** The defaults; `size`: sizeof *settings. Any thread. */
-PHYSVIB_API int physvib_live_settings_init(physvib_live_settings *settings, size_t size);
+PHYSVIB_API int physvib_live_settings_init(physvib_live_settings* settings, size_t size);
 /** Empty; `size`: sizeof *status. Any thread. */
-PHYSVIB_API int physvib_live_status_init(physvib_live_status *status, size_t size);
+PHYSVIB_API int physvib_live_status_init(physvib_live_status* status, size_t size);
 
-/** Opens "JACK:system", for instance: that device and no other (`physvib devices` lists them); actuator j is its output j. Or a
- * four-channel board, "BOARD:auto" or "BOARD:/dev/ttyACM0"; or both, felt at the same moment: "JACK:system+BOARD:auto". "None:no device" plays in time without a device. Of
- * `renderer` the layout, channels, law, exponent, field and limiter are taken; it and `settings` may be NULL: the defaults. One device at
- * a time. A device or board that is disconnected is opened again when it returns. An error leaves `*live` as it was. PHYSVIB_ERROR_DEVICE,
- * PHYSVIB_ERROR_FULL. Any thread; waits for
- * the device, and for a board that starts. */
-PHYSVIB_API int physvib_live_open(const char *device, const physvib_renderer_settings *renderer, const physvib_live_settings *settings, physvib_live *live);
-/** Silences the device within two blocks and closes it, also if it returns an error: PHYSVIB_ERROR_FILE, the session is not wholly saved. Waits for both. An
- * open device is closed when the program ends. Any thread. */
+/** Opens "JACK:system", for instance: that device and no other (`physvib devices` lists them); actuator j is
+ * its output j. Or a four-channel board, "BOARD:auto" or "BOARD:/dev/ttyACM0"; or both, felt at the same
+ * moment: "JACK:system+BOARD:auto". "None:no device" plays in time without a device. Of `renderer` the
+ * layout, channels, law, exponent, field and limiter are taken; it and `settings` may be NULL: the defaults.
+ * One device at a time. A device or board that is disconnected is opened again when it returns. An error
+ * leaves `*live` as it was. PHYSVIB_ERROR_DEVICE, PHYSVIB_ERROR_FULL. Any thread; waits for the device, and
+ * for a board that starts. */
+PHYSVIB_API int physvib_live_open(const char* device, const physvib_renderer_settings* renderer,
+                                  const physvib_live_settings* settings, physvib_live* live);
+/** Silences the device within two blocks and closes it, also if it returns an error: PHYSVIB_ERROR_FILE, the
+ * session is not wholly saved. Waits for both. An open device is closed when the program ends. Any thread. */
 PHYSVIB_API int physvib_live_close(physvib_live live);
 
 /** Session time. Any thread. */
@@ -82,21 +91,27 @@ PHYSVIB_API physvib_int64 physvib_live_now_ns(physvib_live live);
 /** L: how long after their session times events leave for the device. Any thread. */
 PHYSVIB_API physvib_int64 physvib_live_latency_ns(physvib_live live);
 
-/** Plays events at session times, in any order; those in the past at once, counted as late if L has passed, too. All of them or, if one
- * cannot be played, none. PHYSVIB_ERROR_FULL: 65,536 are waiting for their time. Any thread. */
-PHYSVIB_API int physvib_live_strike(physvib_live live, const physvib_event *events, physvib_int64 count);
-/** For a world that is stepped as time goes on: `*start_ns`, at first 0, becomes the session time of the world's time 0, and stays so for as long
- * as the world is within `longest_gap_s` of session time. If the world lags behind or runs ahead, it is set again. Any thread; one at a time per world. */
-PHYSVIB_API int physvib_live_align(physvib_live live, physvib_world world, physvib_int64 *start_ns);
-/** The events of a world (as physvib_world_take), whose time 0 is session time `start_ns`. Returns how many. Any thread; one at a time per world. */
-PHYSVIB_API physvib_int64 physvib_live_send(physvib_live live, physvib_world world, physvib_int64 start_ns, int at_once);
+/** Plays events at session times, in any order; those in the past at once, counted as late if L has passed,
+ * too. All of them or, if one cannot be played, none. PHYSVIB_ERROR_FULL: 65,536 are waiting for their time.
+ * Any thread. */
+PHYSVIB_API int physvib_live_strike(physvib_live live, const physvib_event* events, physvib_int64 count);
+/** For a world that is stepped as time goes on: `*start_ns`, at first 0, becomes the session time of the
+ * world's time 0, and stays so for as long as the world is within `longest_gap_s` of session time. If the
+ * world lags behind or runs ahead, it is set again. Any thread; one at a time per world. */
+PHYSVIB_API int physvib_live_align(physvib_live live, physvib_world world, physvib_int64* start_ns);
+/** The events of a world (as physvib_world_take), whose time 0 is session time `start_ns`. Returns how many.
+ * Any thread; one at a time per world. */
+PHYSVIB_API physvib_int64 physvib_live_send(physvib_live live, physvib_world world, physvib_int64 start_ns,
+                                            int at_once);
 
-/** From session time on, felt L later: `gain` from 0 to 10,000, with a ramp of 10 ms. PHYSVIB_ERROR_FULL: 256 changes are waiting. Any thread. */
+/** From session time on, felt L later: `gain` from 0 to 10,000, with a ramp of 10 ms. PHYSVIB_ERROR_FULL: 256
+ * changes are waiting. Any thread. */
 PHYSVIB_API int physvib_live_set_gain(physvib_live live, int channel, double gain);
 /** From session time on, felt L later; as physvib_live_set_gain(). Any thread. */
 PHYSVIB_API int physvib_live_set_mute(physvib_live live, int channel, int is_muted);
-/** From session time on: at most as many actuators as channels. Of `renderer` the layout, law, exponent and field are taken. PHYSVIB_ERROR_FULL. Any thread. */
-PHYSVIB_API int physvib_live_set_layout(physvib_live live, const physvib_renderer_settings *renderer);
+/** From session time on: at most as many actuators as channels. Of `renderer` the layout, law, exponent and
+ * field are taken. PHYSVIB_ERROR_FULL. Any thread. */
+PHYSVIB_API int physvib_live_set_layout(physvib_live live, const physvib_renderer_settings* renderer);
 
 /** Sets the level of all channels, -90 to 0 dB, at once, with a ramp. Any thread. */
 PHYSVIB_API int physvib_live_set_level(physvib_live live, double level_db);
@@ -105,30 +120,37 @@ PHYSVIB_API int physvib_live_set_level(physvib_live live, double level_db);
 PHYSVIB_API int physvib_live_silence(physvib_live live, int is_silent);
 
 /** The status, at most 20 ms old. Any thread. */
-PHYSVIB_API int physvib_live_get_status(physvib_live live, physvib_live_status *status);
+PHYSVIB_API int physvib_live_get_status(physvib_live live, physvib_live_status* status);
 
-/* ---- Session files: what the mixer, the plug-in, `physvib play --save` and `save` above write. No device is needed. ---- */
+/* ---- Session files: what the mixer, the plug-in, `physvib play --save` and `save` above write. No device is
+ * needed. ---- */
 
-/** A session file (JSON, `path` is UTF-8), also an incomplete journal. PHYSVIB_ERROR_FILE, PHYSVIB_ERROR_FULL: 256 of them. Any thread. */
-PHYSVIB_API int physvib_session_load(const char *path, physvib_session *session);
-/** A session of events alone, in time order, at session times, without a world. Of `renderer` as in physvib_live_open(). Any thread. */
-PHYSVIB_API int physvib_session_create(const physvib_renderer_settings *renderer, const physvib_event *events, physvib_int64 count,
-                                       physvib_int64 length_ns, physvib_session *session);
+/** A session file (JSON, `path` is UTF-8), also an incomplete journal. PHYSVIB_ERROR_FILE,
+ * PHYSVIB_ERROR_FULL: 256 of them. Any thread. */
+PHYSVIB_API int physvib_session_load(const char* path, physvib_session* session);
+/** A session of events alone, in time order, at session times, without a world. Of `renderer` as in
+ * physvib_live_open(). Any thread. */
+PHYSVIB_API int physvib_session_create(const physvib_renderer_settings* renderer, const physvib_event* events,
+                                       physvib_int64 count, physvib_int64 length_ns,
+                                       physvib_session* session);
 /** Waits until calls that are under way on other threads are over. Any thread. */
 PHYSVIB_API int physvib_session_free(physvib_session session);
 /** As a file that the programs above read, whole or not at all. Any thread. */
-PHYSVIB_API int physvib_session_save(physvib_session session, const char *path);
+PHYSVIB_API int physvib_session_save(physvib_session session, const char* path);
 
 /** How long it was played, in nanoseconds. Any thread. */
 PHYSVIB_API physvib_int64 physvib_session_length_ns(physvib_session session);
-/** Its channels, limiter, layout, law, exponent and field, as they were at the start; `renderer` as init has left it. Any thread. */
-PHYSVIB_API int physvib_session_get_renderer(physvib_session session, physvib_renderer_settings *renderer);
-/** What was felt before `end_ns`: its worlds are simulated again, which takes a while. How many there are; the first `capacity` of them are
- * written to `events`, which may be NULL if that is 0. Any thread. */
-PHYSVIB_API physvib_int64 physvib_session_events(physvib_session session, physvib_int64 end_ns, physvib_event *events, physvib_int64 capacity);
-/** samples[channel * frames + n] for each of its channels, frame n at n / rate_hz: those of `physvib render SESSION.json`. PHYSVIB_ERROR_FILE: a
- * recording is missing. Any thread. */
-PHYSVIB_API int physvib_session_render(physvib_session session, int rate_hz, physvib_int64 frames, float *samples);
+/** Its channels, limiter, layout, law, exponent and field, as they were at the start; `renderer` as init has
+ * left it. Any thread. */
+PHYSVIB_API int physvib_session_get_renderer(physvib_session session, physvib_renderer_settings* renderer);
+/** What was felt before `end_ns`: its worlds are simulated again, which takes a while. How many there are;
+ * the first `capacity` of them are written to `events`, which may be NULL if that is 0. Any thread. */
+PHYSVIB_API physvib_int64 physvib_session_events(physvib_session session, physvib_int64 end_ns,
+                                                 physvib_event* events, physvib_int64 capacity);
+/** samples[channel * frames + n] for each of its channels, frame n at n / rate_hz: those of `physvib render
+ * SESSION.json`. PHYSVIB_ERROR_FILE: a recording is missing. Any thread. */
+PHYSVIB_API int physvib_session_render(physvib_session session, int rate_hz, physvib_int64 frames,
+                                       float* samples);
 
 #ifdef __cplusplus
 }

@@ -8,7 +8,7 @@ namespace {
 
 // sixth order
 constexpr double butterworthQ[] = {0.51763809020504148, 0.70710678118654752, 1.9318516525781366};
-constexpr double edgeRatio = 0.80;   // of a slope's corner to the band's edge: there it costs 0.3 dB
+constexpr double edgeRatio = 0.80;    // of a slope's corner to the band's edge: there it costs 0.3 dB
 constexpr double highestShare = 0.45; // of the rate: a corner above it is left to the converter's own filter
 constexpr RootPair atZero{-2.0, 1.0}; // 0 Hz twice
 constexpr RootPair atTop{2.0, 1.0};   // half the rate twice, as the bilinear transform puts them
@@ -28,7 +28,9 @@ ActuatorEqualiser::ActuatorEqualiser(const EqualisedActuator& actuator, int samp
     section_[2] = {1.0, atZero, poles(lowHz, butterworthQ[2])};
     sections_ = 3;
     if (highHz < highestShare * sampleRateHz_)
-        for (const double q : butterworthQ) section_[static_cast<std::size_t>(sections_++)] = {1.0, atTop, RootPair::bilinear(highHz, q, sampleRateHz_)};
+        for (const double q : butterworthQ)
+            section_[static_cast<std::size_t>(sections_++)] = {1.0, atTop,
+                                                               RootPair::bilinear(highHz, q, sampleRateHz_)};
     const double middleHz = std::sqrt(band.lowHz * band.highHz);
     section_[0].scale(1.0 / std::abs(at(middleHz) * resonator.at(middleHz)));
 }
@@ -49,7 +51,8 @@ bool ActuatorEqualiser::isAtRest() const noexcept {
 
 std::complex<double> ActuatorEqualiser::at(double frequencyHz) const noexcept {
     std::complex<double> all = 1.0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(sections_); ++k) all *= section_[k].at(frequencyHz, sampleRateHz_);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(sections_); ++k)
+        all *= section_[k].at(frequencyHz, sampleRateHz_);
     return all;
 }
 
@@ -57,7 +60,9 @@ double ActuatorEqualiser::flatLevel(double driveLimit) const noexcept {
     if (!isOn()) return 0.0;
     constexpr int steps = 400; // a resonance of Q 100 is wider than a step of a four-octave band
     double largest = 0.0;
-    for (int i = 0; i <= steps; ++i) largest = std::max(largest, std::abs(at(band_.lowHz * std::pow(band_.highHz / band_.lowHz, static_cast<double>(i) / steps))));
+    for (int i = 0; i <= steps; ++i)
+        largest = std::max(largest, std::abs(at(band_.lowHz * std::pow(band_.highHz / band_.lowHz,
+                                                                       static_cast<double>(i) / steps))));
     return driveLimit / largest;
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Makes a resonant actuator flat within its band: what goes in is what is felt, in units of the full scale at resonance.
+// Makes a resonant actuator flat within its band: what goes in is what is felt, in units of the full scale at
+// resonance.
 //
-// The inverse of the resonance (Core/Actuators/Resonator.h) alone would boost without end: E(s) = HP(s) LP(s) / H(s), with
-// Butterworth slopes of fourth order whose edges lie outside the band, so that the band is flat and what lies beyond is
-// not driven. All four sections have their zeros and poles in the unit circle (or at its ends): stable and minimal-phase.
+// The inverse of the resonance (Core/Actuators/Resonator.h) alone would boost without end: E(s) = HP(s) LP(s)
+// / H(s), with Butterworth slopes of fourth order whose edges lie outside the band, so that the band is flat
+// and what lies beyond is not driven. All four sections have their zeros and poles in the unit circle (or at
+// its ends): stable and minimal-phase.
 #pragma once
 #include "Core/Actuators/Biquad.h"
-#include "Core/Limits.h"
 #include "Core/Actuators/Resonator.h"
+#include "Core/Limits.h"
 #include <array>
 
 namespace physvib {
@@ -38,8 +40,8 @@ public:
     /// E at a frequency.
     std::complex<double> at(double frequencyHz) const noexcept;
 
-    /// The largest amplitude, in units of full scale at resonance, that every frequency of the band can have while its
-    /// drive stays within `driveLimit`; 0 if it is off.
+    /// The largest amplitude, in units of full scale at resonance, that every frequency of the band can have
+    /// while its drive stays within `driveLimit`; 0 if it is off.
     double flatLevel(double driveLimit = 1.0) const noexcept;
 
 private:

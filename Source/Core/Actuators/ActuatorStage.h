@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is done to each enchanter's channel on its own, before the linked limiter: equaliser, delay, gain, polarity, mute.
+// What is done to each enchanter's channel on its own, before the linked limiter: equaliser, delay, gain,
+// polarity, mute.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Core/Actuators/ChannelDelay.h"
@@ -11,8 +12,8 @@
 
 namespace physvib {
 
-/// Per channel: out = gain * delayed, equalised in, every change in a ramp of limits::channelRampSeconds; before the first frame
-/// there is nothing to ramp from. R only, but for prepare: M.
+/// Per channel: out = gain * delayed, equalised in, every change in a ramp of limits::channelRampSeconds;
+/// before the first frame there is nothing to ramp from. R only, but for prepare: M.
 class ActuatorStage {
 public:
     /// All gains 1, nothing muted or delayed, equalisers at rest. False: no memory. M, not while rendering.
@@ -29,11 +30,12 @@ public:
         return prepareDelays(sampleRateHz);
     }
 
-    /// Goes on at another rate, all as it is, but what was on its way through an equaliser or a delay. False: no memory. M, not
-    /// while rendering.
+    /// Goes on at another rate, all as it is, but what was on its way through an equaliser or a delay. False:
+    /// no memory. M, not while rendering.
     bool changeRate(int sampleRateHz) noexcept {
         prepareEqualisers(sampleRateHz);
-        for (int j = 0; j < channels_; ++j) ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, aimOf(j));
+        for (int j = 0; j < channels_; ++j)
+            ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, aimOf(j));
         return prepareDelays(sampleRateHz);
     }
 
@@ -62,11 +64,14 @@ public:
         isAsleep_ = false;
     }
 
-    /// True if every channel leaves as it comes, but that it is to be kept for a delay that may be set later: at kept[j].
+    /// True if every channel leaves as it comes, but that it is to be kept for a delay that may be set later:
+    /// at kept[j].
     bool passes(float** kept, int frames) noexcept {
         for (int j = 0; j < channels_; ++j) {
             const auto c = index(j);
-            if (equalisers_[c].isOn() || !delays_[c].isOut() || !ramps_[c].isOne() || (kept[j] = delays_[c].placeFor(frames)) == nullptr) return false;
+            if (equalisers_[c].isOn() || !delays_[c].isOut() || !ramps_[c].isOne() ||
+                (kept[j] = delays_[c].placeFor(frames)) == nullptr)
+                return false;
         }
         return true;
     }
@@ -85,10 +90,13 @@ public:
         isAsleep_ = isSilent;
         for (int j = 0; j < channels_; ++j) {
             const auto c = index(j);
-            const bool isQuiet = equalisers_[c].isOn() ? equalisers_[c].process(io[j], frames, isSilent) : isSilent;
+            const bool isQuiet =
+                equalisers_[c].isOn() ? equalisers_[c].process(io[j], frames, isSilent) : isSilent;
             const bool none = delays_[c].process(io[j], frames, isQuiet);
-            if (none) ramps_[c].pass(frames);
-            else ramps_[c].apply(io + j, 1, frames);
+            if (none)
+                ramps_[c].pass(frames);
+            else
+                ramps_[c].apply(io + j, 1, frames);
             allSilent = allSilent && none;
             isAsleep_ = isAsleep_ && none && delays_[c].isResting() && ramps_[c].isResting();
         }
@@ -100,20 +108,32 @@ private:
         for (int j = 0; j < channels_; ++j) equalisers_[index(j)] = {actuators_[index(j)], sampleRateHz};
     }
     static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
-    float aimOf(int channel) const noexcept { return muted_[index(channel)] ? 0.0f : level_ * gains_[index(channel)]; }
+    float aimOf(int channel) const noexcept {
+        return muted_[index(channel)] ? 0.0f : level_ * gains_[index(channel)];
+    }
     void aim(int channel) noexcept {
         isAsleep_ = false;
-        if (hasBegun_) ramps_[index(channel)].moveTo(aimOf(channel));
-        else ramps_[index(channel)].jumpTo(aimOf(channel));
+        if (hasBegun_)
+            ramps_[index(channel)].moveTo(aimOf(channel));
+        else
+            ramps_[index(channel)].jumpTo(aimOf(channel));
     }
 
-    int framesOf(int channel) const noexcept { return static_cast<int>(std::lround(delaySeconds_[index(channel)] * static_cast<float>(sampleRateHz_))); }
+    int framesOf(int channel) const noexcept {
+        return static_cast<int>(
+            std::lround(delaySeconds_[index(channel)] * static_cast<float>(sampleRateHz_)));
+    }
     bool prepareDelays(int sampleRateHz) noexcept {
         sampleRateHz_ = sampleRateHz;
         isAsleep_ = false;
-        const int most = std::min(limits::maxDelayFrames, static_cast<int>(std::lround(limits::maxChannelDelaySeconds * sampleRateHz)));
+        const int most =
+            std::min(limits::maxDelayFrames,
+                     static_cast<int>(std::lround(limits::maxChannelDelaySeconds * sampleRateHz)));
         bool has = true;
-        for (int j = 0; j < channels_; ++j) has = delays_[index(j)].prepare(static_cast<int>(limits::channelRampSeconds * sampleRateHz), framesOf(j), most) && has;
+        for (int j = 0; j < channels_; ++j)
+            has = delays_[index(j)].prepare(static_cast<int>(limits::channelRampSeconds * sampleRateHz),
+                                            framesOf(j), most) &&
+                  has;
         return has;
     }
 

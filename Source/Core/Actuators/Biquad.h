@@ -11,8 +11,9 @@ namespace physvib {
 struct RootPair {
     double first = 0.0, second = 0.0;
 
-    /// The roots of s^2 + (w0/q) s + w0^2, each at exp(s / rate): in the unit circle, so that both the section with these
-    /// poles and its inverse are stable. Frequencies bend less than under the bilinear transform.
+    /// The roots of s^2 + (w0/q) s + w0^2, each at exp(s / rate): in the unit circle, so that both the
+    /// section with these poles and its inverse are stable. Frequencies bend less than under the bilinear
+    /// transform.
     static RootPair of(double frequencyHz, double q, double sampleRateHz) noexcept {
         const double angle = 2.0 * std::numbers::pi * frequencyHz / sampleRateHz, decay = 0.5 * angle / q;
         const double turn = angle * angle - decay * decay; // < 0: two real roots
@@ -20,20 +21,26 @@ struct RootPair {
         return {-2.0 * std::exp(-decay) * cosine, std::exp(-2.0 * decay)};
     }
 
-    /// The same roots under the bilinear transform, exact at `frequencyHz`: for slopes that end at half the rate.
+    /// The same roots under the bilinear transform, exact at `frequencyHz`: for slopes that end at half the
+    /// rate.
     static RootPair bilinear(double frequencyHz, double q, double sampleRateHz) noexcept {
         const double k = std::tan(std::numbers::pi * frequencyHz / sampleRateHz), whole = 1.0 + k / q + k * k;
         return {2.0 * (k * k - 1.0) / whole, (1.0 - k / q + k * k) / whole};
     }
 
-    std::complex<double> at(std::complex<double> zInverse) const noexcept { return 1.0 + zInverse * (first + zInverse * second); }
+    std::complex<double> at(std::complex<double> zInverse) const noexcept {
+        return 1.0 + zInverse * (first + zInverse * second);
+    }
 };
 
 /// y = gain (1 + zeros) / (1 + poles) x, transposed direct form II.
 class Biquad {
 public:
     Biquad() = default;
-    Biquad(double gain, RootPair zeros, RootPair poles) noexcept : gain_{gain}, zeros_{zeros}, poles_{poles} {}
+    Biquad(double gain, RootPair zeros, RootPair poles) noexcept
+        : gain_{gain}
+        , zeros_{zeros}
+        , poles_{poles} {}
 
     double process(double x) noexcept {
         x *= gain_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A delay of one channel that can be changed while it plays: the old and the new place of reading are faded over.
+// A delay of one channel that can be changed while it plays: the old and the new place of reading are faded
+// over.
 #pragma once
 #include "Core/Storage.h"
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace physvib {
 template <int Capacity>
 class ChannelDelay {
 public:
-    /// Rests at `frames`, with silence in it; `most`, at most Capacity, is the longest. False: no memory. M, not while rendering.
+    /// Rests at `frames`, with silence in it; `most`, at most Capacity, is the longest. False: no memory. M,
+    /// not while rendering.
     bool prepare(int fadeFrames, int frames, int most = Capacity) noexcept {
         size_ = static_cast<std::size_t>(most) + 1;
         if (!ring_.resize(size_)) return false;
@@ -66,8 +68,10 @@ public:
             return true;
         }
         const bool passes = isOut();
-        if (passes) keep(io, static_cast<std::size_t>(frames));
-        else std::transform(io, io + frames, io, [this](float x) { return step(x); });
+        if (passes)
+            keep(io, static_cast<std::size_t>(frames));
+        else
+            std::transform(io, io + frames, io, [this](float x) { return step(x); });
         silentFrames_ = isSilent ? std::min(most_, silentFrames_ + frames) : 0;
         return passes && isSilent;
     }
@@ -93,7 +97,8 @@ private:
     // What passes is kept as well: a delay that is set later begins with it.
     void keep(const float* x, std::size_t frames) noexcept {
         while (frames > 0) {
-            const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1, part = std::min(frames, size_ - next);
+            const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1,
+                              part = std::min(frames, size_ - next);
             copy(x, part, ring_.data() + next);
             write_ = next + part - 1;
             x += part;

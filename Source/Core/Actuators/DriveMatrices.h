@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What each enchanter is driven with so that coupled enchanters together do what one of them alone was to do: complex
-// matrices, one per frequency. They are computed elsewhere (Study/Coupling.h); the memory is the caller's.
+// What each enchanter is driven with so that coupled enchanters together do what one of them alone was to do:
+// complex matrices, one per frequency. They are computed elsewhere (Study/Coupling.h); the memory is the
+// caller's.
 #pragma once
 #include "Core/Trigonometry.h"
 #include <algorithm>
@@ -9,19 +10,20 @@
 
 namespace physvib {
 
-/// Entries of matrix k: `entries[k][i * channels + j]`, the drive of channel i for a gain of 1 of channel j at frequencies[k].
-/// Both lists outlive whoever uses them. Empty: drives are gains.
+/// Entries of matrix k: `entries[k][i * channels + j]`, the drive of channel i for a gain of 1 of channel j
+/// at frequencies[k]. Both lists outlive whoever uses them. Empty: drives are gains.
 struct DriveMatrices {
-    std::span<const double> frequenciesHz; ///< rising
+    std::span<const double> frequenciesHz;    ///< rising
     std::span<const Complex<double>> entries; ///< matrix by matrix, row by row
     std::size_t channels = 0;
 
     bool isOn() const noexcept { return !frequenciesHz.empty(); }
 
-    /// The drives in phase with the strike, and a quarter turn ahead of it. Linear between frequencies, the nearest matrix
-    /// beyond them. Each list holds `channels` numbers. Any thread, wait-free.
+    /// The drives in phase with the strike, and a quarter turn ahead of it. Linear between frequencies, the
+    /// nearest matrix beyond them. Each list holds `channels` numbers. Any thread, wait-free.
     void apply(double frequencyHz, const double* gains, double* inPhase, double* ahead) const noexcept {
-        const auto above = static_cast<std::size_t>(std::ranges::lower_bound(frequenciesHz, frequencyHz) - frequenciesHz.begin());
+        const auto above = static_cast<std::size_t>(std::ranges::lower_bound(frequenciesHz, frequencyHz) -
+                                                    frequenciesHz.begin());
         const std::size_t high = std::min(above, frequenciesHz.size() - 1), low = above == 0 ? 0 : above - 1;
         const double step = frequenciesHz[high] - frequenciesHz[low];
         const double share = step > 0.0 ? (frequencyHz - frequenciesHz[low]) / step : 0.0;
@@ -37,7 +39,9 @@ struct DriveMatrices {
     }
 
 private:
-    Complex<double> at(std::size_t k, std::size_t i, std::size_t j) const noexcept { return entries[(k * channels + i) * channels + j]; }
+    Complex<double> at(std::size_t k, std::size_t i, std::size_t j) const noexcept {
+        return entries[(k * channels + i) * channels + j];
+    }
 };
 
 } // namespace physvib

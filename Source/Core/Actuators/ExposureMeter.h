@@ -14,8 +14,8 @@ namespace physvib {
 /// Per channel; 1 = full scale.
 struct ExposureSums {
     using Channels = std::array<double, static_cast<std::size_t>(limits::maxEnchanters)>;
-    Channels weighted{};          ///< integral of squared weighted samples over time, in s, from the very start
-    Channels plain{}, peaks{};    ///< the same without a weighting, and the largest sample, since `mark`
+    Channels weighted{};       ///< integral of squared weighted samples over time, in s, from the very start
+    Channels plain{}, peaks{}; ///< the same without a weighting, and the largest sample, since `mark`
     std::uint32_t mark = 0;
 };
 
@@ -58,7 +58,8 @@ public:
     /// One reader on one other thread.
     const ExposureSums& read() noexcept { return published_.read(); }
 
-    /// Plain sums and peaks start again with the next block, and carry the mark that is returned. The reader's thread, wait-free.
+    /// Plain sums and peaks start again with the next block, and carry the mark that is returned. The
+    /// reader's thread, wait-free.
     std::uint32_t restart() noexcept { return wanted_.fetch_add(1, std::memory_order_relaxed) + 1; }
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A gain that moves in a straight line to its next value: no step, no click; bit-transparent once it rests at 1.
+// A gain that moves in a straight line to its next value: no step, no click; bit-transparent once it rests
+// at 1.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -54,11 +55,14 @@ public:
             for (int j = 0; j < channels; ++j) io[j][n] *= now_;
         }
         if (now_ == 1.0f) return;
-        for (int j = 0; j < channels; ++j) std::transform(io[j] + n, io[j] + frames, io[j] + n, [this](float x) { return x * now_; });
+        for (int j = 0; j < channels; ++j)
+            std::transform(io[j] + n, io[j] + frames, io[j] + n, [this](float x) { return x * now_; });
     }
 
 private:
-    void step() noexcept { now_ = now_ < target_ ? std::min(now_ + pace_, target_) : std::max(now_ - pace_, target_); }
+    void step() noexcept {
+        now_ = now_ < target_ ? std::min(now_ + pace_, target_) : std::max(now_ - pace_, target_);
+    }
 
     float now_ = 1.0f, target_ = 1.0f, step_ = 1.0f, pace_ = 1.0f;
 };

@@ -21,8 +21,8 @@ namespace physvib {
 namespace limits {
 constexpr double guardShare = 0.05; // of full scale: a quarter of a percent of its power, whatever else plays
 constexpr double guardSeconds = 0.25; // a mean over less is a vibration that is felt
-constexpr float guardLoad =
-    0.00125f; // of full scale squared, below slowestToneHz: half of it passes at that very frequency
+constexpr float guardLoad = 0.00125f; // of full scale squared, below slowestToneHz: half of it passes at that
+                                      // very frequency
 constexpr float guardPerLoad = 7000.0f;     // the gain closes over the last ninth of it
 constexpr float guardReleaseSeconds = 1.0f; // silence to full gain: slower than what it turns down
 constexpr float guardRestSeconds = 0.1f;    // how fast the gain comes to rest: a few periods of such a tone
@@ -130,7 +130,8 @@ private:
             from_[j] = to_[j];
             to_[j] = std::max(0.0f, std::min(room, rest_[j]));
             least = std::min(least, to_[j]);
-            // Above half of a bound it only falls: a tone that is turned down finds one gain, and keeps its shape.
+            // Above half of a bound it only falls: a tone that is turned down finds one gain, and keeps its
+            // shape.
             const bool mayRise = most < 0.5f * maxArea_ && load < 0.5f * maxLoad_;
             rest_[j] = mayRise ? std::min(1.0f, rest_[j] + rise_) : rest_[j] - fall_ * (rest_[j] - to_[j]);
         }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bilinear transform bends what lies above a tenth of the rate, by a decibel and more at 5 kHz. So poles are put where
-// they are, and zeros where the
-// magnitude is right at three frequencies (after Vicanek 2016).
+// The bilinear transform bends what lies above a tenth of the rate, by a decibel and more at 5 kHz. So poles
+// are put where they are, and zeros where the magnitude is right at three frequencies (after Vicanek 2016).
 #include "Core/Actuators/HandWeighting.h"
 #include <algorithm>
 #include <numbers>
@@ -19,9 +18,13 @@ Complex pole(Complex s, double hz, double q) noexcept {
 
 Complex laplace(double hz) noexcept { return {0.0, 2.0 * std::numbers::pi * hz}; }
 
-double highPass(double hz) noexcept { return std::abs(laplace(hz) * laplace(hz) / pole(laplace(hz), lowHz, bandQ)); }
+double highPass(double hz) noexcept {
+    return std::abs(laplace(hz) * laplace(hz) / pole(laplace(hz), lowHz, bandQ));
+}
 
-double lowPass(double hz) noexcept { return std::abs(pole(0.0, highHz, bandQ) / pole(laplace(hz), highHz, bandQ)); }
+double lowPass(double hz) noexcept {
+    return std::abs(pole(0.0, highHz, bandQ) / pole(laplace(hz), highHz, bandQ));
+}
 
 double transition(double hz) noexcept {
     const double w = 2.0 * std::numbers::pi * transitionHz;
@@ -29,16 +32,22 @@ double transition(double hz) noexcept {
 }
 
 /// As `magnitude` at 0 Hz, `lowHz` and `highHz`.
-Biquad matched(RootPair poles, double rateHz, double (*magnitude)(double), double lowHz, double highHz) noexcept {
+Biquad matched(RootPair poles, double rateHz, double (*magnitude)(double), double lowHz,
+               double highHz) noexcept {
     const auto squareAt = [&](double f) {
-        const double wanted = magnitude(f) * std::abs(poles.at(std::polar(1.0, -2.0 * std::numbers::pi * f / rateHz)));
+        const double wanted =
+            magnitude(f) * std::abs(poles.at(std::polar(1.0, -2.0 * std::numbers::pi * f / rateHz)));
         return wanted * wanted;
     };
     // |b0 + b1 z^-1 + b2 z^-2|^2 = atZero (1 - p) + atTop p + 4 bend p (1 - p), p = sin^2(w / 2)
-    const double atZero = squareAt(0.0), low = std::pow(std::sin(std::numbers::pi * lowHz / rateHz), 2), high = std::pow(std::sin(std::numbers::pi * highHz / rateHz), 2);
-    const double lowRest = squareAt(lowHz) / low - atZero * (1.0 - low) / low, highRest = squareAt(highHz) / high - atZero * (1.0 - high) / high;
-    const double bend = 0.25 * (lowRest - highRest) / (high - low), atTop = std::max(0.0, lowRest - 4.0 * bend * (1.0 - low));
-    const double even = 0.5 * (std::sqrt(atZero) + std::sqrt(atTop)), odd = 0.5 * (std::sqrt(atZero) - std::sqrt(atTop));
+    const double atZero = squareAt(0.0), low = std::pow(std::sin(std::numbers::pi * lowHz / rateHz), 2),
+                 high = std::pow(std::sin(std::numbers::pi * highHz / rateHz), 2);
+    const double lowRest = squareAt(lowHz) / low - atZero * (1.0 - low) / low,
+                 highRest = squareAt(highHz) / high - atZero * (1.0 - high) / high;
+    const double bend = 0.25 * (lowRest - highRest) / (high - low),
+                 atTop = std::max(0.0, lowRest - 4.0 * bend * (1.0 - low));
+    const double even = 0.5 * (std::sqrt(atZero) + std::sqrt(atTop)),
+                 odd = 0.5 * (std::sqrt(atZero) - std::sqrt(atTop));
     const double first = 0.5 * (even + std::sqrt(std::max(0.0, even * even + bend)));
     return {first, {odd / first, -0.25 * bend / (first * first)}, poles};
 }
@@ -51,9 +60,11 @@ HandWeighting::HandWeighting(int sampleRateHz) noexcept
     : sampleRateHz_{static_cast<double>(sampleRateHz)} {
     const RootPair low = RootPair::bilinear(lowHz, bandQ, sampleRateHz_);
     // 1 at half the rate; nothing bends so far down
-    sections_ = {Biquad{0.25 * (1.0 - low.first + low.second), {-2.0, 1.0}, low},
-                 matched(RootPair::of(highHz, bandQ, sampleRateHz_), sampleRateHz_, lowPass, 0.5 * highHz, highHz),
-                 matched(RootPair::of(transitionHz, transitionQ, sampleRateHz_), sampleRateHz_, transition, transitionHz, highHz)};
+    sections_ = {
+        Biquad{0.25 * (1.0 - low.first + low.second), {-2.0, 1.0}, low},
+        matched(RootPair::of(highHz, bandQ, sampleRateHz_), sampleRateHz_, lowPass, 0.5 * highHz, highHz),
+        matched(RootPair::of(transitionHz, transitionQ, sampleRateHz_), sampleRateHz_, transition,
+                transitionHz, highHz)};
 }
 
 double HandWeighting::gainAt(double hz) const noexcept {

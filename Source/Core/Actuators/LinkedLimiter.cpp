@@ -65,7 +65,8 @@ void LinkedLimiter::settle() noexcept {
 }
 
 int LinkedLimiter::windowAt(int sampleRateHz) noexcept {
-    return std::clamp(static_cast<int>(sampleRateHz * limits::limiterLookAheadSeconds), 1, limits::maxLookAheadFrames);
+    return std::clamp(static_cast<int>(sampleRateHz * limits::limiterLookAheadSeconds), 1,
+                      limits::maxLookAheadFrames);
 }
 
 bool LinkedLimiter::process(float* const* io, int frames, bool isSilent) noexcept {
@@ -83,13 +84,15 @@ void LinkedLimiter::pass(const float* const* in, float* const* out, int frames, 
     processAll(in, out, frames, kept);
 }
 
-void LinkedLimiter::processAll(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {
+void LinkedLimiter::processAll(const float* const* in, float* const* out, int frames,
+                               float* const* kept) noexcept {
     const auto all = static_cast<std::size_t>(frames);
     for (std::size_t first = 0, part; first < all; first += part) {
         settle();
         part = std::min(partMost, all - first);
         if (!isSettled_) part = std::min(part, static_cast<std::size_t>(settledFrame_ - frame_));
-        processPart({in, out, first, part, static_cast<std::size_t>(channels_), lines_.data(), kept, floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())});
+        processPart({in, out, first, part, static_cast<std::size_t>(channels_), lines_.data(), kept,
+                     floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())});
     }
 }
 
@@ -109,17 +112,21 @@ bool LinkedLimiter::takeIn(const LimiterLines& lines) noexcept {
     if (kernel_ != nullptr && !kernel_->take(lines, mostBits_.data())) return false;
     bool isOver = false;
     for (std::size_t j = 0; j < lines.channels; ++j)
-        if (cleanAndCompare(lines.in[j] + lines.first, lines.frames, mostBits_[j], lines.line(j) + lines.front)) isOver = true;
+        if (cleanAndCompare(lines.in[j] + lines.first, lines.frames, mostBits_[j],
+                            lines.line(j) + lines.front))
+            isOver = true;
     return isOver;
 }
 
 void LinkedLimiter::giveOut(const LimiterLines& lines, const float* gains) noexcept {
     if (kernel_ != nullptr) return kernel_->give(lines, gains, bounds_.data());
-    for (std::size_t j = 0; j < lines.channels; ++j) delayAndLimit(lines.line(j), lines.out[j] + lines.first, lines.frames, gains, bounds_[j]);
+    for (std::size_t j = 0; j < lines.channels; ++j)
+        delayAndLimit(lines.line(j), lines.out[j] + lines.first, lines.frames, gains, bounds_[j]);
 }
 
 // Sizes are compared as integers, which order as the floats do (IEEE 754).
-bool LinkedLimiter::cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits, float* line) noexcept {
+bool LinkedLimiter::cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits,
+                                    float* line) noexcept {
     constexpr std::int32_t least = 0x00800000;
     std::int32_t most = 0, bad = 0;
     for (std::size_t n = 0; n < frames; ++n) {
@@ -134,20 +141,25 @@ bool LinkedLimiter::cleanAndCompare(const float* samples, std::size_t frames, st
     return most > mostBits;
 }
 
-// The gain, in units, that keeps every channel that is heard at its ceiling, and what the limiter makes of it.
+// The gain, in units, that keeps every channel that is heard at its ceiling, and what the limiter makes of
+// it.
 void LinkedLimiter::followGains(const LimiterLines& lines, Gains& gains) noexcept {
     std::array<double, partMost> excess;
     excess.fill(1);
     for (std::size_t j = 0; j < lines.channels; ++j) {
         const float* const samples = lines.line(j) + lines.front;
-        const auto compare = [&](std::size_t n, float ceiling) { excess[n] = std::max(excess[n], static_cast<double>(std::abs(samples[n])) / static_cast<double>(ceiling)); };
+        const auto compare = [&](std::size_t n, float ceiling) {
+            excess[n] =
+                std::max(excess[n], static_cast<double>(std::abs(samples[n])) / static_cast<double>(ceiling));
+        };
         std::size_t n = 0;
         while (n < lines.frames && !ceilings_[j].isResting()) compare(n++, ceilings_[j].next());
         for (const float ceiling = ceilings_[j].now(); n < lines.frames; ++n) compare(n, ceiling);
     }
     for (std::size_t n = 0; n < lines.frames; ++n) {
         const bool isOver = enabled_ && excess[n] > 1;
-        gain_ = gains[n] = advanceGain(isOver ? static_cast<std::int64_t>(static_cast<double>(unit) / excess[n]) : unit);
+        gain_ = gains[n] =
+            advanceGain(isOver ? static_cast<std::int64_t>(static_cast<double>(unit) / excess[n]) : unit);
         position_ = position_ + 1 == window_ ? 0 : position_ + 1;
     }
 }
@@ -163,10 +175,12 @@ void LinkedLimiter::rest(std::size_t frames) noexcept {
 }
 
 // The product may round up past the ceiling by its last bit, or down into the denormals.
-void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains, float ceiling) const noexcept {
+void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains,
+                                  float ceiling) const noexcept {
     const float* const delayed = line + front() - latencyFrames();
     for (std::size_t n = 0; n < frames; ++n) {
-        const float y = std::min(std::max(gains != nullptr ? delayed[n] * gains[n] : delayed[n], -ceiling), ceiling);
+        const float y =
+            std::min(std::max(gains != nullptr ? delayed[n] * gains[n] : delayed[n], -ceiling), ceiling);
         samples[n] = std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
     }
     std::copy_n(line + frames, front(), line);
@@ -174,7 +188,9 @@ void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frame
 
 // The classic monotone queue: whoever needs more gain than a newcomer will never be the minimum again.
 std::int64_t LinkedLimiter::slidingMinimum(std::int64_t needed) noexcept {
-    const auto at = [this](std::size_t k) -> Candidate& { return candidates_[(front_ + k) % candidates_.size()]; };
+    const auto at = [this](std::size_t k) -> Candidate& {
+        return candidates_[(front_ + k) % candidates_.size()];
+    };
     while (candidateCount_ > 0 && at(candidateCount_ - 1).needed >= needed) --candidateCount_;
     at(candidateCount_++) = {needed, frame_};
     if (at(0).frame + window_ <= frame_) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // One gain for all channels, so that a phantom stays where it is while no channel exceeds its ceiling.
 //
-// Look-ahead limiter of W frames (limits::limiterLookAheadSeconds): the least gain any of the last W frames needs
-// (sliding minimum), released linearly, averaged over W frames, applied to the input of W - 1 frames ago. Each value
-// averaged is at most what the delayed frame needs, so the ceiling holds; the average bounds the attack's slope by
-// 1/W a frame, the release by 1/(limits::limiterReleaseSeconds * rate). Gains are integers (2^30 = 1): their running
-// sum neither drifts nor differs between machines, and the gain returns to exactly 1. A ceiling that changes is a ramp, of
-// limits::channelRampSeconds at most: each frame needs the gain for the ceiling of its own time.
+// Look-ahead limiter of W frames (limits::limiterLookAheadSeconds): the least gain any of the last W frames
+// needs (sliding minimum), released linearly, averaged over W frames, applied to the input of W - 1 frames
+// ago. Each value averaged is at most what the delayed frame needs, so the ceiling holds; the average bounds
+// the attack's slope by 1/W a frame, the release by 1/(limits::limiterReleaseSeconds * rate). Gains are
+// integers (2^30 = 1): their running sum neither drifts nor differs between machines, and the gain returns to
+// exactly 1. A ceiling that changes is a ramp, of limits::channelRampSeconds at most: each frame needs the
+// gain for the ceiling of its own time.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Actuators/LimiterKernel.h"
@@ -21,17 +22,18 @@ namespace physvib {
 /// R only, but for prepare: M.
 class LinkedLimiter {
 public:
-
-    /// Forgets everything; ceilings 1. Disabled, it only delays and cleans. The bits do not depend on the set of instructions.
-    /// False: no memory. M, not while rendering.
-    bool prepare(int sampleRateHz, int channels, bool enabled, InstructionSet set = InstructionSet::best) noexcept;
+    /// Forgets everything; ceilings 1. Disabled, it only delays and cleans. The bits do not depend on the set
+    /// of instructions. False: no memory. M, not while rendering.
+    bool prepare(int sampleRateHz, int channels, bool enabled,
+                 InstructionSet set = InstructionSet::best) noexcept;
 
     /// Largest absolute sample of that channel, > 0 and finite; after the first frame, in a ramp.
     void setCeiling(int channel, float ceiling) noexcept;
 
     /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
-    /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite). `isSilent`: all of it is +0, so
-    /// that once the delayed frames are as well there is nothing to do. True if it leaves silence as it came.
+    /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite). `isSilent`: all of it
+    /// is +0, so that once the delayed frames are as well there is nothing to do. True if it leaves silence
+    /// as it came.
     bool process(float* const* io, int frames, bool isSilent = false) noexcept;
 
     /// The same from `in` to `out`, and `in` is written to `kept` as well. Only where it canPass.
@@ -58,9 +60,11 @@ private:
     void processPart(const LimiterLines& lines) noexcept;
     bool takeIn(const LimiterLines& lines) noexcept;
     void giveOut(const LimiterLines& lines, const float* gains) noexcept;
-    bool cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits, float* line) noexcept;
+    bool cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits,
+                         float* line) noexcept;
     void followGains(const LimiterLines& lines, Gains& gains) noexcept;
-    void delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains, float ceiling) const noexcept;
+    void delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains,
+                       float ceiling) const noexcept;
     bool isResting() const noexcept { return released_ == unit && sum_ == unit * window_; }
     void rest(std::size_t frames) noexcept;
     void boundBy(std::size_t channel, float ceiling) noexcept;
@@ -72,19 +76,24 @@ private:
     int window_ = 1;
     bool enabled_ = true;
     std::int64_t releaseStep_ = unit;
-    static constexpr std::size_t step = LimiterLines::padding, floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
+    static constexpr std::size_t step = LimiterLines::padding,
+                                 floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
     // of latencyFrames(), whole vectors
-    std::size_t front() const noexcept { return (static_cast<std::size_t>(window_) + step - 2) / step * step; }
+    std::size_t front() const noexcept {
+        return (static_cast<std::size_t>(window_) + step - 2) / step * step;
+    }
     const LimiterKernel* kernel_ = nullptr;
-    std::array<GainRamp, width> ceilings_{};                    // of what comes in
-    std::array<float, width> bounds_{};                         // of what goes out, the highest of a ramp's; infinite if it is off
-    std::array<std::int32_t, width> mostBits_{};                // sizes up to here are neither over, the lowest of a ramp's, nor infinite
-    std::int64_t settledFrame_ = 0;                             // from here on no frame has a ramp's ceiling
+    std::array<GainRamp, width> ceilings_{}; // of what comes in
+    std::array<float, width> bounds_{}; // of what goes out, the highest of a ramp's; infinite if it is off
+    std::array<std::int32_t, width> mostBits_{}; // sizes up to here are neither over, the lowest of a ramp's,
+                                                 // nor infinite
+    std::int64_t settledFrame_ = 0;              // from here on no frame has a ramp's ceiling
     int rampFrames_ = 1;
     bool isSettled_ = true;
-    Storage<float, width * floatsPerLine, true> lines_; // of each channel the last latencyFrames() inputs, in order
-    std::int64_t silentFrames_ = 0;                             // up to now
-    int position_ = 0; // in the ring of `window_` gains
+    Storage<float, width * floatsPerLine, true> lines_; // of each channel the last latencyFrames() inputs, in
+                                                        // order
+    std::int64_t silentFrames_ = 0;                     // up to now
+    int position_ = 0;                                  // in the ring of `window_` gains
     std::int64_t frame_ = 0;
     struct Candidate {
         std::int64_t needed = unit;

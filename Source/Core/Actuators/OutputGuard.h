@@ -63,8 +63,8 @@ public:
 
 private:
     static constexpr double tileSeconds = 1.0 / 3000.0;
-    static constexpr float unit =
-        2097152.0f; // 2^21 are full scale: 64 frames of 8 times that stay within 32 bits
+    static constexpr float unit = 2097152.0f; // 2^21 are full scale: 64 frames of 8 times that stay within 32
+                                              // bits
     static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
 
     void pass(float* const* io, int first, int count) noexcept {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a linear actuator makes of its drive: a mass on a spring, moved by a force, felt as the acceleration of its case.
+// What a linear actuator makes of its drive: a mass on a spring, moved by a force, felt as the acceleration
+// of its case.
 #pragma once
 #include <cmath>
 #include <complex>
@@ -7,8 +8,9 @@
 
 namespace physvib {
 
-/// H(s) = (1/Q) s^2 / (s^2 + (w0/Q) s + w0^2), w0 = 2 pi resonanceHz: acceleration for drive, 1 at the resonance. Above it
-/// H falls to the plateau 1/Q, below it with 12 dB per octave. LRA, voice coil and loaded piezo bender alike.
+/// H(s) = (1/Q) s^2 / (s^2 + (w0/Q) s + w0^2), w0 = 2 pi resonanceHz: acceleration for drive, 1 at the
+/// resonance. Above it H falls to the plateau 1/Q, below it with 12 dB per octave. LRA, voice coil and loaded
+/// piezo bender alike.
 struct Resonator {
     double resonanceHz = 0.0; ///< > 0; 0: not known
     double q = 0.0;           ///< > 0; 0: not known
@@ -21,7 +23,8 @@ struct Resonator {
         return -ratio * ratio / q / std::complex<double>(1.0 - ratio * ratio, ratio / q);
     }
 
-    /// What is left when the drive ends falls by exp(-t ringDownPerSecond): nothing shorter can be shown without braking.
+    /// What is left when the drive ends falls by exp(-t ringDownPerSecond): nothing shorter can be shown
+    /// without braking.
     double ringDownPerSecond() const noexcept { return std::numbers::pi * resonanceHz / q; }
 
     bool operator==(const Resonator&) const = default;

@@ -7,7 +7,8 @@
 
 namespace physvib {
 
-/// Drive is cut at +-driveLimit, as an amplifier's supply does; what passes moves the resonator. One thread at a time.
+/// Drive is cut at +-driveLimit, as an amplifier's supply does; what passes moves the resonator. One thread
+/// at a time.
 class SimulatedActuator {
 public:
     /// `resonator` known; sample rate in Hz, above twice its resonance.
@@ -17,10 +18,15 @@ public:
         response_.scale(1.0 / std::abs(response_.at(resonator.resonanceHz, sampleRateHz)));
     }
 
-    /// Acceleration, in units of that at the resonance for a drive of 1; a frame of drive in units of full scale. Wait-free.
-    double process(double drive) noexcept { return response_.process(std::clamp(drive, -driveLimit_, driveLimit_)); }
+    /// Acceleration, in units of that at the resonance for a drive of 1; a frame of drive in units of full
+    /// scale. Wait-free.
+    double process(double drive) noexcept {
+        return response_.process(std::clamp(drive, -driveLimit_, driveLimit_));
+    }
 
-    std::complex<double> at(double frequencyHz, double sampleRateHz) const noexcept { return response_.at(frequencyHz, sampleRateHz); }
+    std::complex<double> at(double frequencyHz, double sampleRateHz) const noexcept {
+        return response_.at(frequencyHz, sampleRateHz);
+    }
 
 private:
     double driveLimit_;

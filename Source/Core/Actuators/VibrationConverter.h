@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The thesis' vibration converter (5.1.3): what is rendered becomes what an actuator understands. Write your own.
+// The thesis' vibration converter (5.1.3): what is rendered becomes what an actuator understands. Write your
+// own.
 #pragma once
 #include <cmath>
 
 namespace physvib {
 
-/// Takes a render block by block, from frame 0 on and without gaps. Whoever renders says on which thread: in an audio
-/// callback nothing may block or allocate.
+/// Takes a render block by block, from frame 0 on and without gaps. Whoever renders says on which thread: in
+/// an audio callback nothing may block or allocate.
 class VibrationConverter {
 public:
     virtual ~VibrationConverter() = default;
@@ -15,17 +16,21 @@ public:
     virtual bool convert(const float* const* channels, int frames) = 0;
 };
 
-/// For a motor that is on or off (a phone's own, an ERM): on for each step in which a sample exceeds the threshold.
-/// A step, not a sample: a sine crosses any threshold hundreds of times a second, a motor takes tens of milliseconds.
+/// For a motor that is on or off (a phone's own, an ERM): on for each step in which a sample exceeds the
+/// threshold. A step, not a sample: a sine crosses any threshold hundreds of times a second, a motor takes
+/// tens of milliseconds.
 class OnOffSteps {
 public:
     static constexpr long long stepsPerSecond = 100; ///< the thesis' rendering loop
-    static constexpr double thesisThreshold = 0.1; ///< of full scale
+    static constexpr double thesisThreshold = 0.1;   ///< of full scale
 
     /// Any thread.
-    OnOffSteps(int sampleRateHz, double threshold) noexcept : rate_{sampleRateHz}, threshold_{static_cast<float>(threshold)} {}
+    OnOffSteps(int sampleRateHz, double threshold) noexcept
+        : rate_{sampleRateHz}
+        , threshold_{static_cast<float>(threshold)} {}
 
-    /// One frame of one channel. `change(stepIndex, isOn)` is called where a step differs from the one before.
+    /// One frame of one channel. `change(stepIndex, isOn)` is called where a step differs from the one
+    /// before.
     template <class Change>
     void take(float sample, Change change) {
         isLoud_ = isLoud_ || std::abs(sample) > threshold_;
@@ -35,7 +40,7 @@ public:
         isLoud_ = false;
         ++step_;
     }
-    bool isOn() const noexcept { return isOn_; } ///< R.
+    bool isOn() const noexcept { return isOn_; }       ///< R.
     long long steps() const noexcept { return step_; } ///< complete ones
 
 private:

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Which vector instructions the mode bank runs on: chosen at run time, so that one program suits every machine.
+// Which vector instructions the mode bank runs on: chosen at run time, so that one program suits every
+// machine.
 #pragma once
 #include <array>
 #include <string_view>
 
 namespace physvib {
 
-/// Sets with fused multiply-adds (avx2, avx512, neon) give the same bytes as each other; sse4 and scalar differ from
-/// them by rounding. `scalar` is double precision throughout: the oracle, and the same bytes on every machine.
+/// Sets with fused multiply-adds (avx2, avx512, neon) give the same bytes as each other; sse4 and scalar
+/// differ from them by rounding. `scalar` is double precision throughout: the oracle, and the same bytes on
+/// every machine.
 enum class InstructionSet { best, scalar, sse4, avx2, avx512, neon };
 
-constexpr std::array<std::string_view, 6> instructionSetNames{"best", "scalar", "sse4", "avx2", "avx512", "neon"};
+constexpr std::array<std::string_view, 6> instructionSetNames{"best", "scalar", "sse4",
+                                                              "avx2", "avx512", "neon"};
 
-constexpr std::string_view nameOf(InstructionSet set) noexcept { return instructionSetNames[static_cast<std::size_t>(set)]; }
+constexpr std::string_view nameOf(InstructionSet set) noexcept {
+    return instructionSetNames[static_cast<std::size_t>(set)];
+}
 
 /// Whether this program and this processor can run it; `best` and `scalar` always can. Any thread.
 bool isAvailable(InstructionSet set) noexcept;

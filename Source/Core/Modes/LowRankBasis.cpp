@@ -28,7 +28,8 @@ LowRankBasis::LowRankBasis() noexcept {
     for (std::size_t i = 0; i < values_.size(); ++i) halves_[i] = static_cast<float>(values_[i]);
 }
 
-void LowRankBasis::project(const double* cosPowers, const double* sinPowers, int rank, float* row) const noexcept {
+void LowRankBasis::project(const double* cosPowers, const double* sinPowers, int rank,
+                           float* row) const noexcept {
     constexpr std::size_t frames = 2 * half;
     if (rank == tiles::frames) {
         for (std::size_t t = 0; t < frames; ++t) {

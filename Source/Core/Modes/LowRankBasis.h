@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Orthonormal polynomials on the 64 frames of a tile (discrete Chebyshev, or Gram, polynomials): the few directions in
-// which decaying sinusoids of low frequency lie. Nested: a mode of rank 8 uses the first 8 of 32.
+// Orthonormal polynomials on the 64 frames of a tile (discrete Chebyshev, or Gram, polynomials): the few
+// directions in which decaying sinusoids of low frequency lie. Nested: a mode of rank 8 uses the first 8
+// of 32.
 #pragma once
 #include "Core/Modes/TileKernel.h"
 
@@ -14,11 +15,12 @@ public:
     /// [k * 32 + t]: polynomial k at frame t < 32, as the expansion reads it.
     const float* halves() const noexcept { return halves_.data(); }
 
-    /// row[2k], row[2k + 1]: sine and cosine part of p^t along polynomial k < rank. rank 64: the powers themselves.
+    /// row[2k], row[2k + 1]: sine and cosine part of p^t along polynomial k < rank. rank 64: the powers
+    /// themselves.
     void project(const double* cosPowers, const double* sinPowers, int rank, float* row) const noexcept;
 
-    /// Least of tiles::ranks whose error for this mode is below 2e-7 of its amplitude, rounding to float included.
-    /// `radians`: |log p|, how far the mode turns and decays in a frame.
+    /// Least of tiles::ranks whose error for this mode is below 2e-7 of its amplitude, rounding to float
+    /// included. `radians`: |log p|, how far the mode turns and decays in a frame.
     static int rankFor(double radians) noexcept;
 
 private:

@@ -31,9 +31,12 @@ bool ModeBank::prepare(int sampleRateHz, int channels, InstructionSet set, int m
 bool ModeBank::takeMemory(InstructionSet set, int gates) noexcept {
     const auto count = static_cast<std::size_t>(slots_), each = static_cast<std::size_t>(channels_);
     if (!index_.resize(slots_) || !tiles_.prepare(channels_, set, slots_)) return false;
-    return active_.resize(count) && freeSlots_.resize(count) && slotModes_.resize(count) && amplitudes_.resize(count * each + padding) &&
-           tileAmplitudes_.resize(tiles_.isOn() ? 0 : count * each) && cosPowers_.resize(count * tileSize) && sinPowers_.resize(count * tileSize) &&
-           gates_.resize(gates) && gateGains_.resize(static_cast<std::size_t>(gates) * each) && freeGates_.resize(static_cast<std::size_t>(gates));
+    return active_.resize(count) && freeSlots_.resize(count) && slotModes_.resize(count) &&
+           amplitudes_.resize(count * each + padding) &&
+           tileAmplitudes_.resize(tiles_.isOn() ? 0 : count * each) && cosPowers_.resize(count * tileSize) &&
+           sinPowers_.resize(count * tileSize) && gates_.resize(gates) &&
+           gateGains_.resize(static_cast<std::size_t>(gates) * each) &&
+           freeGates_.resize(static_cast<std::size_t>(gates));
 }
 
 void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept {
@@ -41,7 +44,9 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
     finishStrikes();
     const double ratio = sampleRateHz / rate_;
     const auto moved = [=](std::int64_t frame) { // a frame before or after `fromFrame`, as far away in time
-        return frame == Strike::never ? frame : toFrame + static_cast<std::int64_t>(static_cast<double>(frame - fromFrame) * ratio);
+        return frame == Strike::never
+                   ? frame
+                   : toFrame + static_cast<std::int64_t>(static_cast<double>(frame - fromFrame) * ratio);
     };
     tileStart_ = toFrame - toFrame % tile;
     rate_ = sampleRateHz;
@@ -53,8 +58,10 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
         const auto sounding = unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(fromFrame)) *
                               decayFactor<double>(m.decayIncrement * (fromFrame - m.referenceFrame));
         setIncrements(m);
-        const auto turn = sounding * unitPhasor<double>(std::uint64_t{0} - m.phaseIncrement * static_cast<std::uint64_t>(toFrame)) *
-                          decayFactor<double>(-m.decayIncrement * (toFrame - tileStart_));
+        const auto turn =
+            sounding *
+            unitPhasor<double>(std::uint64_t{0} - m.phaseIncrement * static_cast<std::uint64_t>(toFrame)) *
+            decayFactor<double>(-m.decayIncrement * (toFrame - tileStart_));
         for (int j = 0; j < channels_; ++j) {
             auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
             z = z * turn;
@@ -83,14 +90,17 @@ bool ModeBank::strike(const Strike& strike, const double* gains) noexcept {
     const int slot = slotFor(strike);
     Mode& struck = mode(slot);
     add(slot, strike, gains);
-    struck.endFrame = std::max(struck.endFrame, struck.lifeFrames == Strike::never ? Strike::never : strike.onset.frame + struck.lifeFrames);
+    struck.endFrame =
+        std::max(struck.endFrame,
+                 struck.lifeFrames == Strike::never ? Strike::never : strike.onset.frame + struck.lifeFrames);
     nextEnd_ = std::min(nextEnd_, struck.endFrame);
     return !isGated || openGate(slot, strike, gains);
 }
 
 // The mode that it is merged into, or a new one.
 int ModeBank::slotFor(const Strike& strike) noexcept {
-    const auto hash = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(strike.frequencyHz) * 0x9e3779b97f4a7c15 >> 32);
+    const auto hash = static_cast<std::uint32_t>(
+        std::bit_cast<std::uint64_t>(strike.frequencyHz) * 0x9e3779b97f4a7c15 >> 32);
     auto& recent = recent_[(hash >> 24) % recent_.size()];
     if (mode(recent).isOf(strike)) return recent;
     const Mode wanted = modeFor(strike);
@@ -116,18 +126,19 @@ void ModeBank::add(int slot, const Strike& strike, const double* gains) noexcept
         const std::int64_t octaves = m.decayIncrement * (tileStart_ - m.referenceFrame);
         m.referenceFrame = tileStart_;
         return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_),
-                             {onsetTurn(m, strike.onset, strike.phase), m.phaseIncrement * static_cast<std::uint64_t>(tileStart_), octaves}, strike.amplitude, gains, &amplitudes_[row(slot)]);
+                             {onsetTurn(m, strike.onset, strike.phase),
+                              m.phaseIncrement * static_cast<std::uint64_t>(tileStart_), octaves},
+                             strike.amplitude, gains, &amplitudes_[row(slot)]);
     }
     rebase(slot);
     const auto phasor = phasorOf(onsetTurn(m, strike.onset, strike.phase));
-    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) amplitudes_[row(slot) + j] += phasor * (strike.amplitude * gains[j]);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j)
+        amplitudes_[row(slot) + j] += phasor * (strike.amplitude * gains[j]);
     refreshTile(slot);
 }
 
 // Strikes may wait for others of their tile, until somebody looks at amplitudes.
-void ModeBank::finishStrikes() noexcept {
-    tiles_.finishStrikes();
-}
+void ModeBank::finishStrikes() noexcept { tiles_.finishStrikes(); }
 
 ModeBank::Mode ModeBank::modeFor(const Strike& strike) const noexcept {
     Mode m;
@@ -169,8 +180,10 @@ void ModeBank::release(int slot) noexcept {
 }
 
 void ModeBank::recycle(int slot) noexcept {
-    if (mode(slot).isFading) --fadingCount_;
-    else index_.erase(mode(slot).hash(), slot);
+    if (mode(slot).isFading)
+        --fadingCount_;
+    else
+        index_.erase(mode(slot).hash(), slot);
     if (tiles_.isOn()) tiles_.remove(slot);
     mode(slot).life = 0; // gates that are still open find nothing to close
     freeSlots_[static_cast<std::size_t>(freeCount_++)] = slot;
@@ -204,7 +217,8 @@ void ModeBank::fadeAll(std::int64_t frame, double perSecond) noexcept {
     enterTile(frame);
     finishStrikes();
     for (int i = 0; i < activeCount_; ++i)
-        if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading) fade(slot, frame, perSecond);
+        if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading)
+            fade(slot, frame, perSecond);
 }
 
 int ModeBank::quietest(bool fading) const noexcept {
@@ -218,7 +232,8 @@ int ModeBank::quietest(bool fading) const noexcept {
             const auto z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
             level = std::max(level, z.re * z.re + z.im * z.im);
         }
-        const double decay = decayFactor<double>(mode(slot).decayIncrement * (tileStart_ - mode(slot).referenceFrame));
+        const double decay =
+            decayFactor<double>(mode(slot).decayIncrement * (tileStart_ - mode(slot).referenceFrame));
         level *= decay * decay;
         if (found >= 0 && level >= least) continue;
         found = slot;
@@ -243,11 +258,13 @@ void ModeBank::shape(int slot) noexcept {
     fillPowers(slot);
     if (!tiles_.isOn()) return;
     const Mode& m = mode(slot);
-    const double turn = static_cast<double>(m.phaseIncrement) * (2.0 * std::numbers::pi / 18446744073709551616.0);
+    const double turn =
+        static_cast<double>(m.phaseIncrement) * (2.0 * std::numbers::pi / 18446744073709551616.0);
     const double decay = static_cast<double>(m.decayIncrement) * (std::numbers::ln2 / octaveUnit);
     const std::size_t powers = static_cast<std::size_t>(slot) * tileSize;
     tiles_.add(slot, {&cosPowers_[powers], &sinPowers_[powers], std::hypot(turn, decay),
-                      unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(tile)) * decayFactor<double>(m.decayIncrement * tile),
+                      unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(tile)) *
+                          decayFactor<double>(m.decayIncrement * tile),
                       m.isGated});
     renewCarrier(slot);
 }
@@ -318,7 +335,8 @@ void ModeBank::refreshAll(bool isNextTile) noexcept {
     if (tiles_.isOn()) {
         if (isNextTile) tiles_.advance();
         const int stride = isNextTile ? ModeTiles::renewalTiles : 1;
-        for (int slot = static_cast<int>(tileStart_ / tile % stride); slot < tiles_.slotsInUse(); slot += stride)
+        for (int slot = static_cast<int>(tileStart_ / tile % stride); slot < tiles_.slotsInUse();
+             slot += stride)
             if (mode(slot).life != 0) renewCarrier(slot);
         return tiles_.begin();
     }
@@ -347,8 +365,10 @@ void ModeBank::closeNextGate() noexcept {
     --m.openGates;
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(gate.slot) + static_cast<std::size_t>(j)];
-        if (m.openGates == 0) z = {}; // exact silence, whatever rounding has left
-        else z -= phasor * gateGains_[static_cast<std::size_t>(gate.entry * channels_ + j)];
+        if (m.openGates == 0)
+            z = {}; // exact silence, whatever rounding has left
+        else
+            z -= phasor * gateGains_[static_cast<std::size_t>(gate.entry * channels_ + j)];
     }
     if (m.openGates == 0) nextEnd_ = m.endFrame = tileStart_;
     refreshTile(gate.slot);
@@ -356,13 +376,16 @@ void ModeBank::closeNextGate() noexcept {
 }
 
 Turn ModeBank::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {
-    const auto leadPhase = static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
-    const auto leadDecay = static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
+    const auto leadPhase =
+        static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
+    const auto leadDecay =
+        static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
     // A gate may close long after its own strike has died away inside a mode that others keep alive.
     constexpr std::int64_t inaudible = 120 * static_cast<std::int64_t>(octaveUnit);
     const std::int64_t age = m.referenceFrame - onset.frame;
     const bool hasDied = age > 0 && m.decayIncrement > 0 && age > inaudible / m.decayIncrement;
-    return {phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame), hasDied ? inaudible : m.decayIncrement * age + leadDecay};
+    return {phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame),
+            hasDied ? inaudible : m.decayIncrement * age + leadDecay};
 }
 
 bool ModeBank::render(float* const* out, std::int64_t first, int frames) noexcept {
@@ -370,7 +393,8 @@ bool ModeBank::render(float* const* out, std::int64_t first, int frames) noexcep
     finishStrikes();
     const int from = static_cast<int>(first - tileStart_);
     if (tiles_.isOn()) return tiles_.render(out, from, frames);
-    const ModeTable table{active_.data(), activeCount_, channels_, tileAmplitudes_.data(), cosPowers_.data(), sinPowers_.data()};
+    const ModeTable table{active_.data(),         activeCount_,      channels_,
+                          tileAmplitudes_.data(), cosPowers_.data(), sinPowers_.data()};
     renderScalar(table, out, from, frames);
     return activeCount_ > 0;
 }

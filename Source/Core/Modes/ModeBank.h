@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The sounding modes. Decaying sinusoids are linear, so strikes of equal (frequency, decay) merge exactly into one
-// mode with one complex amplitude per channel: cost is bounded by the number of materials, not of collisions.
+// The sounding modes. Decaying sinusoids are linear, so strikes of equal (frequency, decay) merge exactly
+// into one mode with one complex amplitude per channel: cost is bounded by the number of materials, not of
+// collisions.
 //
-// A mode's phase is an integer (2^64 = one turn) that is linear in the absolute frame number, its decay a fixed-point
-// number of octaves: neither drifts, both are the same bits on every machine, and together they are the merge key.
-// At each tile of the absolute frame grid the amplitudes are brought to the tile's first frame from these integers.
-// Where there are vector instructions, ModeTiles renders whole tiles; else the scalar kernel sums sample by sample.
+// A mode's phase is an integer (2^64 = one turn) that is linear in the absolute frame number, its decay a
+// fixed-point number of octaves: neither drifts, both are the same bits on every machine, and together they
+// are the merge key. At each tile of the absolute frame grid the amplitudes are brought to the tile's first
+// frame from these integers. Where there are vector instructions, ModeTiles renders whole tiles; else the
+// scalar kernel sums sample by sample.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/FrameClock.h"
@@ -36,22 +38,23 @@ public:
     static constexpr int tile = limits::tileFrames;
     static constexpr int slotCount = limits::maxModes + limits::maxFadingModes;
 
-    /// Silence, for this rate and number of channels (1 to limits::maxEnchanters). A set of instructions that is not
-    /// available means the scalar kernel. `modes`: that sound at once without one being stolen, 1 to limits::maxModes; `gates`:
-    /// strikes with a duration that are open at once. False: no memory for them, and it is not to be used. M, not while rendering.
-    bool prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best, int modes = limits::maxModes,
-                 int gates = limits::maxGates) noexcept;
+    /// Silence, for this rate and number of channels (1 to limits::maxEnchanters). A set of instructions that
+    /// is not available means the scalar kernel. `modes`: that sound at once without one being stolen, 1 to
+    /// limits::maxModes; `gates`: strikes with a duration that are open at once. False: no memory for them,
+    /// and it is not to be used. M, not while rendering.
+    bool prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best,
+                 int modes = limits::maxModes, int gates = limits::maxGates) noexcept;
 
     /// What it runs on. Any thread after prepare.
     InstructionSet instructionSet() const noexcept { return tiles_.set(); }
 
-    /// Goes on at another rate and frame: what sounded at the old `fromFrame` sounds on at the new `toFrame`, gates
-    /// close after the same time. M, not while rendering.
+    /// Goes on at another rate and frame: what sounded at the old `fromFrame` sounds on at the new `toFrame`,
+    /// gates close after the same time. M, not while rendering.
     void moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept;
 
-    /// Frames only go forward. `gains`: one per channel. The strike's frame is the next one to be rendered, or, if
-    /// takesStrikesAhead(), a later one of the same tile, with no gate to be closed before it.
-    /// False if too many strikes with a duration are open: then nothing has changed.
+    /// Frames only go forward. `gains`: one per channel. The strike's frame is the next one to be rendered,
+    /// or, if takesStrikesAhead(), a later one of the same tile, with no gate to be closed before it. False
+    /// if too many strikes with a duration are open: then nothing has changed.
     bool strike(const Strike& strike, const double* gains) noexcept;
 
     /// How many strikes with a duration find room now.
@@ -65,13 +68,16 @@ public:
     /// Closes that gate; to be called when its frame is the next one to be rendered.
     void closeNextGate() noexcept;
 
-    /// From `frame` on, the next one to be rendered, everything fades: as a stolen mode does, unless it is to go faster.
+    /// From `frame` on, the next one to be rendered, everything fades: as a stolen mode does, unless it is to
+    /// go faster.
     void fadeAll(std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
 
-    /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. False if all are 0.
+    /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. False
+    /// if all are 0.
     bool render(float* const* out, std::int64_t first, int frames) noexcept;
 
-    /// Instead of render, if there are tiles: where each channel's frames from `first` on stand already. False: nowhere, and render is to be called.
+    /// Instead of render, if there are tiles: where each channel's frames from `first` on stand already.
+    /// False: nowhere, and render is to be called.
     bool sumsAt(const float** at, std::int64_t first) noexcept;
 
     int liveModes() const noexcept { return activeCount_; }
@@ -88,11 +94,14 @@ private:
         std::int64_t lifeFrames = 0;      // of a strike
         std::uint32_t life = 0;           // tells this use of the slot from earlier ones
         int openGates = 0;
-        bool isGated = false; // gated strikes do not merge with free ones, so that closing can leave exact zeros
+        bool isGated = false; // gated strikes do not merge with free ones, so that closing can leave exact
+                              // zeros
         bool isFading = false;
         std::uint64_t hash() const noexcept { return modeHash(phaseIncrement, decayIncrement, isGated); }
-        bool isOf(const Strike& s) const noexcept { // sufficient, not necessary: other frequencies may have the same increments
-            return life != 0 && !isFading && frequencyHz == s.frequencyHz && decayPerSecond == s.decayPerSecond && isGated == (s.closeFrame != Strike::never);
+        bool isOf(const Strike& s) const noexcept { // sufficient, not necessary: other frequencies may have
+                                                    // the same increments
+            return life != 0 && !isFading && frequencyHz == s.frequencyHz &&
+                   decayPerSecond == s.decayPerSecond && isGated == (s.closeFrame != Strike::never);
         }
         bool matches(const Mode& o) const noexcept {
             return phaseIncrement == o.phaseIncrement && decayIncrement == o.decayIncrement &&
@@ -131,7 +140,9 @@ private:
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<double> carrier(const Mode& mode) const noexcept;
     static Turn onsetTurn(const Mode& mode, FramePosition onset, std::uint64_t phase) noexcept;
-    static Complex<double> phasorOf(const Turn& turn) noexcept { return unitPhasor<double>(turn.phase) * decayFactor<double>(turn.octaves); }
+    static Complex<double> phasorOf(const Turn& turn) noexcept {
+        return unitPhasor<double>(turn.phase) * decayFactor<double>(turn.octaves);
+    }
     Mode& mode(int slot) noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     const Mode& mode(int slot) const noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     std::size_t row(int slot) const noexcept { return static_cast<std::size_t>(slot * channels_); }
@@ -148,7 +159,7 @@ private:
     double rate_ = 48000.0;
     std::int64_t tileStart_ = 0;
     int slots_ = 0, modes_ = 0;
-    Room<int, slots> active_; // slots in the order of their first strike
+    Room<int, slots> active_;    // slots in the order of their first strike
     Room<int, slots> freeSlots_; // a stack
     int activeCount_ = 0;
     int freeCount_ = 0;
@@ -160,8 +171,8 @@ private:
     ModeIndex<slotCount> index_; // of modes that do not fade
     ModeTiles tiles_;
     std::array<std::int32_t, 256> recent_{}; // slots that were struck, by their frequency's bits
-    Room<Complex<double>, slots * width + padding> amplitudes_;     // as of the mode's reference frame
-    Room<Complex<double>, slots * width> tileAmplitudes_; // as of the tile's first frame; scalar kernel
+    Room<Complex<double>, slots * width + padding> amplitudes_; // as of the mode's reference frame
+    Room<Complex<double>, slots * width> tileAmplitudes_;       // as of the tile's first frame; scalar kernel
     Room<double, slots * tileSize> cosPowers_;
     Room<double, slots * tileSize> sinPowers_;
     TimeOrdered<Gate, limits::maxGates, true> gates_;

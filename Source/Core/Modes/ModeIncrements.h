@@ -10,7 +10,9 @@
 namespace physvib {
 
 /// turns / 2^64 per frame. Any thread, as all of these.
-inline std::uint64_t phaseIncrementOf(double frequencyHz, double rate) noexcept { return static_cast<std::uint64_t>(frequencyHz / rate * 18446744073709551616.0); }
+inline std::uint64_t phaseIncrementOf(double frequencyHz, double rate) noexcept {
+    return static_cast<std::uint64_t>(frequencyHz / rate * 18446744073709551616.0);
+}
 
 /// octaves / 2^56 per frame.
 inline std::int64_t decayIncrementOf(double decayPerSecond, double rate) noexcept {
@@ -19,12 +21,15 @@ inline std::int64_t decayIncrementOf(double decayPerSecond, double rate) noexcep
 
 /// Until it has fallen by limits::retireDecibels; INT64_MAX: it does not.
 inline std::int64_t lifeFramesOf(std::int64_t decayIncrement) noexcept {
-    constexpr auto octaves = static_cast<std::int64_t>(limits::retireDecibels / (20.0 * (std::numbers::ln2 / std::numbers::ln10)) * octaveUnit);
+    constexpr auto octaves = static_cast<std::int64_t>(
+        limits::retireDecibels / (20.0 * (std::numbers::ln2 / std::numbers::ln10)) * octaveUnit);
     return decayIncrement == 0 ? INT64_MAX : octaves / decayIncrement + 1;
 }
 
 /// The phase, in turns / 2^64, that a tone has after so many turns, from 0 on.
-inline std::uint64_t phaseAfter(double turns) noexcept { return static_cast<std::uint64_t>((turns - std::floor(turns)) * 18446744073709551616.0); }
+inline std::uint64_t phaseAfter(double turns) noexcept {
+    return static_cast<std::uint64_t>((turns - std::floor(turns)) * 18446744073709551616.0);
+}
 
 /// What is left of an amplitude of 1 that decays.
 inline double shareLeft(double decayPerSecond, double seconds) noexcept {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a mode's increments to its slot: a hash table with linear probing, so that a strike does not search all modes.
+// From a mode's increments to its slot: a hash table with linear probing, so that a strike does not search
+// all modes.
 #pragma once
 #include "Core/Storage.h"
 #include <algorithm>
@@ -10,12 +11,15 @@
 namespace physvib {
 
 /// Of a mode's increments; its top bits are good (Fibonacci hashing, Knuth vol. 3, 6.4).
-inline std::uint64_t modeHash(std::uint64_t phaseIncrement, std::int64_t decayIncrement, bool isGated) noexcept {
-    const std::uint64_t mixed = (phaseIncrement ^ std::rotl(static_cast<std::uint64_t>(decayIncrement), 29)) + (isGated ? 1 : 0);
+inline std::uint64_t modeHash(std::uint64_t phaseIncrement, std::int64_t decayIncrement,
+                              bool isGated) noexcept {
+    const std::uint64_t mixed =
+        (phaseIncrement ^ std::rotl(static_cast<std::uint64_t>(decayIncrement), 29)) + (isGated ? 1 : 0);
     return (mixed ^ mixed >> 31) * 0x9e3779b97f4a7c15;
 }
 
-/// At most `Slots` slots. The caller keeps the keys: it gives a hash, and says whether a slot is the one meant.
+/// At most `Slots` slots. The caller keeps the keys: it gives a hash, and says whether a slot is the one
+/// meant.
 template <int Slots>
 class ModeIndex {
 public:
@@ -57,7 +61,9 @@ public:
     }
 
 private:
-    static constexpr int bitsFor(int slots) noexcept { return static_cast<int>(std::bit_width(static_cast<unsigned>(2 * slots))); }
+    static constexpr int bitsFor(int slots) noexcept {
+        return static_cast<int>(std::bit_width(static_cast<unsigned>(2 * slots)));
+    }
     struct Entry {
         std::uint32_t hash = 0;
         std::int32_t slot = -1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sounding modes as a kernel reads them, and the scalar kernel: the oracle that faster ones are held against.
+// The sounding modes as a kernel reads them, and the scalar kernel: the oracle that faster ones are held
+// against.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/Trigonometry.h"
@@ -19,15 +20,17 @@ struct ModeTable {
     const double* sinPowers = nullptr;           ///< im(p_s^k)
 };
 
-/// Writes frames [first, first + frames) of the tile to out[j][0..frames). Each sample depends on its own frame
-/// only, so any partition of a tile gives the same bits; it is rounded to float once, at the end. R, wait-free.
+/// Writes frames [first, first + frames) of the tile to out[j][0..frames). Each sample depends on its own
+/// frame only, so any partition of a tile gives the same bits; it is rounded to float once, at the end. R,
+/// wait-free.
 inline void renderScalar(const ModeTable& table, float* const* out, int first, int frames) noexcept {
     constexpr auto tile = static_cast<std::size_t>(limits::tileFrames);
     for (int j = 0; j < table.channels; ++j) {
         std::array<double, tile> sum{};
         for (int i = 0; i < table.count; ++i) {
             const auto slot = static_cast<std::size_t>(table.slots[i]);
-            const auto z = table.amplitudes[slot * static_cast<std::size_t>(table.channels) + static_cast<std::size_t>(j)];
+            const auto z = table.amplitudes[slot * static_cast<std::size_t>(table.channels) +
+                                            static_cast<std::size_t>(j)];
             const double* c = table.cosPowers + slot * tile + first;
             const double* s = table.sinPowers + slot * tile + first;
             for (int k = 0; k < frames; ++k) sum[static_cast<std::size_t>(k)] += z.re * s[k] + z.im * c[k];

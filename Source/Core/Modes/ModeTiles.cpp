@@ -18,13 +18,15 @@ bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcep
     kernel_ = tileKernel(set);
     channels_ = channels;
     slots_ = isOn() ? slotsMost : 0;
-    floatsPerSlot_ = (channels + tiles::channelsPerLine - 1) / tiles::channelsPerLine * 4 * tiles::channelsPerLine;
+    floatsPerSlot_ =
+        (channels + tiles::channelsPerLine - 1) / tiles::channelsPerLine * 4 * tiles::channelsPerLine;
     highest_ = 0;
     strikes_.count = 0;
     if (!takeMemory()) return false;
     for (std::size_t s = 0; s < index(slots_); ++s) places_[s].isUsed = false;
     std::fill_n(amplitudes_.data(), slots_ * floatsPerSlot_, 0.0f);
-    for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) std::fill_n(values->data(), (slots_ + 7) / 8 * 8, 0.0);
+    for (auto* values : {&re_, &im_, &stepRe_, &stepIm_})
+        std::fill_n(values->data(), (slots_ + 7) / 8 * 8, 0.0);
     for (auto& layer : layers_) {
         std::fill_n(layer.tails.data(), isOn() ? channels_ * tiles::frames : 0, 0.0);
         layer.counts.fill(0);
@@ -36,8 +38,11 @@ bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcep
 }
 
 bool ModeTiles::takeMemory() noexcept {
-    const auto count = index(slots_), wide = (count + 7) / 8 * 8, tile = isOn() ? index(channels_) * frames : 0;
-    bool has = scaled_.resize(isOn() ? 2 * index(channels_) * TileStrikes::most : 0) && places_.resize(count) && amplitudes_.resize(count * index(floatsPerSlot_)) && rows_.resize(count * rowFloats);
+    const auto count = index(slots_), wide = (count + 7) / 8 * 8,
+               tile = isOn() ? index(channels_) * frames : 0;
+    bool has = scaled_.resize(isOn() ? 2 * index(channels_) * TileStrikes::most : 0) &&
+               places_.resize(count) && amplitudes_.resize(count * index(floatsPerSlot_)) &&
+               rows_.resize(count * rowFloats);
     for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) has = has && values->resize(wide);
     for (auto* values : {&roundedRe_, &roundedIm_}) has = has && values->resize(wide);
     for (auto& row : rowSlots_) has = has && row.resize(count);
@@ -51,7 +56,8 @@ float* ModeTiles::rowAt(std::size_t rank, int row) noexcept {
 
 void ModeTiles::add(int slot, const TileMode& mode) noexcept {
     const int wanted = LowRankBasis::rankFor(mode.radiansPerFrame);
-    const auto rank = index(static_cast<int>(std::find(tiles::ranks.begin(), tiles::ranks.end(), wanted) - tiles::ranks.begin()));
+    const auto rank = index(
+        static_cast<int>(std::find(tiles::ranks.begin(), tiles::ranks.end(), wanted) - tiles::ranks.begin()));
     const int row = rowFor(mode.isGated, layers_[mode.isGated].counts[rank]++);
     places_[index(slot)] = {static_cast<int>(rank), row, mode, true};
     rowSlots_[rank][index(row)] = slot;
@@ -100,9 +106,7 @@ void ModeTiles::setAmplitudes(int slot, const Complex<double>* amplitudes) noexc
     }
 }
 
-void ModeTiles::advance() noexcept {
-    kernel_->advance(carriers());
-}
+void ModeTiles::advance() noexcept { kernel_->advance(carriers()); }
 
 void ModeTiles::begin() noexcept {
     if (isEmpty()) return;
@@ -110,7 +114,9 @@ void ModeTiles::begin() noexcept {
     redoFrom(true, 0);
 }
 
-void ModeTiles::redoFrom(bool isGated, int frame) noexcept { layers_[isGated].redo = std::min(layers_[isGated].redo, frame); }
+void ModeTiles::redoFrom(bool isGated, int frame) noexcept {
+    layers_[isGated].redo = std::min(layers_[isGated].redo, frame);
+}
 
 void ModeTiles::settle() noexcept {
     if (std::min(layers_[0].redo, layers_[1].redo) == tiles::frames) return;
@@ -124,7 +130,8 @@ void ModeTiles::make(Layer& layer, bool isGated) noexcept {
     const auto from = index(layer.redo);
     layer.redo = tiles::frames;
     const auto clear = [&](auto& values, std::size_t first) {
-        for (std::size_t j = 0; j < index(channels_); ++j) std::fill_n(values.data() + j * frames + first, frames - first, 0);
+        for (std::size_t j = 0; j < index(channels_); ++j)
+            std::fill_n(values.data() + j * frames + first, frames - first, 0);
     };
     if (layer.hasTails()) clear(layer.tails, std::max(from, index(layer.tailsFrom)));
     if (from <= index(layer.tailsFrom)) layer.tailsFrom = tiles::frames;
@@ -146,7 +153,13 @@ void ModeTiles::make(Layer& layer, bool isGated) noexcept {
 }
 
 TileLayer ModeTiles::view(const Layer& layer, bool isGated) noexcept {
-    TileLayer view{{}, channels_, floatsPerSlot_, amplitudes_.data(), roundedRe_.data(), roundedIm_.data(), basis_->halves()};
+    TileLayer view{{},
+                   channels_,
+                   floatsPerSlot_,
+                   amplitudes_.data(),
+                   roundedRe_.data(),
+                   roundedIm_.data(),
+                   basis_->halves()};
     for (std::size_t r = 0; r < rankCount; ++r) {
         const int first = isGated ? slots_ - layer.counts[r] : 0;
         view.modes[r] = {rowAt(r, first), rowSlots_[r].data() + first, layer.counts[r], tiles::ranks[r]};
@@ -154,20 +167,29 @@ TileLayer ModeTiles::view(const Layer& layer, bool isGated) noexcept {
     return view;
 }
 
-void ModeTiles::strike(int slot, int from, const StrikeTurns& turns, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept {
+void ModeTiles::strike(int slot, int from, const StrikeTurns& turns, double amplitude, const double* gains,
+                       Complex<double>* amplitudes) noexcept {
     const auto s = index(slot);
     const TileMode& mode = places_[s].mode;
     const int count = strikes_.count;
-    if (count == TileStrikes::most || (count > 0 && (mode.isGated != areGated_ || from < strikes_.each[index(count - 1)].from))) strikeAll();
+    if (count == TileStrikes::most ||
+        (count > 0 && (mode.isGated != areGated_ || from < strikes_.each[index(count - 1)].from)))
+        strikeAll();
     areGated_ = mode.isGated;
     double* const scaled = scaled_.data() + index(strikes_.count * channels_) * 2;
-    for (std::size_t j = 0; j < index(channels_); ++j) scaled[2 * j] = scaled[2 * j + 1] = amplitude * gains[j];
+    for (std::size_t j = 0; j < index(channels_); ++j)
+        scaled[2 * j] = scaled[2 * j + 1] = amplitude * gains[j];
     const auto last = index(strikes_.count++);
     strikes_.onsetPhases[last] = turns.onset.phase;
     strikes_.onsetOctaves[last] = turns.onset.octaves;
     strikes_.carrierPhases[last] = turns.carrierPhase;
     strikes_.decayOctaves[last] = turns.decayOctaves;
-    strikes_.each[last] = {mode.cosPowers, mode.sinPowers, &amplitudes->re, amplitudes_.data() + s * index(floatsPerSlot_), slot, from};
+    strikes_.each[last] = {mode.cosPowers,
+                           mode.sinPowers,
+                           &amplitudes->re,
+                           amplitudes_.data() + s * index(floatsPerSlot_),
+                           slot,
+                           from};
 }
 
 void ModeTiles::strikeAll() noexcept {
@@ -184,18 +206,24 @@ void ModeTiles::strikeAll() noexcept {
 bool ModeTiles::sumsAt(const float** at, int first) noexcept {
     finishStrikes();
     settle();
-    for (std::size_t j = 0; j < index(channels_); ++j) at[j] = layers_[0].base.data() + j * frames + index(first);
+    for (std::size_t j = 0; j < index(channels_); ++j)
+        at[j] = layers_[0].base.data() + j * frames + index(first);
     return isPlain() && layers_[0].hasBase;
 }
 
 bool ModeTiles::render(float* const* out, int first, int count) noexcept {
     settle();
-    const bool isStruckOnly = layers_[0].hasBase && layers_[0].hasTails() && !layers_[1].hasBase && !layers_[1].hasTails();
-    if (isStruckOnly) addTails(layers_[0], out, first, count);
-    else if (!isPlain()) sum(out, first, count);
+    const bool isStruckOnly =
+        layers_[0].hasBase && layers_[0].hasTails() && !layers_[1].hasBase && !layers_[1].hasTails();
+    if (isStruckOnly)
+        addTails(layers_[0], out, first, count);
+    else if (!isPlain())
+        sum(out, first, count);
     else if (layers_[0].hasBase)
-        for (std::size_t j = 0; j < index(channels_); ++j) std::copy_n(layers_[0].base.data() + j * frames + index(first), count, out[j]);
-    else kernel_->clear(out, channels_, count);
+        for (std::size_t j = 0; j < index(channels_); ++j)
+            std::copy_n(layers_[0].base.data() + j * frames + index(first), count, out[j]);
+    else
+        kernel_->clear(out, channels_, count);
     return !isPlain() || layers_[0].hasBase;
 }
 
@@ -206,7 +234,8 @@ void ModeTiles::addTails(const Layer& layer, float* const* out, int first, int c
     for (std::size_t j = 0; j < index(channels_); ++j) {
         const std::size_t at = j * frames + index(first);
         std::copy_n(layer.base.data() + at, before, out[j]);
-        kernel_->sum(layer.base.data() + at + index(before), layer.tails.data() + at + index(before), count - before, out[j] + before);
+        kernel_->sum(layer.base.data() + at + index(before), layer.tails.data() + at + index(before),
+                     count - before, out[j] + before);
     }
 }
 
@@ -215,10 +244,12 @@ void ModeTiles::sum(float* const* out, int first, int count) const noexcept {
         std::array<double, frames> all{};
         for (const auto& layer : layers_) {
             const std::size_t at = j * frames + index(first);
-            for (std::size_t k = 0; layer.hasBase && k < index(count); ++k) all[k] += static_cast<double>(layer.base[at + k]);
+            for (std::size_t k = 0; layer.hasBase && k < index(count); ++k)
+                all[k] += static_cast<double>(layer.base[at + k]);
             for (std::size_t k = 0; layer.hasTails() && k < index(count); ++k) all[k] += layer.tails[at + k];
         }
-        std::transform(all.begin(), all.begin() + count, out[j], [](double y) { return static_cast<float>(y); });
+        std::transform(all.begin(), all.begin() + count, out[j],
+                       [](double y) { return static_cast<float>(y); });
     }
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The mode bank's memory for vector kernels: rows by rank, rounded amplitudes, carriers, and the tile being played.
+// The mode bank's memory for vector kernels: rows by rank, rounded amplitudes, carriers, and the tile being
+// played.
 //
-// A tile is made whole when its first frame is due; a strike inside it adds its own tail to the frames that are left,
-// so it costs O(channels), not O(modes). Gated modes are a layer of their own: closing a gate renders that layer again
-// and leaves the bits of the other alone (Docs/decisions/0002).
+// A tile is made whole when its first frame is due; a strike inside it adds its own tail to the frames that
+// are left, so it costs O(channels), not O(modes). Gated modes are a layer of their own: closing a gate
+// renders that layer again and leaves the bits of the other alone (Docs/decisions/0002).
 #pragma once
 #include "Core/Modes/InstructionSet.h"
 #include "Core/Modes/LowRankBasis.h"
@@ -15,7 +16,8 @@
 
 namespace physvib {
 
-/// What a slot's mode is, as far as tiles need it. Powers: 64 of each, double precision, for as long as the mode lives.
+/// What a slot's mode is, as far as tiles need it. Powers: 64 of each, double precision, for as long as the
+/// mode lives.
 struct TileMode {
     const double* cosPowers = nullptr;
     const double* sinPowers = nullptr;
@@ -29,7 +31,8 @@ class ModeTiles {
 public:
     static constexpr int slotCount = limits::maxModes + limits::maxFadingModes;
 
-    /// Nothing sounds; off, and without memory, if the set has no kernel here. At most slotCount slots. False: no memory for them.
+    /// Nothing sounds; off, and without memory, if the set has no kernel here. At most slotCount slots.
+    /// False: no memory for them.
     bool prepare(int channels, InstructionSet set, int slotsMost) noexcept;
     bool isOn() const noexcept { return kernel_ != nullptr; }
     InstructionSet set() const noexcept { return isOn() ? kernel_->set : InstructionSet::scalar; }
@@ -37,12 +40,13 @@ public:
     void add(int slot, const TileMode& mode) noexcept;
     void remove(int slot) noexcept;
 
-    /// The mode's phase and decay at the tile's first frame; its amplitudes, one per channel (readable in whole lines of
-    /// tiles::channelsPerLine).
+    /// The mode's phase and decay at the tile's first frame; its amplitudes, one per channel (readable in
+    /// whole lines of tiles::channelsPerLine).
     void setCarrier(int slot, Complex<double> carrier) noexcept;
     void setAmplitudes(int slot, const Complex<double>* amplitudes) noexcept;
 
-    /// The next tile: all carriers move on by one tile. Their errors grow by 1e-11 each time, so renew them in between.
+    /// The next tile: all carriers move on by one tile. Their errors grow by 1e-11 each time, so renew them
+    /// in between.
     void advance() noexcept;
     /// Nothing of this tile is made yet.
     void begin() noexcept;
@@ -50,26 +54,31 @@ public:
     static constexpr int renewalTiles = 256;
     int slotsInUse() const noexcept { return highest_; }
 
-    /// What this layer plays from that frame of the tile on follows from the amplitudes as they are when it is next needed.
+    /// What this layer plays from that frame of the tile on follows from the amplitudes as they are when it
+    /// is next needed.
     void redoFrom(bool isGated, int frame) noexcept;
 
-    /// To be called before amplitudes change by a strike at `from`: what is to be redone is redone without it.
+    /// To be called before amplitudes change by a strike at `from`: what is to be redone is redone without
+    /// it.
     void settle() noexcept;
-    /// What a strike is turned by, and what its mode's carrier and amplitudes are brought to the tile's first frame by.
+    /// What a strike is turned by, and what its mode's carrier and amplitudes are brought to the tile's first
+    /// frame by.
     struct StrikeTurns {
         Turn onset;
         std::uint64_t carrierPhase = 0;
         std::int64_t decayOctaves = 0;
     };
-    /// Adds a strike from frame `from` of the tile on, there and to the mode's amplitudes. It may wait for others until
-    /// finishStrikes.
-    void strike(int slot, int from, const StrikeTurns& turns, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept;
+    /// Adds a strike from frame `from` of the tile on, there and to the mode's amplitudes. It may wait for
+    /// others until finishStrikes.
+    void strike(int slot, int from, const StrikeTurns& turns, double amplitude, const double* gains,
+                Complex<double>* amplitudes) noexcept;
     /// To be called before amplitudes are read, or anything but strikes changes them.
     void finishStrikes() noexcept {
         if (strikes_.count > 0) strikeAll();
     }
 
-    /// Where frames from `first` on of the tile stand, if each channel is one sum; else false, and render makes it.
+    /// Where frames from `first` on of the tile stand, if each channel is one sum; else false, and render
+    /// makes it.
     bool sumsAt(const float** at, int first) noexcept;
     /// out[j][0..frames) = frames [first, first + frames) of the tile. False if all of them are zero.
     bool render(float* const* out, int first, int frames) noexcept;
@@ -97,7 +106,7 @@ private:
         Room<float, width * frames> base;   // modes as of the tile's first frame
         Room<double, width * frames> tails; // strikes since then
         std::array<int, rankCount> counts{};
-        int redo = tiles::frames; // frames from here on are not made yet
+        int redo = tiles::frames;      // frames from here on are not made yet
         int tailsFrom = tiles::frames; // all of them are 0 before it
         bool hasBase = false;
         bool hasTails() const noexcept { return tailsFrom < tiles::frames; }
@@ -106,23 +115,31 @@ private:
     int rowFor(bool isGated, int place) const noexcept { return isGated ? slots_ - 1 - place : place; }
     void make(Layer& layer, bool isGated) noexcept;
     TileLayer view(const Layer& layer, bool isGated) noexcept;
-    TileCarriers carriers() noexcept { return {highest_, re_.data(), im_.data(), stepRe_.data(), stepIm_.data(), roundedRe_.data(), roundedIm_.data()}; }
+    TileCarriers carriers() noexcept {
+        return {highest_,       re_.data(),        im_.data(),       stepRe_.data(),
+                stepIm_.data(), roundedRe_.data(), roundedIm_.data()};
+    }
     void addTails(const Layer& layer, float* const* out, int first, int count) const noexcept;
     bool takeMemory() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
     void strikeAll() noexcept;
     // the sum of free modes, or nothing
-    bool isPlain() const noexcept { return !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase; }
+    bool isPlain() const noexcept {
+        return !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase;
+    }
     bool isEmpty() const noexcept {
-        return highest_ == 0 && !layers_[0].hasBase && !layers_[1].hasBase && !layers_[0].hasTails() && !layers_[1].hasTails();
+        return highest_ == 0 && !layers_[0].hasBase && !layers_[1].hasBase && !layers_[0].hasTails() &&
+               !layers_[1].hasTails();
     }
 
     static constexpr std::array<std::size_t, rankCount> floatsBefore = [] { // of rows of lower rank, per slot
         std::array<std::size_t, rankCount> offsets{};
-        for (std::size_t r = 1; r < rankCount; ++r) offsets[r] = offsets[r - 1] + 2 * static_cast<std::size_t>(tiles::ranks[r - 1]);
+        for (std::size_t r = 1; r < rankCount; ++r)
+            offsets[r] = offsets[r - 1] + 2 * static_cast<std::size_t>(tiles::ranks[r - 1]);
         return offsets;
     }();
-    static constexpr std::size_t rowFloats = floatsBefore.back() + 2 * static_cast<std::size_t>(tiles::ranks.back());
+    static constexpr std::size_t rowFloats =
+        floatsBefore.back() + 2 * static_cast<std::size_t>(tiles::ranks.back());
 
     const TileKernel* kernel_ = nullptr;
     const LowRankBasis* basis_ = nullptr;

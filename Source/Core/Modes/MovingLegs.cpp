@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel of the board's legs. Most of their cost is in `add`; a block takes a hundred instructions a leg and frame.
+// The kernel of the board's legs. Most of their cost is in `add`; a block takes a hundred instructions a leg
+// and frame.
 #include "Core/Modes/MovingLegs.h"
 #include <algorithm>
 
@@ -11,7 +12,9 @@ constexpr int blockFrames = PhasorBank::blockFrames;
 constexpr std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 // Frames of a leg that lie before `now`; less than none if it waits.
-constexpr std::int32_t ageOf(std::uint32_t first, std::uint32_t now) noexcept { return static_cast<std::int32_t>(now - first); }
+constexpr std::int32_t ageOf(std::uint32_t first, std::uint32_t now) noexcept {
+    return static_cast<std::int32_t>(now - first);
+}
 
 // Of so many frames, 1 or more: no further down than floats go.
 std::int64_t octavesAfter(std::uint16_t decay16, std::uint32_t frames) noexcept {
@@ -21,8 +24,10 @@ std::int64_t octavesAfter(std::uint16_t decay16, std::uint32_t frames) noexcept 
 }
 
 Complex<float> phasorAfter(const BoardLeg& leg, std::uint32_t frames) noexcept {
-    const std::uint64_t phase = (static_cast<std::uint64_t>(leg.phase16) << 48) + (static_cast<std::uint64_t>(leg.turn) << 32) * frames;
-    return unitPhasor<float>(phase) * (frames > 0 ? decayFactor<float>(octavesAfter(leg.decay16, frames)) : 1.0f);
+    const std::uint64_t phase = (static_cast<std::uint64_t>(leg.phase16) << 48) +
+                                (static_cast<std::uint64_t>(leg.turn) << 32) * frames;
+    return unitPhasor<float>(phase) *
+           (frames > 0 ? decayFactor<float>(octavesAfter(leg.decay16, frames)) : 1.0f);
 }
 
 } // namespace
@@ -30,8 +35,10 @@ Complex<float> phasorAfter(const BoardLeg& leg, std::uint32_t frames) noexcept {
 bool MovingLegs::add(const BoardLeg& leg, std::uint32_t now) noexcept {
     const auto missed = std::max<std::int32_t>(0, ageOf(leg.frame, now));
     if (count_ == capacity || missed >= leg.frames) return false;
-    const auto turn = unitPhasor<float>(static_cast<std::uint64_t>(leg.turn) << 32) * decayFactor<float>(boardOctaves(leg.decay16));
-    slots_[at(count_++)] = {leg.frame, leg.frames, phasorAfter(leg, static_cast<std::uint32_t>(missed)), turn, leg.start, leg.end};
+    const auto turn = unitPhasor<float>(static_cast<std::uint64_t>(leg.turn) << 32) *
+                      decayFactor<float>(boardOctaves(leg.decay16));
+    slots_[at(count_++)] = {leg.frame, leg.frames, phasorAfter(leg, static_cast<std::uint32_t>(missed)),
+                            turn,      leg.start,  leg.end};
     return true;
 }
 
@@ -58,7 +65,8 @@ void MovingLegs::renderSlot(Slot& slot, std::int32_t age, PhasorBank::Block& io)
     const auto end = std::min<std::int32_t>(blockFrames, slot.frames - age);
     for (auto k = std::max<std::int32_t>(0, -age); k < end; ++k, slot.phasor = slot.phasor * slot.turn) {
         const auto since = static_cast<float>(age + k);
-        for (std::size_t j = 0; j < start.size(); ++j) io[j][at(k)] += (start[j] + slope[j] * since) * slot.phasor.im;
+        for (std::size_t j = 0; j < start.size(); ++j)
+            io[j][at(k)] += (start[j] + slope[j] * since) * slot.phasor.im;
     }
 }
 

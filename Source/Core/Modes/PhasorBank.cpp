@@ -10,13 +10,15 @@ namespace physvib {
 namespace {
 
 constexpr int frames = PhasorBank::blockFrames;
-constexpr float residueFactor = 0.875f;      // 60 dB in 52 frames, 6.5 ms: as short as limits::stealFadePerSecond
+constexpr float residueFactor = 0.875f; // 60 dB in 52 frames, 6.5 ms: as short as limits::stealFadePerSecond
 constexpr float residueSilence = 1.0f / (1 << 20);
-constexpr float phasorSilence = 1.0e-12f;    // squared: far below retireOctaves, far above where floats end
+constexpr float phasorSilence = 1.0e-12f; // squared: far below retireOctaves, far above where floats end
 constexpr float amplitudeStep = 1.0f / limits::board::amplitudeUnit;
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-constexpr std::int32_t between(std::uint32_t from, std::uint32_t to) noexcept { return static_cast<std::int32_t>(to - from); }
+constexpr std::int32_t between(std::uint32_t from, std::uint32_t to) noexcept {
+    return static_cast<std::int32_t>(to - from);
+}
 
 // Where channel `c` stands in the order "loudest, ratio 0, ratio 1, ratio 2".
 constexpr int place(int c, int loudest) noexcept { return c == loudest ? 0 : (c == 0 ? loudest : c); }
@@ -32,8 +34,10 @@ float level(Complex<float> z) noexcept { return std::abs(z.re) + std::abs(z.im);
 
 // Frames until a phasor of this level has fallen to 2^-retireOctaves of full scale.
 std::uint32_t lifeFrames(float level, std::uint16_t decay16) noexcept {
-    const int octaves = std::max(0, static_cast<int>(std::bit_cast<std::uint32_t>(level) >> 23) - 126 + limits::board::retireOctaves);
-    constexpr auto framesPerOctave = static_cast<std::uint32_t>(std::numbers::ln2 * limits::board::gridPerHz * limits::board::sampleRateHz + 1.0);
+    const int octaves = std::max(0, static_cast<int>(std::bit_cast<std::uint32_t>(level) >> 23) - 126 +
+                                        limits::board::retireOctaves);
+    constexpr auto framesPerOctave = static_cast<std::uint32_t>(
+        std::numbers::ln2 * limits::board::gridPerHz * limits::board::sampleRateHz + 1.0);
     return static_cast<std::uint32_t>(octaves) * framesPerOctave / decay16 + 1;
 }
 
@@ -45,19 +49,24 @@ struct Loaded {
     Complex<float> b, c, d, phasor, turn;
 };
 
-// One load of ten registers takes 11 cycles; for ten loads Arm's manual says 20 (6 % of the board's load, if it is right).
+// One load of ten registers takes 11 cycles; for ten loads Arm's manual says 20 (6 % of the board's load, if
+// it is right).
 inline Loaded load(const PhasorBank::Mode& mode) noexcept {
 #ifdef PHYSVIB_CORTEX_M
-    register float b0 asm("s0"), b1 asm("s1"), c0 asm("s2"), c1 asm("s3"), d0 asm("s4"), d1 asm("s5"), w0 asm("s6"), w1 asm("s7"), p0 asm("s8"), p1 asm("s9");
-    asm volatile("vldm %[m], {s0-s9}" : "=t"(b0), "=t"(b1), "=t"(c0), "=t"(c1), "=t"(d0), "=t"(d1), "=t"(w0), "=t"(w1), "=t"(p0), "=t"(p1) : [m] "r"(&mode), "m"(mode));
+    register float b0 asm("s0"), b1 asm("s1"), c0 asm("s2"), c1 asm("s3"), d0 asm("s4"), d1 asm("s5"),
+        w0 asm("s6"), w1 asm("s7"), p0 asm("s8"), p1 asm("s9");
+    asm volatile("vldm %[m], {s0-s9}"
+                 : "=t"(b0), "=t"(b1), "=t"(c0), "=t"(c1), "=t"(d0), "=t"(d1), "=t"(w0), "=t"(w1), "=t"(p0),
+                   "=t"(p1)
+                 : [m] "r"(&mode), "m"(mode));
     return {{b0, b1}, {c0, c1}, {d0, d1}, {w0, w1}, {p0, p1}};
 #else
     return {mode.ratios[0], mode.ratios[1], mode.ratios[2], mode.phasor, mode.turn};
 #endif
 }
 
-// Keeps the compiler from starting a frame before the last is done: on the board, 16 sums, the phasor and the ratios
-// just fill the 32 registers; without this, sums move to the stack (7 % more instructions).
+// Keeps the compiler from starting a frame before the last is done: on the board, 16 sums, the phasor and the
+// ratios just fill the 32 registers; without this, sums move to the stack (7 % more instructions).
 inline Complex<float> nextFrame(Complex<float> w) noexcept {
 #ifdef PHYSVIB_CORTEX_M
     asm volatile("" : "+t"(w.re), "+t"(w.im));
@@ -238,7 +247,8 @@ void PhasorBank::strike(const BoardEvent& event, std::uint32_t onset, Block& io)
     Complex<float> w{1.0f, 0.0f}; // of this strike alone, up to the end of the block
     Phasors all = phasorsOf(i);
     std::array<float, at(channels)> gains;
-    for (int j = 0; j < channels; ++j) gains[at(j)] = static_cast<float>(event.amplitudes[at(j)]) * amplitudeStep;
+    for (int j = 0; j < channels; ++j)
+        gains[at(j)] = static_cast<float>(event.amplitudes[at(j)]) * amplitudeStep;
     for (int k = between(frame_, onset); k < frames; ++k, w = w * turn)
         for (int j = 0; j < channels; ++j) io[at(j)][at(k)] += gains[at(j)] * w.im;
     for (int j = 0; j < channels; ++j) all[at(j)] += w * gains[at(j)];
@@ -246,8 +256,10 @@ void PhasorBank::strike(const BoardEvent& event, std::uint32_t onset, Block& io)
     if (i < 0) return;
 
     constexpr std::uint32_t framesPerMs = limits::board::sampleRateHz / 1000;
-    if (isGated) setEnd(i, onset + event.durationMs * framesPerMs);
-    else setEnd(i, frame_ + frames + lifeFrames(level(modes_[at(i)].phasor), event.decay16));
+    if (isGated)
+        setEnd(i, onset + event.durationMs * framesPerMs);
+    else
+        setEnd(i, frame_ + frames + lifeFrames(level(modes_[at(i)].phasor), event.decay16));
 }
 
 void PhasorBank::setEnd(int i, std::uint32_t end) noexcept {

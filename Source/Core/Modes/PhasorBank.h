@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The board's sounding modes. A mode is one decaying phasor w that turns by p each frame: im(w) is the signal of its
-// loudest channel; the other three channels are that phasor times a constant complex ratio each. A strike adds to all
-// four and the loudest is chosen anew, so strikes of equal frequency and decay merge exactly, whatever their channels,
-// at the cost of one mode.
+// The board's sounding modes. A mode is one decaying phasor w that turns by p each frame: im(w) is the signal
+// of its loudest channel; the other three channels are that phasor times a constant complex ratio each. A
+// strike adds to all four and the loudest is chosen anew, so strikes of equal frequency and decay merge
+// exactly, whatever their channels, at the cost of one mode.
 //
-// ModeBank does the same for a computer, from integers and for any number of channels; here everything is float, and
-// small: 49 bytes a mode, four channels, four frames at a time. The order of every operation is fixed (no contraction),
-// so that the board and a computer hold the same bits.
+// ModeBank does the same for a computer, from integers and for any number of channels; here everything is
+// float, and small: 49 bytes a mode, four channels, four frames at a time. The order of every operation is
+// fixed (no contraction), so that the board and a computer hold the same bits.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Core/Trigonometry.h"
@@ -24,7 +24,8 @@ public:
     using Row = std::array<float, static_cast<std::size_t>(blockFrames)>; ///< of one channel
     using Block = std::array<Row, static_cast<std::size_t>(channels)>;
 
-    /// What the kernel reads. If channel c is the loudest, ratio i belongs to channel i + 1, but ratio c - 1 to channel 0.
+    /// What the kernel reads. If channel c is the loudest, ratio i belongs to channel i + 1, but ratio c - 1
+    /// to channel 0.
     struct Mode {
         std::array<Complex<float>, static_cast<std::size_t>(channels - 1)> ratios;
         Complex<float> phasor; // w at the next block's first frame
@@ -37,7 +38,8 @@ public:
     /// Writes the block that begins at `frame`, each of them right after the one before.
     void render(std::uint32_t frame, Block& out) noexcept;
 
-    /// After render: adds an event that begins at frame `onset` of the block just written, to it and to what follows.
+    /// After render: adds an event that begins at frame `onset` of the block just written, to it and to what
+    /// follows.
     void strike(const BoardEvent& event, std::uint32_t onset, Block& io) noexcept;
 
     int liveModes() const noexcept { return ends_.back(); }
@@ -70,8 +72,8 @@ private:
     std::array<int, static_cast<std::size_t>(channels)> ends_{};
     // where stolen modes stood; decays without a step
     std::array<float, static_cast<std::size_t>(channels)> residue_{};
-    std::uint32_t frame_ = 0;                                         // first of the block last rendered
-    std::uint32_t nextEnd_ = 0;                                       // no mode ends before this frame
+    std::uint32_t frame_ = 0;   // first of the block last rendered
+    std::uint32_t nextEnd_ = 0; // no mode ends before this frame
     std::uint32_t stolen_ = 0;
 };
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What a vector kernel does for one tile of 64 frames, and where it finds the modes. Written once in TileKernels.cpp,
-// compiled once per instruction set.
+// What a vector kernel does for one tile of 64 frames, and where it finds the modes. Written once in
+// TileKernels.cpp, compiled once per instruction set.
 //
-// Low rank: inside a tile any decaying sinusoid of less than a turn or so is a combination of a few polynomials
-// (LowRankBasis.h). A mode is a row of complex coefficients, fixed for life; a tile is the product of the modes'
-// amplitudes with these rows, summed over modes, and one expansion per channel at the end, whatever the number of modes.
+// Low rank: inside a tile any decaying sinusoid of less than a turn or so is a combination of a few
+// polynomials (LowRankBasis.h). A mode is a row of complex coefficients, fixed for life; a tile is the
+// product of the modes' amplitudes with these rows, summed over modes, and one expansion per channel at the
+// end, whatever the number of modes.
 #pragma once
 #include "Core/Actuators/LimiterKernel.h"
-#include "Core/Modes/InstructionSet.h"
 #include "Core/Limits.h"
+#include "Core/Modes/InstructionSet.h"
 #include "Core/Trigonometry.h"
 #include <array>
 #include <cstddef>
@@ -19,8 +20,8 @@ namespace physvib {
 namespace tiles {
 constexpr int frames = limits::tileFrames;         // one mode's share stays in registers
 constexpr std::array<int, 4> ranks{8, 16, 32, 64}; // coefficients of a row; 64: the tile's frames themselves
-constexpr int maxRank = 32;                       // of the polynomials
-constexpr int channelsPerLine = 4;                // amplitudes of four channels share a cache line
+constexpr int maxRank = 32;                        // of the polynomials
+constexpr int channelsPerLine = 4;                 // amplitudes of four channels share a cache line
 } // namespace tiles
 
 /// Modes of one rank, packed. Row i: `rank` pairs (sine, cosine part) of mode slots[i].
@@ -31,8 +32,8 @@ struct TileModes {
     int rank = 0;
 };
 
-/// All modes of one layer. A mode's amplitudes: per four channels eight floats z = (re, im)... and eight floats
-/// i z = (-im, re)..., so that multiplying by the carrier needs no shuffle.
+/// All modes of one layer. A mode's amplitudes: per four channels eight floats z = (re, im)... and eight
+/// floats i z = (-im, re)..., so that multiplying by the carrier needs no shuffle.
 struct TileLayer {
     std::array<TileModes, tiles::ranks.size()> modes;
     int channels = 0;
@@ -57,19 +58,19 @@ struct Turn {
     std::int64_t octaves = 0;
 };
 
-/// One strike inside a tile, of one mode: its amplitudes decay to the tile's first frame and gain scaled[j] * onset in channel j,
-/// its carrier is set, and frame k >= from gains scaled[j] * im(onset * carrier * p^k).
+/// One strike inside a tile, of one mode: its amplitudes decay to the tile's first frame and gain scaled[j] *
+/// onset in channel j, its carrier is set, and frame k >= from gains scaled[j] * im(onset * carrier * p^k).
 struct TileStrike {
     const double* cosPowers = nullptr; ///< p^k, 64 of each
     const double* sinPowers = nullptr;
-    double* amplitudes = nullptr;      ///< re, im of each channel; readable in whole lines
-    float* lines = nullptr;            ///< the same as TileLayer has them
+    double* amplitudes = nullptr; ///< re, im of each channel; readable in whole lines
+    float* lines = nullptr;       ///< the same as TileLayer has them
     int slot = 0;
     int from = 0;
 };
 
-/// Strikes of one layer, none earlier than the one before it. Together they cost less: what they wait for is waited for once,
-/// and the tails stay in registers.
+/// Strikes of one layer, none earlier than the one before it. Together they cost less: what they wait for is
+/// waited for once, and the tails stay in registers.
 struct TileStrikes {
     static constexpr int most = 8;
     int count = 0, channels = 0;
@@ -85,7 +86,7 @@ struct TileStrikes {
 struct TileKernel {
     InstructionSet set = InstructionSet::scalar;
     void (*advance)(const TileCarriers& carriers) = nullptr;
-    void (*render)(const TileLayer& layer, float* out) = nullptr;         ///< out[channel * 64 + frame]
+    void (*render)(const TileLayer& layer, float* out) = nullptr; ///< out[channel * 64 + frame]
     void (*strike)(const TileStrikes& strikes) = nullptr;
     /// out = base + tails
     void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr;

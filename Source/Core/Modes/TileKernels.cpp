@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The vector kernels: one text, compiled once per instruction set by Highway, chosen at run time.
 //
-// Lanes hold polynomial coefficients as (sine, cosine) pairs, so one 64-bit broadcast of an amplitude (re, im) serves
-// both products. A panel of 16 floats times a few channels stays in registers while modes stream by; after 64 modes it
-// is added to sums in double precision. Every lane does the same operations in the same order whatever the vector's
-// width: sets with fused multiply-adds agree to the bit.
+// Lanes hold polynomial coefficients as (sine, cosine) pairs, so one 64-bit broadcast of an amplitude (re,
+// im) serves both products. A panel of 16 floats times a few channels stays in registers while modes stream
+// by; after 64 modes it is added to sums in double precision. Every lane does the same operations in the same
+// order whatever the vector's width: sets with fused multiply-adds agree to the bit.
 #include "Core/Modes/TileKernel.h"
 
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
@@ -29,7 +29,9 @@ constexpr std::size_t chunkModes = 64;    // amplitudes and rows of so many stay
 constexpr std::size_t chunkChannels = 16; // channels of one pass over the rows
 
 // Channels whose sums stay in registers: 8 sums hide the latency of a multiply-add.
-constexpr std::size_t group = HWY_TARGET == HWY_AVX3 ? 8 : HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_NEON ? 4 : 2;
+constexpr std::size_t group = HWY_TARGET == HWY_AVX3                             ? 8
+                              : HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_NEON ? 4
+                                                                                 : 2;
 
 struct Rows {
     const float* first = nullptr; // this panel of the first mode
@@ -39,7 +41,8 @@ struct Rows {
 
 // sums[channel * sumStride + k] += coefficient k of the panel, over all rows.
 template <std::size_t channels, std::size_t floats>
-HWY_INLINE void addPanel(const Rows& rows, const float* amplitudes, std::size_t amplitudeStride, double* sums, std::size_t sumStride) {
+HWY_INLINE void addPanel(const Rows& rows, const float* amplitudes, std::size_t amplitudeStride, double* sums,
+                         std::size_t sumStride) {
     const Panel d;
     const hn::Repartition<double, Panel> pairs;
     constexpr std::size_t lanes = hn::MaxLanes(Panel()), vectors = floats / lanes;
@@ -63,73 +66,93 @@ HWY_INLINE void addPanel(const Rows& rows, const float* amplitudes, std::size_t 
         for (std::size_t v = 0; v < vectors; ++v) {
             const auto both = hn::Add(sum[j][v], hn::Shuffle2301(sum[j][v]));
             double* at = sums + j * sumStride + v * lanes / 2;
-            hn::StoreU(hn::Add(hn::LoadU(wide, at), hn::PromoteTo(wide, hn::LowerHalf(half, hn::ConcatEven(d, both, both)))), wide, at);
+            hn::StoreU(hn::Add(hn::LoadU(wide, at),
+                               hn::PromoteTo(wide, hn::LowerHalf(half, hn::ConcatEven(d, both, both)))),
+                       wide, at);
         }
 }
 
 // z = amplitude * carrier for `count` modes and the channels of `lines` lines.
-HWY_INLINE void turn(const TileLayer& layer, const std::int32_t* slots, std::size_t count, std::size_t firstLine, std::size_t lines, float* z) {
+HWY_INLINE void turn(const TileLayer& layer, const std::int32_t* slots, std::size_t count,
+                     std::size_t firstLine, std::size_t lines, float* z) {
     const Line d;
     constexpr std::size_t lanes = hn::MaxLanes(Line());
     for (std::size_t i = 0; i < count; ++i, z += lines * 8) {
         const auto slot = static_cast<std::size_t>(slots[i]);
         const auto re = hn::Set(d, layer.carrierRe[slot]), im = hn::Set(d, layer.carrierIm[slot]);
-        const float* from = layer.amplitudes + slot * static_cast<std::size_t>(layer.floatsPerSlot) + firstLine * 16;
+        const float* from =
+            layer.amplitudes + slot * static_cast<std::size_t>(layer.floatsPerSlot) + firstLine * 16;
         for (std::size_t l = 0; l < lines; ++l)
             for (std::size_t k = 0; k < 8; k += lanes)
-                hn::Store(hn::MulAdd(im, hn::Load(d, from + l * 16 + 8 + k), hn::Mul(re, hn::Load(d, from + l * 16 + k))), d, z + l * 8 + k);
+                hn::Store(hn::MulAdd(im, hn::Load(d, from + l * 16 + 8 + k),
+                                     hn::Mul(re, hn::Load(d, from + l * 16 + k))),
+                          d, z + l * 8 + k);
     }
 }
 
 // One panel (of `floats`) of a chunk, for all channels.
 template <std::size_t floats>
-HWY_INLINE void addToAll(const Rows& panel, const float* z, std::size_t zStride, std::size_t channels, double* sums, std::size_t sumStride) {
+HWY_INLINE void addToAll(const Rows& panel, const float* z, std::size_t zStride, std::size_t channels,
+                         double* sums, std::size_t sumStride) {
     std::size_t j = 0;
     if constexpr (group >= 8)
-        for (; j + 8 <= channels; j += 8) addPanel<8, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+        for (; j + 8 <= channels; j += 8)
+            addPanel<8, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
     if constexpr (group >= 4)
-        for (; j + 4 <= channels; j += 4) addPanel<4, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
-    for (; j + 2 <= channels; j += 2) addPanel<2, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+        for (; j + 4 <= channels; j += 4)
+            addPanel<4, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+    for (; j + 2 <= channels; j += 2)
+        addPanel<2, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
     if (j < channels) addPanel<1, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
 }
 
 // One chunk, panel by panel; two at once where there are registers for it.
-void addChunk(const Rows& rows, std::size_t rowFloats, const float* z, std::size_t zStride, std::size_t channels, double* sums, std::size_t sumStride) {
+void addChunk(const Rows& rows, std::size_t rowFloats, const float* z, std::size_t zStride,
+              std::size_t channels, double* sums, std::size_t sumStride) {
     std::size_t p = 0;
     if constexpr (HWY_TARGET == HWY_AVX3)
         for (; p + 2 * panelFloats <= rowFloats; p += 2 * panelFloats)
-            addToAll<2 * panelFloats>({rows.first + p, rows.stride, rows.count}, z, zStride, channels, sums + p / 2, sumStride);
-    for (; p < rowFloats; p += panelFloats) addToAll<panelFloats>({rows.first + p, rows.stride, rows.count}, z, zStride, channels, sums + p / 2, sumStride);
+            addToAll<2 * panelFloats>({rows.first + p, rows.stride, rows.count}, z, zStride, channels,
+                                      sums + p / 2, sumStride);
+    for (; p < rowFloats; p += panelFloats)
+        addToAll<panelFloats>({rows.first + p, rows.stride, rows.count}, z, zStride, channels, sums + p / 2,
+                              sumStride);
 }
 
-void addModes(const TileLayer& layer, const TileModes& modes, std::size_t firstChannel, std::size_t channels, double* sums, std::size_t sumStride) {
+void addModes(const TileLayer& layer, const TileModes& modes, std::size_t firstChannel, std::size_t channels,
+              double* sums, std::size_t sumStride) {
     HWY_ALIGN float z[chunkModes * chunkChannels * 2];
     const std::size_t lines = (channels + 3) / 4, rowFloats = 2 * static_cast<std::size_t>(modes.rank);
     for (std::size_t first = 0; first < static_cast<std::size_t>(modes.count); first += chunkModes) {
         const std::size_t count = HWY_MIN(chunkModes, static_cast<std::size_t>(modes.count) - first);
         turn(layer, modes.slots + first, count, firstChannel / 4, lines, z);
-        addChunk({modes.rows + first * rowFloats, rowFloats, count}, rowFloats, z, lines * 8, channels, sums, sumStride);
+        addChunk({modes.rows + first * rowFloats, rowFloats, count}, rowFloats, z, lines * 8, channels, sums,
+                 sumStride);
     }
 }
 
-// out[t] = sum over k of c[k] U_k(t): even and odd polynomials apart, so that half the frames give the other half.
+// out[t] = sum over k of c[k] U_k(t): even and odd polynomials apart, so that half the frames give the other
+// half.
 template <std::size_t channels>
 HWY_INLINE void expand(const double* coefficients, std::size_t rank, const float* basis, float* out) {
     const Panel d;
     const Doubles wide;
     const hn::Rebind<float, Doubles> narrow;
-    constexpr std::size_t lanes = hn::MaxLanes(Panel()), half = frames / 2, vectors = HWY_MIN(4, half / lanes), most = tiles::maxRank;
+    constexpr std::size_t lanes = hn::MaxLanes(Panel()), half = frames / 2,
+                          vectors = HWY_MIN(4, half / lanes), most = tiles::maxRank;
     HWY_ALIGN float c[channels * most];
     for (std::size_t j = 0; j < channels; ++j)
         for (std::size_t k = 0; k < rank; k += hn::MaxLanes(Doubles()))
-            hn::Store(hn::DemoteTo(narrow, hn::Load(wide, coefficients + j * most + k)), narrow, c + j * most + k);
+            hn::Store(hn::DemoteTo(narrow, hn::Load(wide, coefficients + j * most + k)), narrow,
+                      c + j * most + k);
     for (std::size_t t = 0; t < half; t += vectors * lanes) {
         hn::Vec<Panel> even[channels][vectors], odd[channels][vectors];
         for (std::size_t j = 0; j < channels; ++j)
             for (std::size_t v = 0; v < vectors; ++v) even[j][v] = odd[j][v] = hn::Zero(d);
         for (std::size_t k = 0; k < rank; k += 2)
             for (std::size_t v = 0; v < vectors; ++v) {
-                const auto ue = hn::Load(d, basis + k * half + t + v * lanes), uo = hn::Load(d, basis + (k + 1) * half + t + v * lanes);
+                const auto ue = hn::Load(d, basis + k * half + t + v * lanes),
+                           uo = hn::Load(d, basis + (k + 1) * half + t + v * lanes);
                 for (std::size_t j = 0; j < channels; ++j) {
                     even[j][v] = hn::MulAdd(hn::Set(d, c[j * most + k]), ue, even[j][v]);
                     odd[j][v] = hn::MulAdd(hn::Set(d, c[j * most + k + 1]), uo, odd[j][v]);
@@ -139,7 +162,8 @@ HWY_INLINE void expand(const double* coefficients, std::size_t rank, const float
             for (std::size_t v = 0; v < vectors; ++v) {
                 float* at = out + j * frames + t + v * lanes;
                 hn::StoreU(hn::Add(even[j][v], odd[j][v]), d, at);
-                hn::StoreU(hn::Reverse(d, hn::Sub(even[j][v], odd[j][v])), d, out + (j + 1) * frames - lanes - t - v * lanes);
+                hn::StoreU(hn::Reverse(d, hn::Sub(even[j][v], odd[j][v])), d,
+                           out + (j + 1) * frames - lanes - t - v * lanes);
             }
     }
 }
@@ -159,13 +183,16 @@ void render(const TileLayer& layer, float* out) {
         for (std::size_t i = 0; hasDirect && i < channels * frames; ++i) direct[i] = 0.0;
         for (const auto& modes : layer.modes) {
             const bool isDirect = modes.rank > tiles::maxRank;
-            if (modes.count > 0) addModes(layer, modes, first, channels, isDirect ? direct : sums, isDirect ? frames : most);
+            if (modes.count > 0)
+                addModes(layer, modes, first, channels, isDirect ? direct : sums, isDirect ? frames : most);
         }
         constexpr std::size_t together = hn::MaxLanes(Panel()) == 16 ? 2 : 1; // eight sums in either case
         std::size_t j = 0;
-        for (; j + together <= channels; j += together) expand<together>(sums + j * most, rank, layer.basis, out + (first + j) * frames);
+        for (; j + together <= channels; j += together)
+            expand<together>(sums + j * most, rank, layer.basis, out + (first + j) * frames);
         for (; j < channels; ++j) expand<1>(sums + j * most, rank, layer.basis, out + (first + j) * frames);
-        for (std::size_t i = 0; hasDirect && i < channels * frames; ++i) out[first * frames + i] += static_cast<float>(direct[i]);
+        for (std::size_t i = 0; hasDirect && i < channels * frames; ++i)
+            out[first * frames + i] += static_cast<float>(direct[i]);
     }
 }
 
@@ -196,9 +223,10 @@ struct Onsets {
     HWY_ALIGN double decay[TileStrikes::most];
 };
 
-// The mode's amplitudes decay, move by a strike and are rounded for the tiles that follow, in whole lines: what stands behind the last
-// channel is never summed.
-HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, std::size_t channels, Complex<double> onset, double decay) {
+// The mode's amplitudes decay, move by a strike and are rounded for the tiles that follow, in whole lines:
+// what stands behind the last channel is never summed.
+HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, std::size_t channels,
+                                Complex<double> onset, double decay) {
     const Doubles d;
     const hn::Rebind<float, Doubles> narrow;
     constexpr std::size_t lanes = hn::MaxLanes(Doubles());
@@ -228,39 +256,48 @@ HWY_INLINE void fillWaves(const TileStrikes& s, const Onsets& onsets, double* wa
     constexpr std::size_t lanes = hn::MaxLanes(Doubles());
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); ++i, waves += frames) {
         const TileStrike& e = s.each[i];
-        const auto re = hn::Set(d, onsets.turnedRe[i]), im = hn::Set(d, onsets.turnedIm[i]), from = hn::Set(d, static_cast<double>(e.from));
-        for (std::size_t k = static_cast<std::size_t>(e.from) / panelFloats * panelFloats; k < frames; k += lanes) {
+        const auto re = hn::Set(d, onsets.turnedRe[i]), im = hn::Set(d, onsets.turnedIm[i]),
+                   from = hn::Set(d, static_cast<double>(e.from));
+        for (std::size_t k = static_cast<std::size_t>(e.from) / panelFloats * panelFloats; k < frames;
+             k += lanes) {
             const auto sounds = hn::Ge(hn::Iota(d, static_cast<double>(k)), from);
-            hn::Store(hn::IfThenElseZero(sounds, hn::MulAdd(re, hn::LoadU(d, e.sinPowers + k), hn::Mul(im, hn::LoadU(d, e.cosPowers + k)))), d, waves + k);
+            hn::Store(hn::IfThenElseZero(sounds, hn::MulAdd(re, hn::LoadU(d, e.sinPowers + k),
+                                                            hn::Mul(im, hn::LoadU(d, e.cosPowers + k)))),
+                      d, waves + k);
         }
     }
 }
 
-// Some frames of some channels stay in registers while the strikes pass by that have begun by the end of them.
+// Some frames of some channels stay in registers while the strikes pass by that have begun by the end of
+// them.
 template <std::size_t channels>
 HWY_INLINE void addToTails(const TileStrikes& s, const double* waves, const double* scaled, double* tails) {
     const Doubles d;
-    constexpr std::size_t lanes = hn::MaxLanes(Doubles()), vectors = HWY_MIN(2, panelFloats / lanes), step = vectors * lanes;
+    constexpr std::size_t lanes = hn::MaxLanes(Doubles()), vectors = HWY_MIN(2, panelFloats / lanes),
+                          step = vectors * lanes;
     const auto all = static_cast<std::size_t>(s.count), stride = 2 * static_cast<std::size_t>(s.channels);
     std::size_t begun = 0;
     for (std::size_t k = static_cast<std::size_t>(s.each[0].from) / step * step; k < frames; k += step) {
         while (begun < all && static_cast<std::size_t>(s.each[begun].from) < k + step) ++begun;
         hn::Vec<Doubles> sum[channels][vectors];
         for (std::size_t j = 0; j < channels; ++j)
-            for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = hn::Load(d, tails + j * frames + k + v * lanes);
+            for (std::size_t v = 0; v < vectors; ++v)
+                sum[j][v] = hn::Load(d, tails + j * frames + k + v * lanes);
         const double *gains = scaled, *wave = waves + k;
         for (std::size_t i = 0; i < begun; ++i, gains += stride, wave += frames)
             for (std::size_t j = 0; j < channels; ++j) {
                 const auto g = hn::Set(d, gains[2 * j]);
-                for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = hn::MulAdd(g, hn::Load(d, wave + v * lanes), sum[j][v]);
+                for (std::size_t v = 0; v < vectors; ++v)
+                    sum[j][v] = hn::MulAdd(g, hn::Load(d, wave + v * lanes), sum[j][v]);
             }
         for (std::size_t j = 0; j < channels; ++j)
-            for (std::size_t v = 0; v < vectors; ++v) hn::Store(sum[j][v], d, tails + j * frames + k + v * lanes);
+            for (std::size_t v = 0; v < vectors; ++v)
+                hn::Store(sum[j][v], d, tails + j * frames + k + v * lanes);
     }
 }
 
-// unitPhasor and decayFactor of Core/Trigonometry.h, step by step the same, of some at once: one alone is a long row of steps that
-// wait for each other.
+// unitPhasor and decayFactor of Core/Trigonometry.h, step by step the same, of some at once: one alone is a
+// long row of steps that wait for each other.
 struct Phasors {
     hn::Vec<Doubles> re, im;
 };
@@ -269,16 +306,22 @@ HWY_INLINE Phasors unitPhasors(const std::uint64_t* phases) {
     const hn::RebindToUnsigned<Doubles> turns;
     const auto one = hn::Set(d, 1.0);
     const auto first = hn::Set(turns, 1), phase = hn::LoadU(turns, phases);
-    const auto quadrant = hn::ShiftRight<62>(hn::Add(phase, hn::Set(turns, std::uint64_t{1} << 61))), rest = hn::Sub(phase, hn::ShiftLeft<62>(quadrant));
-    const auto x = hn::Mul(hn::Set(d, 2.0 * std::numbers::pi / 18446744073709551616.0), hn::ConvertTo(d, hn::BitCast(hn::RebindToSigned<Doubles>(), rest)));
+    const auto quadrant = hn::ShiftRight<62>(hn::Add(phase, hn::Set(turns, std::uint64_t{1} << 61))),
+               rest = hn::Sub(phase, hn::ShiftLeft<62>(quadrant));
+    const auto x = hn::Mul(hn::Set(d, 2.0 * std::numbers::pi / 18446744073709551616.0),
+                           hn::ConvertTo(d, hn::BitCast(hn::RebindToSigned<Doubles>(), rest)));
     const auto q = hn::Mul(x, x);
-    auto sine = hn::Sub(one, hn::Mul(q, hn::Set(d, 1.0 / 110))), cosine = hn::Sub(one, hn::Mul(q, hn::Set(d, 1.0 / 132)));
+    auto sine = hn::Sub(one, hn::Mul(q, hn::Set(d, 1.0 / 110))),
+         cosine = hn::Sub(one, hn::Mul(q, hn::Set(d, 1.0 / 132)));
     for (const int n : {72, 42, 20, 6}) sine = hn::Sub(one, hn::Mul(hn::Mul(q, hn::Set(d, 1.0 / n)), sine));
-    for (const int n : {90, 56, 30, 12, 2}) cosine = hn::Sub(one, hn::Mul(hn::Mul(q, hn::Set(d, 1.0 / n)), cosine));
+    for (const int n : {90, 56, 30, 12, 2})
+        cosine = hn::Sub(one, hn::Mul(hn::Mul(q, hn::Set(d, 1.0 / n)), cosine));
     sine = hn::Mul(x, sine);
     const auto isOdd = hn::MaskFromVec(hn::BitCast(d, hn::Sub(hn::Zero(turns), hn::And(quadrant, first))));
-    const auto reSign = hn::ShiftLeft<63>(hn::ShiftRight<1>(hn::Add(quadrant, first))), imSign = hn::ShiftLeft<63>(hn::ShiftRight<1>(quadrant));
-    return {hn::Xor(hn::IfThenElse(isOdd, sine, cosine), hn::BitCast(d, reSign)), hn::Xor(hn::IfThenElse(isOdd, cosine, sine), hn::BitCast(d, imSign))};
+    const auto reSign = hn::ShiftLeft<63>(hn::ShiftRight<1>(hn::Add(quadrant, first))),
+               imSign = hn::ShiftLeft<63>(hn::ShiftRight<1>(quadrant));
+    return {hn::Xor(hn::IfThenElse(isOdd, sine, cosine), hn::BitCast(d, reSign)),
+            hn::Xor(hn::IfThenElse(isOdd, cosine, sine), hn::BitCast(d, imSign))};
 }
 
 HWY_INLINE hn::Vec<Doubles> decayFactors(const std::int64_t* octaves) {
@@ -286,10 +329,13 @@ HWY_INLINE hn::Vec<Doubles> decayFactors(const std::int64_t* octaves) {
     const hn::RebindToSigned<Doubles> fixed;
     const auto one = hn::Set(d, 1.0);
     const auto all = hn::LoadU(fixed, octaves);
-    const auto whole = hn::ShiftRight<octaveFractionBits>(hn::Add(all, hn::Set(fixed, std::int64_t{1} << (octaveFractionBits - 1))));
-    const auto x = hn::Mul(hn::Set(d, -std::numbers::ln2 / octaveUnit), hn::ConvertTo(d, hn::Sub(all, hn::ShiftLeft<octaveFractionBits>(whole))));
+    const auto whole = hn::ShiftRight<octaveFractionBits>(
+        hn::Add(all, hn::Set(fixed, std::int64_t{1} << (octaveFractionBits - 1))));
+    const auto x = hn::Mul(hn::Set(d, -std::numbers::ln2 / octaveUnit),
+                           hn::ConvertTo(d, hn::Sub(all, hn::ShiftLeft<octaveFractionBits>(whole))));
     auto power = hn::Add(one, hn::Mul(x, hn::Set(d, 1.0 / 9)));
-    for (const int n : {8, 7, 6, 5, 4, 3, 2}) power = hn::Add(one, hn::Mul(hn::Mul(x, hn::Set(d, 1.0 / n)), power));
+    for (const int n : {8, 7, 6, 5, 4, 3, 2})
+        power = hn::Add(one, hn::Mul(hn::Mul(x, hn::Set(d, 1.0 / n)), power));
     power = hn::Add(one, hn::Mul(x, power));
     return hn::Mul(power, hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(fixed, 1023), whole))));
 }
@@ -298,8 +344,10 @@ HWY_INLINE hn::Vec<Doubles> decayFactors(const std::int64_t* octaves) {
 HWY_INLINE void turnOnsets(const TileStrikes& s, Onsets& onsets) {
     const Doubles d;
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); i += hn::MaxLanes(Doubles())) {
-        const auto unit = unitPhasors(s.onsetPhases.data() + i), carrier = unitPhasors(s.carrierPhases.data() + i);
-        const auto power = decayFactors(s.onsetOctaves.data() + i), re = hn::Mul(unit.re, power), im = hn::Mul(unit.im, power);
+        const auto unit = unitPhasors(s.onsetPhases.data() + i),
+                   carrier = unitPhasors(s.carrierPhases.data() + i);
+        const auto power = decayFactors(s.onsetOctaves.data() + i), re = hn::Mul(unit.re, power),
+                   im = hn::Mul(unit.im, power);
         hn::Store(re, d, onsets.re + i);
         hn::Store(im, d, onsets.im + i);
         hn::Store(hn::Sub(hn::Mul(re, carrier.re), hn::Mul(im, carrier.im)), d, onsets.turnedRe + i);
@@ -322,7 +370,9 @@ void strike(const TileStrikes& s) {
     Onsets onsets;
     const auto count = static_cast<std::size_t>(s.count), channels = static_cast<std::size_t>(s.channels);
     turnOnsets(s, onsets);
-    for (std::size_t i = 0; i < count; ++i) addToAmplitudes(s.each[i], s.scaled + i * 2 * channels, channels, {onsets.re[i], onsets.im[i]}, onsets.decay[i]);
+    for (std::size_t i = 0; i < count; ++i)
+        addToAmplitudes(s.each[i], s.scaled + i * 2 * channels, channels, {onsets.re[i], onsets.im[i]},
+                        onsets.decay[i]);
     fillWaves(s, onsets, waves);
     constexpr std::size_t most = HWY_TARGET == HWY_AVX3 ? 8 : 4; // as many sums as registers hold
     std::size_t j = 0;
@@ -339,7 +389,9 @@ void sum(const float* base, const double* tails, int count, float* out) {
     const auto all = static_cast<std::size_t>(count);
     std::size_t k = 0;
     for (; k + lanes <= all; k += lanes)
-        hn::StoreU(hn::DemoteTo(narrow, hn::Add(hn::PromoteTo(d, hn::LoadU(narrow, base + k)), hn::LoadU(d, tails + k))), narrow, out + k);
+        hn::StoreU(hn::DemoteTo(narrow, hn::Add(hn::PromoteTo(d, hn::LoadU(narrow, base + k)),
+                                                hn::LoadU(d, tails + k))),
+                   narrow, out + k);
     for (; k < all; ++k) out[k] = static_cast<float>(static_cast<double>(base[k]) + tails[k]);
 }
 
@@ -351,7 +403,8 @@ HWY_INLINE void clearChannel(float* out, std::size_t count) {
         for (std::size_t k = 0; k < count; ++k) out[k] = 0.0f;
         return;
     }
-    float *const last = out + count - lanes, *at = out + (bytes - reinterpret_cast<std::uintptr_t>(out) % bytes) / sizeof(float);
+    float *const last = out + count - lanes,
+                 *at = out + (bytes - reinterpret_cast<std::uintptr_t>(out) % bytes) / sizeof(float);
     hn::StoreU(hn::Zero(d), d, out);
     for (; at + 2 * lanes < last; at += 3 * lanes) { // a loop of one store would become a call
         hn::StoreU(hn::Zero(d), d, at);

@@ -7,7 +7,9 @@ namespace {
 
 double secondsOf(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 // up: never below a threshold
-double inHundredths(double command) noexcept { return std::clamp(std::ceil(100.0 * command - 1e-9) / 100.0, 0.0, 1.0) + 0.0; }
+double inHundredths(double command) noexcept {
+    return std::clamp(std::ceil(100.0 * command - 1e-9) / 100.0, 0.0, 1.0) + 0.0;
+}
 constexpr double nearEnough = 0.03; // of full strength: nobody feels it, and it would cost a command
 
 /// 0: all of it in the left grip, 1: in the right one.
@@ -38,11 +40,13 @@ bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& grips) 
     voice.heavyShare = 1.0 / (1.0 + std::pow(event.frequencyHz / law_.splitHz, 4.0));
     voice.travelNs = event.course.travelNs;
     voice.fromSide = sideOf(event, event.x, event.y, grips);
-    voice.toSide = voice.travelNs > 0 ? sideOf(event, event.course.toX, event.course.toY, grips) : voice.fromSide;
+    voice.toSide =
+        voice.travelNs > 0 ? sideOf(event, event.course.toX, event.course.toY, grips) : voice.fromSide;
     const Energies energies = shared(voice.energy, voice.heavyShare, voice.fromSide);
     voice.low = energies.low, voice.high = energies.high;
     const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(waits_);
-    const auto place = std::upper_bound(waiting_.begin(), end, voice.startNs, [](std::int64_t ns, const Voice& v) { return ns < v.startNs; });
+    const auto place = std::upper_bound(waiting_.begin(), end, voice.startNs,
+                                        [](std::int64_t ns, const Voice& v) { return ns < v.startNs; });
     std::move_backward(place, end, end + 1);
     *place = voice;
     ++waits_;
@@ -51,7 +55,8 @@ bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& grips) 
 
 void PadMotors::stop(std::int64_t atNs) noexcept {
     const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(waits_);
-    const auto later = std::find_if(waiting_.begin(), end, [&](const Voice& voice) { return voice.startNs + leadNs() >= atNs; });
+    const auto later = std::find_if(waiting_.begin(), end,
+                                    [&](const Voice& voice) { return voice.startNs + leadNs() >= atNs; });
     waits_ = static_cast<std::size_t>(std::move(later, end, waiting_.begin()) - waiting_.begin());
     ringing_ = 0;
     low_.kick = high_.kick = 0.0;
@@ -64,12 +69,14 @@ std::int64_t PadMotors::dueNs() const noexcept {
     return waits_ > 0 ? std::max(soonest, waiting_.front().startNs) : never;
 }
 
-// Frequency says how the energy is shared in the middle, place moves it to one grip, and nothing of it is lost.
+// Frequency says how the energy is shared in the middle, place moves it to one grip, and nothing of it is
+// lost.
 PadMotors::Energies PadMotors::shared(double energy, double heavyShare, double side) const noexcept {
     const double low = heavyShare * (1.0 - law_.side + 2.0 * law_.side * (1.0 - side)),
                  high = (1.0 - heavyShare) * (1.0 - law_.side + 2.0 * law_.side * side);
     const double sum = low + high;
-    return sum > 0.0 ? Energies{energy * low / sum, energy * high / sum} : Energies{energy * heavyShare, energy * (1.0 - heavyShare)};
+    return sum > 0.0 ? Energies{energy * low / sum, energy * high / sum}
+                     : Energies{energy * heavyShare, energy * (1.0 - heavyShare)};
 }
 
 PadMotors::Energies PadMotors::energiesAt(const Voice& voice, std::int64_t timeNs) const noexcept {
@@ -78,7 +85,8 @@ PadMotors::Energies PadMotors::energiesAt(const Voice& voice, std::int64_t timeN
     const double left = std::exp(-2.0 * voice.decayPerSecond * secondsOf(sinceNs));
     if (voice.travelNs == 0) return {voice.low * left, voice.high * left};
     const double way = std::min(1.0, secondsOf(sinceNs) / secondsOf(voice.travelNs));
-    return shared(voice.energy * left, voice.heavyShare, voice.fromSide + way * (voice.toSide - voice.fromSide));
+    return shared(voice.energy * left, voice.heavyShare,
+                  voice.fromSide + way * (voice.toSide - voice.fromSide));
 }
 
 double PadMotors::wanted(double amplitude) const noexcept {
@@ -118,15 +126,23 @@ void PadMotors::add(const Voice& voice) noexcept {
         return;
     }
     ++lost_;
-    const auto energyOf = [&](const Voice& v) { const Energies e = energiesAt(v, voice.startNs); return e.low + e.high; };
-    auto& weakest = *std::min_element(voices_.begin(), voices_.end(), [&](const Voice& a, const Voice& b) { return energyOf(a) < energyOf(b); });
+    const auto energyOf = [&](const Voice& v) {
+        const Energies e = energiesAt(v, voice.startNs);
+        return e.low + e.high;
+    };
+    auto& weakest = *std::min_element(voices_.begin(), voices_.end(), [&](const Voice& a, const Voice& b) {
+        return energyOf(a) < energyOf(b);
+    });
     if (energyOf(weakest) < energyOf(voice)) weakest = voice;
 }
 
-double PadMotors::drive(State& state, const PadMotor& motor, double amplitude, double seconds) const noexcept {
+double PadMotors::drive(State& state, const PadMotor& motor, double amplitude,
+                        double seconds) const noexcept {
     const double strength = std::max(wanted(amplitude), state.kick);
     if (strength <= 0.0) return 0.0;
-    if (state.command > 0.0 && std::abs(motor.strengthAfter(state.strength, state.command, seconds) - strength) < nearEnough) return state.command;
+    if (state.command > 0.0 &&
+        std::abs(motor.strengthAfter(state.strength, state.command, seconds) - strength) < nearEnough)
+        return state.command;
     const double share = motor.shareOfWay(seconds, strength > state.strength);
     return std::max(motor.threshold, motor.commandOf((strength - state.strength * (1.0 - share)) / share));
 }
@@ -144,8 +160,10 @@ PadMotors::Energies PadMotors::ringingAt(std::int64_t nowNs) noexcept {
     for (std::size_t i = 0; i < ringing_;) {
         const Energies energies = energiesAt(voices_[i], nowNs);
         sum.low += energies.low, sum.high += energies.high;
-        if (std::sqrt(energies.low + energies.high) < 0.1 * law_.floor) voices_[i] = voices_[--ringing_];
-        else ++i;
+        if (std::sqrt(energies.low + energies.high) < 0.1 * law_.floor)
+            voices_[i] = voices_[--ringing_];
+        else
+            ++i;
     }
     return sum;
 }
@@ -157,7 +175,8 @@ PadCommand PadMotors::next(double level) noexcept {
     high_.strength = law_.high.strengthAfter(high_.strength, high_.command, passed);
     beginUntil(nowNs, level);
     for (State* state : {&low_, &high_})
-        if (level <= 0.0 || nowNs >= state->kickEndNs || state->strength >= 0.95 * state->kick) state->kick = 0.0;
+        if (level <= 0.0 || nowNs >= state->kickEndNs || state->strength >= 0.95 * state->kick)
+            state->kick = 0.0;
     const Energies sum = ringingAt(nowNs);
     lastNs_ = nowNs;
     const double interval = 1.0 / law_.commandsPerSecond;

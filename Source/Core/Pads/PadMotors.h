@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // From events to commands of a game controller's two motors.
 //
-// What all modes would do is summed as energy, so that a weak hit never ends a strong one. The sum is shared between the motors by
-// frequency and place. A model of each motor says how strong it is by now: at an onset it is overdriven until it is as strong as the
-// hit asks for, and while anything is to be felt no command is below its threshold. The same events give the same commands, live
-// and offline, as all times are those of the events.
+// What all modes would do is summed as energy, so that a weak hit never ends a strong one. The sum is shared
+// between the motors by frequency and place. A model of each motor says how strong it is by now: at an onset
+// it is overdriven until it is as strong as the hit asks for, and while anything is to be felt no command is
+// below its threshold. The same events give the same commands, live and offline, as all times are those of
+// the events.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/Pads/PadLaw.h"
@@ -25,7 +26,7 @@ struct PadCommand {
 class PadMotors {
 public:
     static constexpr std::int64_t never = INT64_MAX;
-    static constexpr double leastFelt = 0.2;        ///< strength of the weakest hit that is to be felt; assumed
+    static constexpr double leastFelt = 0.2; ///< strength of the weakest hit that is to be felt; assumed
     static constexpr std::int64_t kickNs = 80'000'000; ///< an onset is overdriven for so long at most
 
     explicit PadMotors(const PadLaw& law) noexcept
@@ -34,14 +35,15 @@ public:
     /// A layout of two, one per grip, over that field. Any thread.
     static PhantomPanner gripsOf(const PhantomPanner& field) noexcept;
 
-    /// An event at the session time at which it is to be felt; late ones begin at once. Clips are left out, as
-    /// nothing is known of their level. False if too many wait.
+    /// An event at the session time at which it is to be felt; late ones begin at once. Clips are left out,
+    /// as nothing is known of their level. False if too many wait.
     bool strike(const CollisionEvent& event, const PhantomPanner& grips) noexcept;
 
     /// What rings then, and what would be felt before, is forgotten; the next command is not before it.
     void stop(std::int64_t atNs) noexcept;
 
-    /// When the next command is due, never before the last one and the law's interval; never: motors are at rest.
+    /// When the next command is due, never before the last one and the law's interval; never: motors are at
+    /// rest.
     std::int64_t dueNs() const noexcept;
 
     /// The command that is due; everything is `level` times as strong, and nothing is felt at 0.
@@ -51,11 +53,12 @@ public:
 
 private:
     struct Voice {
-        std::int64_t startNs = 0, endNs = 0; // both earlier than felt, by the law's lead; cut at (0: rings out)
+        std::int64_t startNs = 0, endNs = 0; // both earlier than felt, by the law's lead; cut at (0: rings
+                                             // out)
         double decayPerSecond = 0.0;
-        double low = 0.0, high = 0.0;         // energy at the start
+        double low = 0.0, high = 0.0;          // energy at the start
         double energy = 0.0, heavyShare = 0.0; // of what moves, whose place is looked at again
-        double fromSide = 0.0, toSide = 0.0;  // 0: left, 1: right
+        double fromSide = 0.0, toSide = 0.0;   // 0: left, 1: right
         std::int64_t travelNs = 0;
         bool mayMerge() const noexcept { return endNs == 0 && travelNs == 0; }
     };
@@ -68,7 +71,9 @@ private:
         std::int64_t kickEndNs = 0;
     };
 
-    std::int64_t intervalNs() const noexcept { return static_cast<std::int64_t>(1e9 / law_.commandsPerSecond); }
+    std::int64_t intervalNs() const noexcept {
+        return static_cast<std::int64_t>(1e9 / law_.commandsPerSecond);
+    }
     std::int64_t leadNs() const noexcept { return static_cast<std::int64_t>(1e9 * law_.leadSeconds); }
     Energies shared(double energy, double heavyShare, double side) const noexcept;
     Energies energiesAt(const Voice& voice, std::int64_t timeNs) const noexcept;

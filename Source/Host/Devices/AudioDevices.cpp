@@ -13,11 +13,13 @@ int channelsOf(juce::AudioIODeviceType& type, const juce::String& name) {
     return device ? device->getOutputChannelNames().size() : 0;
 }
 
-// Without a server, JACK's library says so in five lines on stderr, each time it is asked. Our message is one line.
+// Without a server, JACK's library says so in five lines on stderr, each time it is asked. Our message is one
+// line.
 void quietenJack() {
     using Handler = void (*)(const char*);
     static juce::DynamicLibrary jack{"libjack.so.0"};
-    if (auto* set = reinterpret_cast<void (*)(Handler)>(jack.getFunction("jack_set_error_function"))) set([](const char*) {});
+    if (auto* set = reinterpret_cast<void (*)(Handler)>(jack.getFunction("jack_set_error_function")))
+        set([](const char*) {});
 }
 
 } // namespace
@@ -26,8 +28,10 @@ std::vector<std::unique_ptr<juce::AudioIODeviceType>> systemAudioDeviceTypes() {
     quietenJack();
     using Type = juce::AudioIODeviceType;
     std::vector<std::unique_ptr<Type>> types;
-    for (Type* type : {Type::createAudioIODeviceType_JACK(), Type::createAudioIODeviceType_ALSA(), Type::createAudioIODeviceType_CoreAudio(),
-                       Type::createAudioIODeviceType_WASAPI(juce::WASAPIDeviceMode::exclusive), Type::createAudioIODeviceType_ASIO()})
+    for (Type* type : {Type::createAudioIODeviceType_JACK(), Type::createAudioIODeviceType_ALSA(),
+                       Type::createAudioIODeviceType_CoreAudio(),
+                       Type::createAudioIODeviceType_WASAPI(juce::WASAPIDeviceMode::exclusive),
+                       Type::createAudioIODeviceType_ASIO()})
         if (type != nullptr) types.emplace_back(type); // null: not on this system
     return types;
 }
@@ -37,7 +41,8 @@ std::vector<AudioDeviceName> listAudioDevices(const AudioDeviceTypes& types) {
     for (const auto& type : types()) {
         type->scanForDevices();
         for (const auto& name : type->getDeviceNames(false))
-            devices.push_back({type->getTypeName().toStdString(), name.toStdString(), channelsOf(*type, name)});
+            devices.push_back(
+                {type->getTypeName().toStdString(), name.toStdString(), channelsOf(*type, name)});
     }
     return devices;
 }
@@ -50,9 +55,11 @@ FoundDevice findAudioDevice(const AudioDeviceTypes& types, const std::string& wa
     for (auto& type : all) {
         if (hasType && !isNamed(type)) continue;
         type->scanForDevices();
-        const auto name = juce::String::fromUTF8(cleanLine(wanted.substr(hasType ? prefix(type).size() : 0)).c_str());
+        const auto name =
+            juce::String::fromUTF8(cleanLine(wanted.substr(hasType ? prefix(type).size() : 0)).c_str());
         if (!type->getDeviceNames(false).contains(name)) continue;
-        std::unique_ptr<juce::AudioIODevice> device{type->createDevice(name, withInputs && type->getDeviceNames(true).contains(name) ? name : juce::String{})};
+        std::unique_ptr<juce::AudioIODevice> device{type->createDevice(
+            name, withInputs && type->getDeviceNames(true).contains(name) ? name : juce::String{})};
         if (device) return {std::move(type), std::move(device)};
     }
     return {};

@@ -31,11 +31,13 @@ struct FoundDevice {
     std::unique_ptr<juce::AudioIODevice> device;
 
     /// "type:name": means this device and no other.
-    std::string fullName() const { return type->getTypeName().toStdString() + ":" + device->getName().toStdString(); }
+    std::string fullName() const {
+        return type->getTypeName().toStdString() + ":" + device->getName().toStdString();
+    }
 };
 
-/// The device of that name, or type:name; empty if there is none. `withInputs`: its inputs as well, if it has any of the
-/// same name. M; scans no more drivers than it must.
+/// The device of that name, or type:name; empty if there is none. `withInputs`: its inputs as well, if it has
+/// any of the same name. M; scans no more drivers than it must.
 FoundDevice findAudioDevice(const AudioDeviceTypes& types, const std::string& name, bool withInputs = false);
 
 } // namespace physvib

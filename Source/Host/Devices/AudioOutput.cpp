@@ -13,10 +13,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double fadeInSeconds = 0.005;
-constexpr DeviceKeeper::Limit opening = 10s; // whoever opens a device waits for it
-constexpr DeviceKeeper::Limit reopening =
-    500ms;                                    // a driver that takes longer is looked at again a second later
-constexpr DeviceKeeper::Limit ending = 400ms; // cut off in the middle, a JACK client keeps its server busy
+constexpr DeviceKeeper::Limit opening = 10s;     // whoever opens a device waits for it
+constexpr DeviceKeeper::Limit reopening = 500ms; // a driver that takes longer is looked at again a second
+                                                 // later
+constexpr DeviceKeeper::Limit ending = 400ms;    // cut off in the middle, a JACK client keeps its server busy
 constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // for three blocks
 constexpr int mostOutputs = 65'536;                                      // of a device
 
@@ -27,9 +27,7 @@ AudioOutput::AudioOutput(Session& session, AudioDeviceTypes types, const std::at
     , played_{session}
     , keeper_{std::move(types), isEnded} {}
 
-AudioOutput::~AudioOutput() {
-    close();
-}
+AudioOutput::~AudioOutput() { close(); }
 
 std::string AudioOutput::open(const AudioOutputSettings& settings) {
     close();
@@ -53,7 +51,8 @@ std::string AudioOutput::hear(const ListeningSettings& listening) {
 
 std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanters,
                                const ListeningSettings& listening) {
-    if (auto error = map_.want(played_.own().channels(), channelMap, enchanters, listening.outputs()); !error.empty())
+    if (auto error = map_.want(played_.own().channels(), channelMap, enchanters, listening.outputs());
+        !error.empty())
         return error;
     const AudioOutputSettings before = settings_;
     settings_.channelMap = channelMap;
@@ -114,7 +113,8 @@ void AudioOutput::fadeOut() {
     ending_ = true;
     const auto blocks = status().blocks + 2; // one may have begun before
     const auto end =
-        Clock::now() + std::clamp(std::chrono::milliseconds{3000 * blockFrames() / sampleRateHz()}, leastFade, mostFade);
+        Clock::now() +
+        std::clamp(std::chrono::milliseconds{3000 * blockFrames() / sampleRateHz()}, leastFade, mostFade);
     while (running_ && status().blocks < blocks && Clock::now() < end) std::this_thread::sleep_for(1ms);
 }
 
@@ -154,8 +154,8 @@ std::string AudioOutput::maintain(Clock::time_point now) {
            std::to_string(map_.enchanters()) + " actuators have no output there";
 }
 
-// Some drivers say so; JUCE's ALSA thread just ends. Whose outputs somebody disconnected is not called, and has
-// not gone; but JUCE may miss that JACK connects them, and then knows of none from the beginning.
+// Some drivers say so; JUCE's ALSA thread just ends. Whose outputs somebody disconnected is not called, and
+// has not gone; but JUCE may miss that JACK connects them, and then knows of none from the beginning.
 bool AudioOutput::hasGone(Clock::time_point now) {
     const auto* device = keeper_.device();
     if (!device || !keeper_.device()->isOpen() || !running_) return true;
@@ -168,7 +168,8 @@ bool AudioOutput::hasGone(Clock::time_point now) {
 std::string AudioOutput::follow() {
     const int rate = juce::roundToInt(keeper_.device()->getCurrentSampleRate()), before = sampleRateHz();
     const bool isChanged = rate != before && rate > 0;
-    if (isChanged || std::min(largestBlock_.load(), limits::maxBlockFrames) > blockFrames()) keeper_.restart();
+    if (isChanged || std::min(largestBlock_.load(), limits::maxBlockFrames) > blockFrames())
+        keeper_.restart();
     return isChanged ? settings_.device + ": runs at " + std::to_string(rate) + " Hz now, at " +
                            std::to_string(before) + " Hz before"
                      : std::string{};
@@ -229,11 +230,13 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
     heard_.render(session, samples, out, outputs, first, frames);
     for (int j = session.channels(); j < played_.own().channels(); ++j)
         juce::FloatVectorOperations::clear(samples[j], frames);
-    played_.own().sinks().rendered({samples, frames, session.timeline().framesRendered() - frames, sampleRateHz()});
+    played_.own().sinks().rendered(
+        {samples, frames, session.timeline().framesRendered() - frames, sampleRateHz()});
     motors_.apply(samples, frames);
     for (int j = 0; j < session.channels(); ++j) { // the limiter, if on, leaves nothing to cut
         float* at = samples[j];
-        juce::FloatVectorOperations::clip(at, at, -session.rendered().ceiling(j), session.rendered().ceiling(j), frames);
+        juce::FloatVectorOperations::clip(at, at, -session.rendered().ceiling(j),
+                                          session.rendered().ceiling(j), frames);
     }
     master_.apply(samples, session.channels(), frames);
     std::array<float*, limits::maxEnchanters> felt{}; // of each actuator that has a coil
@@ -254,8 +257,13 @@ AudioOutputStatus AudioOutput::status() {
     const LoadMeter::Load load = load_.read();
     const RenderStatus& rendered = played_.now().status().render;
     const bool isRunning = running_;
-    return {load.blocks, load.last, load.worst, keeper_.device() ? keeper_.device()->getXRunCount() : -1,
-            isRunning,   watch_.losses(), std::min(guard_.gain(), rendered.guardGain),
+    return {load.blocks,
+            load.last,
+            load.worst,
+            keeper_.device() ? keeper_.device()->getXRunCount() : -1,
+            isRunning,
+            watch_.losses(),
+            std::min(guard_.gain(), rendered.guardGain),
             guard_.episodes() + rendered.guarded};
 }
 

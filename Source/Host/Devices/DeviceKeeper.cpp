@@ -60,8 +60,8 @@ DeviceKeeper::~DeviceKeeper() {
 }
 
 std::string DeviceKeeper::open(const DeviceWish& wish, Limit limit) {
-    const auto end = isLate_ ? Clock::time_point{}
-                             : Clock::now() + limit; // whoever was late once is looked at, and not waited for
+    const auto end = isLate_ ? Clock::time_point{} : Clock::now() + limit; // whoever was late once is looked
+                                                                           // at, and not waited for
     isLate_ = true;
     const std::string noAnswer = wish.name + ": its driver does not answer; nothing else is played on";
     if (!isIdle(end, hurry_)) {

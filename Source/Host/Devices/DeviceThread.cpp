@@ -65,8 +65,6 @@ void DeviceThread::leave() {
     call_.reset();
 }
 
-int DeviceThread::threadsLeft() noexcept {
-    return left;
-}
+int DeviceThread::threadsLeft() noexcept { return left; }
 
 } // namespace physvib

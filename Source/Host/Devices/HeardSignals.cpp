@@ -58,7 +58,8 @@ void HeardSignals::render(const Session& session, float* const* signals, float* 
         contactRamp_.apply(ears, session.rendered().heard(), frames);
         addTo(Heard::contacts, ears, session.rendered().heard(), out, outputs, first, frames);
     }
-    if (session.rendered().marks()) renderMarks(signals[session.rendered().count() - 1], out, outputs, first, frames);
+    if (session.rendered().marks())
+        renderMarks(signals[session.rendered().count() - 1], out, outputs, first, frames);
 }
 
 // What is silenced is not felt, so it is not marked; what is left of a pulse when all comes back has its edge

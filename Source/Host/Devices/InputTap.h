@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a device hears, in pieces that know their session time, on its way from the render role to another thread.
+// What a device hears, in pieces that know their session time, on its way from the render role to another
+// thread.
 #pragma once
 #include "Core/EventQueue.h"
 #include <algorithm>
@@ -16,20 +17,25 @@ struct HeardPiece {
     int count = 0;
     std::array<float, 256> samples;
 
-    std::span<const float> sound() const noexcept { return std::span{samples}.first(static_cast<std::size_t>(count)); }
+    std::span<const float> sound() const noexcept {
+        return std::span{samples}.first(static_cast<std::size_t>(count));
+    }
 };
 
 /// One writer, one reader; half a megabyte, 2.7 s at 48 kHz.
 class InputTap {
 public:
-    /// The next samples of each input; the first is session time `sessionNs`. Pieces that find no room are lost: the next one's time tells. R, wait-free.
-    void take(const float* const* in, int inputs, int frames, std::int64_t sessionNs, int rateHz) noexcept PHYSVIB_NONBLOCKING {
+    /// The next samples of each input; the first is session time `sessionNs`. Pieces that find no room are
+    /// lost: the next one's time tells. R, wait-free.
+    void take(const float* const* in, int inputs, int frames, std::int64_t sessionNs,
+              int rateHz) noexcept PHYSVIB_NONBLOCKING {
         HeardPiece piece;
         piece.rateHz = rateHz;
         for (int done = 0; done < frames; done += piece.count) {
             piece.sessionNs = sessionNs + std::int64_t{1'000'000'000} * done / rateHz;
             piece.count = std::min(frames - done, static_cast<int>(piece.samples.size()));
-            for (int i = 0; i < piece.count; ++i) piece.samples[static_cast<std::size_t>(i)] = meanOf(in, inputs, done + i);
+            for (int i = 0; i < piece.count; ++i)
+                piece.samples[static_cast<std::size_t>(i)] = meanOf(in, inputs, done + i);
             pieces_.push(piece);
         }
     }

@@ -25,7 +25,8 @@ int likelihood(const AudioDeviceName& device) {
 } // namespace
 
 int ownOutputs(const AudioDeviceName& device) {
-    const bool isMixed = device.type == "ALSA" && says(device, {"default", "pulse", "pipewire", "dmix", "front:", "surround"});
+    const bool isMixed =
+        device.type == "ALSA" && says(device, {"default", "pulse", "pipewire", "dmix", "front:", "surround"});
     return isMixed ? std::min(2, device.channels) : device.channels;
 }
 

@@ -5,10 +5,12 @@
 
 namespace physvib {
 
-/// How many outputs lead somewhere of their own: what mixes for a sound server has two, whatever it says. Any thread.
+/// How many outputs lead somewhere of their own: what mixes for a sound server has two, whatever it says. Any
+/// thread.
 int ownOutputs(const AudioDeviceName& device);
 
-/// The likely ones first: many outputs before few, a running JACK before its rivals, screens and no device at last. Any thread.
+/// The likely ones first: many outputs before few, a running JACK before its rivals, screens and no device at
+/// last. Any thread.
 std::vector<AudioDeviceName> byLikelihood(std::vector<AudioDeviceName> devices);
 
 /// The preset for so many outputs, at most four. Any thread.

@@ -27,7 +27,8 @@ public:
     juce::Array<double> getAvailableSampleRates() override { return {8000.0, 44100.0, 48000.0, 96000.0}; }
     juce::Array<int> getAvailableBufferSizes() override { return {64, 128, 256, 512, 1024, 2048}; }
     int getDefaultBufferSize() override { return 512; }
-    juce::String open(const juce::BigInteger&, const juce::BigInteger& outputs, double rate, int block) override {
+    juce::String open(const juce::BigInteger&, const juce::BigInteger& outputs, double rate,
+                      int block) override {
         close();
         active_ = outputs;
         rate_ = rate > 0 ? rate : 48000.0;
@@ -63,7 +64,8 @@ public:
 private:
     void run() override {
         using Clock = std::chrono::steady_clock;
-        std::vector<std::vector<float>> out(static_cast<std::size_t>(active_.countNumberOfSetBits()), std::vector<float>(static_cast<std::size_t>(block_)));
+        std::vector<std::vector<float>> out(static_cast<std::size_t>(active_.countNumberOfSetBits()),
+                                            std::vector<float>(static_cast<std::size_t>(block_)));
         std::vector<float*> at;
         for (auto& channel : out) at.push_back(channel.data());
         const auto length = std::chrono::nanoseconds{static_cast<std::int64_t>(1e9 * block_ / rate_)};
@@ -71,7 +73,8 @@ private:
             // after a stall: no burst of blocks
             if (const auto now = Clock::now(); now > deadline + 10 * length) deadline = now;
             std::this_thread::sleep_until(deadline);
-            callback_->audioDeviceIOCallbackWithContext(nullptr, 0, at.data(), static_cast<int>(at.size()), block_, {});
+            callback_->audioDeviceIOCallbackWithContext(nullptr, 0, at.data(), static_cast<int>(at.size()),
+                                                        block_, {});
         }
     }
 
@@ -84,7 +87,9 @@ private:
 
 } // namespace
 
-juce::AudioIODevice* NoDeviceType::createDevice(const juce::String& output, const juce::String&) { return output == noDeviceName ? new NoDevice : nullptr; }
+juce::AudioIODevice* NoDeviceType::createDevice(const juce::String& output, const juce::String&) {
+    return output == noDeviceName ? new NoDevice : nullptr;
+}
 
 std::vector<std::unique_ptr<juce::AudioIODeviceType>> audioDeviceTypesAndNone() {
     auto types = systemAudioDeviceTypes();

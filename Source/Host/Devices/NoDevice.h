@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An audio device that is not there: blocks in time with a steady clock, felt by nobody. With it a world runs, is seen,
-// and can be recorded on a machine without an interface.
+// An audio device that is not there: blocks in time with a steady clock, felt by nobody. With it a world
+// runs, is seen, and can be recorded on a machine without an interface.
 #pragma once
 #include <juce_audio_devices/juce_audio_devices.h>
 #include <memory>
@@ -18,9 +18,13 @@ public:
     NoDeviceType()
         : juce::AudioIODeviceType{noDeviceType} {}
     void scanForDevices() override {}
-    juce::StringArray getDeviceNames(bool inputs) const override { return inputs ? juce::StringArray{} : juce::StringArray{noDeviceName}; }
+    juce::StringArray getDeviceNames(bool inputs) const override {
+        return inputs ? juce::StringArray{} : juce::StringArray{noDeviceName};
+    }
     int getDefaultDeviceIndex(bool) const override { return 0; }
-    int getIndexOfDevice(juce::AudioIODevice* device, bool) const override { return device != nullptr ? 0 : -1; }
+    int getIndexOfDevice(juce::AudioIODevice* device, bool) const override {
+        return device != nullptr ? 0 : -1;
+    }
     bool hasSeparateInputsAndOutputs() const override { return false; }
     juce::AudioIODevice* createDevice(const juce::String& output, const juce::String&) override;
 };

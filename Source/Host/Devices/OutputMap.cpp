@@ -14,10 +14,13 @@ constexpr int nowhere = -1, unsaid = -2;
 std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) {
     for (const Heard source : {Heard::noise, Heard::contacts}) {
         const auto& outputs = heard[static_cast<std::size_t>(source)];
-        if (outputs.size() > OutputMap::mostHeard) return "expected at most " + std::to_string(OutputMap::mostHeard) + " outputs to listen to, found " + std::to_string(outputs.size());
+        if (outputs.size() > OutputMap::mostHeard)
+            return "expected at most " + std::to_string(OutputMap::mostHeard) +
+                   " outputs to listen to, found " + std::to_string(outputs.size());
         for (const int output : outputs)
             if (output >= 0 && std::ranges::find(felt, output) != felt.end())
-                return "output " + std::to_string(output + 1) + " is an actuator's; expected another one to listen to";
+                return "output " + std::to_string(output + 1) +
+                       " is an actuator's; expected another one to listen to";
     }
     return {};
 }
@@ -25,21 +28,32 @@ std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) 
 // A pulse at full scale, for a box that looks for its edge.
 std::string marksFault(const std::vector<int>& felt, const HeardOutputs& heard) {
     const auto& marks = heard[static_cast<std::size_t>(Heard::marks)];
-    const auto has = [](const std::vector<int>& outputs, int output) { return std::ranges::find(outputs, output) != outputs.end(); };
-    if (marks.size() > OutputMap::mostHeard) return "expected at most " + std::to_string(OutputMap::mostHeard) + " outputs for marks, found " + std::to_string(marks.size());
+    const auto has = [](const std::vector<int>& outputs, int output) {
+        return std::ranges::find(outputs, output) != outputs.end();
+    };
+    if (marks.size() > OutputMap::mostHeard)
+        return "expected at most " + std::to_string(OutputMap::mostHeard) + " outputs for marks, found " +
+               std::to_string(marks.size());
     for (const int output : marks) {
-        const bool isFelt = output >= 0 && has(felt, output), isHeard = has(heard[static_cast<std::size_t>(Heard::noise)], output) || has(heard[static_cast<std::size_t>(Heard::contacts)], output);
-        if (isFelt || isHeard) return "output " + std::to_string(output + 1) + " is " + (isFelt ? "an actuator's" : "listened to") + "; expected another one for marks";
+        const bool isFelt = output >= 0 && has(felt, output),
+                   isHeard = has(heard[static_cast<std::size_t>(Heard::noise)], output) ||
+                             has(heard[static_cast<std::size_t>(Heard::contacts)], output);
+        if (isFelt || isHeard)
+            return "output " + std::to_string(output + 1) + " is " +
+                   (isFelt ? "an actuator's" : "listened to") + "; expected another one for marks";
     }
     return {};
 }
 
 } // namespace
 
-std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int felt, const HeardOutputs& heard) {
+std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int felt,
+                            const HeardOutputs& heard) {
     std::vector<int> outputs(static_cast<std::size_t>(enchanters), unsaid);
-    if (wanted.empty()) std::iota(outputs.begin(), outputs.end(), 0);
-    else std::copy_n(wanted.begin(), std::min(wanted.size(), outputs.size()), outputs.begin());
+    if (wanted.empty())
+        std::iota(outputs.begin(), outputs.end(), 0);
+    else
+        std::copy_n(wanted.begin(), std::min(wanted.size(), outputs.size()), outputs.begin());
     for (const int output : outputs)
         if (output >= 0 && std::count(outputs.begin(), outputs.end(), output) > 1)
             return "output " + std::to_string(output + 1) + " is given to two actuators; expected one each";
@@ -75,9 +89,11 @@ void OutputMap::place(const juce::BigInteger& active) {
         for (int k = 0; k < output; ++k) before += active[k] ? 1 : 0;
         return before;
     };
-    for (std::size_t j = 0; j < wanted_.size(); ++j) at_[j].store(packed(wanted_[j]), std::memory_order_relaxed);
+    for (std::size_t j = 0; j < wanted_.size(); ++j)
+        at_[j].store(packed(wanted_[j]), std::memory_order_relaxed);
     for (std::size_t s = 0; s < heard_.size(); ++s)
-        for (std::size_t i = 0; i < heardAt_[s].size(); ++i) heardAt_[s][i].store(i < heard_[s].size() ? packed(heard_[s][i]) : -1, std::memory_order_relaxed);
+        for (std::size_t i = 0; i < heardAt_[s].size(); ++i)
+            heardAt_[s][i].store(i < heard_[s].size() ? packed(heard_[s][i]) : -1, std::memory_order_relaxed);
 }
 
 void OutputMap::settle(int sampleRateHz) noexcept {
@@ -90,7 +106,9 @@ void OutputMap::settle(int sampleRateHz) noexcept {
 int OutputMap::play(int enchanter, float* samples, int frames) noexcept {
     const auto j = static_cast<std::size_t>(enchanter);
     const int wanted = at(enchanter);
-    if (playing_[j] < 0 && wanted >= 0 && std::find(playing_.begin(), playing_.end(), wanted) == playing_.end()) playing_[j] = wanted;
+    if (playing_[j] < 0 && wanted >= 0 &&
+        std::find(playing_.begin(), playing_.end(), wanted) == playing_.end())
+        playing_[j] = wanted;
     const int here = playing_[j];
     if (here < 0) return -1;
     ramps_[j].moveTo(here == wanted ? 1.0f : 0.0f);

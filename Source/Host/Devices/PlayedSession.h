@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which session a device plays: its own, or one that it was lent; at which rate, and where a block of it goes.
+// Which session a device plays: its own, or one that it was lent; at which rate, and where a block of it
+// goes.
 #pragma once
 #include "Session/FeltOutput.h"
 #include "Session/Session.h"
@@ -27,12 +28,15 @@ public:
 
     /// What plays goes on at that rate, or begins, on a device that is felt so late. M, while R does not run.
     void begin(int sampleRateHz, int maxBlockFrames, int latencyFrames) {
-        if (rate_ == 0) now().prepare(sampleRateHz, maxBlockFrames);
-        else if (sampleRateHz != rate_ || maxBlockFrames != block_) now().resume(sampleRateHz, maxBlockFrames);
+        if (rate_ == 0)
+            now().prepare(sampleRateHz, maxBlockFrames);
+        else if (sampleRateHz != rate_ || maxBlockFrames != block_)
+            now().resume(sampleRateHz, maxBlockFrames);
         rate_ = sampleRateHz;
         block_ = maxBlockFrames;
         latencyNs_ = std::int64_t{1'000'000'000} * latencyFrames / rate_;
-        samples_.assign(static_cast<std::size_t>(own_.rendered().count()), std::vector<float>(static_cast<std::size_t>(block_)));
+        samples_.assign(static_cast<std::size_t>(own_.rendered().count()),
+                        std::vector<float>(static_cast<std::size_t>(block_)));
         at_.clear();
         for (auto& channel : samples_) at_.push_back(channel.data());
     }
@@ -45,16 +49,18 @@ public:
 
     /// Another from the next block on; null: the own one goes on. A device has run. M.
     void lend(Session* other) {
-        if (other != nullptr) other->prepare(rate_, block_);
-        else if (isLent() && (lentRate_ != rate_ || lentBlock_ != block_)) own_.resume(rate_, block_);
+        if (other != nullptr)
+            other->prepare(rate_, block_);
+        else if (isLent() && (lentRate_ != rate_ || lentBlock_ != block_))
+            own_.resume(rate_, block_);
         if (!isLent()) lentRate_ = rate_, lentBlock_ = block_;
         now_.store(other != nullptr ? other : &own_);
     }
 
 private:
     Session& own_;
-    std::atomic<Session*> now_; // sequentially consistent, as the keeper's calls: who has changed it sees whether R
-                                // may still have the old one
+    std::atomic<Session*> now_; // sequentially consistent, as the keeper's calls: who has changed it sees
+                                // whether R may still have the old one
     int lentRate_ = 0, lentBlock_ = 0; // as they were when a session was lent
 
     // R, set while the device is stopped

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a live session plays, on its way to meters, scopes and files: the render role fills a ring, another thread reads.
+// What a live session plays, on its way to meters, scopes and files: the render role fills a ring, another
+// thread reads.
 #pragma once
 #include "Core/Nonblocking.h"
 #include "Session/Sink.h"
@@ -22,9 +23,13 @@ public:
     int channels() const noexcept { return static_cast<int>(ring_.size()); }
 
     /// Only the first `channels` are worth the copy from now on; the others keep what they have. Any thread.
-    void hear(int channels) noexcept { heard_.store(std::clamp(channels, 0, this->channels()), std::memory_order_relaxed); }
+    void hear(int channels) noexcept {
+        heard_.store(std::clamp(channels, 0, this->channels()), std::memory_order_relaxed);
+    }
 
-    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override { take(block.channels, block.frames); }
+    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
+        take(block.channels, block.frames);
+    }
 
     /// R, wait-free. Frames that find no room are lost and counted.
     void take(const float* const* channels, int frames) noexcept PHYSVIB_NONBLOCKING {
@@ -32,18 +37,21 @@ public:
         const auto heard = static_cast<std::size_t>(heard_.load(std::memory_order_relaxed));
         for (std::size_t j = 0; j < heard; ++j) {
             std::copy_n(channels[j], scope.blockSize1, ring_[j].begin() + scope.startIndex1);
-            std::copy_n(channels[j] + scope.blockSize1, scope.blockSize2, ring_[j].begin() + scope.startIndex2);
+            std::copy_n(channels[j] + scope.blockSize1, scope.blockSize2,
+                        ring_[j].begin() + scope.startIndex2);
         }
         const auto missing = static_cast<std::uint64_t>(frames - scope.blockSize1 - scope.blockSize2);
         lost_.store(lost_.load(std::memory_order_relaxed) + missing, std::memory_order_relaxed);
     }
 
-    /// Calls `use(const float* const* channels, int frames)` with what has come, in one or two parts. One reader.
+    /// Calls `use(const float* const* channels, int frames)` with what has come, in one or two parts. One
+    /// reader.
     template <class Use>
     void read(Use use) {
         const auto scope = fifo_.read(fifo_.getNumReady());
         std::vector<const float*> at(ring_.size());
-        for (const auto& [start, size] : {std::pair{scope.startIndex1, scope.blockSize1}, {scope.startIndex2, scope.blockSize2}}) {
+        for (const auto& [start, size] :
+             {std::pair{scope.startIndex1, scope.blockSize1}, {scope.startIndex2, scope.blockSize2}}) {
             if (size == 0) continue;
             for (std::size_t j = 0; j < ring_.size(); ++j) at[j] = ring_[j].data() + start;
             use(at.data(), size);

@@ -8,9 +8,7 @@ namespace physvib {
 
 namespace {
 
-bool isOver(const std::atomic<bool>* ends) {
-    return ends != nullptr && *ends;
-}
+bool isOver(const std::atomic<bool>* ends) { return ends != nullptr && *ends; }
 
 } // namespace
 
@@ -32,22 +30,23 @@ ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond, const std::atom
     if (!startRealtimeThread({})) startThread(Priority::highest); // few users are allowed the first
 }
 
-ThreadDriver::~ThreadDriver() {
-    stopThread(-1);
-}
+ThreadDriver::~ThreadDriver() { stopThread(-1); }
 
 void ThreadDriver::run() {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::nanoseconds leastPause{1'000'000}, mostPause{20'000'000}, mostHold{20'000'000};
     for (auto deadline = Clock::now(); !threadShouldExit() && !isOver(ends_); deadline += step_) {
-        if (const auto now = Clock::now();
-            now > deadline + 10 * step_) // after a stall: no burst of ticks, and
+        if (const auto now = Clock::now(); now > deadline + 10 * step_) // after a stall: no burst of ticks,
+                                                                        // and
             deadline = now + std::clamp<Clock::duration>((now - deadline) / 8, leastPause,
                                                          mostPause); // whoever waits for the world gets it
         std::this_thread::sleep_until(deadline);
         const auto begin = Clock::now();
-        bool wasLong = false; // a world that is too much: whoever draws it waits for a step or two, and not until it has caught up
-        session_.advance([&](auto) { return !(wasLong = Clock::now() - begin > mostHold) && !threadShouldExit() && !isOver(ends_); });
+        bool wasLong = false; // a world that is too much: whoever draws it waits for a step or two, and not
+                              // until it has caught up
+        session_.advance([&](auto) {
+            return !(wasLong = Clock::now() - begin > mostHold) && !threadShouldExit() && !isOver(ends_);
+        });
         if (wasLong) std::this_thread::sleep_for(leastPause);
     }
 }

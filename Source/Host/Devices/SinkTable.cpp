@@ -23,7 +23,9 @@ const std::array sinkKinds{
              [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
                  return std::make_unique<BoardOutput>(where, panner);
              }},
-    SinkKind{"PAD", 0, {},
+    SinkKind{"PAD",
+             0,
+             {},
              [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
                  return std::make_unique<PadOutput>(where, panner);
              }},
@@ -69,7 +71,8 @@ std::string channelFault(const std::vector<SinkName>& sinks, int channels) {
 std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
                       const std::function<bool()>& goesOn, Sinks& opened) {
     if (wanted.size() > mostNamedSinks)
-        return "expected at most " + std::to_string(mostNamedSinks) + " outputs beside the device, found " + std::to_string(wanted.size());
+        return "expected at most " + std::to_string(mostNamedSinks) + " outputs beside the device, found " +
+               std::to_string(wanted.size());
     for (const SinkName& sink : wanted) {
         opened.push_back(kindOf(sink).make(sink.where, panner));
         if (auto fault = opened.back()->awaitReady(goesOn); !fault.empty()) return fault;

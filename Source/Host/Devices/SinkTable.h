@@ -16,7 +16,8 @@ struct SinkName {
     std::string kind, where;
 };
 
-/// "DEVICE", "KIND:WHERE" or "DEVICE+KIND:WHERE", and up to mostNamedSinks of them. Beside no device, they follow a clock: None.
+/// "DEVICE", "KIND:WHERE" or "DEVICE+KIND:WHERE", and up to mostNamedSinks of them. Beside no device, they
+/// follow a clock: None.
 struct OutputNames {
     std::string device;
     std::vector<SinkName> sinks;
@@ -33,6 +34,7 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
 constexpr std::size_t mostNamedSinks = SinkSet::most / 2;
 
 /// All of them, ready, for a session with that panner; or one line. Waits for as long as `goesOn`. M.
-std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner, const std::function<bool()>& goesOn, Sinks& opened);
+std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
+                      const std::function<bool()>& goesOn, Sinks& opened);
 
 } // namespace physvib

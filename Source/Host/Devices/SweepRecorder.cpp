@@ -14,15 +14,18 @@ namespace {
 
 class Callback final : public juce::AudioIODeviceCallback {
 public:
-    explicit Callback(RecordedSweep& sweep) : sweep_{sweep} {}
+    explicit Callback(RecordedSweep& sweep)
+        : sweep_{sweep} {}
     std::size_t done() const noexcept { return done_.load(std::memory_order_acquire); }
 
 private:
-    void audioDeviceIOCallbackWithContext(const float* const* in, int inputs, float* const* out, int outputs, int frames,
-                                          const juce::AudioIODeviceCallbackContext&) PHYSVIB_NONBLOCKING override {
+    void audioDeviceIOCallbackWithContext(const float* const* in, int inputs, float* const* out, int outputs,
+                                          int frames, const juce::AudioIODeviceCallbackContext&)
+        PHYSVIB_NONBLOCKING override {
         for (int j = 0; j < outputs; ++j)
             if (out[j] != nullptr) std::fill_n(out[j], frames, 0.0f);
-        const std::size_t at = done_.load(std::memory_order_relaxed), count = std::min(static_cast<std::size_t>(frames), sweep_.played.size() - at);
+        const std::size_t at = done_.load(std::memory_order_relaxed),
+                          count = std::min(static_cast<std::size_t>(frames), sweep_.played.size() - at);
         if (outputs < 1 || inputs < 1 || out[0] == nullptr || in[0] == nullptr) return;
         std::copy_n(sweep_.played.begin() + static_cast<std::ptrdiff_t>(at), count, out[0]);
         std::copy_n(in[0], count, sweep_.recorded.begin() + static_cast<std::ptrdiff_t>(at));
@@ -64,16 +67,22 @@ bool wait(const Callback& callback, std::size_t frames) {
 
 } // namespace
 
-Result<RecordedSweep> recordSweep(const SweepPorts& ports, const SweepSource& source, const AudioDeviceTypes& types) {
+Result<RecordedSweep> recordSweep(const SweepPorts& ports, const SweepSource& source,
+                                  const AudioDeviceTypes& types) {
     const auto failed = [&](const std::string& why) { return Failure{ports.device + ": " + why}; };
     const FoundDevice found = findAudioDevice(types, ports.device, true);
     if (!found.device) return failed("no such audio device (see physvib devices)");
     juce::AudioIODevice& device = *found.device;
     const int outputs = device.getOutputChannelNames().size(), inputs = device.getInputChannelNames().size();
-    if (ports.output >= outputs) return failed("has " + std::to_string(outputs) + " outputs, expected --channel within them");
-    if (ports.input >= inputs) return failed("has " + std::to_string(inputs) + " inputs, expected --input within them");
+    if (ports.output >= outputs)
+        return failed("has " + std::to_string(outputs) + " outputs, expected --channel within them");
+    if (ports.input >= inputs)
+        return failed("has " + std::to_string(inputs) + " inputs, expected --input within them");
     const double rate = ports.sampleRateHz > 0 ? ports.sampleRateHz : device.getCurrentSampleRate();
-    if (const auto error = device.open(only(ports.input), only(ports.output), rate, device.getDefaultBufferSize()); error.isNotEmpty()) return failed(error.toStdString());
+    if (const auto error =
+            device.open(only(ports.input), only(ports.output), rate, device.getDefaultBufferSize());
+        error.isNotEmpty())
+        return failed(error.toStdString());
     RecordedSweep sweep;
     sweep.rateHz = device.getCurrentSampleRate();
     sweep.played = source(sweep.rateHz);

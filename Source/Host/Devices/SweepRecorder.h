@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays samples on one output of a device and records one of its inputs meanwhile, frame for frame.
 #pragma once
-#include "Io/Result.h"
 #include "Host/Devices/AudioDevices.h"
+#include "Io/Result.h"
 #include <string>
 #include <vector>
 
@@ -25,8 +25,9 @@ struct RecordedSweep {
 /// What to play at a rate that only the open device knows.
 using SweepSource = std::function<std::vector<float>(double rateHz)>;
 
-/// Opens that device and no other, plays once, closes it; all other outputs stay silent. One line if something is
-/// missing or the device stops calling. M only; takes as long as the sweep.
-Result<RecordedSweep> recordSweep(const SweepPorts& ports, const SweepSource& source, const AudioDeviceTypes& types = systemAudioDeviceTypes);
+/// Opens that device and no other, plays once, closes it; all other outputs stay silent. One line if
+/// something is missing or the device stops calling. M only; takes as long as the sweep.
+Result<RecordedSweep> recordSweep(const SweepPorts& ports, const SweepSource& source,
+                                  const AudioDeviceTypes& types = systemAudioDeviceTypes);
 
 } // namespace physvib

@@ -16,7 +16,8 @@ public:
 
     /// What of the band is above 45 % of the rate is passed to there.
     BandPass(FrequencyBand band, int sampleRateHz) noexcept {
-        const double highHz = std::min(band.highHz, 0.45 * sampleRateHz), lowHz = std::min(band.lowHz, 0.5 * highHz);
+        const double highHz = std::min(band.highHz, 0.45 * sampleRateHz),
+                     lowHz = std::min(band.lowHz, 0.5 * highHz);
         for (std::size_t i = 0; i < qs.size(); ++i) {
             // zeros at half the rate
             sections_[2 * i] = section(highHz, qs[i], {2.0, 1.0}, 1.0, sampleRateHz);

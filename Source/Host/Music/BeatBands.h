@@ -12,8 +12,10 @@ struct BeatBand {
     double lowHz = 0.0, highHz = 0.0;
 };
 
-/// Bass drum and bass; what sings, and the snare's body; cymbals and hats. What lies between belongs to all, and tells nothing.
-inline constexpr std::array<BeatBand, 3> beatBands{{{"low", 30.0, 150.0}, {"mid", 200.0, 2500.0}, {"high", 6000.0, 16000.0}}};
+/// Bass drum and bass; what sings, and the snare's body; cymbals and hats. What lies between belongs to all,
+/// and tells nothing.
+inline constexpr std::array<BeatBand, 3> beatBands{
+    {{"low", 30.0, 150.0}, {"mid", 200.0, 2500.0}, {"high", 6000.0, 16000.0}}};
 
 /// An onset in one of them.
 struct BandOnset {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each hop: a spectrum, its rise since the hop before in each band, and whether that has just been at its highest.
+// Each hop: a spectrum, its rise since the hop before in each band, and whether that has just been at its
+// highest.
 #include "Host/Music/BeatDetector.h"
 #include <algorithm>
 #include <bit>
@@ -8,18 +9,22 @@
 namespace physvib {
 namespace {
 
-constexpr double longestWindowSeconds = 0.0335; // a power of two of samples, 17 to 33 ms: two periods of a bass drum, short beside a beat
+constexpr double longestWindowSeconds = 0.0335; // a power of two of samples, 17 to 33 ms: two periods of a
+                                                // bass drum, short beside a beat
 constexpr unsigned hopsPerWindow = 8;
-constexpr int pickedHopsLater = 2;              // aubio's picker needs the hop after the peak, and smooths over one more
-constexpr double earlyHops = 0.35;              // the flux peaks so much before the onset has reached the middle of the window (measured: Docs/music.md)
-constexpr double leastSecondsBetween = 0.05;    // of one band: twenty strokes a second
+constexpr int pickedHopsLater = 2; // aubio's picker needs the hop after the peak, and smooths over one more
+constexpr double earlyHops = 0.35; // the flux peaks so much before the onset has reached the middle of the
+                                   // window (measured: Docs/music.md)
+constexpr double leastSecondsBetween = 0.05; // of one band: twenty strokes a second
 // after which 37 % is still known
 constexpr double usualSeconds = 1.0, strongestSeconds = 5.0, maskedSeconds = 0.1;
-constexpr double leastRise = 3.0;               // above what is usual
-constexpr double leastFlux = 1e-3;              // a sine of -60 dB or so that begins
-constexpr double leastShareAtOne = 0.0625;      // of the strongest onset; to the power of the sensitivity
+constexpr double leastRise = 3.0;          // above what is usual
+constexpr double leastFlux = 1e-3;         // a sine of -60 dB or so that begins
+constexpr double leastShareAtOne = 0.0625; // of the strongest onset; to the power of the sensitivity
 
-unsigned windowOf(int rateHz) noexcept { return std::max(16u, std::bit_floor(static_cast<unsigned>(longestWindowSeconds * rateHz))); }
+unsigned windowOf(int rateHz) noexcept {
+    return std::max(16u, std::bit_floor(static_cast<unsigned>(longestWindowSeconds * rateHz)));
+}
 
 } // namespace
 
@@ -34,13 +39,18 @@ BeatDetector::BeatDetector(int sampleRateHz, double sensitivity)
     for (std::size_t i = 0; i < bands_.size(); ++i) makeBand(i);
 }
 
-void BeatDetector::setSensitivity(double sensitivity) noexcept { leastShare_ = std::pow(leastShareAtOne, std::clamp(sensitivity, 0.0, 1.0)); }
+void BeatDetector::setSensitivity(double sensitivity) noexcept {
+    leastShare_ = std::pow(leastShareAtOne, std::clamp(sensitivity, 0.0, 1.0));
+}
 
 void BeatDetector::makeBand(std::size_t index) {
     const double hzPerBin = static_cast<double>(rateHz_) / windowOf(rateHz_);
     const uint_t end = spectrum_->length - 1; // half the rate
-    const auto binOf = [=](double hz) { return std::min(end, static_cast<uint_t>(std::lround(hz / hzPerBin))); };
-    const uint_t first = std::max(1u, binOf(beatBands[index].lowHz)), behind = std::max(first + 1, binOf(beatBands[index].highHz) + 1);
+    const auto binOf = [=](double hz) {
+        return std::min(end, static_cast<uint_t>(std::lround(hz / hzPerBin)));
+    };
+    const uint_t first = std::max(1u, binOf(beatBands[index].lowHz)),
+                 behind = std::max(first + 1, binOf(beatBands[index].highHz) + 1);
     if (first >= end) return;
     Band& band = bands_[index];
     band.part = {std::min(end, behind) - first, spectrum_->norm + first, spectrum_->phas + first};
@@ -69,12 +79,15 @@ void BeatDetector::follow(Band& band) noexcept {
     band.strongest *= kept(strongestSeconds);
     band.masked *= kept(maskedSeconds);
     // at first the plain mean
-    band.usual += std::max(1.0 - kept(usualSeconds), 1.0 / static_cast<double>(hops_)) * (band.latest.back() - band.usual);
+    band.usual += std::max(1.0 - kept(usualSeconds), 1.0 / static_cast<double>(hops_)) *
+                  (band.latest.back() - band.usual);
 }
 
 bool BeatDetector::isOnset(const Band& band, double height, std::int64_t frame) const noexcept {
-    const bool isSoon = band.hasLast && static_cast<double>(frame - band.lastFrame) < leastSecondsBetween * rateHz_;
-    return frame >= 0 && !isSoon && height >= std::max({leastFlux, leastRise * band.usual, leastShare_ * band.strongest, band.masked});
+    const bool isSoon =
+        band.hasLast && static_cast<double>(frame - band.lastFrame) < leastSecondsBetween * rateHz_;
+    return frame >= 0 && !isSoon &&
+           height >= std::max({leastFlux, leastRise * band.usual, leastShare_ * band.strongest, band.masked});
 }
 
 void BeatDetector::look(std::size_t index) noexcept {
@@ -85,7 +98,8 @@ void BeatDetector::look(std::size_t index) noexcept {
         const double height = std::ranges::max(band.latest);
         band.strongest = std::max(band.strongest, height);
         const double hop = static_cast<double>(hops_ - pickedHopsLater) + picked - 1.0 + earlyHops;
-        const auto frame = static_cast<std::int64_t>(std::llround((hop - 0.5 * hopsPerWindow) * hop_->length));
+        const auto frame =
+            static_cast<std::int64_t>(std::llround((hop - 0.5 * hopsPerWindow) * hop_->length));
         if (isOnset(band, height, frame)) {
             found_[foundCount_++] = {frame, static_cast<int>(index), height / band.strongest};
             band.lastFrame = frame;
@@ -100,7 +114,8 @@ std::int64_t BeatDetector::delayFrames() const noexcept {
     return static_cast<std::int64_t>(hopsPerWindow / 2 + pickedHopsLater + 1) * hop_->length;
 }
 
-// What aubio's parts remember is a window and the picker's few hops; after so many zeros it is what it was at first.
+// What aubio's parts remember is a window and the picker's few hops; after so many zeros it is what it was at
+// first.
 void BeatDetector::reset() noexcept {
     constexpr unsigned rememberedHops = hopsPerWindow + 12;
     fvec_zeros(hop_.get());

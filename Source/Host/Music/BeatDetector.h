@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Onsets of music as it comes, by band: aubio's phase vocoder, its spectral flux of each band, its peak picker.
+// Onsets of music as it comes, by band: aubio's phase vocoder, its spectral flux of each band, its peak
+// picker.
 #pragma once
 #include "Host/Music/AubioPart.h"
 #include "Host/Music/BeatBands.h"
@@ -10,8 +11,8 @@
 
 namespace physvib {
 
-/// What is told does not depend on the pieces in which the sound comes. Made and freed on any thread but R; all else on any
-/// thread, one at a time, R too: it takes no memory and waits for nothing.
+/// What is told does not depend on the pieces in which the sound comes. Made and freed on any thread but R;
+/// all else on any thread, one at a time, R too: it takes no memory and waits for nothing.
 class BeatDetector {
 public:
     static constexpr double usualSensitivity = 0.5;
@@ -45,9 +46,9 @@ private:
         cvec_t part{}; // of the spectrum; nothing, if the rate has none of the band
         AubioPart<aubio_specdesc_t, del_aubio_specdesc> flux;
         AubioPart<aubio_peakpicker_t, del_aubio_peakpicker> peaks;
-        std::array<double, 4> latest{};        // flux of the last hops: the peak is among them
-        double usual = 0.0, strongest = 0.0;   // of the last seconds
-        double masked = 0.0;                   // what rings after the last onset
+        std::array<double, 4> latest{};      // flux of the last hops: the peak is among them
+        double usual = 0.0, strongest = 0.0; // of the last seconds
+        double masked = 0.0;                 // what rings after the last onset
         std::int64_t lastFrame = 0;
         bool hasLast = false;
     };

@@ -9,7 +9,8 @@ std::array<EnchanterSet, beatBands.size()> usualBeatEnchanters(int count) noexce
     const auto last = static_cast<std::size_t>(count - 1);
     std::array<EnchanterSet, beatBands.size()> sets{};
     sets.front()[0] = sets.back()[last] = true;
-    for (std::size_t j = std::min<std::size_t>(1, last); j < std::max<std::size_t>(last, 1); ++j) sets[1][j] = true;
+    for (std::size_t j = std::min<std::size_t>(1, last); j < std::max<std::size_t>(last, 1); ++j)
+        sets[1][j] = true;
     if (count == 2) sets[1] = sets.back();
     return sets;
 }

@@ -30,10 +30,12 @@ std::array<EnchanterSet, beatBands.size()> usualBeatEnchanters(int count) noexce
 /// "AC"; false if one is no enchanter of `count`, or named twice. Any thread.
 bool parseEnchanters(std::string_view letters, int count, EnchanterSet& enchanters);
 
-/// Calls `strike(const CollisionEvent&)` for each enchanter of the onset's band, at `timeNs`, where it sits on a field of that size. Any
-/// thread, R too.
+/// Calls `strike(const CollisionEvent&)` for each enchanter of the onset's band, at `timeNs`, where it sits
+/// on a field of that size. Any thread, R too.
 template <class Strike>
-void strikeBeat(const BandOnset& onset, std::int64_t timeNs, const BeatVoices& voices, const EnchanterLayout& layout, double fieldWidthMetres, double fieldHeightMetres, Strike&& strike) {
+void strikeBeat(const BandOnset& onset, std::int64_t timeNs, const BeatVoices& voices,
+                const EnchanterLayout& layout, double fieldWidthMetres, double fieldHeightMetres,
+                Strike&& strike) {
     const auto band = static_cast<std::size_t>(onset.band);
     for (int j = 0; j < layout.count; ++j) {
         if (!voices.enchanters[band][static_cast<std::size_t>(j)]) continue;

@@ -20,20 +20,25 @@ std::int64_t nowOf() {
 std::int64_t unixNsOf(OscTag tag) noexcept {
     auto seconds = static_cast<std::int64_t>(tag >> 32);
     if (seconds < era / 2) seconds += era;
-    const auto fraction = static_cast<std::int64_t>(((tag & 0xffff'ffffu) * static_cast<std::uint64_t>(second) + (std::uint64_t{1} << 31)) >> 32);
+    const auto fraction = static_cast<std::int64_t>(
+        ((tag & 0xffff'ffffu) * static_cast<std::uint64_t>(second) + (std::uint64_t{1} << 31)) >> 32);
     return (seconds - oscEpochSeconds) * second + fraction;
 }
 
 OscTag tagOf(std::int64_t unixNs) noexcept {
     const std::int64_t since = std::max<std::int64_t>(0, unixNs);
-    const auto fraction = ((static_cast<std::uint64_t>(since % second) << 32) + static_cast<std::uint64_t>(second) / 2) / static_cast<std::uint64_t>(second);
+    const auto fraction =
+        ((static_cast<std::uint64_t>(since % second) << 32) + static_cast<std::uint64_t>(second) / 2) /
+        static_cast<std::uint64_t>(second);
     return (static_cast<OscTag>(since / second + oscEpochSeconds) << 32) + fraction;
 }
 
 std::int64_t unixAheadNs() noexcept {
     std::int64_t best = INT64_MAX, ahead = 0;
     for (int k = 0; k < 3; ++k) { // whoever reads two clocks may be interrupted between
-        const std::int64_t before = nowOf<std::chrono::steady_clock>(), unix = nowOf<std::chrono::system_clock>(), after = nowOf<std::chrono::steady_clock>();
+        const std::int64_t before = nowOf<std::chrono::steady_clock>(),
+                           unix = nowOf<std::chrono::system_clock>(),
+                           after = nowOf<std::chrono::steady_clock>();
         if (after - before >= best) continue;
         best = after - before;
         ahead = unix - before - best / 2;

@@ -8,11 +8,11 @@ namespace physvib {
 namespace {
 
 /// What such a program as this sends by itself.
-bool isReply(std::string_view address) { return address.starts_with(oscAnswerPrefix) || address == oscErrorAddress || address == oscHitAddress; }
-
-std::string_view textOf(std::span<const char> bytes) {
-    return {bytes.data(), bytes.size()};
+bool isReply(std::string_view address) {
+    return address.starts_with(oscAnswerPrefix) || address == oscErrorAddress || address == oscHitAddress;
 }
+
+std::string_view textOf(std::span<const char> bytes) { return {bytes.data(), bytes.size()}; }
 
 /// Of a packet that is none of OSC's, as far as it looks like one.
 std::string_view addressIn(std::span<const char> bytes) {
@@ -34,7 +34,9 @@ Result<SilenceControl> silenceOf(const OscMessage& message) {
     return input ? Result{std::get<SilenceControl>(input.value)} : Failure{input.error};
 }
 
-bool isMessage(const std::string& name) { return std::ranges::find(messageTable, name, &MessageDescription::name) != messageTable.end(); }
+bool isMessage(const std::string& name) {
+    return std::ranges::find(messageTable, name, &MessageDescription::name) != messageTable.end();
+}
 
 } // namespace
 
@@ -67,7 +69,9 @@ void OscDoor::take(std::span<const char> bytes, const OscClock& clock,
     }
 }
 
-OscRefusal refusalOf(std::string_view address, std::string_view reason) { return {printable(address), cleanLine(reason)}; }
+OscRefusal refusalOf(std::string_view address, std::string_view reason) {
+    return {printable(address), cleanLine(reason)};
+}
 
 void OscDoor::refuse(std::string_view address, std::string_view reason) {
     OscRefusal refusal = refusalOf(address, reason);
@@ -75,14 +79,17 @@ void OscDoor::refuse(std::string_view address, std::string_view reason) {
     if (!isReply(address)) refusals_.push_back(std::move(refusal));
 }
 
-std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers) {
+std::string OscDoor::act(const OscMessage& message, const OscClock& clock,
+                         std::vector<std::vector<char>>& answers) {
     if (isForSilence(message.address)) return silence(silenceOf(message), answers);
     if (hooks_.closed)
         if (auto why = hooks_.closed(); !why.empty()) return why;
     // no phone is called so: /physvib/gravity is an input
     const bool isOurs = message.address.starts_with(oscPrefix);
     if (const auto* format = isOurs ? nullptr : sensorFormat(message.address)) return turn(*format, message);
-    if (!isOurs) return inQuotes(message.address) + ": expected an address that begins with " + std::string(oscPrefix) + ", or one of a sensor program";
+    if (!isOurs)
+        return inQuotes(message.address) + ": expected an address that begins with " +
+               std::string(oscPrefix) + ", or one of a sensor program";
     const auto plain = plainOf(std::string_view{message.address}.substr(oscPrefix.size()), message.values);
     if (!plain) return plain.error;
     if (isMessage(plain.value.name)) return route(plain.value, message.tag, clock, answers);
@@ -109,7 +116,8 @@ std::string OscDoor::turn(const SensorFormat& format, const OscMessage& message)
     return gravity && gravity.value ? hooks_.act(Action{*gravity.value}, origin_) : gravity.error;
 }
 
-std::string OscDoor::route(const PlainMessage& plain, OscTag tag, const OscClock& clock, std::vector<std::vector<char>>& answers) {
+std::string OscDoor::route(const PlainMessage& plain, OscTag tag, const OscClock& clock,
+                           std::vector<std::vector<char>>& answers) {
     MessageTag at;
     const bool isTagged = tag != oscNow && clock.isReady(); // before the first block all is now
     if (isTagged) at.sessionNs = clock.sessionNs(unixNsOf(tag));
@@ -122,7 +130,12 @@ std::string OscDoor::route(const PlainMessage& plain, OscTag tag, const OscClock
 }
 
 void OscDoor::addCounts(PlainMessage& answer) const {
-    for (const auto& [name, count] : {std::pair{"osc_packets", counts_.packets}, {"osc_bad", counts_.bad}, {"osc_lost", counts_.lost}, {"osc_refused", counts_.refused}, {"osc_late", counts_.late}, {"osc_held_back", counts_.held}})
+    for (const auto& [name, count] : {std::pair{"osc_packets", counts_.packets},
+                                      {"osc_bad", counts_.bad},
+                                      {"osc_lost", counts_.lost},
+                                      {"osc_refused", counts_.refused},
+                                      {"osc_late", counts_.late},
+                                      {"osc_held_back", counts_.held}})
         answer.values.push_back({name, static_cast<double>(count)});
 }
 

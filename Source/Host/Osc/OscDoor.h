@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The door by which packets come in: from addresses and values to messages, inputs and controls, each counted.
+// The door by which packets come in: from addresses and values to messages, inputs and controls, each
+// counted.
 #pragma once
-#include "Scene/Sessions/InputLine.h"
 #include "Host/Osc/OscClock.h"
 #include "Host/Osc/OscSocket.h"
 #include "Host/Osc/PhoneSensors.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Session/Messages/MessageRouter.h"
 #include "Session/Session.h"
 #include <functional>
@@ -13,7 +14,8 @@
 
 namespace physvib {
 
-/// Addresses are `/physvib/` and a name of the table of messages, of an input or of a control, and those of sensor programs.
+/// Addresses are `/physvib/` and a name of the table of messages, of an input or of a control, and those of
+/// sensor programs.
 inline constexpr std::string_view oscPrefix = "/physvib/", oscAnswerPrefix = "/physvib/answer/",
                                   oscHitAddress = "/physvib/hit", oscSilenceAddress = "/physvib/silence",
                                   oscErrorAddress = "/physvib/error";
@@ -28,8 +30,9 @@ struct OscOrigin {
 struct OscHooks {
     /// inputs and controls; empty, or what is wrong
     std::function<std::string(const LineInput&, const OscOrigin&)> act;
-    std::function<std::string()> closed;              ///< why nothing but silence is taken now; empty: it is; may be left out
-    ClipSource clips{};                               ///< left out: none are taken
+    std::function<std::string()> closed; ///< why nothing but silence is taken now; empty: it is; may be left
+                                         ///< out
+    ClipSource clips{};                  ///< left out: none are taken
 };
 
 /// A message of which nothing was done.
@@ -43,8 +46,8 @@ OscRefusal refusalOf(std::string_view address, std::string_view reason);
 
 struct OscCounts {
     std::uint64_t packets = 0;
-    std::uint64_t bad = 0;     ///< of these: not OSC, and nothing in it was done
-    std::uint64_t lost = 0;    ///< that the system had no room for, beside these
+    std::uint64_t bad = 0;  ///< of these: not OSC, and nothing in it was done
+    std::uint64_t lost = 0; ///< that the system had no room for, beside these
     std::uint64_t messages = 0;
     std::uint64_t refused = 0; ///< of these: and nothing of it was done
     std::uint64_t late = 0;    ///< of these: done at once, since the time of their tag was over
@@ -65,7 +68,8 @@ public:
     void take(std::span<const char> bytes, const OscClock& clock, std::vector<std::vector<char>>& answers,
               std::uint64_t silences = 0, const OscSender& from = {});
 
-    /// What was refused of the last packet, but for what only answers: two programs that refuse each other's refusals never end.
+    /// What was refused of the last packet, but for what only answers: two programs that refuse each other's
+    /// refusals never end.
     const std::vector<OscRefusal>& refusals() const noexcept { return refusals_; }
     void holdBack(std::uint64_t replies) noexcept { counts_.held = replies; }
     void lose(std::uint64_t packets) noexcept { counts_.lost += packets; }
@@ -75,11 +79,13 @@ public:
     PlainMessage status();
 
 private:
-    std::string act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers);
+    std::string act(const OscMessage& message, const OscClock& clock,
+                    std::vector<std::vector<char>>& answers);
     std::string actPlain(const PlainMessage& plain);
     std::string silence(const Result<SilenceControl>& asked, std::vector<std::vector<char>>& answers);
     std::string turn(const SensorFormat& format, const OscMessage& message);
-    std::string route(const PlainMessage& plain, OscTag tag, const OscClock& clock, std::vector<std::vector<char>>& answers);
+    std::string route(const PlainMessage& plain, OscTag tag, const OscClock& clock,
+                      std::vector<std::vector<char>>& answers);
     void refuse(std::string_view address, std::string_view reason);
     void addCounts(PlainMessage& answer) const;
 

@@ -65,17 +65,22 @@ OscMessage messageOf(std::span<const char> bytes, OscTag tag) {
     const MessagePointer message{lo_message_deserialise(own.data(), own.size(), &fault)};
     if (!message) throw OscError{"expected an OSC message (liblo: " + std::to_string(fault) + ")"};
     OscMessage read{std::string(own.data()), {}, tag};
-    if (!read.address.starts_with('/')) throw OscError{"expected an address that begins with /, found " + inQuotes(read.address)};
+    if (!read.address.starts_with('/'))
+        throw OscError{"expected an address that begins with /, found " + inQuotes(read.address)};
     const char* const types = lo_message_get_types(message.get());
     lo_arg** const values = lo_message_get_argv(message.get());
-    for (int i = 0; i < lo_message_get_argc(message.get()); ++i) read.values.push_back(valueOf(types[i], values[i]));
+    for (int i = 0; i < lo_message_get_argc(message.get()); ++i)
+        read.values.push_back(valueOf(types[i], values[i]));
     return read;
 }
 
 void readElement(std::span<const char> bytes, OscTag tag, int depth, std::vector<OscMessage>& all) {
-    if (bytes.empty() || bytes.size() % 4 != 0) throw OscError{"expected a multiple of four bytes, found " + std::to_string(bytes.size())};
-    if (!std::string_view(bytes.data(), bytes.size()).starts_with(bundleMark)) return all.push_back(messageOf(bytes, tag));
-    if (depth == deepestBundle) throw OscError{"expected bundles at most " + std::to_string(deepestBundle) + " deep"};
+    if (bytes.empty() || bytes.size() % 4 != 0)
+        throw OscError{"expected a multiple of four bytes, found " + std::to_string(bytes.size())};
+    if (!std::string_view(bytes.data(), bytes.size()).starts_with(bundleMark))
+        return all.push_back(messageOf(bytes, tag));
+    if (depth == deepestBundle)
+        throw OscError{"expected bundles at most " + std::to_string(deepestBundle) + " deep"};
     if (bytes.size() < 16) throw OscError{"expected a time tag in a bundle"};
     tag = bigEndian(bytes.subspan(8, 8));
     for (bytes = bytes.subspan(16); !bytes.empty();) {
@@ -91,10 +96,13 @@ MessagePointer writtenMessage(const PlainMessage& plain) {
     MessagePointer message{lo_message_new()};
     for (const NamedValue& value : plain.values) {
         lo_message_add_string(message.get(), value.name.c_str());
-        if (const auto* word = std::get_if<std::string>(&value.value)) lo_message_add_string(message.get(), word->c_str());
-        else if (const auto* number = std::get_if<double>(&value.value)) lo_message_add_float(message.get(), static_cast<float>(*number));
+        if (const auto* word = std::get_if<std::string>(&value.value))
+            lo_message_add_string(message.get(), word->c_str());
+        else if (const auto* number = std::get_if<double>(&value.value))
+            lo_message_add_float(message.get(), static_cast<float>(*number));
         else
-            for (const double one : std::get<std::vector<double>>(value.value)) lo_message_add_float(message.get(), static_cast<float>(one));
+            for (const double one : std::get<std::vector<double>>(value.value))
+                lo_message_add_float(message.get(), static_cast<float>(one));
     }
     return message;
 }
@@ -128,7 +136,8 @@ std::vector<char> oscWords(const std::string& address, std::initializer_list<std
 }
 
 std::vector<char> oscBundle(const std::string& address, const PlainMessage& message, OscTag tag) {
-    const BundlePointer bundle{lo_bundle_new({static_cast<std::uint32_t>(tag >> 32), static_cast<std::uint32_t>(tag)})};
+    const BundlePointer bundle{
+        lo_bundle_new({static_cast<std::uint32_t>(tag >> 32), static_cast<std::uint32_t>(tag)})};
     lo_bundle_add_message(bundle.get(), address.c_str(), writtenMessage(message).release());
     std::vector<char> bytes(lo_bundle_length(bundle.get()));
     lo_bundle_serialise(bundle.get(), bytes.data(), nullptr);
@@ -139,17 +148,23 @@ Result<PlainMessage> plainOf(std::string_view name, const std::vector<OscValue>&
     PlainMessage message{std::string(name), {}};
     for (std::size_t i = 0; i < values.size();) {
         const auto* const named = std::get_if<std::string>(&values[i]);
-        if (named == nullptr) return Failure{printable(name) + ": expected a name before " + plainNumber(std::get<double>(values[i]))};
-        if (++i == values.size()) return Failure{printable(name) + ": " + printable(*named) + ": expected a value"};
+        if (named == nullptr)
+            return Failure{printable(name) + ": expected a name before " +
+                           plainNumber(std::get<double>(values[i]))};
+        if (++i == values.size())
+            return Failure{printable(name) + ": " + printable(*named) + ": expected a value"};
         if (const auto* word = std::get_if<std::string>(&values[i])) {
             message.values.push_back({*named, *word});
             ++i;
             continue;
         }
         std::vector<double> numbers;
-        for (; i < values.size() && std::holds_alternative<double>(values[i]); ++i) numbers.push_back(std::get<double>(values[i]));
-        if (numbers.size() == 1) message.values.push_back({*named, numbers.front()});
-        else message.values.push_back({*named, std::move(numbers)});
+        for (; i < values.size() && std::holds_alternative<double>(values[i]); ++i)
+            numbers.push_back(std::get<double>(values[i]));
+        if (numbers.size() == 1)
+            message.values.push_back({*named, numbers.front()});
+        else
+            message.values.push_back({*named, std::move(numbers)});
     }
     return message;
 }

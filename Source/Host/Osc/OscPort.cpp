@@ -6,15 +6,20 @@
 namespace physvib {
 namespace {
 
-constexpr int pollMilliseconds = 10;     // the device's blocks are looked at so often
-constexpr std::size_t mostAtOnce = 1000; // packets, before they are; refusals that come later
+constexpr int pollMilliseconds = 10;           // the device's blocks are looked at so often
+constexpr std::size_t mostAtOnce = 1000;       // packets, before they are; refusals that come later
 constexpr std::int64_t clockSlackNs = 100'000; // two clocks are not read at once
 
-std::int64_t steadyNs() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+std::int64_t steadyNs() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
 
 } // namespace
 
-OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device, OscHooks hooks)
+OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device,
+                 OscHooks hooks)
     : session_{session}
     , device_{device}
     , door_{session, messages, std::move(hooks), settings.turnRadians} {
@@ -67,7 +72,8 @@ void OscPort::run() {
 }
 
 void OscPort::followClock() {
-    if (const std::int64_t ahead = physvib::unixAheadNs(); std::abs(ahead - unixAheadNs_) > clockSlackNs) unixAheadNs_ = ahead;
+    if (const std::int64_t ahead = physvib::unixAheadNs(); std::abs(ahead - unixAheadNs_) > clockSlackNs)
+        unixAheadNs_ = ahead;
     const std::lock_guard lock{mutex_};
     clock_.follow(device_.felt(), unixAheadNs_);
 }
@@ -106,8 +112,10 @@ void OscPort::sendRefusal(const OscRefusal& refusal, const OscSender& to) {
 
 void OscPort::refuse(const OscOrigin& origin, const std::string& reason) {
     const std::lock_guard lock{mutex_};
-    if (late_.size() < mostAtOnce) late_.emplace_back(refusalOf(origin.address, reason), origin.from);
-    else ++lateHeld_;
+    if (late_.size() < mostAtOnce)
+        late_.emplace_back(refusalOf(origin.address, reason), origin.from);
+    else
+        ++lateHeld_;
 }
 
 void OscPort::refuseLate() {
@@ -135,7 +143,8 @@ void OscPort::tellStatus() {
     nextStatusNs_ = now + statusEveryNs;
     const std::int64_t present = session_.timeline().presentNs();
     const PlainMessage status = door_.status();
-    count(out_.send(oscBundle(std::string(oscAnswerPrefix) + status.name, status, tagOf(clock_.presentUnixNs(present)))));
+    count(out_.send(
+        oscBundle(std::string(oscAnswerPrefix) + status.name, status, tagOf(clock_.presentUnixNs(present)))));
 }
 
 void OscPort::played(const PlayedEvent& played, int sampleRateHz) {
@@ -144,7 +153,13 @@ void OscPort::played(const PlayedEvent& played, int sampleRateHz) {
     const std::int64_t timeNs = played.isLate ? played.frame * 1'000'000'000 / sampleRateHz : e.timeNs;
     OscTag tag = oscNow;
     if (const std::lock_guard lock{mutex_}; clock_.isReady()) tag = tagOf(clock_.feltUnixNs(timeNs));
-    const PlainMessage hit{"hit", {{"session_s", static_cast<double>(timeNs) * 1e-9}, {"frequency_hz", e.frequencyHz}, {"decay_per_s", e.decayPerSecond}, {"amplitude", e.amplitude}, {"x_m", e.x}, {"y_m", e.y}}};
+    const PlainMessage hit{"hit",
+                           {{"session_s", static_cast<double>(timeNs) * 1e-9},
+                            {"frequency_hz", e.frequencyHz},
+                            {"decay_per_s", e.decayPerSecond},
+                            {"amplitude", e.amplitude},
+                            {"x_m", e.x},
+                            {"y_m", e.y}}};
     count(out_.send(oscBundle(std::string(oscHitAddress), hit, tag)));
 }
 

@@ -27,7 +27,7 @@ struct OscSettings {
 };
 
 struct OscStatus {
-    std::string address;   ///< ADDRESS:PORT; empty: nothing is taken
+    std::string address; ///< ADDRESS:PORT; empty: nothing is taken
     OscCounts counts;
     std::uint64_t sent = 0, unsent = 0; ///< hits and status
 };
@@ -39,7 +39,8 @@ public:
     static constexpr std::int64_t statusEveryNs = 1'000'000'000;
 
     /// All outlive it. See error(). M.
-    OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device, OscHooks hooks);
+    OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device,
+            OscHooks hooks);
     ~OscPort() override;
 
     /// Empty, or why it is not open: one line. Any thread.

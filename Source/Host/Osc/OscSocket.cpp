@@ -29,21 +29,27 @@ Result<std::shared_ptr<addrinfo>> lookUp(const std::string& host, int port, int 
     wanted.ai_socktype = SOCK_DGRAM;
     wanted.ai_flags = flags | AI_NUMERICSERV;
     addrinfo* found = nullptr;
-    if (const int fault = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found)) return Failure{inQuotes(host) + ": " + gai_strerror(fault)};
+    if (const int fault = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found))
+        return Failure{inQuotes(host) + ": " + gai_strerror(fault)};
     return std::shared_ptr<addrinfo>(Addresses{found});
 }
 
 int portOf(const sockaddr_storage& address) {
-    const auto port = address.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port : reinterpret_cast<const sockaddr_in&>(address).sin_port;
+    const auto port = address.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
+                                                    : reinterpret_cast<const sockaddr_in&>(address).sin_port;
     return ntohs(port);
 }
 
 sockets::Handle systems(std::intptr_t handle) noexcept { return static_cast<sockets::Handle>(handle); }
 
-std::intptr_t openedFor(const addrinfo& address) noexcept { return static_cast<std::intptr_t>(sockets::open(address.ai_family)); }
+std::intptr_t openedFor(const addrinfo& address) noexcept {
+    return static_cast<std::intptr_t>(sockets::open(address.ai_family));
+}
 
 // Sizes and options are of other types on each system.
-sockets::Size sizeOf(std::span<const char> bytes) noexcept { return static_cast<sockets::Size>(bytes.size()); }
+sockets::Size sizeOf(std::span<const char> bytes) noexcept {
+    return static_cast<sockets::Size>(bytes.size());
+}
 socklen_t lengthOf(const addrinfo& address) noexcept { return static_cast<socklen_t>(address.ai_addrlen); }
 
 } // namespace
@@ -66,8 +72,10 @@ Result<OscSocket> OscSocket::listening(const std::string& address, int port) {
         const auto found = lookUp(address, tried, AI_PASSIVE | AI_NUMERICHOST);
         if (!found) return Failure{found.error};
         OscSocket own{openedFor(*found.value)};
-        if (own.isOpen() && sockets::takePort(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value))) {
-            setsockopt(systems(own.handle_), SOL_SOCKET, SO_RCVBUF, reinterpret_cast<const char*>(&wantedBufferBytes), sizeof wantedBufferBytes);
+        if (own.isOpen() &&
+            sockets::takePort(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value))) {
+            setsockopt(systems(own.handle_), SOL_SOCKET, SO_RCVBUF,
+                       reinterpret_cast<const char*>(&wantedBufferBytes), sizeof wantedBufferBytes);
             sockaddr_storage bound{};
             socklen_t size = sizeof bound;
             getsockname(systems(own.handle_), reinterpret_cast<sockaddr*>(&bound), &size);
@@ -82,15 +90,19 @@ Result<OscSocket> OscSocket::listening(const std::string& address, int port) {
 
 Result<OscSocket> OscSocket::connected(const std::string& receiver) {
     const auto colon = receiver.rfind(':');
-    const auto port = colon == std::string::npos ? std::nullopt : parseNumber<int>(std::string_view{receiver}.substr(colon + 1));
-    if (!port || *port < 1 || *port > 65'535) return Failure{"expected HOST:PORT, found " + inQuotes(receiver)};
+    const auto port = colon == std::string::npos
+                          ? std::nullopt
+                          : parseNumber<int>(std::string_view{receiver}.substr(colon + 1));
+    if (!port || *port < 1 || *port > 65'535)
+        return Failure{"expected HOST:PORT, found " + inQuotes(receiver)};
     std::string host = receiver.substr(0, colon);
     if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
     const auto found = lookUp(host, *port, 0);
     if (!found) return Failure{found.error};
     OscSocket own{openedFor(*found.value)};
     own.bytes_.resize(longestPacket);
-    if (!own.isOpen() || connect(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value)) != 0) return Failure{receiver + ": " + sockets::fault()};
+    if (!own.isOpen() || connect(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value)) != 0)
+        return Failure{receiver + ": " + sockets::fault()};
     return own;
 }
 
@@ -136,7 +148,8 @@ bool OscSocket::answer(std::span<const char> bytes, const OscSender& to) noexcep
 }
 
 bool OscSocket::send(std::span<const char> bytes) noexcept {
-    return std::cmp_equal(::send(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags), bytes.size());
+    return std::cmp_equal(::send(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags),
+                          bytes.size());
 }
 
 } // namespace physvib

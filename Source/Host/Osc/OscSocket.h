@@ -22,14 +22,16 @@ struct OscSender {
 class OscSocket {
 public:
     static constexpr int triedPorts = 100;
-    static constexpr int wantedBufferBytes = 4 << 20; ///< the system gives less if it is told to (net.core.rmem_max)
+    static constexpr int wantedBufferBytes = 4 << 20; ///< the system gives less if it is told to
+                                                      ///< (net.core.rmem_max)
 
     OscSocket() = default;
     OscSocket(OscSocket&& other) noexcept;
     OscSocket& operator=(OscSocket&& other) noexcept;
     ~OscSocket();
 
-    /// At that address of this computer and that port, or else the next one that nobody has; 0: any. Never one that others share. Or one line.
+    /// At that address of this computer and that port, or else the next one that nobody has; 0: any. Never
+    /// one that others share. Or one line.
     static Result<OscSocket> listening(const std::string& address, int port);
 
     /// To `HOST:PORT` or `[ADDRESS]:PORT`. Or one line.
@@ -54,7 +56,8 @@ public:
 private:
     using Handle = std::intptr_t; // the system's
     static constexpr Handle none = -1;
-    explicit OscSocket(Handle handle) noexcept : handle_{handle} {}
+    explicit OscSocket(Handle handle) noexcept
+        : handle_{handle} {}
     Handle handle_ = none;
     int port_ = 0;
     std::string bytes_;

@@ -15,22 +15,31 @@ bool isOf(std::string_view address, std::string_view format) {
     return rest != std::string_view::npos && address.substr(rest + 1) == format.substr(1);
 }
 
-bool isReading(const OscValue& value) { return std::holds_alternative<double>(value) && std::isfinite(std::get<double>(value)); }
+bool isReading(const OscValue& value) {
+    return std::holds_alternative<double>(value) && std::isfinite(std::get<double>(value));
+}
 
-double bounded(double pull) { return std::clamp(pull, -sceneLimits::maxAccelerationMetresPerSecond2, sceneLimits::maxAccelerationMetresPerSecond2); }
+double bounded(double pull) {
+    return std::clamp(pull, -sceneLimits::maxAccelerationMetresPerSecond2,
+                      sceneLimits::maxAccelerationMetresPerSecond2);
+}
 
 } // namespace
 
 const SensorFormat* sensorFormat(std::string_view address) noexcept {
-    const auto found = std::ranges::find_if(sensorFormats, [&](const SensorFormat& format) { return isOf(address, format.address); });
+    const auto found = std::ranges::find_if(
+        sensorFormats, [&](const SensorFormat& format) { return isOf(address, format.address); });
     return found == sensorFormats.end() ? nullptr : &*found;
 }
 
-Result<std::optional<GravityAction>> PhoneSensors::take(const SensorFormat& format, const OscMessage& message) {
+Result<std::optional<GravityAction>> PhoneSensors::take(const SensorFormat& format,
+                                                        const OscMessage& message) {
     using Part = SensorFormat::Part;
     const bool isAxis = format.part == Part::x || format.part == Part::y || format.part == Part::unused;
     const std::size_t wanted = isAxis ? 1 : 3;
-    if (message.values.size() != wanted || !std::ranges::all_of(message.values, isReading)) return Failure{printable(message.address) + ": expected " + std::to_string(wanted) + (isAxis ? " number" : " numbers")};
+    if (message.values.size() != wanted || !std::ranges::all_of(message.values, isReading))
+        return Failure{printable(message.address) + ": expected " + std::to_string(wanted) +
+                       (isAxis ? " number" : " numbers")};
     const auto reading = [&](std::size_t i) { return format.toPull * std::get<double>(message.values[i]); };
     switch (format.part) {
     case Part::x: gravity_.x = reading(0); break;
@@ -41,7 +50,8 @@ Result<std::optional<GravityAction>> PhoneSensors::take(const SensorFormat& form
     case Part::gravity: gravity_ = {reading(0), reading(1)};
     }
     const Pull pull{gravity_.x + motion_.x, gravity_.y + motion_.y};
-    if (hasTold_ && std::hypot(pull.x - told_.x, pull.y - told_.y) < leastChange) return std::optional<GravityAction>{};
+    if (hasTold_ && std::hypot(pull.x - told_.x, pull.y - told_.y) < leastChange)
+        return std::optional<GravityAction>{};
     told_ = pull;
     hasTold_ = true;
     const double c = std::cos(turnRadians_), s = std::sin(turnRadians_);

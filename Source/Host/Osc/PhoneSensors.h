@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From what sensor programs of phones send to the gravity of a world that is held in a hand. Their formats and where they are told: Docs/osc.md.
+// From what sensor programs of phones send to the gravity of a world that is held in a hand. Their formats
+// and where they are told: Docs/osc.md.
 #pragma once
 #include "Core/StandardGravity.h"
 #include "Host/Osc/OscPacket.h"
@@ -15,7 +16,8 @@ struct SensorFormat {
     enum class Part { pull, gravity, motion, x, y, unused };
     std::string_view address; ///< `*` at the beginning stands for the phone's own name
     Part part;
-    double toPull; ///< what it says, times this, is the pull on a thing in the phone, in m/s^2: + x to the right of its screen, + y up
+    double toPull; ///< what it says, times this, is the pull on a thing in the phone, in m/s^2: + x to the
+                   ///< right of its screen, + y up
 };
 
 // An accelerometer at rest says what holds it up; iPhones turn that round.
@@ -37,11 +39,13 @@ const SensorFormat* sensorFormat(std::string_view address) noexcept;
 /// One thread at a time.
 class PhoneSensors {
 public:
-    /// A hand that rests shakes by less: a reading that is nearer to the last one that was used says nothing new.
+    /// A hand that rests shakes by less: a reading that is nearer to the last one that was used says nothing
+    /// new.
     static constexpr double leastChange = 0.05; // m/s^2; 0.3 degrees
 
     /// The phone is held so much counter-clockwise of upright.
-    explicit PhoneSensors(double turnRadians = 0.0) noexcept : turnRadians_{turnRadians} {}
+    explicit PhoneSensors(double turnRadians = 0.0) noexcept
+        : turnRadians_{turnRadians} {}
 
     /// Gravity as it is from now on, if that is news; none is. Or what is wrong.
     Result<std::optional<GravityAction>> take(const SensorFormat& format, const OscMessage& message);

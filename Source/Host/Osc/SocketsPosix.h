@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// POSIX: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsWindows.h is the other one.
+// POSIX: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsWindows.h is the other
+// one.
 #pragma once
 #include <cerrno>
 #include <cstddef>
@@ -20,10 +21,13 @@ using Size = std::size_t;
 constexpr int sendFlags = MSG_NOSIGNAL;
 
 inline void begin() noexcept {}
-inline Handle open(int family) noexcept { return socket(family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
+inline Handle open(int family) noexcept {
+    return socket(family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+}
 inline void close(Handle socket) noexcept { ::close(socket); }
 
-/// That port for this socket alone, or false. Without SO_REUSEADDR: of two programs that have it, one would get nothing, and nobody would be told.
+/// That port for this socket alone, or false. Without SO_REUSEADDR: of two programs that have it, one would
+/// get nothing, and nobody would be told.
 inline bool takePort(Handle socket, const sockaddr* address, socklen_t size) noexcept {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
@@ -40,7 +44,8 @@ inline bool wait(Handle socket, int milliseconds) noexcept {
 }
 
 /// A packet's size, or less than 0; who sent it; and how many have found no room so far, if that is told.
-inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_storage& sender, socklen_t& senderSize, std::uint32_t& lost) noexcept {
+inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_storage& sender,
+                              socklen_t& senderSize, std::uint32_t& lost) noexcept {
     alignas(cmsghdr) char told[64];
     iovec part{bytes.data(), bytes.size()};
     msghdr packet{};
@@ -54,7 +59,8 @@ inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_sto
     if (size < 0) return size;
     senderSize = packet.msg_namelen;
     for (cmsghdr* one = CMSG_FIRSTHDR(&packet); one != nullptr; one = CMSG_NXTHDR(&packet, one))
-        if (one->cmsg_level == SOL_SOCKET && one->cmsg_type == SO_RXQ_OVFL) std::memcpy(&lost, CMSG_DATA(one), sizeof lost);
+        if (one->cmsg_level == SOL_SOCKET && one->cmsg_type == SO_RXQ_OVFL)
+            std::memcpy(&lost, CMSG_DATA(one), sizeof lost);
     return size;
 }
 

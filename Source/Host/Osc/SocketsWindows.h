@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsPosix.h is the other one.
+// Windows: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsPosix.h is the other
+// one.
 #pragma once
 #include "Io/Disk/SystemWindows.h"
 #include <cstddef>
@@ -43,7 +44,9 @@ inline bool takePort(Handle socket, const sockaddr* address, socklen_t size) noe
 
 /// Of the last call: in words, and whether another program has that port.
 inline std::string fault() { return std::system_category().message(WSAGetLastError()); }
-inline bool isTaken() noexcept { return WSAGetLastError() == WSAEADDRINUSE || WSAGetLastError() == WSAEACCES; }
+inline bool isTaken() noexcept {
+    return WSAGetLastError() == WSAEADDRINUSE || WSAGetLastError() == WSAEACCES;
+}
 
 inline bool wait(Handle socket, int milliseconds) noexcept {
     WSAPOLLFD in{socket, POLLRDNORM, 0};
@@ -51,9 +54,11 @@ inline bool wait(Handle socket, int milliseconds) noexcept {
 }
 
 /// A packet's size, or less than 0; and who sent it. How many found no room, this system does not tell.
-inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_storage& sender, socklen_t& senderSize, std::uint32_t&) noexcept {
+inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_storage& sender,
+                              socklen_t& senderSize, std::uint32_t&) noexcept {
     senderSize = sizeof sender;
-    return recvfrom(socket, bytes.data(), static_cast<int>(bytes.size()), 0, reinterpret_cast<sockaddr*>(&sender), &senderSize);
+    return recvfrom(socket, bytes.data(), static_cast<int>(bytes.size()), 0,
+                    reinterpret_cast<sockaddr*>(&sender), &senderSize);
 }
 
 } // namespace physvib::sockets

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A name is looked up, read, and known by its hash.
 #include "Host/Recordings/ClipFolder.h"
+#include "Formats/ClipFile.h"
+#include "Formats/ClipLimits.h"
+#include "Host/Recordings/ReadRecording.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
-#include "Formats/ClipFile.h"
-#include "Formats/ClipLimits.h"
-#include "Host/Recordings/ReadRecording.h"
 #include <algorithm>
 
 namespace physvib {
@@ -25,13 +25,15 @@ std::vector<EnchanterPlace> sharesOf(const Clip& clip) {
     std::vector<EnchanterPlace> shares;
     for (const ClipChannel& channel : clip.channels)
         if (channel.place && clip.extentWidthMetres > 0.0 && clip.extentHeightMetres > 0.0)
-            shares.push_back({channel.place->xMetres / clip.extentWidthMetres, channel.place->yMetres / clip.extentHeightMetres});
+            shares.push_back({channel.place->xMetres / clip.extentWidthMetres,
+                              channel.place->yMetres / clip.extentHeightMetres});
     return shares.size() == clip.channels.size() ? shares : std::vector<EnchanterPlace>{};
 }
 
 /// All of the same bytes.
 Result<Content> readDrawn(const std::filesystem::path& path, ClipFormat format) {
-    if (const auto regular = openRegular(path, limits::maxRecordingFileBytes); !regular) return Failure{regular.error};
+    if (const auto regular = openRegular(path, limits::maxRecordingFileBytes); !regular)
+        return Failure{regular.error};
     const auto bytes = readFile(path, limits::maxClipFileBytes);
     if (!bytes) return Failure{bytes.error};
     const auto clip = readClip(bytes.value, path.string(), format);
@@ -66,7 +68,8 @@ Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
         channel.file.hash = content.value.hash;
         channel.note = note;
     }
-    if (clip.channels.empty() || clip.channels.front().samples.empty()) return Failure{path.string() + ": expected something to feel, found no samples"};
+    if (clip.channels.empty() || clip.channels.front().samples.empty())
+        return Failure{path.string() + ": expected something to feel, found no samples"};
     clip.shares = std::move(content.value.shares);
     return clip;
 }
@@ -75,7 +78,8 @@ Result<LoadedClip> ClipFolder::operator()(const std::string& name) const {
     std::error_code failed;
     const std::filesystem::path asked{name}, folder = std::filesystem::canonical(folder_, failed);
     if (failed) return Failure{folder_.string() + ": expected a folder of clips"};
-    if (name.empty() || asked.is_absolute() || !isWithin(folder, folder / asked)) return Failure{inQuotes(name) + ": expected a file in " + folder_.string() + " or below"};
+    if (name.empty() || asked.is_absolute() || !isWithin(folder, folder / asked))
+        return Failure{inQuotes(name) + ": expected a file in " + folder_.string() + " or below"};
     return loadWholeClip(std::filesystem::weakly_canonical(folder / asked, failed));
 }
 
@@ -91,11 +95,17 @@ Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>&
             last = std::move(loaded.value);
         }
         const std::string& hash = last.channels.front().file.hash;
-        if (hash != clip.file.hash) return Failure{path + ": expected the clip with the hash " + clip.file.hash + ", found " + hash + ": it has changed since"};
-        if (clip.channel >= std::ssize(last.channels)) return Failure{path + ": expected at least " + std::to_string(clip.channel + 1) + " channels, found " + std::to_string(last.channels.size())};
+        if (hash != clip.file.hash)
+            return Failure{path + ": expected the clip with the hash " + clip.file.hash + ", found " + hash +
+                           ": it has changed since"};
+        if (clip.channel >= std::ssize(last.channels))
+            return Failure{path + ": expected at least " + std::to_string(clip.channel + 1) +
+                           " channels, found " + std::to_string(last.channels.size())};
         kept.push_back(last.channels[static_cast<std::size_t>(clip.channel)]);
         samples += kept.back().samples.size();
-        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples)) return Failure{path + ": expected at most " + std::to_string(limits::maxRecordingSamples) + " samples in all clips"};
+        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples))
+            return Failure{path + ": expected at most " + std::to_string(limits::maxRecordingSamples) +
+                           " samples in all clips"};
     }
     return kept;
 }

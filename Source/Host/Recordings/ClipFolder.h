@@ -15,7 +15,8 @@ public:
     explicit ClipFolder(std::filesystem::path folder)
         : folder_{std::move(folder)} {}
 
-    /// A recording or a haptic file (see readRecording) in the folder or below, wherever links lead; or one line.
+    /// A recording or a haptic file (see readRecording) in the folder or below, wherever links lead; or one
+    /// line.
     Result<LoadedClip> operator()(const std::string& name) const;
 
 private:

@@ -2,11 +2,11 @@
 // Hits are panned as they were played; what a channel was made for comes from its actuator's profile.
 #include "Host/Recordings/HitExport.h"
 #include "Core/Modes/ModeIncrements.h"
-#include "Scene/ActuatorFile.h"
+#include "Formats/ClipLimits.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
-#include "Formats/ClipLimits.h"
+#include "Scene/ActuatorFile.h"
 #include "Session/OfflineRender.h"
 #include "Wire/BoardSteps.h"
 #include <algorithm>
@@ -23,7 +23,8 @@ constexpr double maxWavBytes = 500e6; // written while somebody waits, as a drag
 std::vector<CollisionEvent> stillStrikes(std::span<const CollisionEvent> events) {
     std::vector<CollisionEvent> still;
     for (const CollisionEvent& event : events) {
-        if (event.course.travelNs == 0) still.push_back(event);
+        if (event.course.travelNs == 0)
+            still.push_back(event);
         else
             for (BoardSteps steps{event}; !steps.isOver();) still.push_back(steps.take());
     }
@@ -48,10 +49,13 @@ FrequencyScale scaleOf(const Clip& clip, const FrequencyScale& usual) {
     return device.highHz > device.lowHz ? FrequencyScale{device.lowHz, device.highHz} : usual;
 }
 
-std::string count(std::size_t number, const std::string& what) { return std::to_string(number) + " " + what + (number == 1 ? "" : "s"); }
+std::string count(std::size_t number, const std::string& what) {
+    return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
 
 std::string summary(const ClipPart& part, std::size_t bytes) {
-    return part.path + "  " + count(part.clip.channels.size(), "channel") + ", " + fixedNumber(part.clip.seconds(), 2) + " s, " + count(part.clip.points(), "keyframe") + ", " +
+    return part.path + "  " + count(part.clip.channels.size(), "channel") + ", " +
+           fixedNumber(part.clip.seconds(), 2) + " s, " + count(part.clip.points(), "keyframe") + ", " +
            fixedNumber(static_cast<double>(bytes) * 1e-3, 1) + " kB\n";
 }
 
@@ -59,7 +63,8 @@ std::string summary(const ClipPart& part, std::size_t bytes) {
 double secondsOf(std::span<const CollisionEvent> events, int rate) {
     double end = 0.0;
     for (const CollisionEvent& event : events) {
-        const auto life = static_cast<double>(lifeFramesOf(decayIncrementOf(event.decayPerSecond, rate))) / rate;
+        const auto life =
+            static_cast<double>(lifeFramesOf(decayIncrementOf(event.decayPerSecond, rate))) / rate;
         const double gate = event.durationNs > 0 ? 1e-9 * static_cast<double>(event.durationNs) : life;
         end = std::max(end, 1e-9 * static_cast<double>(event.timeNs) + std::min(life, gate));
     }
@@ -70,7 +75,8 @@ double secondsOf(std::span<const CollisionEvent> events, int rate) {
 
 Result<Clip> clipOfHits(const HitExport& hits, const StrikeClipSettings& drawn) {
     if (const std::size_t found = hits.events.size(); found > limits::maxClipStrikes)
-        return Failure{hits.source + ": expected at most " + std::to_string(limits::maxClipStrikes) + " hits, found " + std::to_string(found)};
+        return Failure{hits.source + ": expected at most " + std::to_string(limits::maxClipStrikes) +
+                       " hits, found " + std::to_string(found)};
     Clip clip = clipOfStrikes(stillStrikes(hits.events), drawn);
     clip.title = hits.title;
     clip.extentWidthMetres = hits.layout.geometry.extentWidthMetres;
@@ -94,19 +100,24 @@ std::vector<ClipPart> partsOf(const Clip& clip, const std::string& to, ClipForma
         Clip one{clip.title, 0.0, 0.0, {clip.channels[j]}};
         if (!(one.seconds() > 0.0)) continue;
         std::string label = clip.channels[j].label.empty() ? std::to_string(j + 1) : clip.channels[j].label;
-        std::ranges::replace_if(label, [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
-        parts.push_back({(path.parent_path() / (path.stem().string() + "-" + label + path.extension().string())).string(), std::move(one)});
+        std::ranges::replace_if(
+            label, [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
+        parts.push_back(
+            {(path.parent_path() / (path.stem().string() + "-" + label + path.extension().string())).string(),
+             std::move(one)});
     }
     return parts;
 }
 
-Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat format, const FrequencyScale& usual) {
+Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat format,
+                               const FrequencyScale& usual) {
     std::list<AtomicFile> files;
     std::string told;
     for (const ClipPart& part : parts) {
         const auto bytes = clipBytes(part.clip, format, scaleOf(part.clip, usual));
         if (!bytes) return Failure{part.path + ": " + bytes.error};
-        if (const std::string& error = files.emplace_back(part.path).error(); !error.empty()) return Failure{error};
+        if (const std::string& error = files.emplace_back(part.path).error(); !error.empty())
+            return Failure{error};
         if (const std::string& error = files.back().write(bytes.value); !error.empty()) return Failure{error};
         told += summary(part, bytes.value.size());
     }
@@ -115,7 +126,8 @@ Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat fo
     return told;
 }
 
-std::vector<std::string> lossesOf(const std::vector<ClipPart>& parts, ClipFormat format, const FrequencyScale& usual) {
+std::vector<std::string> lossesOf(const std::vector<ClipPart>& parts, ClipFormat format,
+                                  const FrequencyScale& usual) {
     std::vector<std::string> losses;
     for (const ClipPart& part : parts)
         for (const std::string& loss : clipLosses(part.clip, format, scaleOf(part.clip, usual)))
@@ -123,15 +135,20 @@ std::vector<std::string> lossesOf(const std::vector<ClipPart>& parts, ClipFormat
     return losses;
 }
 
-std::string writeHitsWav(const HitExport& hits, const PhantomPanner& panner, int sampleRateHz, const std::string& path, const std::string& comment) {
+std::string writeHitsWav(const HitExport& hits, const PhantomPanner& panner, int sampleRateHz,
+                         const std::string& path, const std::string& comment) {
     const double seconds = secondsOf(hits.events, sampleRateHz);
-    if (!(seconds <= limits::maxClipSeconds)) return hits.source + ": expected at most " + plainNumber(limits::maxClipSeconds) + " seconds, found " + fixedNumber(seconds, 0);
+    if (!(seconds <= limits::maxClipSeconds))
+        return hits.source + ": expected at most " + plainNumber(limits::maxClipSeconds) +
+               " seconds, found " + fixedNumber(seconds, 0);
     if (const double bytes = seconds * sampleRateHz * panner.channels() * sizeof(float); bytes > maxWavBytes)
-        return hits.source + ": expected at most " + plainNumber(1e-6 * maxWavBytes) + " MB of samples, found " + fixedNumber(1e-6 * bytes, 0);
+        return hits.source + ": expected at most " + plainNumber(1e-6 * maxWavBytes) +
+               " MB of samples, found " + fixedNumber(1e-6 * bytes, 0);
     const RendererSettings renderer{.sampleRateHz = sampleRateHz, .panner = panner, .limiterEnabled = false};
     WavSink wav{path, panner.channels(), sampleRateHz, comment};
     if (!wav.error().empty()) return wav.error();
-    renderOffline(hits.events, {renderer, static_cast<std::int64_t>(std::ceil(seconds * sampleRateHz))}, [&](const float* const* block, int frames) { return wav.write(block, frames); });
+    renderOffline(hits.events, {renderer, static_cast<std::int64_t>(std::ceil(seconds * sampleRateHz))},
+                  [&](const float* const* block, int frames) { return wav.write(block, frames); });
     return wav.finish();
 }
 

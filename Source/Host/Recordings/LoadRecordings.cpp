@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each file once, within the limits.
 #include "Host/Recordings/LoadRecordings.h"
-#include "Io/Disk/FileLimits.h"
-#include "Scene/SceneFileLimits.h"
 #include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/LoadContact.h"
+#include "Io/Disk/FileLimits.h"
+#include "Scene/SceneFileLimits.h"
 #include <algorithm>
 
 namespace physvib {
 namespace {
 
 /// A set of recordings that a session plays, loaded where no other has the same file.
-Result<std::vector<ContactRecording>> loadSet(const std::vector<RecordingFile>& files, const LoadedRecordings& before) {
+Result<std::vector<ContactRecording>> loadSet(const std::vector<RecordingFile>& files,
+                                              const LoadedRecordings& before) {
     std::vector<ContactRecording> set;
     for (const RecordingFile& file : files) {
         const ContactRecording* known = nullptr;
         for (const auto& other : before.sets)
-            if (const auto found = std::ranges::find(other, file, &ContactRecording::file); found != other.end()) known = &*found;
+            if (const auto found = std::ranges::find(other, file, &ContactRecording::file);
+                found != other.end())
+                known = &*found;
         if (known != nullptr) {
             set.push_back(*known);
             continue;
@@ -41,14 +44,19 @@ Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
     std::vector<const std::vector<RecordingFile>*> files; // of each set
     std::size_t samples = 0;
     for (const RecordingsChange& change : log.recordings) {
-        const auto same = std::ranges::find_if(files, [&](const auto* known) { return *known == change.files; });
+        const auto same =
+            std::ranges::find_if(files, [&](const auto* known) { return *known == change.files; });
         all.setOfChange.push_back(static_cast<std::size_t>(same - files.begin()));
         if (same != files.end()) continue;
         auto set = loadSet(change.files, all);
         if (!set) return Failure{set.error};
         samples += samplesOf(set.value);
-        if (files.size() == limits::maxRecordingSets) return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSets) + " different sets"};
-        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples)) return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSamples) + " samples in all sets"};
+        if (files.size() == limits::maxRecordingSets)
+            return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSets) +
+                           " different sets"};
+        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples))
+            return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSamples) +
+                           " samples in all sets"};
         files.push_back(&change.files);
         all.sets.push_back(std::move(set.value));
     }

@@ -12,7 +12,8 @@ constexpr std::chrono::milliseconds period{200}; // with the disk's own time, le
 
 } // namespace
 
-PlayedRecorder::PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds)
+PlayedRecorder::PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz,
+                               double seconds)
     : sampleRateHz_{sampleRateHz}
     , tap_{channels, static_cast<int>(seconds * sampleRateHz)}
     , wav_{path, channels, sampleRateHz}

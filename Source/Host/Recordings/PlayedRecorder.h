@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a live session plays, to a WAV file: the render role fills a ring, a thread empties it to disk.
 #pragma once
-#include "Io/Wav/WavSink.h"
 #include "Host/Devices/SignalTap.h"
+#include "Io/Wav/WavSink.h"
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -13,9 +13,10 @@
 
 namespace physvib {
 
-/// Every channel of the session, or the first ones, in their own level (before the output's master gain). A file has one rate, so it ends where
-/// another comes. From its first samples on it is in its place, a whole WAV of all but the last half second,
-/// whatever ends the program or fills the disk; nobody waits for the disk but finish().
+/// Every channel of the session, or the first ones, in their own level (before the output's master gain). A
+/// file has one rate, so it ends where another comes. From its first samples on it is in its place, a whole
+/// WAV of all but the last half second, whatever ends the program or fills the disk; nobody waits for the
+/// disk but finish().
 class PlayedRecorder final : public Sink {
 public:
     /// Room for `seconds` that the disk is late. M.
@@ -31,13 +32,15 @@ public:
     void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
         if (block.sampleRateHz != sampleRateHz_) isWhole_.store(false, std::memory_order_relaxed);
         if (!isWhole()) return;
-        if (firstFrame_.load(std::memory_order_relaxed) < 0) firstFrame_.store(block.sessionFrame, std::memory_order_relaxed);
+        if (firstFrame_.load(std::memory_order_relaxed) < 0)
+            firstFrame_.store(block.sessionFrame, std::memory_order_relaxed);
         tap_.take(block.channels, block.frames);
     }
     /// no other rate has come. Any thread
     bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); }
 
-    /// Says in the file at which session time it begins, by the session's play-out delay L; before the first frame. M.
+    /// Says in the file at which session time it begins, by the session's play-out delay L; before the first
+    /// frame. M.
     void tellBeginning(std::int64_t playOutFrames) noexcept { playOutFrames_ = playOutFrames; }
 
     /// The last samples and the header; empty or one line with the reason. M, after R stopped.
@@ -45,7 +48,8 @@ public:
 
     /// of the session; -1: nothing yet
     std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); }
-    /// What happens at session time t is felt t less this behind the file's first frame; none before tellBeginning() and that frame.
+    /// What happens at session time t is felt t less this behind the file's first frame; none before
+    /// tellBeginning() and that frame.
     std::optional<double> beginsSeconds() const noexcept {
         if (playOutFrames_ < 0 || firstFrame() < 0) return {};
         return static_cast<double>(firstFrame() - playOutFrames_) / sampleRateHz_;

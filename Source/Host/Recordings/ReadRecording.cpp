@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// WAV by our own reader, FLAC and Ogg Vorbis by JUCE's, which believe what a file says of itself: so it is looked at first.
+// WAV by our own reader, FLAC and Ogg Vorbis by JUCE's, which believe what a file says of itself: so it is
+// looked at first.
 #include "Host/Recordings/ReadRecording.h"
+#include "Formats/ClipFile.h"
+#include "Formats/ClipSound.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Wav/WavFile.h"
-#include "Formats/ClipFile.h"
-#include "Formats/ClipSound.h"
 #include "Measure/SlowPart.h"
 #include <algorithm>
 #include <array>
@@ -21,17 +22,22 @@ constexpr int vorbisReadsAhead = 4096; // JUCE's reader does, also where no samp
 
 constexpr const char* notASound = "expected a WAV, FLAC or Ogg Vorbis file";
 
-/// Empty, or why JUCE's reader must not see the file: it takes what the last of several descriptions says, scans all for a
-/// length that is not told, and cuts its highest bits off.
+/// Empty, or why JUCE's reader must not see the file: it takes what the last of several descriptions says,
+/// scans all for a length that is not told, and cuts its highest bits off.
 std::string flacFault(std::FILE& file) {
     std::array<unsigned char, 42> head{}; // "fLaC", a block's header, its description of the stream
-    if (std::fread(head.data(), 1, head.size(), &file) != head.size() || (head[4] & 0x7f) != 0) return notASound;
+    if (std::fread(head.data(), 1, head.size(), &file) != head.size() || (head[4] & 0x7f) != 0)
+        return notASound;
     const auto at = [&](std::size_t i) { return static_cast<std::int64_t>(head[i]); };
-    const SoundShape shape{at(18) << 12 | at(19) << 4 | at(20) >> 4, (at(20) >> 1 & 7) + 1, (at(21) & 15) << 32 | at(22) << 24 | at(23) << 16 | at(24) << 8 | at(25)};
+    const SoundShape shape{at(18) << 12 | at(19) << 4 | at(20) >> 4, (at(20) >> 1 & 7) + 1,
+                           (at(21) & 15) << 32 | at(22) << 24 | at(23) << 16 | at(24) << 8 | at(25)};
     if (shape.frames == 0) return "expected a FLAC file that says how long it is";
-    if (shape.frames > UINT32_MAX) return "expected at most " + std::to_string(UINT32_MAX) + " samples in each channel, found " + std::to_string(shape.frames);
+    if (shape.frames > UINT32_MAX)
+        return "expected at most " + std::to_string(UINT32_MAX) + " samples in each channel, found " +
+               std::to_string(shape.frames);
     bool isLast = (head[4] & 0x80) != 0;
-    for (std::array<unsigned char, 4> block{}; !isLast && std::fread(block.data(), 1, block.size(), &file) == block.size();) {
+    for (std::array<unsigned char, 4> block{};
+         !isLast && std::fread(block.data(), 1, block.size(), &file) == block.size();) {
         if ((block[0] & 0x7f) == 0) return "expected one description of the stream";
         isLast = (block[0] & 0x80) != 0;
         if (std::fseek(&file, block[1] << 16 | block[2] << 8 | block[3], SEEK_CUR) != 0) break;
@@ -45,16 +51,19 @@ std::string oggFault(std::FILE& file) {
     constexpr char begins = 2;
     std::string block(page.size(), '\0');
     int streams = 0;
-    for (std::array<char, 65536> bytes; const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), &file);) {
+    for (std::array<char, 65536> bytes;
+         const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), &file);) {
         // a page may begin in one block and go on in the next
         block.erase(0, block.size() - page.size()).append(bytes.data(), count);
-        for (std::size_t i = block.find(page); i != std::string::npos && i + page.size() < block.size(); i = block.find(page, i + 1))
+        for (std::size_t i = block.find(page); i != std::string::npos && i + page.size() < block.size();
+             i = block.find(page, i + 1))
             streams += (block[i + page.size()] & begins) != 0;
     }
     return streams == 1 ? "" : streams == 0 ? notASound : "expected one stream of sound, found several";
 }
 
-/// A file as JUCE's decoders read it: they cannot read more of it than it is worth, and it tells whether they wanted to.
+/// A file as JUCE's decoders read it: they cannot read more of it than it is worth, and it tells whether they
+/// wanted to.
 class RecordingStream final : public juce::InputStream {
 public:
     RecordingStream(std::FILE& file, std::int64_t bytes)
@@ -106,7 +115,8 @@ std::string decode(std::FILE& file, std::size_t fileBytes, bool isOgg, SoundTake
     RecordingStream& stream = *owned;
     const auto reader = openReader(std::move(owned));
     if (!reader) return notASound;
-    const SoundShape shape{juce::roundToInt(reader->sampleRate), static_cast<std::int64_t>(reader->numChannels), reader->lengthInSamples};
+    const SoundShape shape{juce::roundToInt(reader->sampleRate),
+                           static_cast<std::int64_t>(reader->numChannels), reader->lengthInSamples};
     if (auto fault = taker.begin(shape); !fault.empty()) return fault;
     juce::AudioBuffer<float> block(static_cast<int>(shape.channels), blockFrames);
     stream.forget();
@@ -115,7 +125,8 @@ std::string decode(std::FILE& file, std::size_t fileBytes, bool isOgg, SoundTake
         const bool isRead = reader->read(&block, 0, count, at, true, true);
         at += count;
         if (!isRead || (stream.isAskedTooMuch() && !(isOgg && shape.frames - at < vorbisReadsAhead)))
-            return "expected " + std::to_string(shape.frames) + " samples in each channel, as its header says: it ends early";
+            return "expected " + std::to_string(shape.frames) +
+                   " samples in each channel, as its header says: it ends early";
         if (auto fault = taker.take(block.getArrayOfReadPointers(), count); !fault.empty()) return fault;
     }
     return {};
@@ -138,7 +149,8 @@ constexpr int clipRateHz = 48000; // of what is drawn, not sampled
 } // namespace
 
 Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path) {
-    const SoundShape shape{clipRateHz, static_cast<std::int64_t>(clip.channels.size()), static_cast<std::int64_t>(clip.seconds() * clipRateHz)};
+    const SoundShape shape{clipRateHz, static_cast<std::int64_t>(clip.channels.size()),
+                           static_cast<std::int64_t>(clip.seconds() * clipRateHz)};
     if (auto fault = soundFault(shape); !fault.empty()) return Failure{path.string() + ": " + fault};
     return clipSound(clip, clipRateHz);
 }
@@ -151,7 +163,8 @@ Result<SampledSound> readRecording(const std::filesystem::path& path) {
         return clip ? soundOf(clip.value, path) : Failure{clip.error};
     }
     SoundKeeper keeper;
-    if (auto fault = streamSound(*file.value.stream, file.value.bytes, keeper); !fault.empty()) return Failure{path.string() + ": " + fault};
+    if (auto fault = streamSound(*file.value.stream, file.value.bytes, keeper); !fault.empty())
+        return Failure{path.string() + ": " + fault};
     return std::move(keeper.sound);
 }
 

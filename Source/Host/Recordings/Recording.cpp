@@ -14,9 +14,11 @@ std::string Recording::finish(std::int64_t playOutFrames, FieldSize field, const
     if (auto error = recorder_.finish(); !error.empty()) return error;
     const std::int64_t rate = recorder_.sampleRateHz(), late = playOutFrames - recorder_.firstFrame();
     const std::int64_t shiftNs = late / rate * 1'000'000'000 + late % rate * 1'000'000'000 / rate;
-    const std::int64_t lengthNs = static_cast<std::int64_t>(1e9 * static_cast<double>(recorder_.frames()) / static_cast<double>(rate));
+    const std::int64_t lengthNs =
+        static_cast<std::int64_t>(1e9 * static_cast<double>(recorder_.frames()) / static_cast<double>(rate));
     for (auto& event : played_) event.timeNs += shiftNs;
-    std::erase_if(played_, [lengthNs](const CollisionEvent& e) { return e.timeNs < 0 || e.timeNs >= lengthNs; });
+    std::erase_if(played_,
+                  [lengthNs](const CollisionEvent& e) { return e.timeNs < 0 || e.timeNs >= lengthNs; });
     std::ranges::stable_sort(played_, {}, &CollisionEvent::timeNs);
     return writeFile(eventsPath(), eventsCsv(played_, field, provenance));
 }

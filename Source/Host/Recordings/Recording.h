@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A recording of a live session: what its channels play as WAV, and every event of it beside it, in the WAV's time.
+// A recording of a live session: what its channels play as WAV, and every event of it beside it, in the WAV's
+// time.
 #pragma once
-#include "Scene/EventsCsv.h"
 #include "Core/RenderControl.h"
 #include "Host/Recordings/PlayedRecorder.h"
+#include "Scene/EventsCsv.h"
 #include <filesystem>
 #include <vector>
 
@@ -17,7 +18,9 @@ public:
 
     std::string error() const { return recorder_.error(); }
     PlayedRecorder& recorder() noexcept { return recorder_; }
-    std::filesystem::path eventsPath() const { return std::filesystem::path{path_}.replace_extension(".csv"); }
+    std::filesystem::path eventsPath() const {
+        return std::filesystem::path{path_}.replace_extension(".csv");
+    }
 
     void take(const PlayedEvent& played) { played_.push_back(played.event); }
 

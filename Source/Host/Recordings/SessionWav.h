@@ -6,8 +6,9 @@
 
 namespace physvib {
 
-/// Renders the session to a WAV file that appears whole or not at all. Empty, or one line with the reason; "cancelled". Any thread
-/// but R.
-std::string renderSessionWav(const SavedSession& session, const SessionExtent& extent, const std::string& path, const std::string& comment);
+/// Renders the session to a WAV file that appears whole or not at all. Empty, or one line with the reason;
+/// "cancelled". Any thread but R.
+std::string renderSessionWav(const SavedSession& session, const SessionExtent& extent,
+                             const std::string& path, const std::string& comment);
 
 } // namespace physvib

@@ -98,8 +98,6 @@ EmergencyStop::EmergencyStop(juce::Component& window, std::function<void()> sile
     keys_->stops.push_back(this);
 }
 
-EmergencyStop::~EmergencyStop() {
-    std::erase(keys_->stops, this);
-}
+EmergencyStop::~EmergencyStop() { std::erase(keys_->stops, this); }
 
 } // namespace physvib

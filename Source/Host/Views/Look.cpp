@@ -17,22 +17,32 @@ struct Shades {
 };
 
 const Shades& shadesOf(Ground ground) {
-    static const Shades dark{palette::ground, palette::panel, juce::Colour{Argb{0xff272a33}}, palette::well,  palette::line,        palette::text,
-                             palette::muted,  palette::now,   palette::limit,                 palette::camera, palette::enchanter(0)};
-    static const Shades light{juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffdfe3eb}}, juce::Colour{Argb{0xffffffff}},
-                              juce::Colour{Argb{0xffc3c9d6}}, juce::Colour{Argb{0xff1b1e27}}, juce::Colour{Argb{0xff545c6e}}, juce::Colour{Argb{0xff8a5a00}},
-                              juce::Colour{Argb{0xffb62222}}, juce::Colour{Argb{0xff8d7a45}}, juce::Colour{Argb{0xff09665d}}};
+    static const Shades dark{palette::ground, palette::panel,       juce::Colour{Argb{0xff272a33}},
+                             palette::well,   palette::line,        palette::text,
+                             palette::muted,  palette::now,         palette::limit,
+                             palette::camera, palette::enchanter(0)};
+    static const Shades light{
+        juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffdfe3eb}},
+        juce::Colour{Argb{0xffffffff}}, juce::Colour{Argb{0xffc3c9d6}}, juce::Colour{Argb{0xff1b1e27}},
+        juce::Colour{Argb{0xff545c6e}}, juce::Colour{Argb{0xff8a5a00}}, juce::Colour{Argb{0xffb62222}},
+        juce::Colour{Argb{0xff8d7a45}}, juce::Colour{Argb{0xff09665d}}};
     return ground == Ground::dark ? dark : light;
 }
 
-bool isTrue(const juce::Component& c, const juce::Identifier& property) { return c.getProperties()[property]; }
+bool isTrue(const juce::Component& c, const juce::Identifier& property) {
+    return c.getProperties()[property];
+}
 
 juce::Colour tintOf(const juce::Component& c) {
     const auto& properties = c.getProperties();
-    return properties.contains(tintProperty) ? juce::Colour{static_cast<Argb>(static_cast<juce::int64>(properties[tintProperty]))} : shade(c, Shade::accent);
+    return properties.contains(tintProperty)
+               ? juce::Colour{static_cast<Argb>(static_cast<juce::int64>(properties[tintProperty]))}
+               : shade(c, Shade::accent);
 }
 
-juce::Colour readableOn(juce::Colour ground) { return ground.getPerceivedBrightness() > 0.55f ? juce::Colour{Argb{0xff101218}} : juce::Colours::white; }
+juce::Colour readableOn(juce::Colour ground) {
+    return ground.getPerceivedBrightness() > 0.55f ? juce::Colour{Argb{0xff101218}} : juce::Colours::white;
+}
 
 void drawFader(juce::Graphics& g, juce::Rectangle<float> area, float place, const juce::Slider& slider) {
     const float x = area.getCentreX();
@@ -41,7 +51,8 @@ void drawFader(juce::Graphics& g, juce::Rectangle<float> area, float place, cons
     const auto cap = juce::Rectangle<float>{26.0f, 15.0f}.withCentre({x, place});
     g.setColour(shade(slider, Shade::ground));
     g.fillRoundedRectangle(cap.expanded(1.5f), 4.5f);
-    const auto colour = shade(slider, Shade::text).interpolatedWith(shade(slider, Shade::panel), slider.isEnabled() ? 0.18f : 0.6f);
+    const auto colour = shade(slider, Shade::text)
+                            .interpolatedWith(shade(slider, Shade::panel), slider.isEnabled() ? 0.18f : 0.6f);
     g.setColour(colour);
     g.fillRoundedRectangle(cap, 3.5f);
     g.setColour(shade(slider, Shade::ground).withAlpha(0.75f));
@@ -63,20 +74,26 @@ void drawBar(juce::Graphics& g, juce::Rectangle<float> area, float place, const 
 
 } // namespace
 
-juce::Colour shade(const juce::Component& component, Shade which) { return component.findColour(idOf(which)); }
+juce::Colour shade(const juce::Component& component, Shade which) {
+    return component.findColour(idOf(which));
+}
 
 juce::Colour enchanterColour(const juce::Component& component, int index) {
     const auto colour = palette::enchanter(index);
-    return shade(component, Shade::panel).getPerceivedBrightness() > 0.5f ? colour.withMultipliedSaturation(1.6f).withMultipliedBrightness(0.62f) : colour;
+    return shade(component, Shade::panel).getPerceivedBrightness() > 0.5f
+               ? colour.withMultipliedSaturation(1.6f).withMultipliedBrightness(0.62f)
+               : colour;
 }
 
 void Look::setGround(Ground ground) {
     using namespace juce;
     ground_ = ground;
     const Shades& s = shadesOf(ground);
-    const std::array all{s.ground, s.panel, s.raised, s.well, s.line, s.text, s.muted, s.now, s.limit, s.camera, s.accent};
+    const std::array all{s.ground, s.panel, s.raised, s.well,   s.line,  s.text,
+                         s.muted,  s.now,   s.limit,  s.camera, s.accent};
     for (std::size_t i = 0; i < all.size(); ++i) setColour(firstShadeId + static_cast<int>(i), all[i]);
-    setColourScheme({s.ground, s.well, s.panel, s.line, s.text, s.accent.withAlpha(0.35f), s.text, s.raised, s.text});
+    setColourScheme(
+        {s.ground, s.well, s.panel, s.line, s.text, s.accent.withAlpha(0.35f), s.text, s.raised, s.text});
     setColour(ResizableWindow::backgroundColourId, s.ground);
     setColour(ComboBox::backgroundColourId, s.raised);
     setColour(ComboBox::outlineColourId, Colours::transparentBlack);
@@ -113,10 +130,12 @@ void Look::setGround(Ground ground) {
 
 juce::Font Look::getTextButtonFont(juce::TextButton& button, int) {
     if (isTrue(button, titleProperty)) return juce::Font{text::large, juce::Font::bold};
-    return isTrue(button, stopProperty) ? juce::Font{text::medium, juce::Font::bold} : juce::Font{text::small};
+    return isTrue(button, stopProperty) ? juce::Font{text::medium, juce::Font::bold}
+                                        : juce::Font{text::small};
 }
 
-void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver, bool isDown) {
+void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver,
+                                bool isDown) {
     const auto area = button.getLocalBounds().toFloat().reduced(0.5f);
     const bool isQuiet = isTrue(button, quietProperty), stops = isTrue(button, stopProperty);
     auto colour = button.getToggleState() ? tintOf(button) : shade(button, Shade::raised);
@@ -134,12 +153,16 @@ void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const j
 
 void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool, bool) {
     auto colour = shade(button, Shade::text);
-    if (isTrue(button, stopProperty)) colour = button.getToggleState() ? juce::Colours::white : shade(button, Shade::limit);
-    else if (button.getToggleState()) colour = readableOn(tintOf(button));
-    else if (isTrue(button, quietProperty) && !isTrue(button, titleProperty)) colour = shade(button, Shade::accent);
+    if (isTrue(button, stopProperty))
+        colour = button.getToggleState() ? juce::Colours::white : shade(button, Shade::limit);
+    else if (button.getToggleState())
+        colour = readableOn(tintOf(button));
+    else if (isTrue(button, quietProperty) && !isTrue(button, titleProperty))
+        colour = shade(button, Shade::accent);
     g.setColour(button.isEnabled() ? colour : shade(button, Shade::muted));
     g.setFont(getTextButtonFont(button, button.getHeight()));
-    g.drawFittedText(button.getButtonText(), button.getLocalBounds().reduced(1, 0), juce::Justification::centred, 1, 0.8f);
+    g.drawFittedText(button.getButtonText(), button.getLocalBounds().reduced(1, 0),
+                     juce::Justification::centred, 1, 0.8f);
 }
 
 void Look::drawLabel(juce::Graphics& g, juce::Label& label) {
@@ -177,7 +200,8 @@ void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area
                                             hasSubMenu, words, keys, icon, isActive ? colour : &muted);
 }
 
-void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int, juce::ComboBox& box) {
+void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int,
+                        juce::ComboBox& box) {
     const auto area = juce::Rectangle<int>{width, height}.toFloat().reduced(0.5f);
     g.setColour(shade(box, Shade::raised).brighter(box.isMouseOver(true) ? 0.08f : 0.0f));
     g.fillRoundedRectangle(area, corner);
@@ -193,18 +217,22 @@ void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label) {
     label.setFont(getComboBoxFont(box));
 }
 
-void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float, juce::Slider::SliderStyle style, juce::Slider& slider) {
+void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float,
+                            juce::Slider::SliderStyle style, juce::Slider& slider) {
     const auto area = juce::Rectangle<int>{x, y, width, height}.toFloat();
     if (isTrue(slider, faderProperty)) return drawFader(g, area, place, slider);
     if (slider.isBar()) return drawBar(g, area, place, slider);
     const bool isUpright = style == juce::Slider::LinearVertical;
-    const auto track = isUpright ? area.withSizeKeepingCentre(4.0f, area.getHeight()) : area.withSizeKeepingCentre(area.getWidth(), 4.0f);
+    const auto track = isUpright ? area.withSizeKeepingCentre(4.0f, area.getHeight())
+                                 : area.withSizeKeepingCentre(area.getWidth(), 4.0f);
     g.setColour(shade(slider, Shade::raised));
     g.fillRoundedRectangle(track, 2.0f);
     g.setColour(tintOf(slider).withMultipliedAlpha(slider.isEnabled() ? 1.0f : 0.4f));
     g.fillRoundedRectangle(isUpright ? track.withTop(place) : track.withRight(place), 2.0f);
     g.setColour(shade(slider, Shade::text));
-    g.fillEllipse(juce::Rectangle<float>{13.0f, 13.0f}.withCentre(isUpright ? juce::Point<float>{area.getCentreX(), place} : juce::Point<float>{place, area.getCentreY()}));
+    g.fillEllipse(juce::Rectangle<float>{13.0f, 13.0f}.withCentre(
+        isUpright ? juce::Point<float>{area.getCentreX(), place}
+                  : juce::Point<float>{place, area.getCentreY()}));
 }
 
 juce::Label* Look::createSliderTextBox(juce::Slider& slider) {
@@ -213,8 +241,11 @@ juce::Label* Look::createSliderTextBox(juce::Slider& slider) {
     return box;
 }
 
-void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float start, float end, juce::Slider& slider) {
-    const auto dial = juce::Rectangle<int>{x, y, width, height}.toFloat().withSizeKeepingCentre(static_cast<float>(std::min(width, height)) - 4.0f, static_cast<float>(std::min(width, height)) - 4.0f);
+void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float start,
+                            float end, juce::Slider& slider) {
+    const auto dial = juce::Rectangle<int>{x, y, width, height}.toFloat().withSizeKeepingCentre(
+        static_cast<float>(std::min(width, height)) - 4.0f,
+        static_cast<float>(std::min(width, height)) - 4.0f);
     const auto centre = dial.getCentre();
     const float radius = 0.5f * dial.getWidth(), angle = start + place * (end - start);
     g.setColour(shade(slider, Shade::well));
@@ -229,10 +260,13 @@ void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int heig
 
 std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::Component&) {
     struct Ring final : juce::FocusOutline::OutlineWindowProperties {
-        juce::Rectangle<int> getOutlineBounds(juce::Component& c) override { return c.getScreenBounds().expanded(2); }
+        juce::Rectangle<int> getOutlineBounds(juce::Component& c) override {
+            return c.getScreenBounds().expanded(2);
+        }
         void drawOutline(juce::Graphics& g, int width, int height) override {
             g.setColour(colour);
-            g.drawRoundedRectangle(juce::Rectangle<int>{width, height}.toFloat().reduced(1.0f), corner + 1.0f, 2.0f);
+            g.drawRoundedRectangle(juce::Rectangle<int>{width, height}.toFloat().reduced(1.0f), corner + 1.0f,
+                                   2.0f);
         }
         juce::Colour colour;
     };

@@ -45,7 +45,8 @@ public:
     juce::Font getComboBoxFont(juce::ComboBox&) override { return juce::Font{text::medium}; }
     juce::Font getPopupMenuFont() override { return juce::Font{text::medium}; }
     juce::Font getLabelFont(juce::Label& label) override { return label.getFont(); }
-    void drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver, bool isDown) override;
+    void drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver,
+                              bool isDown) override;
     void drawButtonText(juce::Graphics& g, juce::TextButton& button, bool isOver, bool isDown) override;
     // Texts of what is disabled are muted, and can be read: JUCE halves their contrast.
     void drawLabel(juce::Graphics& g, juce::Label& label) override;
@@ -54,12 +55,14 @@ public:
                            bool isActive, bool isHighlighted, bool isTicked, bool hasSubMenu,
                            const juce::String& words, const juce::String& keys, const juce::Drawable* icon,
                            const juce::Colour* colour) override;
-    void drawComboBox(juce::Graphics& g, int width, int height, bool isDown, int, int, int, int, juce::ComboBox& box) override;
+    void drawComboBox(juce::Graphics& g, int width, int height, bool isDown, int, int, int, int,
+                      juce::ComboBox& box) override;
     void positionComboBoxText(juce::ComboBox& box, juce::Label& label) override;
-    void drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float, juce::Slider::SliderStyle,
-                          juce::Slider& slider) override;
+    void drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float,
+                          juce::Slider::SliderStyle, juce::Slider& slider) override;
     juce::Label* createSliderTextBox(juce::Slider& slider) override;
-    void drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float start, float end, juce::Slider& slider) override;
+    void drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float start,
+                          float end, juce::Slider& slider) override;
     int getSliderThumbRadius(juce::Slider&) override { return 9; }
     std::unique_ptr<juce::FocusOutline> createFocusOutlineForComponent(juce::Component&) override;
 

@@ -17,7 +17,10 @@ struct LookFacts {
     juce::uint32 colour;
     double hollowBelow; ///< kg/m^2; 0: never
 };
-constexpr std::array<LookFacts, 4> looks{{{"rubber", 0xff8c3f35, 600.0}, {"concrete", 0xff9b9a93, 0.0}, {"wood", 0xffb8894f, 0.0}, {"steel", 0xff9db0c2, 4000.0}}};
+constexpr std::array<LookFacts, 4> looks{{{"rubber", 0xff8c3f35, 600.0},
+                                          {"concrete", 0xff9b9a93, 0.0},
+                                          {"wood", 0xffb8894f, 0.0},
+                                          {"steel", 0xff9db0c2, 4000.0}}};
 
 const LookFacts& factsOf(MaterialLook look) { return looks[static_cast<std::size_t>(look)]; }
 
@@ -28,10 +31,13 @@ float grainOf(MaterialLook look, int x, int y, juce::Random& random) {
     const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
     switch (look) {
     // knobs
-    case MaterialLook::rubber: return (x % 16 - 8) * (x % 16 - 8) + (y % 16 - 8) * (y % 16 - 8) < 10 ? -0.8f : 0.05f;
+    case MaterialLook::rubber:
+        return (x % 16 - 8) * (x % 16 - 8) + (y % 16 - 8) * (y % 16 - 8) < 10 ? -0.8f : 0.05f;
     // specks
-    case MaterialLook::concrete: return random.nextFloat() < 0.08f ? -0.9f : 0.5f * random.nextFloat() - 0.25f;
-    case MaterialLook::wood: return 0.7f * std::sin(5.0f * turn * fy + 1.5f * std::sin(turn * fx)); // rings
+    case MaterialLook::concrete:
+        return random.nextFloat() < 0.08f ? -0.9f : 0.5f * random.nextFloat() - 0.25f;
+    case MaterialLook::wood:
+        return 0.7f * std::sin(5.0f * turn * fy + 1.5f * std::sin(turn * fx)); // rings
     // a shine, brushed
     case MaterialLook::steel: return 0.6f * std::sin(turn * (fx + fy)) + ((x + y) % 4 == 0 ? 0.25f : 0.0f);
     }
@@ -46,13 +52,15 @@ juce::Image tileOf(MaterialLook look) {
     for (int y = 0; y < tilePixels; ++y)
         for (int x = 0; x < tilePixels; ++x) {
             const float grain = grainOf(look, x, y, random);
-            pixels.setPixelColour(x, y, grain < 0.0f ? base.darker(-0.7f * grain) : base.brighter(0.6f * grain));
+            pixels.setPixelColour(x, y,
+                                  grain < 0.0f ? base.darker(-0.7f * grain) : base.brighter(0.6f * grain));
         }
     return image;
 }
 
 const juce::Image& tile(MaterialLook look) {
-    static const std::array tiles{tileOf(MaterialLook::rubber), tileOf(MaterialLook::concrete), tileOf(MaterialLook::wood), tileOf(MaterialLook::steel)};
+    static const std::array tiles{tileOf(MaterialLook::rubber), tileOf(MaterialLook::concrete),
+                                  tileOf(MaterialLook::wood), tileOf(MaterialLook::steel)};
     return tiles[static_cast<std::size_t>(look)];
 }
 
@@ -100,9 +108,12 @@ std::optional<MaterialLook> materialLookOf(std::string_view name) noexcept {
     return std::nullopt;
 }
 
-bool looksHollow(MaterialLook look, double densityKgPerSquareMetre) noexcept { return densityKgPerSquareMetre < factsOf(look).hollowBelow; }
+bool looksHollow(MaterialLook look, double densityKgPerSquareMetre) noexcept {
+    return densityKgPerSquareMetre < factsOf(look).hollowBelow;
+}
 
-void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place, MaterialLook look, bool isHollow) {
+void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
+                      MaterialLook look, bool isHollow) {
     g.setFillType(juce::FillType{tile(look), place});
     g.fillPath(path, place);
     drawEdges(g, path, place, juce::Colour{factsOf(look).colour}.darker(0.9f), isHollow);

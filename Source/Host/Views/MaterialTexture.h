@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a material looks like where participants have to know it by sight (thesis 5.2.1): a texture of its own, hollow and solid bodies told apart.
+// What a material looks like where participants have to know it by sight (thesis 5.2.1): a texture of its
+// own, hollow and solid bodies told apart.
 #pragma once
 #include <array>
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -22,11 +23,12 @@ struct MaterialLegend {
 };
 
 /// Of the thesis' object pairs, in the order of its table.
-inline constexpr std::array<MaterialLegend, 5> materialLegends{{{MaterialLook::rubber, true, "rubber", "Rubber: hollow ball"},
-                                                                {MaterialLook::concrete, false, "concrete", "Concrete: solid block"},
-                                                                {MaterialLook::wood, false, "wood", "Wood: solid"},
-                                                                {MaterialLook::steel, true, "steel", "Steel: hollow can"},
-                                                                {MaterialLook::steel, false, "steel", "Steel: solid plate"}}};
+inline constexpr std::array<MaterialLegend, 5> materialLegends{
+    {{MaterialLook::rubber, true, "rubber", "Rubber: hollow ball"},
+     {MaterialLook::concrete, false, "concrete", "Concrete: solid block"},
+     {MaterialLook::wood, false, "wood", "Wood: solid"},
+     {MaterialLook::steel, true, "steel", "Steel: hollow can"},
+     {MaterialLook::steel, false, "steel", "Steel: solid plate"}}};
 
 /// By a word in a material's name; none: it has no texture. Any thread.
 std::optional<MaterialLook> materialLookOf(std::string_view name) noexcept;
@@ -49,6 +51,7 @@ void fillWithPicture(juce::Graphics& g, const juce::Path& path, const juce::Affi
                      const juce::Image& picture, bool isHollow);
 
 /// Fills `path`, which lies around 0,0, at `place`. M.
-void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place, MaterialLook look, bool isHollow);
+void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
+                      MaterialLook look, bool isHollow);
 
 } // namespace physvib

@@ -7,9 +7,7 @@
 
 namespace physvib::palette {
 
-inline juce::Colour juceColour(picture::Colour colour) {
-    return juce::Colour{colour.argb()};
-}
+inline juce::Colour juceColour(picture::Colour colour) { return juce::Colour{colour.argb()}; }
 
 inline const juce::Colour ground = juceColour(picture::palette::ground),
                           panel = juceColour(picture::palette::panel),
@@ -25,15 +23,9 @@ inline const juce::Colour ground = juceColour(picture::palette::ground),
 using Argb = juce::uint32;
 using picture::palette::materialCount;
 
-inline juce::Colour enchanter(int index) {
-    return juceColour(picture::palette::enchanter(index));
-}
-inline juce::Colour material(int index) {
-    return juceColour(picture::palette::material(index));
-}
-inline juce::Colour ramp(int index) {
-    return juceColour(picture::palette::ramp(index));
-}
+inline juce::Colour enchanter(int index) { return juceColour(picture::palette::enchanter(index)); }
+inline juce::Colour material(int index) { return juceColour(picture::palette::material(index)); }
+inline juce::Colour ramp(int index) { return juceColour(picture::palette::ramp(index)); }
 
 } // namespace physvib::palette
 

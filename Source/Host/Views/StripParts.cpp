@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The meter's scale is the ceiling's way.
 #include "Host/Views/StripParts.h"
-#include "Scene/Sessions/Mix.h"
 #include "Host/Views/Palette.h"
+#include "Scene/Sessions/Mix.h"
 #include <cmath>
 
 namespace physvib {
@@ -15,7 +15,9 @@ void setUpFader(juce::Slider& fader, double least, double most, const juce::Stri
     fader.setSkewFactorFromMidPoint(-15.0);
     fader.setTitle(title);
     fader.setDoubleClickReturnValue(true, 0.0);
-    fader.textFromValueFunction = [](double db) { return db <= leastStripDb ? juce::String{"silent"} : readable::words(db, 1) + " dB"; };
+    fader.textFromValueFunction = [](double db) {
+        return db <= leastStripDb ? juce::String{"silent"} : readable::words(db, 1) + " dB";
+    };
     fader.setPopupDisplayEnabled(true, true, nullptr);
     fader.setWantsKeyboardFocus(true);
 }
@@ -27,7 +29,8 @@ void PeakMeter::set(float peak, float hold) {
     if (std::abs(height - peak_) < 0.004f && std::abs(held - hold_) < 0.004f) return;
     peak_ = height;
     hold_ = held;
-    setDescription(peak > 0.001f ? readable::words(juce::Decibels::gainToDecibels(peak), 0) + " dB" : juce::String{"silent"});
+    setDescription(peak > 0.001f ? readable::words(juce::Decibels::gainToDecibels(peak), 0) + " dB"
+                                 : juce::String{"silent"});
     repaint();
 }
 
@@ -38,7 +41,8 @@ void PeakMeter::paint(juce::Graphics& g) {
     const auto green = palette::enchanter(3);
     const auto lit = bar.withTrimmedTop(bar.getHeight() * (1.0f - peak_));
     if (lit.getHeight() > 0.5f) {
-        juce::ColourGradient ramp{green.darker(0.7f), bar.getBottomLeft(), palette::limit, bar.getTopLeft(), false};
+        juce::ColourGradient ramp{green.darker(0.7f), bar.getBottomLeft(), palette::limit, bar.getTopLeft(),
+                                  false};
         ramp.addColour(0.6, green);
         ramp.addColour(0.85, palette::now);
         g.setGradientFill(ramp);
@@ -66,7 +70,7 @@ CeilingHandle::CeilingHandle(const juce::String& label) {
 
 void CeilingHandle::placeOver(juce::Rectangle<int> meter) {
     const int thumb = getLookAndFeel().getSliderThumbRadius(*this); // JUCE keeps so much free at both ends
-    setMouseDragSensitivity(std::max(1, meter.getHeight())); // the mark stays under the hand
+    setMouseDragSensitivity(std::max(1, meter.getHeight()));        // the mark stays under the hand
     setBounds(meter.withLeft(meter.getX() - room).expanded(0, thumb));
 }
 
@@ -76,7 +80,8 @@ void CeilingHandle::paint(juce::Graphics& g) {
     mark.addTriangle(0.0f, y - 5.0f, 0.0f, y + 5.0f, static_cast<float>(room) - 2.0f, y);
     g.setColour(shade(*this, Shade::limit));
     g.fillPath(mark);
-    g.fillRect(static_cast<float>(room) - 1.0f, y - 0.75f, static_cast<float>(getWidth() - room) + 1.0f, 1.5f);
+    g.fillRect(static_cast<float>(room) - 1.0f, y - 0.75f, static_cast<float>(getWidth() - room) + 1.0f,
+               1.5f);
 }
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What channel strips are made of, in the mixer and in the plug-in: meter, fader, and a ceiling that is dragged along the meter.
+// What channel strips are made of, in the mixer and in the plug-in: meter, fader, and a ceiling that is
+// dragged along the meter.
 #pragma once
 #include "Host/Views/Look.h"
 #include <juce_audio_basics/juce_audio_basics.h>
@@ -9,7 +10,9 @@ namespace physvib {
 constexpr float meterFloorDb = -60.0f; ///< nobody feels less: full scale is some g
 
 /// Height of that peak in a meter, 0 to 1.
-inline float meterHeight(float peak) { return juce::jlimit(0.0f, 1.0f, 1.0f - juce::Decibels::gainToDecibels(peak, meterFloorDb) / meterFloorDb); }
+inline float meterHeight(float peak) {
+    return juce::jlimit(0.0f, 1.0f, 1.0f - juce::Decibels::gainToDecibels(peak, meterFloorDb) / meterFloorDb);
+}
 
 /// A bar from -60 dB to full scale with the peak of the last moments.
 class PeakMeter final : public juce::Component {
@@ -28,8 +31,8 @@ private:
 /// A fader in dB; the least is silence. M.
 void setUpFader(juce::Slider& fader, double leastDb, double mostDb, const juce::String& title);
 
-/// What a strip may drive its actuator with at most, in dB of full scale. It has to be dragged: a click, a double click or the
-/// wheel move nothing, since hands are attached to what it bounds.
+/// What a strip may drive its actuator with at most, in dB of full scale. It has to be dragged: a click, a
+/// double click or the wheel move nothing, since hands are attached to what it bounds.
 class CeilingHandle final : public juce::Slider {
 public:
     explicit CeilingHandle(const juce::String& label);

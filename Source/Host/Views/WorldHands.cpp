@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a hand does in the world: pulls bodies, moves, attaches and detaches enchanters.
-#include "Pictures/ShapeOutline.h"
 #include "Host/Views/DisplayScale.h"
 #include "Host/Views/WorldView.h"
+#include "Pictures/ShapeOutline.h"
 #include <algorithm>
 #include <cmath>
 
@@ -23,14 +23,18 @@ bool WorldView::isOn(std::size_t body, juce::Point<float> p) const {
     return std::ranges::any_of(cast_[body].fixtures, [&](const FixtureDescription& fixture) {
         auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
         path.applyTransform(placeOf(fixture, pose, at));
-        if (juce::Point<float> nearest; std::holds_alternative<ChainShape>(fixture.shape)) return path.getNearestPoint(p, nearest), nearest.getDistanceFrom(p) < near;
-        return path.contains(p) || (moves && path.getBounds().withSizeKeepingCentre(16.0f, 16.0f).contains(p));
+        if (juce::Point<float> nearest; std::holds_alternative<ChainShape>(fixture.shape))
+            return path.getNearestPoint(p, nearest), nearest.getDistanceFrom(p) < near;
+        return path.contains(p) ||
+               (moves && path.getBounds().withSizeKeepingCentre(16.0f, 16.0f).contains(p));
     });
 }
 
 int WorldView::bodyAt(juce::Point<float> p) const {
     for (int i = static_cast<int>(cast_.size()) - 1; i >= 0; --i) // the one on top
-        if (const auto body = static_cast<std::size_t>(i); cast_[body].type == BodyType::dynamicBody && isOn(body, p)) return i;
+        if (const auto body = static_cast<std::size_t>(i);
+            cast_[body].type == BodyType::dynamicBody && isOn(body, p))
+            return i;
     return -1;
 }
 
@@ -58,7 +62,9 @@ void WorldView::mouseDown(const juce::MouseEvent& e) {
     const int body = grip_.enchanter < 0 ? bodyAt(e.position) : -1;
     if (e.mods.isPopupMenu()) {
         grip_ = {};
-        if (onMenu) onMenu(body >= 0 ? cast_[static_cast<std::size_t>(body)].name : std::string{}, map().shareAt(e.position));
+        if (onMenu)
+            onMenu(body >= 0 ? cast_[static_cast<std::size_t>(body)].name : std::string{},
+                   map().shareAt(e.position));
         return;
     }
     if (onPull) grip_.body = body;
@@ -77,7 +83,8 @@ void WorldView::hold() {
 void WorldView::mouseDrag(const juce::MouseEvent& e) {
     grip_.to = e.position;
     grip_.isOutside = !getLocalBounds().toFloat().contains(e.position);
-    if (grip_.enchanter >= 0 && onMove && !grip_.isOutside && isDrag(e)) onMove(grip_.enchanter, map().shareAt(e.position));
+    if (grip_.enchanter >= 0 && onMove && !grip_.isOutside && isDrag(e))
+        onMove(grip_.enchanter, map().shareAt(e.position));
     if (isHolding()) hold();
     if (grip_.body >= 0) repaint();
 }
@@ -87,7 +94,9 @@ void WorldView::mouseUp(const juce::MouseEvent& e) {
     repaint();
     if (!grip.held.empty()) return onLetGo(grip.held);
     if (grip.enchanter >= 0 && grip.isOutside && onDetach) return onDetach(grip.enchanter);
-    if (onSpot && grip.enchanter < 0 && !e.mods.isPopupMenu() && !isDrag(e) && map().field.contains(e.position)) return onSpot(map().shareAt(e.position));
+    if (onSpot && grip.enchanter < 0 && !e.mods.isPopupMenu() && !isDrag(e) &&
+        map().field.contains(e.position))
+        return onSpot(map().shareAt(e.position));
     if (grip.body < 0 || !onPull || !isDrag(e)) return;
     const auto way = (e.position - grip.from).toDouble() / screenPixelsPerMetre(*this, displayWidthMetres_);
     onPull(cast_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, pointOf(grip));
@@ -102,7 +111,9 @@ Vector WorldView::pointOf(const Grip& grip) const {
     return {c * start.x - s * start.y, -s * start.x - c * start.y};
 }
 
-bool WorldView::isInterestedInDragSource(const SourceDetails& details) { return onAttach && details.description == newEnchanter; }
+bool WorldView::isInterestedInDragSource(const SourceDetails& details) {
+    return onAttach && details.description == newEnchanter;
+}
 
 void WorldView::itemDragMove(const SourceDetails& details) {
     dropAt_ = details.localPosition.toFloat();

@@ -1,30 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing the world within a frame of a software renderer: plain paths and gradients, nothing blurred.
 #include "Host/Views/WorldView.h"
-#include "Pictures/ShapeOutline.h"
 #include "Host/Views/DisplayScale.h"
 #include "Host/Views/MaterialTexture.h"
+#include "Pictures/ShapeOutline.h"
 #include "Scene/World/SceneCast.h"
-#include <juce_audio_basics/juce_audio_basics.h>
 #include <algorithm>
 #include <cmath>
+#include <juce_audio_basics/juce_audio_basics.h>
 #include <tuple>
 
 namespace physvib {
 
 namespace {
 
-constexpr double hitMs = 450.0;          // how long the light of a hit is seen
-constexpr std::size_t mostHits = 48;     // at once: more are a glare anyway
-constexpr std::size_t mostTraces = 400;  // 30 pairs that rub
-constexpr float wallPixels = 11.0f;      // what stands around the field shows as a frame of this width
+constexpr double hitMs = 450.0;         // how long the light of a hit is seen
+constexpr std::size_t mostHits = 48;    // at once: more are a glare anyway
+constexpr std::size_t mostTraces = 400; // 30 pairs that rub
+constexpr float wallPixels = 11.0f;     // what stands around the field shows as a frame of this width
 constexpr float badgePixels = 30.0f;
 
 float levelOf(double amplitude) {
-    return juce::jlimit(0.12f, 1.0f, 1.0f + static_cast<float>(juce::Decibels::gainToDecibels(std::abs(amplitude), -50.0)) / 50.0f);
+    return juce::jlimit(
+        0.12f, 1.0f,
+        1.0f + static_cast<float>(juce::Decibels::gainToDecibels(std::abs(amplitude), -50.0)) / 50.0f);
 }
 
-float ageOf(double shownAtMs) { return static_cast<float>(juce::jlimit(0.0, 1.0, (juce::Time::getMillisecondCounterHiRes() - shownAtMs) / hitMs)); }
+float ageOf(double shownAtMs) {
+    return static_cast<float>(
+        juce::jlimit(0.0, 1.0, (juce::Time::getMillisecondCounterHiRes() - shownAtMs) / hitMs));
+}
 
 void glow(juce::Graphics& g, juce::Point<float> centre, float radius, juce::Colour colour) {
     g.setGradientFill({colour, centre, colour.withAlpha(0.0f), centre.translated(radius, 0.0f), true});
@@ -33,20 +38,24 @@ void glow(juce::Graphics& g, juce::Point<float> centre, float radius, juce::Colo
 
 bool isSame(const std::vector<BodyPose>& a, const std::vector<BodyPose>& b) {
     return std::ranges::equal(a, b, [](const BodyPose& p, const BodyPose& q) {
-        return p.xMetres == q.xMetres && p.yMetres == q.yMetres && p.angleRadians == q.angleRadians && p.isPresent == q.isPresent;
+        return p.xMetres == q.xMetres && p.yMetres == q.yMetres && p.angleRadians == q.angleRadians &&
+               p.isPresent == q.isPresent;
     });
 }
 
 } // namespace
 
-juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour colour, int width, int height) {
+juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour colour, int width,
+                      int height) {
     juce::Image image{juce::Image::ARGB, std::max(1, width), std::max(1, height), true};
     PhantomPanner::Gains gains{};
     juce::Image::BitmapData pixels{image, juce::Image::BitmapData::writeOnly};
     for (int y = 0; y < image.getHeight(); ++y)
         for (int x = 0; x < image.getWidth(); ++x) {
-            panner.gainsAt((x + 0.5) / image.getWidth() * panner.fieldWidthMetres(), (1.0 - (y + 0.5) / image.getHeight()) * panner.fieldHeightMetres(), gains);
-            const auto share = static_cast<float>(juce::jlimit(0.0, 1.0, gains[static_cast<std::size_t>(enchanter)]));
+            panner.gainsAt((x + 0.5) / image.getWidth() * panner.fieldWidthMetres(),
+                           (1.0 - (y + 0.5) / image.getHeight()) * panner.fieldHeightMetres(), gains);
+            const auto share =
+                static_cast<float>(juce::jlimit(0.0, 1.0, gains[static_cast<std::size_t>(enchanter)]));
             pixels.setPixelColour(x, y, colour.withAlpha(0.75f * share));
         }
     return image;
@@ -60,7 +69,8 @@ WorldView::WorldView() {
 
 void WorldView::show(const Scene& scene) {
     const auto isOfName = [](const BodyDescription& a, const BodyDescription& b) { return a.name == b.name; };
-    const bool isNew = scene.name != scene_.name || !std::ranges::equal(scene.bodies, scene_.bodies, isOfName);
+    const bool isNew =
+        scene.name != scene_.name || !std::ranges::equal(scene.bodies, scene_.bodies, isOfName);
     scene_ = scene;
     cast_ = sceneCast(scene_);
     scripted_ = scriptedCast(scene_).size();
@@ -106,11 +116,14 @@ void WorldView::update(WorldMoment moment) {
     const auto before = ahead_.empty() ? std::vector<BodyPose>{} : ahead_.front().poses;
     if (!moment.poses.empty()) ahead_.push_back({moment.sessionNs, std::move(moment.poses)});
     while (ahead_.size() > 1 && ahead_[1].timeNs + moment.aheadNs <= moment.sessionNs) ahead_.pop_front();
-    bool isOther = !hits_.empty() || !traces_.empty() || !moment.hits.empty() || (!ahead_.empty() && !isSame(before, ahead_.front().poses));
+    bool isOther = !hits_.empty() || !traces_.empty() || !moment.hits.empty() ||
+                   (!ahead_.empty() && !isSame(before, ahead_.front().poses));
     const double now = juce::Time::getMillisecondCounterHiRes();
     for (const auto& event : moment.hits) take(event, now);
-    while (!hits_.empty() && (hits_.size() > mostHits || now - hits_.front().shownAtMs > hitMs)) hits_.pop_front();
-    while (!traces_.empty() && (traces_.size() > mostTraces || now - traces_.front().shownAtMs > hitMs)) traces_.pop_front();
+    while (!hits_.empty() && (hits_.size() > mostHits || now - hits_.front().shownAtMs > hitMs))
+        hits_.pop_front();
+    while (!traces_.empty() && (traces_.size() > mostTraces || now - traces_.front().shownAtMs > hitMs))
+        traces_.pop_front();
     for (std::size_t j = 0; j < std::min(moment.peaks.size(), peaks_.size()); ++j) {
         isOther = isOther || std::abs(std::sqrt(peaks_[j]) - std::sqrt(moment.peaks[j])) > 0.01f;
         if (isOther) peaks_[j] = moment.peaks[j];
@@ -120,7 +133,8 @@ void WorldView::update(WorldMoment moment) {
 
 juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
-        if (scene_.materials[i].frequencyHz == event.frequencyHz && scene_.materials[i].decayPerSecond == event.decayPerSecond)
+        if (scene_.materials[i].frequencyHz == event.frequencyHz &&
+            scene_.materials[i].decayPerSecond == event.decayPerSecond)
             return palette::material(static_cast<int>(i));
     return palette::other;
 }
@@ -137,7 +151,8 @@ float WorldView::fittingPixelsPerMetre() const {
 
 WorldView::Map WorldView::map() const {
     const auto room = roomOfField();
-    const auto width = static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)), height = static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6));
+    const auto width = static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)),
+               height = static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6));
     const float scale =
         worldScale_ > 0.0 ? static_cast<float>(screenPixelsPerMetre(*this, displayWidthMetres_) / worldScale_)
                           : fittingPixelsPerMetre();
@@ -156,7 +171,8 @@ void WorldView::followInputs() {
         for (std::size_t i = next; i-- > 0;)
             if (cast_[i].name == name) {
                 const auto* change = std::get_if<ChangeAction>(&input.action);
-                if (change != nullptr && change->stays && !fates_[i].isGone) fates_[next].before = static_cast<int>(i);
+                if (change != nullptr && change->stays && !fates_[i].isGone)
+                    fates_[next].before = static_cast<int>(i);
                 if (i < scene_.bodies.size() || i >= scripted_) fates_[i].isGone = true;
                 break;
             }
@@ -170,7 +186,8 @@ BodyPose WorldView::poseBefore(std::size_t body) const {
     if (const int before = fates_[body].before; before >= 0)
         if (const BodyPose pose = poseBefore(static_cast<std::size_t>(before)); pose.isPresent) return pose;
     const auto& b = cast_[body];
-    return {b.positionMetres.x, b.positionMetres.y, b.angleRadians, body < scene_.bodies.size() || body >= scripted_};
+    return {b.positionMetres.x, b.positionMetres.y, b.angleRadians,
+            body < scene_.bodies.size() || body >= scripted_};
 }
 
 BodyPose WorldView::poseOf(std::size_t body) const {
@@ -180,26 +197,33 @@ BodyPose WorldView::poseOf(std::size_t body) const {
 }
 
 juce::AffineTransform WorldView::placeOf(const BodyPose& pose, const Map& at) const {
-    return juce::AffineTransform::rotation(static_cast<float>(-pose.angleRadians)).translated(at.at(pose.xMetres, pose.yMetres));
+    return juce::AffineTransform::rotation(static_cast<float>(-pose.angleRadians))
+        .translated(at.at(pose.xMetres, pose.yMetres));
 }
 
-juce::AffineTransform WorldView::placeOf(const FixtureDescription& fixture, const BodyPose& pose, const Map& at) const {
+juce::AffineTransform WorldView::placeOf(const FixtureDescription& fixture, const BodyPose& pose,
+                                         const Map& at) const {
     return juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
-        .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre, static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
+        .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre,
+                    static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
         .followedBy(placeOf(pose, at));
 }
 
 juce::Point<float> WorldView::placeOfEnchanter(int enchanter) const {
     const auto& layout = layout_.geometry;
     const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
-    return map().at(place.xMetres / layout.extentWidthMetres * scene_.fieldWidthMetres, place.yMetres / layout.extentHeightMetres * scene_.fieldHeightMetres);
+    return map().at(place.xMetres / layout.extentWidthMetres * scene_.fieldWidthMetres,
+                    place.yMetres / layout.extentHeightMetres * scene_.fieldHeightMetres);
 }
 
-juce::Point<float> WorldView::placeOfShare(FieldShare at) const { return map().at(at.x * scene_.fieldWidthMetres, at.y * scene_.fieldHeightMetres); }
+juce::Point<float> WorldView::placeOfShare(FieldShare at) const {
+    return map().at(at.x * scene_.fieldWidthMetres, at.y * scene_.fieldHeightMetres);
+}
 
 juce::Point<float> WorldView::placeOfBody(const std::string& name) const {
     for (std::size_t i = 0; i < cast_.size(); ++i)
-        if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent) return map().at(pose.xMetres, pose.yMetres);
+        if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent)
+            return map().at(pose.xMetres, pose.yMetres);
     return {-1e4f, -1e4f};
 }
 
@@ -211,12 +235,15 @@ std::optional<BodyPose> WorldView::poseOfBody(const std::string& name) const {
 
 Vector WorldView::metresAt(juce::Point<float> place) const {
     const auto at = map();
-    return {static_cast<double>((place.x - at.field.getX()) / at.pixelsPerMetre), static_cast<double>((at.field.getBottom() - place.y) / at.pixelsPerMetre)};
+    return {static_cast<double>((place.x - at.field.getX()) / at.pixelsPerMetre),
+            static_cast<double>((at.field.getBottom() - place.y) / at.pixelsPerMetre)};
 }
 
 juce::Rectangle<float> WorldView::badgeOf(int enchanter, const Map&) const {
     const float size = layout_.geometry.count > 16 ? 0.7f * badgePixels : badgePixels;
-    return juce::Rectangle<float>{size, size}.withCentre(placeOfEnchanter(enchanter)).constrainedWithin(getLocalBounds().reduced(4).toFloat());
+    return juce::Rectangle<float>{size, size}
+        .withCentre(placeOfEnchanter(enchanter))
+        .constrainedWithin(getLocalBounds().reduced(4).toFloat());
 }
 
 void WorldView::paint(juce::Graphics& g) {
@@ -245,11 +272,13 @@ void WorldView::drawGround(juce::Graphics& g, const Map& at) {
     if (shownGains_ < 0 || shownGains_ >= layout_.geometry.count || panner_.channels() == 0) return;
     const auto field = at.field.toNearestInt();
     if (gains_.isNull()) // smooth enough, and fast enough to follow a badge that is moved
-        gains_ = gainImage(panner_, shownGains_, enchanterColour(*this, shownGains_), 96, 54).rescaled(field.getWidth(), field.getHeight(), juce::Graphics::mediumResamplingQuality);
+        gains_ = gainImage(panner_, shownGains_, enchanterColour(*this, shownGains_), 96, 54)
+                     .rescaled(field.getWidth(), field.getHeight(), juce::Graphics::mediumResamplingQuality);
     g.drawImageAt(gains_, field.getX(), field.getY());
 }
 
-bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixture, const juce::Path& path, const juce::AffineTransform& place) const {
+bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixture, const juce::Path& path,
+                             const juce::AffineTransform& place) const {
     const auto index = static_cast<std::size_t>(fixture.material);
     if (!showsMaterials_ || index >= scene_.materials.size()) return false;
     const auto& material = scene_.materials[index];
@@ -270,9 +299,12 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
             const auto place = placeOf(fixture, pose, at);
             const auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
             const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
-            g.setColour(palette::material(fixture.material).withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f));
-            if (isLine) g.strokePath(path, juce::PathStrokeType{3.0f}, place);
-            else if (!drawMaterial(g, fixture, path, place)) g.fillPath(path, place);
+            g.setColour(palette::material(fixture.material)
+                            .withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f));
+            if (isLine)
+                g.strokePath(path, juce::PathStrokeType{3.0f}, place);
+            else if (!drawMaterial(g, fixture, path, place))
+                g.fillPath(path, place);
             if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) { // shows the rotation
                 const float r = static_cast<float>(circle->radiusMetres) * at.pixelsPerMetre;
                 juce::Path spoke;
@@ -291,26 +323,35 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
 // All grains of a look are one piece of a pair's way; it begins where the one before ended.
 void WorldView::take(const CollisionEvent& event, double nowMs) {
     if (event.source.kind == ContactKind::hit) return hits_.push_back({event, colourOf(event), nowMs});
-    const auto isSamePair = [&](const Trace& t) { return t.source.fixture == event.source.fixture && t.source.other == event.source.other; };
+    const auto isSamePair = [&](const Trace& t) {
+        return t.source.fixture == event.source.fixture && t.source.other == event.source.other;
+    };
     const auto last = std::find_if(traces_.rbegin(), traces_.rend(), isSamePair);
     const Vector here{event.x, event.y};
-    if (last == traces_.rend() || last->shownAtMs != nowMs) return traces_.push_back({event.source, last == traces_.rend() ? here : last->toMetres, here, event.amplitude, colourOf(event), nowMs});
+    if (last == traces_.rend() || last->shownAtMs != nowMs)
+        return traces_.push_back({event.source, last == traces_.rend() ? here : last->toMetres, here,
+                                  event.amplitude, colourOf(event), nowMs});
     // between the points of what has two
     last->toMetres = {0.5 * (last->toMetres.x + here.x), 0.5 * (last->toMetres.y + here.y)};
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
 }
 
-// On top of the outlines that they follow, so their core is white as that of a hit. However weak, they are seen.
+// On top of the outlines that they follow, so their core is white as that of a hit. However weak, they are
+// seen.
 void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
     for (const auto& trace : traces_) {
-        const float level = levelOf(trace.amplitude), fade = (1.0f - ageOf(trace.shownAtMs)) * (0.4f + 0.6f * level);
+        const float level = levelOf(trace.amplitude),
+                    fade = (1.0f - ageOf(trace.shownAtMs)) * (0.4f + 0.6f * level);
         juce::Path path;
         path.startNewSubPath(at.at(trace.fromMetres.x, trace.fromMetres.y));
         path.lineTo(at.at(trace.toMetres.x, trace.toMetres.y));
         const auto amber = trace.colour.interpolatedWith(palette::now, 0.7f);
-        for (const auto& [colour, pixels, alpha] : {std::tuple{amber, 10.0f + 12.0f * level, 0.22f}, {amber, 5.0f + 6.0f * level, 0.45f}, {juce::Colours::white, 1.5f + 1.5f * level, 0.9f}}) {
+        for (const auto& [colour, pixels, alpha] : {std::tuple{amber, 10.0f + 12.0f * level, 0.22f},
+                                                    {amber, 5.0f + 6.0f * level, 0.45f},
+                                                    {juce::Colours::white, 1.5f + 1.5f * level, 0.9f}}) {
             g.setColour(colour.withAlpha(alpha * fade));
-            g.strokePath(path, juce::PathStrokeType{pixels, juce::PathStrokeType::curved, juce::PathStrokeType::butt});
+            g.strokePath(
+                path, juce::PathStrokeType{pixels, juce::PathStrokeType::curved, juce::PathStrokeType::butt});
         }
     }
 }
@@ -318,7 +359,8 @@ void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
 void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
     const auto amber = palette::now;
     for (const auto& hit : hits_) {
-        const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude), fade = (1.0f - age) * std::sqrt(level);
+        const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude),
+                    fade = (1.0f - age) * std::sqrt(level);
         const auto centre = at.at(hit.event.x, hit.event.y);
         const float radius = 10.0f + 34.0f * level * (0.5f + 0.5f * age);
         glow(g, centre, radius, hit.colour.interpolatedWith(amber, 0.7f).withAlpha(0.85f * fade));
@@ -331,7 +373,9 @@ void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
 
 // Lines from the hit that is strongest now to each enchanter, as wide and bright as its share of it.
 void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
-    const auto light = [](const Hit& hit) { return levelOf(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs)); };
+    const auto light = [](const Hit& hit) {
+        return levelOf(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs));
+    };
     const auto strongest = std::ranges::max_element(hits_, {}, light);
     if (strongest == hits_.end() || panner_.channels() == 0) return;
     PhantomPanner::Gains gains{};
@@ -340,7 +384,8 @@ void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const auto gain = static_cast<float>(gains[static_cast<std::size_t>(j)]);
         if (gain < 0.02f) continue;
-        g.setColour(enchanterColour(*this, j).withAlpha(std::min(1.0f, 1.3f * std::sqrt(gain) * light(*strongest))));
+        g.setColour(
+            enchanterColour(*this, j).withAlpha(std::min(1.0f, 1.3f * std::sqrt(gain) * light(*strongest))));
         g.drawLine({from, badgeOf(j, at).getCentre()}, 1.0f + 4.0f * gain);
     }
 }
@@ -348,7 +393,9 @@ void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
 void WorldView::drawHalos(juce::Graphics& g, const Map& at) const {
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
-        if (share > 0.03f) glow(g, badgeOf(j, at).getCentre(), 20.0f + 70.0f * share, enchanterColour(*this, j).withAlpha(std::min(0.8f, 0.25f + 0.6f * share)));
+        if (share > 0.03f)
+            glow(g, badgeOf(j, at).getCentre(), 20.0f + 70.0f * share,
+                 enchanterColour(*this, j).withAlpha(std::min(0.8f, 0.25f + 0.6f * share)));
     }
 }
 
@@ -365,7 +412,8 @@ void WorldView::drawEnchanters(juce::Graphics& g, const Map& at) const {
         g.drawRoundedRectangle(badge, 7.0f, 2.0f);
         if (j == selected_) g.drawRoundedRectangle(badge.expanded(4.0f), 9.0f, 1.5f);
         g.setFont(juce::Font{text::medium, juce::Font::bold});
-        g.drawText(juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(j)].label.c_str()), badge, juce::Justification::centred, false);
+        g.drawText(juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(j)].label.c_str()),
+                   badge, juce::Justification::centred, false);
     }
 }
 
@@ -374,7 +422,8 @@ void WorldView::drawSpot(juce::Graphics& g) const {
     const auto centre = placeOfShare(*spot_);
     g.setColour(shade(*this, Shade::text));
     g.drawEllipse(juce::Rectangle<float>{16.0f, 16.0f}.withCentre(centre), 1.5f);
-    for (const auto& way : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}}) g.drawLine({centre + way * 5.0f, centre + way * 13.0f}, 1.5f);
+    for (const auto& way : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}})
+        g.drawLine({centre + way * 5.0f, centre + way * 13.0f}, 1.5f);
 }
 
 // The badge, or the place, where it would be felt; in words on the side where the field is.
@@ -382,13 +431,21 @@ void WorldView::drawFiles(juce::Graphics& g) const {
     if (!filesAt_) return;
     const auto at = map();
     const int enchanter = enchanterAt(*filesAt_);
-    const auto target = enchanter >= 0 ? badgeOf(enchanter, at).expanded(5.0f) : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(placeOfShare(at.shareAt(*filesAt_)));
+    const auto target =
+        enchanter >= 0 ? badgeOf(enchanter, at).expanded(5.0f)
+                       : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(placeOfShare(at.shareAt(*filesAt_)));
     const float corner = enchanter >= 0 ? 10.0f : 13.0f;
-    const auto words = enchanter >= 0 ? "felt on " + juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()) + " alone" : juce::String{"felt here"};
+    const auto words = enchanter >= 0
+                           ? "felt on " +
+                                 juce::String::fromUTF8(
+                                     layout_.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()) +
+                                 " alone"
+                           : juce::String{"felt here"};
     const juce::Font font{text::small};
     const float below = 0.5f * target.getHeight() + 15.0f;
     const auto plate = juce::Rectangle<float>{font.getStringWidthFloat(words) + 14.0f, 20.0f}
-                           .withCentre(target.getCentre().translated(0.0f, target.getCentreY() < at.field.getCentreY() ? below : -below))
+                           .withCentre(target.getCentre().translated(
+                               0.0f, target.getCentreY() < at.field.getCentreY() ? below : -below))
                            .constrainedWithin(getLocalBounds().reduced(4).toFloat());
     g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
     g.fillRoundedRectangle(plate, 5.0f);
@@ -404,8 +461,11 @@ void WorldView::drawFiles(juce::Graphics& g) const {
 void WorldView::drawHold(juce::Graphics& g) const {
     if (grip_.body < 0) return;
     const auto at = map();
-    const auto point = juce::Point<float>{static_cast<float>(grip_.point.x), static_cast<float>(-grip_.point.y)} * at.pixelsPerMetre;
-    const auto start = point.transformedBy(placeOf(poseOf(static_cast<std::size_t>(grip_.body)), at)), hand = placeOfShare(at.shareAt(grip_.to));
+    const auto point =
+        juce::Point<float>{static_cast<float>(grip_.point.x), static_cast<float>(-grip_.point.y)} *
+        at.pixelsPerMetre;
+    const auto start = point.transformedBy(placeOf(poseOf(static_cast<std::size_t>(grip_.body)), at)),
+               hand = placeOfShare(at.shareAt(grip_.to));
     g.setColour(shade(*this, Shade::text));
     g.drawLine({start, hand}, 1.8f);
     g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(start));
@@ -431,8 +491,12 @@ void WorldView::drawGrip(juce::Graphics& g) const {
     g.fillPath(dashed);
     if (!pullText) return;
     g.setFont(juce::Font{text::small});
-    const auto words = juce::Rectangle<float>{130.0f, 18.0f}.withCentre(grip_.to.translated(0.0f, -16.0f)).constrainedWithin(getLocalBounds().reduced(4).toFloat());
-    g.drawText(pullText(grip_.from.getDistanceFrom(grip_.to) / screenPixelsPerMetre(*this, displayWidthMetres_)), words, juce::Justification::centred, false);
+    const auto words = juce::Rectangle<float>{130.0f, 18.0f}
+                           .withCentre(grip_.to.translated(0.0f, -16.0f))
+                           .constrainedWithin(getLocalBounds().reduced(4).toFloat());
+    g.drawText(
+        pullText(grip_.from.getDistanceFrom(grip_.to) / screenPixelsPerMetre(*this, displayWidthMetres_)),
+        words, juce::Justification::centred, false);
 }
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world as it is felt now: bodies, hits as light, enchanters with what they play. Where a hand may act, bodies can be
-// pulled and enchanters moved.
+// The world as it is felt now: bodies, hits as light, enchanters with what they play. Where a hand may act,
+// bodies can be pulled and enchanters moved.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -18,7 +18,7 @@ namespace physvib {
 
 /// What is new since the last call of WorldView::update.
 struct WorldMoment {
-    std::vector<BodyPose> poses;          ///< of the cast, as at `sessionNs`
+    std::vector<BodyPose> poses; ///< of the cast, as at `sessionNs`
     std::int64_t sessionNs = 0;
     std::int64_t aheadNs = 0;             ///< they are felt so much later
     std::span<const CollisionEvent> hits; ///< that have been played
@@ -31,7 +31,9 @@ struct FieldShare {
     bool operator==(const FieldShare&) const = default;
 };
 
-class WorldView final : public juce::Component, public juce::DragAndDropTarget, public juce::FileDragAndDropTarget {
+class WorldView final : public juce::Component,
+                        public juce::DragAndDropTarget,
+                        public juce::FileDragAndDropTarget {
 public:
     /// What modules say of themselves while they are dragged here.
     static constexpr const char* newEnchanter = "physvib-new-enchanter";
@@ -70,11 +72,11 @@ public:
     std::function<void(const std::string& body, Vector screenMetres, Vector pointMetres)> onPull;
     /// with Shift, while it is held: which point, as for onPull, and where in the field the hand is
     std::function<void(const std::string& body, Vector pointMetres, Vector toMetres)> onHold;
-    std::function<void(const std::string& body)> onLetGo;                                     ///< of what was held
+    std::function<void(const std::string& body)> onLetGo;      ///< of what was held
     std::function<juce::String(double screenMetres)> pullText; ///< beside the line while it is pulled
     /// while it is moved
     std::function<void(int enchanter, FieldShare to)> onMove;
-    std::function<void(int enchanter)> onDetach;                                             ///< dropped outside
+    std::function<void(int enchanter)> onDetach; ///< dropped outside
     std::function<void(FieldShare at)> onAttach;
     std::function<void(int enchanter)> onSelect;
     std::function<void(const std::string& body, FieldShare at)> onMenu; ///< right click; body may be empty
@@ -94,7 +96,9 @@ public:
     void itemDragMove(const SourceDetails& details) override;
     void itemDragExit(const SourceDetails&) override;
     void itemDropped(const SourceDetails& details) override;
-    bool isInterestedInFileDrag(const juce::StringArray& files) override { return takesFiles && takesFiles(files); }
+    bool isInterestedInFileDrag(const juce::StringArray& files) override {
+        return takesFiles && takesFiles(files);
+    }
     void fileDragMove(const juce::StringArray& files, int x, int y) override;
     void fileDragExit(const juce::StringArray& files) override;
     void filesDropped(const juce::StringArray& files, int x, int y) override;
@@ -133,11 +137,13 @@ private:
         juce::Rectangle<float> field;
         float pixelsPerMetre;
         juce::Point<float> at(double x, double y) const {
-            return {field.getX() + static_cast<float>(x) * pixelsPerMetre, field.getBottom() - static_cast<float>(y) * pixelsPerMetre};
+            return {field.getX() + static_cast<float>(x) * pixelsPerMetre,
+                    field.getBottom() - static_cast<float>(y) * pixelsPerMetre};
         }
         FieldShare shareAt(juce::Point<float> p) const {
-            return {juce::jlimit(0.0, 1.0, static_cast<double>((p.x - field.getX()) / field.getWidth())),
-                    juce::jlimit(0.0, 1.0, static_cast<double>((field.getBottom() - p.y) / field.getHeight()))};
+            return {
+                juce::jlimit(0.0, 1.0, static_cast<double>((p.x - field.getX()) / field.getWidth())),
+                juce::jlimit(0.0, 1.0, static_cast<double>((field.getBottom() - p.y) / field.getHeight()))};
         }
     };
     struct Grip { // what the mouse holds
@@ -158,8 +164,10 @@ private:
     BodyPose poseBefore(std::size_t body) const;
     void followInputs();
     juce::AffineTransform placeOf(const BodyPose& pose, const Map& at) const;
-    juce::AffineTransform placeOf(const FixtureDescription& fixture, const BodyPose& pose, const Map& at) const;
-    bool drawMaterial(juce::Graphics& g, const FixtureDescription& fixture, const juce::Path& path, const juce::AffineTransform& place) const;
+    juce::AffineTransform placeOf(const FixtureDescription& fixture, const BodyPose& pose,
+                                  const Map& at) const;
+    bool drawMaterial(juce::Graphics& g, const FixtureDescription& fixture, const juce::Path& path,
+                      const juce::AffineTransform& place) const;
     int bodyAt(juce::Point<float> p) const;
     bool isOn(std::size_t body, juce::Point<float> p) const;
     int enchanterAt(juce::Point<float> p) const;
@@ -177,12 +185,13 @@ private:
     void drawFiles(juce::Graphics& g) const;
 
     Scene scene_;
-    struct Fate { // what inputs do to a body of the cast: it may not have happened yet where the world stands still
+    struct Fate { // what inputs do to a body of the cast: it may not have happened yet where the world stands
+                  // still
         bool isGone = false; // removed, or changed, in which case another has its name
         int before = -1;     // whose place it takes
     };
     std::vector<BodyDescription> cast_;
-    std::vector<Fate> fates_; // of them
+    std::vector<Fate> fates_;  // of them
     std::size_t scripted_ = 0; // below stands scriptedCast()
     LayoutDescription layout_;
     PhantomPanner panner_;

@@ -10,13 +10,15 @@ namespace {
 
 using namespace detail;
 
-constexpr double chartWidth = 680.0, plotHeight = 250.0, bracketHeight = 20.0, leftMargin = 66.0, narrowGroup = 30.0;
+constexpr double chartWidth = 680.0, plotHeight = 250.0, bracketHeight = 20.0, leftMargin = 66.0,
+                 narrowGroup = 30.0;
 
 /// Brackets in rows so that none crosses another: the row of each, from 0 at the bottom.
 std::vector<std::size_t> bracketRows(const std::vector<ChartBracket>& brackets) {
     std::vector<std::size_t> rows;
     const auto overlap = [](const ChartBracket& a, const ChartBracket& b) {
-        return std::min(a.from, a.to) <= std::max(b.from, b.to) && std::min(b.from, b.to) <= std::max(a.from, a.to);
+        return std::min(a.from, a.to) <= std::max(b.from, b.to) &&
+               std::min(b.from, b.to) <= std::max(a.from, a.to);
     };
     for (std::size_t i = 0; i < brackets.size(); ++i) {
         std::size_t row = 0;
@@ -24,7 +26,8 @@ std::vector<std::size_t> bracketRows(const std::vector<ChartBracket>& brackets) 
             if (rows[j] == row && overlap(brackets[i], brackets[j])) {
                 ++row;
                 j = 0;
-            } else ++j;
+            } else
+                ++j;
         }
         rows.push_back(row);
     }
@@ -40,7 +43,8 @@ ChartAxis valueAxis(const BarChart& chart) {
                 most = std::max({most, bar->value, bar->most});
             }
     for (const double ceiling : chart.ceilings) most = std::max(most, ceiling);
-    return ChartAxis::around(least, chart.most ? std::max(*chart.most, most > *chart.most * 1.2 ? most : 0.0) : most);
+    return ChartAxis::around(least, chart.most ? std::max(*chart.most, most > *chart.most * 1.2 ? most : 0.0)
+                                               : most);
 }
 
 std::vector<LegendItem> legendOf(const BarChart& chart) {
@@ -56,8 +60,12 @@ struct BarDrawing {
     PlotArea area;
     ChartAxis axis;
 
-    double groupWidth() const { return area.width() / static_cast<double>(std::max<std::size_t>(1, chart.groups.size())); }
-    double middle(std::size_t group) const { return area.left + groupWidth() * (static_cast<double>(group) + 0.5); }
+    double groupWidth() const {
+        return area.width() / static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
+    }
+    double middle(std::size_t group) const {
+        return area.left + groupWidth() * (static_cast<double>(group) + 0.5);
+    }
 
     void bars() const {
         const double width = std::min(44.0, 0.8 * groupWidth() / static_cast<double>(chart.series.size()));
@@ -65,25 +73,37 @@ struct BarDrawing {
             for (std::size_t g = 0; g < chart.series[s].bars.size(); ++g) {
                 const auto& bar = chart.series[s].bars[g];
                 if (!bar) continue;
-                const double x = middle(g) + width * (static_cast<double>(s) - 0.5 * static_cast<double>(chart.series.size()));
-                const double zero = area.y(axis, std::clamp(0.0, axis.least, axis.most)), y = area.y(axis, bar->value);
+                const double x = middle(g) + width * (static_cast<double>(s) -
+                                                      0.5 * static_cast<double>(chart.series.size()));
+                const double zero = area.y(axis, std::clamp(0.0, axis.least, axis.most)),
+                             y = area.y(axis, bar->value);
                 svg.bar({x + 1.0, std::min(zero, y)}, width - 2.0, std::abs(zero - y), s);
-                if (g < chart.series[s].marks.size()) svg.text({x + 0.5 * width, area.y(axis, std::max(bar->value, bar->most)) - 5.0}, chart.series[s].marks[g], {smallSize, Anchor::middle});
-                if (bar->least < bar->most) svg.whisker({x + 0.5 * width, area.y(axis, bar->least)}, {x + 0.5 * width, area.y(axis, bar->most)}, {"#000", 1.4});
+                if (g < chart.series[s].marks.size())
+                    svg.text({x + 0.5 * width, area.y(axis, std::max(bar->value, bar->most)) - 5.0},
+                             chart.series[s].marks[g], {smallSize, Anchor::middle});
+                if (bar->least < bar->most)
+                    svg.whisker({x + 0.5 * width, area.y(axis, bar->least)},
+                                {x + 0.5 * width, area.y(axis, bar->most)}, {"#000", 1.4});
             }
     }
     void groupLabels(bool isTurned) const {
         for (std::size_t g = 0; g < chart.groups.size(); ++g) {
-            if (isTurned && groupWidth() < narrowGroup) svg.text({middle(g) + 4.0, area.bottom + 6.0}, chart.groups[g], {smallSize, Anchor::end, -90.0});
-            else if (isTurned) svg.text({middle(g) + 4.0, area.bottom + 14.0}, chart.groups[g], {smallSize, Anchor::end, -35.0});
-            else svg.text({middle(g), area.bottom + 16.0}, chart.groups[g], {labelSize, Anchor::middle});
+            if (isTurned && groupWidth() < narrowGroup)
+                svg.text({middle(g) + 4.0, area.bottom + 6.0}, chart.groups[g],
+                         {smallSize, Anchor::end, -90.0});
+            else if (isTurned)
+                svg.text({middle(g) + 4.0, area.bottom + 14.0}, chart.groups[g],
+                         {smallSize, Anchor::end, -35.0});
+            else
+                svg.text({middle(g), area.bottom + 16.0}, chart.groups[g], {labelSize, Anchor::middle});
         }
     }
     void ceilings() const {
         for (std::size_t g = 0; g < chart.ceilings.size(); ++g) {
             const double y = area.y(axis, chart.ceilings[g]), half = 0.45 * groupWidth();
             svg.line({middle(g) - half, y}, {middle(g) + half, y}, {"#000", 1.6, "2 3"});
-            if (g == 0 && !chart.ceilingWords.empty()) svg.text({middle(g) - half, y - 5.0}, chart.ceilingWords, {smallSize});
+            if (g == 0 && !chart.ceilingWords.empty())
+                svg.text({middle(g) - half, y - 5.0}, chart.ceilingWords, {smallSize});
         }
     }
     void reference() const {
@@ -99,7 +119,8 @@ struct BarDrawing {
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const ChartBracket& bracket = chart.brackets[i];
             const double y = top + bracketHeight * static_cast<double>(most - rows[i] + 1) - 4.0;
-            const double from = middle(std::min(bracket.from, bracket.to)) + 3.0, to = middle(std::max(bracket.from, bracket.to)) - 3.0;
+            const double from = middle(std::min(bracket.from, bracket.to)) + 3.0,
+                         to = middle(std::max(bracket.from, bracket.to)) - 3.0;
             svg.line({from, y + 5.0}, {from, y});
             svg.line({from, y}, {to, y});
             svg.line({to, y}, {to, y + 5.0});
@@ -112,16 +133,23 @@ struct BarDrawing {
 
 std::string barChart(const BarChart& chart) {
     const auto legend = legendOf(chart);
-    const double right = chart.reference ? chartWidth - 10.0 - textWidth(chart.reference->second, smallSize) : chartWidth - 14.0;
+    const double right = chart.reference ? chartWidth - 10.0 - textWidth(chart.reference->second, smallSize)
+                                         : chartWidth - 14.0;
     double widest = 0.0;
     for (const std::string& group : chart.groups) widest = std::max(widest, textWidth(group, labelSize));
-    const bool isTurned = widest > 0.95 * (right - leftMargin) / static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
-    const bool isUpright = isTurned && (right - leftMargin) / static_cast<double>(chart.groups.size()) < narrowGroup;
+    const bool isTurned = widest > 0.95 * (right - leftMargin) /
+                                       static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
+    const bool isUpright =
+        isTurned && (right - leftMargin) / static_cast<double>(chart.groups.size()) < narrowGroup;
     const double labels = isUpright ? 14.0 + widest : isTurned ? 18.0 + 0.60 * widest : 22.0;
-    const double leftEdge = isTurned && !isUpright ? std::max(leftMargin, 0.8 * textWidth(chart.groups.front(), smallSize) - 10.0) : leftMargin;
+    const double leftEdge =
+        isTurned && !isUpright ? std::max(leftMargin, 0.8 * textWidth(chart.groups.front(), smallSize) - 10.0)
+                               : leftMargin;
     const auto rows = bracketRows(chart.brackets);
-    const double brackets = rows.empty() ? 0.0 : bracketHeight * static_cast<double>(*std::ranges::max_element(rows) + 1);
-    const double titleHeight = 8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chartWidth - 16.0, titleSize).size());
+    const double brackets =
+        rows.empty() ? 0.0 : bracketHeight * static_cast<double>(*std::ranges::max_element(rows) + 1);
+    const double titleHeight =
+        8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chartWidth - 16.0, titleSize).size());
     const double top = titleHeight + legendHeight(legend, right - leftEdge) + 8.0;
     const PlotArea area{leftEdge, top + brackets + 8.0, right, top + brackets + 8.0 + plotHeight};
     Svg svg{chart.frame.name, chartWidth, area.bottom + labels + 24.0};
@@ -136,10 +164,13 @@ std::string barChart(const BarChart& chart) {
     drawing.reference();
     drawing.brackets(top);
     drawing.groupLabels(isTurned);
-    svg.text({0.5 * (area.left + area.right), area.bottom + labels + 16.0}, chart.groupsWords, {labelSize, Anchor::middle});
+    svg.text({0.5 * (area.left + area.right), area.bottom + labels + 16.0}, chart.groupsWords,
+             {labelSize, Anchor::middle});
     return svg.finish(chart.frame.title, chart.frame.isSimulated);
 }
 
-std::string significanceMark(double p) { return p < 0.001 ? "***" : p < 0.01 ? "**" : p < 0.05 ? "*" : "n.s."; }
+std::string significanceMark(double p) {
+    return p < 0.001 ? "***" : p < 0.01 ? "**" : p < 0.05 ? "*" : "n.s.";
+}
 
 } // namespace physvib

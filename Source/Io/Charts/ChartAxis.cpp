@@ -19,7 +19,10 @@ ChartAxis ChartAxis::around(double least, double most, int aboutTicks) {
         most += spread;
     }
     const double raw = (most - least) / aboutTicks, power = std::pow(10.0, std::floor(std::log10(raw)));
-    const double step = raw <= power * 1.0001 ? power : raw <= 2.0001 * power ? 2.0 * power : raw <= 5.0001 * power ? 5.0 * power : 10.0 * power;
+    const double step = raw <= power * 1.0001   ? power
+                        : raw <= 2.0001 * power ? 2.0 * power
+                        : raw <= 5.0001 * power ? 5.0 * power
+                                                : 10.0 * power;
     const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step * 1.0001))), 0, 9);
     const double first = std::floor(least / step + 1e-9), last = std::ceil(most / step - 1e-9);
     ChartAxis axis{first * step, last * step};
@@ -33,7 +36,8 @@ ChartAxis ChartAxis::around(double least, double most, int aboutTicks) {
 ChartAxis ChartAxis::logarithmic(double least, double most) {
     ChartAxis axis{least / 1.15, most * 1.15, true, {}};
     const bool isWide = axis.most / axis.least > 300.0;
-    for (int power = static_cast<int>(std::floor(std::log10(axis.least))); power <= static_cast<int>(std::ceil(std::log10(axis.most))); ++power)
+    for (int power = static_cast<int>(std::floor(std::log10(axis.least)));
+         power <= static_cast<int>(std::ceil(std::log10(axis.most))); ++power)
         for (const double digit : {1.0, 2.0, 5.0}) {
             const double tick = digit * std::pow(10.0, power);
             if (tick < axis.least || tick > axis.most || (isWide && digit != 1.0)) continue;

@@ -8,7 +8,7 @@ namespace physvib {
 
 struct ChartAxis {
     double least = 0.0, most = 1.0;
-    bool isLogarithmic = false; ///< then both > 0
+    bool isLogarithmic = false;  ///< then both > 0
     std::vector<double> ticks{}; ///< from low to high, within the range
     std::vector<std::string> tickWords{};
 

@@ -36,8 +36,11 @@ double legendHeight(const std::vector<LegendItem>& items, double width) {
 void drawLegend(Svg& svg, const std::vector<LegendItem>& items, ChartPoint corner, double width) {
     layOut(items, width, [&](const LegendItem& item, double x, std::size_t row) {
         const double left = corner.x + x, middle = corner.y + rowHeight * (static_cast<double>(row) + 0.5);
-        if (item.kind == LegendItem::Kind::bar) svg.bar({left, middle - 6.0}, 20.0, 12.0, item.style);
-        else svg.line({left, middle}, {left + 20.0, middle}, {seriesColour(item.style), 2.0, seriesDash(item.style)});
+        if (item.kind == LegendItem::Kind::bar)
+            svg.bar({left, middle - 6.0}, 20.0, 12.0, item.style);
+        else
+            svg.line({left, middle}, {left + 20.0, middle},
+                     {seriesColour(item.style), 2.0, seriesDash(item.style)});
         if (item.kind == LegendItem::Kind::marker) svg.marker({left + 10.0, middle}, item.style);
         svg.text({left + keyWidth, middle + 4.0}, item.words, {labelSize});
     });
@@ -48,15 +51,18 @@ std::vector<std::string> wrapped(std::string_view words, double width, double si
     while (!words.empty()) {
         const std::string word{words.substr(0, words.find(' '))};
         words.remove_prefix(std::min(words.size(), word.size() + 1));
-        if (!lines.empty() && textWidth(lines.back() + " " + word, size) <= width) lines.back() += " " + word;
-        else lines.push_back(word);
+        if (!lines.empty() && textWidth(lines.back() + " " + word, size) <= width)
+            lines.back() += " " + word;
+        else
+            lines.push_back(word);
     }
     return lines;
 }
 
 double drawTitle(Svg& svg, const std::string& title, double width) {
     double y = 0.0;
-    for (const std::string& line : wrapped(title, width - 16.0, titleSize)) svg.text({8.0, y += 18.0}, line, {titleSize, Anchor::start, 0.0, true});
+    for (const std::string& line : wrapped(title, width - 16.0, titleSize))
+        svg.text({8.0, y += 18.0}, line, {titleSize, Anchor::start, 0.0, true});
     return y + 8.0;
 }
 
@@ -70,7 +76,8 @@ void drawValueAxis(Svg& svg, const PlotArea& area, const ChartAxis& axis, const 
         widest = std::max(widest, textWidth(axis.tickWords[i], smallSize));
     }
     svg.line({area.left, area.top}, {area.left, area.bottom});
-    svg.text({area.left - 14.0 - widest, 0.5 * (area.top + area.bottom)}, words, {labelSize, Anchor::middle, -90.0});
+    svg.text({area.left - 14.0 - widest, 0.5 * (area.top + area.bottom)}, words,
+             {labelSize, Anchor::middle, -90.0});
 }
 
 void drawAxisBelow(Svg& svg, const PlotArea& area, const ChartAxis& axis, const std::string& words) {

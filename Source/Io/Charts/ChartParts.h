@@ -13,8 +13,12 @@ struct PlotArea {
     double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
     double width() const noexcept { return right - left; }
     double height() const noexcept { return bottom - top; }
-    double y(const ChartAxis& axis, double value) const noexcept { return bottom - axis.share(value) * height(); }
-    double x(const ChartAxis& axis, double value) const noexcept { return left + axis.share(value) * width(); }
+    double y(const ChartAxis& axis, double value) const noexcept {
+        return bottom - axis.share(value) * height();
+    }
+    double x(const ChartAxis& axis, double value) const noexcept {
+        return left + axis.share(value) * width();
+    }
 };
 
 constexpr double titleSize = 14.0, labelSize = 12.0, smallSize = 11.0;

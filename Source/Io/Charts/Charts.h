@@ -28,7 +28,7 @@ struct ChartBracket {
 };
 
 struct BarSeries {
-    std::string name; ///< empty in a chart of one series
+    std::string name;                            ///< empty in a chart of one series
     std::vector<std::optional<ChartValue>> bars; ///< one per group
     std::vector<std::string> marks{};            ///< above the bars; empty: none
 };
@@ -63,10 +63,10 @@ struct LineChart {
     ChartFrame frame;
     std::string xWords, yWords;
     std::vector<LineSeries> series;
-    bool isLogarithmic = false;                         ///< both axes
+    bool isLogarithmic = false; ///< both axes
     std::optional<std::pair<double, double>> xRange{}, yRange{};
     std::vector<std::pair<double, std::string>> references{}; ///< horizontal lines
-    std::optional<ChartValue> threshold{};              ///< a vertical line with its interval
+    std::optional<ChartValue> threshold{};                    ///< a vertical line with its interval
     std::string thresholdWords{};
     double width = 680.0, height = 380.0;
 };
@@ -74,19 +74,19 @@ struct LineChart {
 struct GridChart {
     ChartFrame frame;
     std::string rowWords, columnWords;
-    std::vector<std::string> rows, columns; ///< labels
+    std::vector<std::string> rows, columns;    ///< labels
     std::vector<std::optional<double>> values; ///< row by row
-    std::vector<double> halfIntervals{}; ///< of the values; empty: none
-    double most = 1.0;  ///< darkest
-    int decimals = 0;   ///< of the numbers in the cells
-    std::optional<double> markedBelow{}; ///< cells below are framed
+    std::vector<double> halfIntervals{};       ///< of the values; empty: none
+    double most = 1.0;                         ///< darkest
+    int decimals = 0;                          ///< of the numbers in the cells
+    std::optional<double> markedBelow{};       ///< cells below are framed
     double width = 330.0;
     double shape = 1.0; ///< of a cell: height / width
 };
 
 /// Where something was felt.
 struct PlaceMark {
-    std::size_t target = 0; ///< row by row
+    std::size_t target = 0;  ///< row by row
     double x = 0.0, y = 0.0; ///< from 0 to 1, y downwards
 };
 
@@ -99,9 +99,9 @@ struct PlaceChart {
     ChartFrame frame;
     std::size_t rows = 1, columns = 1;
     std::vector<PlaceMark> places{};
-    std::vector<PlaceEllipse> ellipses{}; ///< of one standard deviation
+    std::vector<PlaceEllipse> ellipses{};             ///< of one standard deviation
     std::vector<std::pair<double, double>> targets{}; ///< row by row
-    std::vector<PlaceMark> labels{}; ///< "row,column" of the target
+    std::vector<PlaceMark> labels{};                  ///< "row,column" of the target
     std::vector<std::size_t> territory{}; ///< the target that each point of a map belongs to, row by row
     std::size_t mapColumns = 0;
     double width = 335.0;

@@ -12,7 +12,8 @@ namespace {
 
 using namespace detail;
 
-ChartAxis axisOf(bool isLogarithmic, const std::optional<std::pair<double, double>>& range, double least, double most, int aboutTicks = 5) {
+ChartAxis axisOf(bool isLogarithmic, const std::optional<std::pair<double, double>>& range, double least,
+                 double most, int aboutTicks = 5) {
     if (range) std::tie(least, most) = *range;
     return isLogarithmic ? ChartAxis::logarithmic(least, most) : ChartAxis::around(least, most, aboutTicks);
 }
@@ -28,7 +29,9 @@ struct Extent {
 std::vector<LegendItem> legendOf(const LineChart& chart) {
     std::vector<LegendItem> items;
     for (const LineSeries& series : chart.series)
-        if (!series.name.empty()) items.push_back({series.name, series.style, series.isMarked ? LegendItem::Kind::marker : LegendItem::Kind::dashes});
+        if (!series.name.empty())
+            items.push_back({series.name, series.style,
+                             series.isMarked ? LegendItem::Kind::marker : LegendItem::Kind::dashes});
     return items;
 }
 
@@ -43,8 +46,10 @@ struct LineDrawing {
     void through(const LineSeries& series) const {
         std::string d;
         for (const LinePoint& point : series.points) appendPoint(d, d.empty() ? 'M' : 'L', at(point));
-        if (series.isFaint) svg.path(d, "none", {"#aaa", 0.8});
-        else svg.path(d, "none", {seriesColour(series.style), 2.0, seriesDash(series.style)});
+        if (series.isFaint)
+            svg.path(d, "none", {"#aaa", 0.8});
+        else
+            svg.path(d, "none", {seriesColour(series.style), 2.0, seriesDash(series.style)});
     }
     void draw(const LineSeries& series) const {
         if (series.points.empty()) return;
@@ -52,7 +57,9 @@ struct LineDrawing {
         if (!series.isMarked) return;
         for (const LinePoint& point : series.points) {
             const ChartPoint place = at(point);
-            if (point.y.least < point.y.most) svg.whisker({place.x, area.y(y, point.y.least)}, {place.x, area.y(y, point.y.most)}, {"#222", 1.2});
+            if (point.y.least < point.y.most)
+                svg.whisker({place.x, area.y(y, point.y.least)}, {place.x, area.y(y, point.y.most)},
+                            {"#222", 1.2});
             svg.marker(place, series.style, 4.0 * point.size);
         }
     }
@@ -68,11 +75,13 @@ struct LineDrawing {
         const double middle = area.x(x, chart.threshold->value);
         svg.line({middle, area.top}, {middle, area.bottom}, {"#000", 1.4, "3 3"});
         if (chart.threshold->least < chart.threshold->most) {
-            const double from = std::max(area.left, area.x(x, chart.threshold->least)), to = std::min(area.right, area.x(x, chart.threshold->most));
+            const double from = std::max(area.left, area.x(x, chart.threshold->least)),
+                         to = std::min(area.right, area.x(x, chart.threshold->most));
             svg.rect({from, area.top}, to - from, area.height(), "rgba(0,0,0,0.08)");
         }
         const bool isLeft = middle > 0.5 * (area.left + area.right);
-        svg.text({middle + (isLeft ? -6.0 : 6.0), area.bottom - 8.0}, chart.thresholdWords, {smallSize, isLeft ? Anchor::end : Anchor::start});
+        svg.text({middle + (isLeft ? -6.0 : 6.0), area.bottom - 8.0}, chart.thresholdWords,
+                 {smallSize, isLeft ? Anchor::end : Anchor::start});
     }
 };
 
@@ -87,13 +96,16 @@ std::string lineChart(const LineChart& chart) {
         }
     const auto legend = legendOf(chart);
     const double left = 66.0, right = chart.width - 16.0;
-    const double titleHeight = 8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chart.width - 16.0, titleSize).size());
+    const double titleHeight =
+        8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chart.width - 16.0, titleSize).size());
     const double top = titleHeight + legendHeight(legend, right - left) + 10.0;
     const PlotArea area{left, top, right, std::max(top + 160.0, chart.height - 48.0)};
     Svg svg{chart.frame.name, chart.width, area.bottom + 48.0};
     drawTitle(svg, chart.frame.title, chart.width);
     drawLegend(svg, legend, {left, titleHeight}, right - left);
-    const LineDrawing drawing{chart, svg, area, axisOf(chart.isLogarithmic, chart.xRange, xs.least, xs.most, 8), axisOf(chart.isLogarithmic, chart.yRange, ys.least, ys.most)};
+    const LineDrawing drawing{chart, svg, area,
+                              axisOf(chart.isLogarithmic, chart.xRange, xs.least, xs.most, 8),
+                              axisOf(chart.isLogarithmic, chart.yRange, ys.least, ys.most)};
     drawValueAxis(svg, area, drawing.y, chart.yWords);
     drawAxisBelow(svg, area, drawing.x, chart.xWords);
     drawing.references();

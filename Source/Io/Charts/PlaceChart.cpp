@@ -18,21 +18,28 @@ struct PlaceDrawing {
     Svg& svg;
     PlotArea area;
 
-    ChartPoint at(double x, double y) const { return {area.left + x * area.width(), area.top + y * area.height()}; }
+    ChartPoint at(double x, double y) const {
+        return {area.left + x * area.width(), area.top + y * area.height()};
+    }
     /// Neighbours in a row and in a column differ.
-    std::size_t styleOf(std::size_t target) const { return (target % chart.columns + 3 * (target / chart.columns)) % 7; }
+    std::size_t styleOf(std::size_t target) const {
+        return (target % chart.columns + 3 * (target / chart.columns)) % 7;
+    }
 
     void territory() const {
         if (chart.mapColumns == 0) return;
         const std::size_t rows = chart.territory.size() / chart.mapColumns;
-        const double width = area.width() / static_cast<double>(chart.mapColumns), height = area.height() / static_cast<double>(rows);
+        const double width = area.width() / static_cast<double>(chart.mapColumns),
+                     height = area.height() / static_cast<double>(rows);
         std::vector<std::string> fills(chart.rows * chart.columns);
         std::string edges;
         for (std::size_t r = 0; r < rows; ++r)
             for (std::size_t c = 0; c < chart.mapColumns;) {
                 const std::size_t owner = chart.territory[r * chart.mapColumns + c], from = c;
                 while (c < chart.mapColumns && chart.territory[r * chart.mapColumns + c] == owner) ++c;
-                const double x = area.left + width * static_cast<double>(from), y = area.top + height * static_cast<double>(r), run = width * static_cast<double>(c - from);
+                const double x = area.left + width * static_cast<double>(from),
+                             y = area.top + height * static_cast<double>(r),
+                             run = width * static_cast<double>(c - from);
                 std::string& d = fills[owner];
                 move(d, x, y);
                 step(d, 'h', run);
@@ -45,15 +52,18 @@ struct PlaceDrawing {
                 }
             }
         for (std::size_t target = 0; target < fills.size(); ++target)
-            if (!fills[target].empty()) svg.path(fills[target], seriesColour(styleOf(target)), {seriesColour(styleOf(target)), 0.4});
+            if (!fills[target].empty())
+                svg.path(fills[target], seriesColour(styleOf(target)), {seriesColour(styleOf(target)), 0.4});
         svg.path(edges + edgesBelow(rows, width, height), "none", {"#222", 0.7});
     }
     std::string edgesBelow(std::size_t rows, double width, double height) const {
         std::string d;
         for (std::size_t r = 1; r < rows; ++r)
             for (std::size_t c = 0; c < chart.mapColumns; ++c)
-                if (chart.territory[r * chart.mapColumns + c] != chart.territory[(r - 1) * chart.mapColumns + c]) {
-                    move(d, area.left + width * static_cast<double>(c), area.top + height * static_cast<double>(r));
+                if (chart.territory[r * chart.mapColumns + c] !=
+                    chart.territory[(r - 1) * chart.mapColumns + c]) {
+                    move(d, area.left + width * static_cast<double>(c),
+                         area.top + height * static_cast<double>(r));
                     step(d, 'h', width);
                 }
         return d;
@@ -79,13 +89,15 @@ struct PlaceDrawing {
             const double a = e.varianceX * wx * wx, b = e.covariance * wx * wy, c = e.varianceY * wy * wy;
             const double middle = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
             const double degrees = 0.5 * std::atan2(2.0 * b, a - c) * 180.0 / std::numbers::pi;
-            svg.ellipse(at(e.x, e.y), std::sqrt(middle + spread), std::sqrt(std::max(0.0, middle - spread)), degrees, "none", {"#000", 1.3});
+            svg.ellipse(at(e.x, e.y), std::sqrt(middle + spread), std::sqrt(std::max(0.0, middle - spread)),
+                        degrees, "none", {"#000", 1.3});
         }
     }
     void labels() const {
         for (const PlaceMark& mark : chart.labels) {
             const ChartPoint place = at(mark.x, mark.y);
-            const std::string words = std::to_string(mark.target / chart.columns + 1) + "," + std::to_string(mark.target % chart.columns + 1);
+            const std::string words = std::to_string(mark.target / chart.columns + 1) + "," +
+                                      std::to_string(mark.target % chart.columns + 1);
             svg.rect({place.x - 8.0, place.y - 6.0}, 16.0, 11.0, "#fff");
             svg.text({place.x, place.y + 3.0}, words, {8.5, Anchor::middle});
         }
@@ -93,7 +105,9 @@ struct PlaceDrawing {
     /// Targets as crosses, lines to where they were felt.
     void targets() const {
         for (const PlaceEllipse& e : chart.ellipses)
-            if (e.target < chart.targets.size()) svg.line(at(chart.targets[e.target].first, chart.targets[e.target].second), at(e.x, e.y), {"#000", 0.8, "2 2"});
+            if (e.target < chart.targets.size())
+                svg.line(at(chart.targets[e.target].first, chart.targets[e.target].second), at(e.x, e.y),
+                         {"#000", 0.8, "2 2"});
         std::string crosses;
         for (const auto& [x, y] : chart.targets) {
             const ChartPoint p = at(x, y);
@@ -109,7 +123,8 @@ struct PlaceDrawing {
 } // namespace
 
 std::string placeChart(const PlaceChart& chart) {
-    const double titleHeight = 8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chart.width - 16.0, titleSize).size());
+    const double titleHeight =
+        8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chart.width - 16.0, titleSize).size());
     const double width = chart.width - 16.0;
     const PlotArea area{8.0, titleHeight, 8.0 + width, titleHeight + width * fieldShape};
     Svg svg{chart.frame.name, chart.width, area.bottom + 8.0};

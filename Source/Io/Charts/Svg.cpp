@@ -10,8 +10,10 @@
 namespace physvib {
 namespace {
 
-constexpr std::array<std::string_view, chartStyles> colours{"#0072B2", "#E69F00", "#009E73", "#CC79A7", "#D55E00", "#56B4E9", "#F0E442", "#000000"};
-constexpr std::array<std::string_view, chartStyles> dashes{"", "7 3", "2 3", "9 3 2 3", "12 4", "4 4", "1 5", "14 3 3 3"};
+constexpr std::array<std::string_view, chartStyles> colours{"#0072B2", "#E69F00", "#009E73", "#CC79A7",
+                                                            "#D55E00", "#56B4E9", "#F0E442", "#000000"};
+constexpr std::array<std::string_view, chartStyles> dashes{"",     "7 3", "2 3", "9 3 2 3",
+                                                           "12 4", "4 4", "1 5", "14 3 3 3"};
 // In a tile of 8 x 8; white over the colour. The first is plain.
 constexpr std::array<std::string_view, chartStyles> hatchPaths{"",
                                                                "M-2 10L10 -2M-2 2L2 -2M6 10L10 6",
@@ -49,8 +51,10 @@ double textWidth(std::string_view text, double size) noexcept {
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
         if ((byte & 0xc0) == 0x80) continue; // not the first byte of a character
-        if (byte >= 'A' && byte <= 'Z') ems += 0.70;
-        else ems += std::string_view{" .,:;|ilj1'()-"}.find(c) != std::string_view::npos ? 0.38 : 0.58;
+        if (byte >= 'A' && byte <= 'Z')
+            ems += 0.70;
+        else
+            ems += std::string_view{" .,:;|ilj1'()-"}.find(c) != std::string_view::npos ? 0.38 : 0.58;
     }
     return ems * size;
 }
@@ -70,7 +74,9 @@ void appendPoint(std::string& out, char command, ChartPoint at) {
 }
 
 Svg::Svg(std::string name, double width, double height)
-    : name_{std::move(name)}, width_{width}, height_{height} {}
+    : name_{std::move(name)}
+    , width_{width}
+    , height_{height} {}
 
 void Svg::open(std::string_view tag) { body_.append("<").append(tag); }
 
@@ -80,7 +86,9 @@ void Svg::attribute(std::string_view name, double value) {
     body_ += '"';
 }
 
-void Svg::attribute(std::string_view name, std::string_view value) { body_.append(" ").append(name).append("=\"").append(value).append("\""); }
+void Svg::attribute(std::string_view name, std::string_view value) {
+    body_.append(" ").append(name).append("=\"").append(value).append("\"");
+}
 
 void Svg::stroked(const Stroke& stroke) {
     attribute("stroke", stroke.colour);
@@ -121,7 +129,8 @@ void Svg::path(std::string_view commands, std::string_view fill, Stroke stroke) 
     body_ += "/>\n";
 }
 
-void Svg::ellipse(ChartPoint centre, double radiusX, double radiusY, double degrees, std::string_view fill, Stroke stroke) {
+void Svg::ellipse(ChartPoint centre, double radiusX, double radiusY, double degrees, std::string_view fill,
+                  Stroke stroke) {
     open("ellipse");
     attribute("rx", radiusX);
     attribute("ry", radiusY);
@@ -143,7 +152,8 @@ void Svg::text(ChartPoint at, std::string_view words, TextStyle style) {
     attribute("x", at.x);
     attribute("y", at.y);
     attribute("font-size", style.size);
-    if (style.anchor != Anchor::start) attribute("text-anchor", anchors[static_cast<std::size_t>(style.anchor)]);
+    if (style.anchor != Anchor::start)
+        attribute("text-anchor", anchors[static_cast<std::size_t>(style.anchor)]);
     if (style.isBold) attribute("font-weight", "bold");
     attribute("fill", style.colour);
     if (style.degrees != 0.0) {
@@ -169,7 +179,8 @@ void Svg::marker(ChartPoint at, std::size_t series, double r) {
     const std::size_t style = series % chartStyles;
     const auto around = [&](std::initializer_list<ChartPoint> corners) {
         std::string d;
-        for (const ChartPoint& corner : corners) appendPoint(d, d.empty() ? 'M' : 'L', {at.x + r * corner.x, at.y + r * corner.y});
+        for (const ChartPoint& corner : corners)
+            appendPoint(d, d.empty() ? 'M' : 'L', {at.x + r * corner.x, at.y + r * corner.y});
         path(d + "Z", colours[style], {"#222", 0.8});
     };
     switch (style) {
@@ -177,7 +188,19 @@ void Svg::marker(ChartPoint at, std::size_t series, double r) {
     case 2: return around({{0, -1.2}, {1.1, 0.9}, {-1.1, 0.9}});
     case 3: return around({{0, -1.3}, {1.3, 0}, {0, 1.3}, {-1.3, 0}});
     case 4: return around({{0, 1.2}, {1.1, -0.9}, {-1.1, -0.9}});
-    case 5: return around({{-0.4, -1.2}, {0.4, -1.2}, {0.4, -0.4}, {1.2, -0.4}, {1.2, 0.4}, {0.4, 0.4}, {0.4, 1.2}, {-0.4, 1.2}, {-0.4, 0.4}, {-1.2, 0.4}, {-1.2, -0.4}, {-0.4, -0.4}});
+    case 5:
+        return around({{-0.4, -1.2},
+                       {0.4, -1.2},
+                       {0.4, -0.4},
+                       {1.2, -0.4},
+                       {1.2, 0.4},
+                       {0.4, 0.4},
+                       {0.4, 1.2},
+                       {-0.4, 1.2},
+                       {-0.4, 0.4},
+                       {-1.2, 0.4},
+                       {-1.2, -0.4},
+                       {-0.4, -0.4}});
     case 6: return around({{0, -1.3}, {1.2, -0.4}, {0.75, 1.0}, {-0.75, 1.0}, {-1.2, -0.4}});
     case 7: return around({{-1.2, -0.6}, {1.2, -0.6}, {1.2, 0.6}, {-1.2, 0.6}});
     default: ellipse(at, r, r, 0.0, colours[style], {"#222", 0.8});
@@ -203,12 +226,15 @@ std::string Svg::finish(std::string_view words, bool isSimulated) const {
     appendPixels(out, width_);
     out += "\" height=\"";
     appendPixels(out, height_);
-    out += "\" font-family=\"Helvetica, Arial, sans-serif\">\n<title>" + markup(words) + (isSimulated ? " (simulated)" : "") + "</title>\n";
+    out += "\" font-family=\"Helvetica, Arial, sans-serif\">\n<title>" + markup(words) +
+           (isSimulated ? " (simulated)" : "") + "</title>\n";
     if (hatches_ != 0) {
         out += "<defs>";
         for (std::size_t style = 0; style < chartStyles; ++style) {
             if ((hatches_ >> style & 1u) == 0) continue;
-            out += "<pattern id=\"" + name_ + "-h" + std::to_string(style) + "\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\"><path d=\"" + std::string(hatchPaths[style]) +
+            out += "<pattern id=\"" + name_ + "-h" + std::to_string(style) +
+                   "\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\"><path d=\"" +
+                   std::string(hatchPaths[style]) +
                    "\" stroke=\"#fff\" stroke-linecap=\"round\" fill=\"none\" stroke-width=\"";
             appendPixels(out, hatchWidths[style]);
             out += "\"/></pattern>";
@@ -218,7 +244,8 @@ std::string Svg::finish(std::string_view words, bool isSimulated) const {
     out += "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + body_;
     if (isSimulated) {
         const double size = 0.8 * std::hypot(width_, height_) / textWidth("SIMULATED", 1.0);
-        out += "<text font-weight=\"bold\" fill=\"#b00020\" fill-opacity=\"0.1\" text-anchor=\"middle\" font-size=\"";
+        out += "<text font-weight=\"bold\" fill=\"#b00020\" fill-opacity=\"0.1\" text-anchor=\"middle\" "
+               "font-size=\"";
         appendPixels(out, size);
         out += "\" transform=\"translate(";
         appendPixels(out, 0.5 * width_);

@@ -7,7 +7,8 @@
 
 namespace physvib {
 
-/// `text` between tags or in an attribute of HTML and SVG, whatever a file holds: no markup, no control characters. Any thread.
+/// `text` between tags or in an attribute of HTML and SVG, whatever a file holds: no markup, no control
+/// characters. Any thread.
 std::string markup(std::string_view text);
 
 struct ChartPoint {
@@ -32,7 +33,8 @@ struct TextStyle {
 
 constexpr std::size_t chartStyles = 8; ///< of series: colour, hatch, marker and dash repeat after so many
 
-/// Okabe and Ito's colours (2008), which colour-blind readers tell apart; hatches, markers and dashes for those who print in black and white.
+/// Okabe and Ito's colours (2008), which colour-blind readers tell apart; hatches, markers and dashes for
+/// those who print in black and white.
 std::string_view seriesColour(std::size_t series) noexcept;
 std::string_view seriesDash(std::size_t series) noexcept;
 
@@ -46,10 +48,12 @@ public:
     Svg(std::string name, double width, double height);
 
     void line(ChartPoint from, ChartPoint to, Stroke stroke = {});
-    void rect(ChartPoint corner, double width, double height, std::string_view fill, Stroke stroke = {"none"});
+    void rect(ChartPoint corner, double width, double height, std::string_view fill,
+              Stroke stroke = {"none"});
     /// `commands`: a path's d.
     void path(std::string_view commands, std::string_view fill, Stroke stroke = {});
-    void ellipse(ChartPoint centre, double radiusX, double radiusY, double degrees, std::string_view fill, Stroke stroke = {});
+    void ellipse(ChartPoint centre, double radiusX, double radiusY, double degrees, std::string_view fill,
+                 Stroke stroke = {});
     void text(ChartPoint at, std::string_view words, TextStyle style = {});
     /// Filled in the series' colour and hatch.
     void bar(ChartPoint corner, double width, double height, std::size_t series);
@@ -58,7 +62,8 @@ public:
     /// From `from` to `to` with feet, edged in white so that it shows on dark bars.
     void whisker(ChartPoint from, ChartPoint to, Stroke stroke = {});
 
-    /// The whole element; with `isSimulated` a watermark over all of it. `words`: for those who cannot see it.
+    /// The whole element; with `isSimulated` a watermark over all of it. `words`: for those who cannot see
+    /// it.
     std::string finish(std::string_view words, bool isSimulated) const;
 
 private:

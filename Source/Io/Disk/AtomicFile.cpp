@@ -13,13 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 using Lock = SystemFile::Lock;
 
-constexpr const char* suffix = ".physvib.part"; // a name that no other program gives: what is left behind under it is removed
+constexpr const char* suffix = ".physvib.part"; // a name that no other program gives: what is left behind
+                                                // under it is removed
 constexpr const char* beingWritten = "it is being written already, here or by another program";
 constexpr const char* inTheWay = "another program is writing it, or left its temporary file: ";
 
-std::string reasonOf(int code) {
-    return std::generic_category().message(code);
-}
+std::string reasonOf(int code) { return std::generic_category().message(code); }
 
 /// Opens and closes; 0 or the error number.
 int tryOpen(const fs::path& path, const char* mode) {
@@ -42,11 +41,12 @@ std::string obstacle(const fs::path& target) {
     return denied == 0 ? std::string() : reasonOf(denied);
 }
 
-/// Removes the temporary file of a program that was killed: no one living has locked it. Whoever removes has locked what he
-/// removes, so nobody's living file goes. Empty, or what is in the way.
+/// Removes the temporary file of a program that was killed: no one living has locked it. Whoever removes has
+/// locked what he removes, so nobody's living file goes. Empty, or what is in the way.
 std::string removeLeftBehind(const fs::path& sibling) {
     SystemFile left = SystemFile::look(sibling);
-    if (!left.isOpen()) return left.error() == ENOENT ? std::string() : inTheWay + sibling.string() + ": " + left.reason();
+    if (!left.isOpen())
+        return left.error() == ENOENT ? std::string() : inTheWay + sibling.string() + ": " + left.reason();
     const Lock lock = left.lock();
     if (lock == Lock::others) return beingWritten;
     if (lock == Lock::none) return inTheWay + sibling.string();
@@ -65,9 +65,7 @@ AtomicFile::AtomicFile(const fs::path& path)
     if (!reason.empty()) fail(reason);
 }
 
-AtomicFile::~AtomicFile() {
-    removeTemporary();
-}
+AtomicFile::~AtomicFile() { removeTemporary(); }
 
 bool AtomicFile::writeAt(std::int64_t position, std::string_view bytes) {
     if (!error_.empty() || file_.writeAt(position, bytes)) return error_.empty();
@@ -129,7 +127,8 @@ std::string AtomicFile::prepare() {
     return make(sibling += suffix);
 }
 
-// Between making and locking, another program may take the new file for one that was left behind, and remove it.
+// Between making and locking, another program may take the new file for one that was left behind, and remove
+// it.
 std::string AtomicFile::make(const fs::path& sibling) {
     constexpr int mostTries = 100;
     for (int i = 0; i < mostTries; ++i) {

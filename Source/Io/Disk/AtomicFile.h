@@ -9,14 +9,14 @@
 
 namespace physvib {
 
-/// A file being written. commit() puts it in place; without that the destructor, or the signal that ends the program (see
-/// removeAllOnEnd()), removes it, and whatever stood at the path before is untouched. Its temporary file is its path's lock
-/// as well: one path has one writer at a time, in all programs. M only.
+/// A file being written. commit() puts it in place; without that the destructor, or the signal that ends the
+/// program (see removeAllOnEnd()), removes it, and whatever stood at the path before is untouched. Its
+/// temporary file is its path's lock as well: one path has one writer at a time, in all programs. M only.
 class AtomicFile {
 public:
-    /// Makes the empty temporary file beside `path`; see error(). A link at `path` is followed within its folder and below. Refused: a link
-    /// that leads elsewhere, a folder, a device, a pipe (a rename would replace it), a file that may not be written, and one that is being
-    /// written already.
+    /// Makes the empty temporary file beside `path`; see error(). A link at `path` is followed within its
+    /// folder and below. Refused: a link that leads elsewhere, a folder, a device, a pipe (a rename would
+    /// replace it), a file that may not be written, and one that is being written already.
     explicit AtomicFile(const std::filesystem::path& path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -38,8 +38,9 @@ public:
     /// ends the program, also after an error. Returns error().
     const std::string& show();
 
-    /// Renames the temporary file onto the path, once; then both the file and its name are on the disk, so that what was whole stays whole
-    /// when the machine loses its power. After an error nothing is left behind.
+    /// Renames the temporary file onto the path, once; then both the file and its name are on the disk, so
+    /// that what was whole stays whole when the machine loses its power. After an error nothing is left
+    /// behind.
     [[nodiscard]] const std::string& commit();
 
     /// Beside the path, until then. It is never opened again: what has that name need not be ours.

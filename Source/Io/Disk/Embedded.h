@@ -9,15 +9,17 @@
 namespace physvib {
 
 /// Whether a thing is meant by its file and not by its name: NAME.json, or with a folder. Any thread.
-inline bool isJsonPath(std::string_view name) noexcept { return name.ends_with(".json") || name.find('/') != std::string_view::npos; }
+inline bool isJsonPath(std::string_view name) noexcept {
+    return name.ends_with(".json") || name.find('/') != std::string_view::npos;
+}
 
 struct EmbeddedFile {
     std::string_view name; ///< "NAME.json"
     std::string_view text;
 };
 
-/// What `read` (text and name to a Result) makes of them all. Throws std::logic_error at one that cannot be read: a test
-/// reads them all. Any thread.
+/// What `read` (text and name to a Result) makes of them all. Throws std::logic_error at one that cannot be
+/// read: a test reads them all. Any thread.
 template <class Read>
 auto readEmbedded(const std::vector<EmbeddedFile>& files, Read read) {
     std::vector<decltype(read(files.front().text, files.front().name).value)> all;

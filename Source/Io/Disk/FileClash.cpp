@@ -17,7 +17,9 @@ std::string clash(const std::string& output, const std::string& kind, const std:
 
 } // namespace
 
-fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+fs::path folderOf(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
 
 bool isSameFile(const fs::path& a, const fs::path& b) {
     std::error_code code;
@@ -31,19 +33,25 @@ bool isWithin(const fs::path& folder, const fs::path& path) {
     if (failed) return false;
     fs::path at = fs::absolute(path, failed);
     // also one to what is not there
-    for (int links = 0; links < mostLinks && !failed && fs::is_symlink(at, failed); ++links) at = at.parent_path() / fs::read_symlink(at, failed);
+    for (int links = 0; links < mostLinks && !failed && fs::is_symlink(at, failed); ++links)
+        at = at.parent_path() / fs::read_symlink(at, failed);
     failed.clear(); // of what is not there
     const fs::path found = fs::weakly_canonical(at, failed);
     return !failed && std::ranges::mismatch(home, found).in1 == home.end();
 }
 
-// Two spellings of one new file that only the file system takes for one ("A.wav", "a.wav") meet when they are made: see AtomicFile.
+// Two spellings of one new file that only the file system takes for one ("A.wav", "a.wav") meet when they are
+// made: see AtomicFile.
 std::string fileClash(std::span<const std::string> outputs, std::span<const std::string> inputs) {
-    const auto sameAs = [](const std::string& path) { return [&path](const std::string& other) { return !other.empty() && isSameFile(path, other); }; };
+    const auto sameAs = [](const std::string& path) {
+        return [&path](const std::string& other) { return !other.empty() && isSameFile(path, other); };
+    };
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         if (output->empty()) continue;
-        if (const auto input = std::ranges::find_if(inputs, sameAs(*output)); input != inputs.end()) return clash(*output, "input", *input);
-        if (const auto other = std::find_if(outputs.begin(), output, sameAs(*output)); other != output) return clash(*output, "output", *other);
+        if (const auto input = std::ranges::find_if(inputs, sameAs(*output)); input != inputs.end())
+            return clash(*output, "input", *input);
+        if (const auto other = std::find_if(outputs.begin(), output, sameAs(*output)); other != output)
+            return clash(*output, "output", *other);
     }
     return {};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether two paths are one file, and whether one leaves its folder: by what paths are, not by how they are spelled.
+// Whether two paths are one file, and whether one leaves its folder: by what paths are, not by how they are
+// spelled.
 #pragma once
 #include <filesystem>
 #include <span>
@@ -13,12 +14,15 @@ std::filesystem::path folderOf(const std::filesystem::path& file);
 /// Whether both name one file, there or to be made; links and folders may be spelled in any way. Any thread.
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 
-inline constexpr const char* leadsElsewhere = "expected a file in its own folder or below, found a link that leads elsewhere";
+inline constexpr const char* leadsElsewhere =
+    "expected a file in its own folder or below, found a link that leads elsewhere";
 
-/// Whether what `path` names, once all links are followed, is in `folder` or below; there or to be made. Any thread but R.
+/// Whether what `path` names, once all links are followed, is in `folder` or below; there or to be made. Any
+/// thread but R.
 bool isWithin(const std::filesystem::path& folder, const std::filesystem::path& path);
 
-/// Empty, or one line on the first of `outputs` that is one of `inputs` or another output. Empty names are no files. Any thread.
+/// Empty, or one line on the first of `outputs` that is one of `inputs` or another output. Empty names are no
+/// files. Any thread.
 std::string fileClash(std::span<const std::string> outputs, std::span<const std::string> inputs);
 
 } // namespace physvib

@@ -21,9 +21,15 @@ struct CloseFile {
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
-inline Failure unreadable(const std::filesystem::path& path, const std::string& why) { return {path.string() + ": cannot be read: " + why}; }
-inline Failure unreadable(const std::filesystem::path& path, int code) { return unreadable(path, std::generic_category().message(code)); }
-inline Failure tooLong(const std::filesystem::path& path, std::size_t maxBytes) { return {path.string() + ": expected at most " + std::to_string(maxBytes) + " bytes, found more"}; }
+inline Failure unreadable(const std::filesystem::path& path, const std::string& why) {
+    return {path.string() + ": cannot be read: " + why};
+}
+inline Failure unreadable(const std::filesystem::path& path, int code) {
+    return unreadable(path, std::generic_category().message(code));
+}
+inline Failure tooLong(const std::filesystem::path& path, std::size_t maxBytes) {
+    return {path.string() + ": expected at most " + std::to_string(maxBytes) + " bytes, found more"};
+}
 
 /// The bytes of the file, at most `maxBytes`. Pipes are read to their end. Any thread but R.
 inline Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
@@ -31,8 +37,10 @@ inline Result<std::string> readFile(const std::filesystem::path& path, std::size
     if (!file) return unreadable(path, errno);
     std::string text;
     std::error_code unknown; // of what is no file: it grows
-    if (const auto bytes = std::filesystem::file_size(path, unknown); !unknown && bytes <= maxBytes) text.reserve(bytes);
-    else if (!unknown) return tooLong(path, maxBytes);
+    if (const auto bytes = std::filesystem::file_size(path, unknown); !unknown && bytes <= maxBytes)
+        text.reserve(bytes);
+    else if (!unknown)
+        return tooLong(path, maxBytes);
     std::array<char, 65536> block;
     while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
         text.append(block.data(), count);
@@ -44,7 +52,8 @@ inline Result<std::string> readFile(const std::filesystem::path& path, std::size
 
 /// What `read` makes of a file's text and name. M only.
 template <class Read>
-std::invoke_result_t<Read, std::string_view, std::string_view> loadText(const std::filesystem::path& path, std::size_t maxBytes, Read read) {
+std::invoke_result_t<Read, std::string_view, std::string_view> loadText(const std::filesystem::path& path,
+                                                                        std::size_t maxBytes, Read read) {
     const Result<std::string> text = readFile(path, maxBytes);
     if (!text) return Failure{text.error};
     return read(text.value, path.string());
@@ -55,12 +64,13 @@ struct RegularFile {
     std::size_t bytes = 0;
 };
 
-/// A file that has an end and can be searched, of at most `maxBytes`, open at its beginning: no folder, and no pipe or device, which
-/// would wait or never end. Any thread.
+/// A file that has an end and can be searched, of at most `maxBytes`, open at its beginning: no folder, and
+/// no pipe or device, which would wait or never end. Any thread.
 inline Result<RegularFile> openRegular(const std::filesystem::path& path, std::size_t maxBytes) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code); // before it is opened: opening a pipe waits
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return unreadable(path, "expected a regular file, found a folder, a device or a pipe");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        return unreadable(path, "expected a regular file, found a folder, a device or a pipe");
     RegularFile file{OpenFile{openStream(path, "rb")}};
     if (!file.stream) return unreadable(path, errno);
     file.bytes = std::filesystem::file_size(path, code);

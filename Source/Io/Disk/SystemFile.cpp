@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is the same on every system: who owns what is open, what an error is called, and what goes when the program ends.
+// What is the same on every system: who owns what is open, what an error is called, and what goes when the
+// program ends.
 #include "Io/Disk/SystemFile.h"
 #include "Io/Disk/FileClash.h"
 #include <cerrno>
@@ -19,7 +20,8 @@ std::array<std::atomic<RemovedOnEnd::Removal*>, 256> RemovedOnEnd::removals{};
 SystemFile SystemFile::create(const std::filesystem::path& path) { return opened(path, Opening::create); }
 SystemFile SystemFile::grow(const std::filesystem::path& path) {
     std::error_code code;
-    if (!std::filesystem::is_symlink(path, code) || isWithin(path.parent_path(), path)) return opened(path, Opening::grow);
+    if (!std::filesystem::is_symlink(path, code) || isWithin(path.parent_path(), path))
+        return opened(path, Opening::grow);
     SystemFile refused;
     refused.error_ = ELOOP;
     return refused;
@@ -72,7 +74,8 @@ RemovedOnEnd::RemovedOnEnd(const SystemFile& file, const std::filesystem::path& 
     if (slot_ >= 0) removal.release(); // else there are more files at once than any call writes
 }
 
-RemovedOnEnd::RemovedOnEnd(RemovedOnEnd&& other) noexcept : slot_{std::exchange(other.slot_, -1)} {}
+RemovedOnEnd::RemovedOnEnd(RemovedOnEnd&& other) noexcept
+    : slot_{std::exchange(other.slot_, -1)} {}
 
 RemovedOnEnd& RemovedOnEnd::operator=(RemovedOnEnd&& other) noexcept {
     std::swap(slot_, other.slot_);
@@ -85,7 +88,9 @@ RemovedOnEnd::~RemovedOnEnd() {
 
 void RemovedOnEnd::removeAll() noexcept {
     for (auto& slot : removals)
-        if (const Removal* const removal = slot.exchange(nullptr); removal && SystemFile::isAt(removal->handle, removal->name)) SystemFile::removeNow(removal->name);
+        if (const Removal* const removal = slot.exchange(nullptr);
+            removal && SystemFile::isAt(removal->handle, removal->name))
+            SystemFile::removeNow(removal->name);
 }
 
 } // namespace physvib

@@ -14,7 +14,8 @@
 namespace physvib {
 namespace {
 
-constexpr int always = O_CLOEXEC | O_NONBLOCK | O_NOCTTY; // O_NONBLOCK: opening a pipe would wait for its other end
+constexpr int always = O_CLOEXEC | O_NONBLOCK | O_NOCTTY; // O_NONBLOCK: opening a pipe would wait for its
+                                                          // other end
 constexpr mode_t asUmaskSays = 0666;
 
 int descriptorOf(std::intptr_t handle) noexcept { return static_cast<int>(handle); }
@@ -29,7 +30,8 @@ constexpr std::array ending{SIGINT, SIGTERM, SIGHUP};
 } // namespace
 
 SystemFile SystemFile::opened(const std::filesystem::path& path, Opening opening) noexcept {
-    constexpr std::array flags{O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, O_RDWR | O_CREAT, O_RDONLY | O_NOFOLLOW};
+    constexpr std::array flags{O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, O_RDWR | O_CREAT,
+                               O_RDONLY | O_NOFOLLOW};
     SystemFile file;
     const int descriptor = open(path.c_str(), flags[static_cast<std::size_t>(opening)] | always, asUmaskSays);
     if (!file.note(descriptor >= 0)) return file;
@@ -58,7 +60,9 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
 }
 
 // EINVAL: of a file system that has nothing to sync
-bool SystemFile::sync() noexcept { return error_ == 0 && note(fsync(descriptorOf(handle_)) == 0 || errno == EINVAL); }
+bool SystemFile::sync() noexcept {
+    return error_ == 0 && note(fsync(descriptorOf(handle_)) == 0 || errno == EINVAL);
+}
 
 void SystemFile::syncFolder(const std::filesystem::path& folder) noexcept {
     const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -67,7 +71,9 @@ void SystemFile::syncFolder(const std::filesystem::path& folder) noexcept {
     close(descriptor);
 }
 
-bool SystemFile::resize(std::int64_t bytes) noexcept { return error_ == 0 && note(ftruncate(descriptorOf(handle_), bytes) == 0); }
+bool SystemFile::resize(std::int64_t bytes) noexcept {
+    return error_ == 0 && note(ftruncate(descriptorOf(handle_), bytes) == 0);
+}
 
 std::int64_t SystemFile::size() noexcept {
     struct stat status {};
@@ -75,15 +81,18 @@ std::int64_t SystemFile::size() noexcept {
 }
 
 bool SystemFile::isAt(Handle handle, const std::filesystem::path& path) noexcept {
-    struct stat mine {}, there {};
-    return fstat(descriptorOf(handle), &mine) == 0 && lstat(path.c_str(), &there) == 0 && mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
+    struct stat mine {
+    }, there{};
+    return fstat(descriptorOf(handle), &mine) == 0 && lstat(path.c_str(), &there) == 0 &&
+           mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
 }
 
 void SystemFile::removeNow(const std::filesystem::path& path) noexcept { unlink(path.c_str()); }
 
 void SystemFile::takePermissionsOf(const std::filesystem::path& path) const noexcept {
     struct stat there {};
-    if (stat(path.c_str(), &there) == 0 && fchmod(descriptorOf(handle_), there.st_mode & 07777) != 0) errno = 0;
+    if (stat(path.c_str(), &there) == 0 && fchmod(descriptorOf(handle_), there.st_mode & 07777) != 0)
+        errno = 0;
 }
 
 bool SystemFile::note(bool isGood) noexcept {
@@ -112,7 +121,9 @@ void removeAllOnEnd() noexcept { RemovedOnEnd::removeAll(); }
 
 std::span<const int> endingSignals() noexcept { return ending; }
 
-std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept { return std::fopen(path.c_str(), mode); }
+std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept {
+    return std::fopen(path.c_str(), mode);
+}
 
 } // namespace physvib
 #endif

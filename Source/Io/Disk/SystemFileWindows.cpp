@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Windows: CreateFile, WriteFile, LockFileEx. What is open may be renamed and removed by anybody, as on POSIX.
+// Windows: CreateFile, WriteFile, LockFileEx. What is open may be renamed and removed by anybody, as on
+// POSIX.
 #if defined(_WIN32)
 #include "Io/Disk/SystemFile.h"
 #include "Io/Disk/SystemWindows.h"
@@ -13,7 +14,8 @@ namespace physvib {
 namespace {
 
 constexpr DWORD othersMay = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-constexpr std::int64_t lockedByte = 0x7fff'ffff'ffff'fff0; // locks keep readers out: of a byte that no file has
+constexpr std::int64_t lockedByte = 0x7fff'ffff'ffff'fff0; // locks keep readers out: of a byte that no file
+                                                           // has
 
 SRWLOCK makers = SRWLOCK_INIT; // HeldSignals share it, the end of the program has it alone
 
@@ -45,10 +47,13 @@ int errnoOf(DWORD error) noexcept {
     }
 }
 
-bool identityOf(HANDLE file, BY_HANDLE_FILE_INFORMATION& identity) noexcept { return GetFileInformationByHandle(file, &identity) != 0; }
+bool identityOf(HANDLE file, BY_HANDLE_FILE_INFORMATION& identity) noexcept {
+    return GetFileInformationByHandle(file, &identity) != 0;
+}
 
 bool identityOf(const std::filesystem::path& path, BY_HANDLE_FILE_INFORMATION& identity) noexcept {
-    const HANDLE file = CreateFileW(path.c_str(), 0, othersMay, nullptr, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT | FILE_FLAG_BACKUP_SEMANTICS, nullptr);
+    const HANDLE file = CreateFileW(path.c_str(), 0, othersMay, nullptr, OPEN_EXISTING,
+                                    FILE_FLAG_OPEN_REPARSE_POINT | FILE_FLAG_BACKUP_SEMANTICS, nullptr);
     if (file == INVALID_HANDLE_VALUE) return false;
     const bool isKnown = identityOf(file, identity);
     CloseHandle(file);
@@ -71,9 +76,12 @@ bool isFolder(const std::filesystem::path& path) noexcept {
 SystemFile SystemFile::opened(const std::filesystem::path& path, Opening opening) noexcept {
     const bool looks = opening == Opening::look, creates = opening == Opening::create;
     SystemFile file;
-    file.handle_ = reinterpret_cast<Handle>(CreateFileW(path.c_str(), looks ? GENERIC_READ : GENERIC_READ | GENERIC_WRITE, othersMay, nullptr,
-                                                        creates ? CREATE_NEW : looks ? OPEN_EXISTING : OPEN_ALWAYS,
-                                                        FILE_ATTRIBUTE_NORMAL | (looks ? FILE_FLAG_OPEN_REPARSE_POINT : 0), nullptr));
+    file.handle_ = reinterpret_cast<Handle>(
+        CreateFileW(path.c_str(), looks ? GENERIC_READ : GENERIC_READ | GENERIC_WRITE, othersMay, nullptr,
+                    creates ? CREATE_NEW
+                    : looks ? OPEN_EXISTING
+                            : OPEN_ALWAYS,
+                    FILE_ATTRIBUTE_NORMAL | (looks ? FILE_FLAG_OPEN_REPARSE_POINT : 0), nullptr));
     if (!file.note(file.isOpen())) {
         if (!creates && isFolder(path)) file.error_ = EINVAL; // it says that access is denied
     } else if (!isRegular(handleOf(file.handle_), !looks)) {
@@ -86,7 +94,9 @@ void SystemFile::closeNow() noexcept { CloseHandle(handleOf(handle_)); }
 
 SystemFile::Lock SystemFile::lock() noexcept {
     OVERLAPPED place = placeOf(lockedByte);
-    if (LockFileEx(handleOf(handle_), LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &place) != 0) return Lock::taken;
+    if (LockFileEx(handleOf(handle_), LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &place) !=
+        0)
+        return Lock::taken;
     const DWORD error = GetLastError();
     return error == ERROR_LOCK_VIOLATION || error == ERROR_IO_PENDING ? Lock::others : Lock::none;
 }
@@ -96,7 +106,9 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
     while (error_ == 0 && !bytes.empty()) {
         OVERLAPPED place = placeOf(position);
         DWORD written = 0;
-        if (!note(WriteFile(handleOf(handle_), bytes.data(), static_cast<DWORD>(std::min(bytes.size(), most)), &written, &place) != 0)) break;
+        if (!note(WriteFile(handleOf(handle_), bytes.data(), static_cast<DWORD>(std::min(bytes.size(), most)),
+                            &written, &place) != 0))
+            break;
         if (written == 0) error_ = ENOSPC; // it would never end
         bytes.remove_prefix(written);
         position += written;
@@ -111,7 +123,8 @@ void SystemFile::syncFolder(const std::filesystem::path&) noexcept {} // NTFS ke
 bool SystemFile::resize(std::int64_t bytes) noexcept {
     FILE_END_OF_FILE_INFO end{};
     end.EndOfFile.QuadPart = bytes;
-    return error_ == 0 && note(SetFileInformationByHandle(handleOf(handle_), FileEndOfFileInfo, &end, sizeof(end)) != 0);
+    return error_ == 0 &&
+           note(SetFileInformationByHandle(handleOf(handle_), FileEndOfFileInfo, &end, sizeof(end)) != 0);
 }
 
 std::int64_t SystemFile::size() noexcept {
@@ -121,7 +134,8 @@ std::int64_t SystemFile::size() noexcept {
 
 bool SystemFile::isAt(Handle handle, const std::filesystem::path& path) noexcept {
     BY_HANDLE_FILE_INFORMATION mine, there;
-    return identityOf(handleOf(handle), mine) && identityOf(path, there) && mine.dwVolumeSerialNumber == there.dwVolumeSerialNumber &&
+    return identityOf(handleOf(handle), mine) && identityOf(path, there) &&
+           mine.dwVolumeSerialNumber == there.dwVolumeSerialNumber &&
            mine.nFileIndexHigh == there.nFileIndexHigh && mine.nFileIndexLow == there.nFileIndexLow;
 }
 

@@ -10,9 +10,7 @@
 
 namespace physvib {
 
-void JsonField::fail(const std::string& message) const {
-    throw JsonError(path_, message);
-}
+void JsonField::fail(const std::string& message) const { throw JsonError(path_, message); }
 
 void JsonField::failType(const std::string& expected) const {
     const std::string found = value_.type_name();
@@ -35,9 +33,7 @@ void JsonField::expectOnly(std::span<const std::string_view> known) const {
             fail("unknown field " + inQuotes(item.key()));
 }
 
-bool JsonField::has(std::string_view key) const {
-    return value_.contains(key);
-}
+bool JsonField::has(std::string_view key) const { return value_.contains(key); }
 
 JsonField JsonField::operator[](std::string_view key) const {
     const auto found = value_.find(key);
@@ -74,7 +70,8 @@ double JsonField::numberUpTo(double most) const {
 
 double JsonField::numberWithin(double least, double most) const {
     const double found = number();
-    if (!(found >= least && found <= most)) fail("expected " + numberText(least) + " to " + numberText(most) + ", found " + numberText(found));
+    if (!(found >= least && found <= most))
+        fail("expected " + numberText(least) + " to " + numberText(most) + ", found " + numberText(found));
     return found;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Typed access to a JSON value, with errors that name the path to it. For the .cpp files of Files and Formats.
+// Typed access to a JSON value, with errors that name the path to it. For the .cpp files of Files and
+// Formats.
 #pragma once
 #include "Io/Disk/FileLimits.h"
 #include "Io/Json/StrictJson.h"

@@ -21,14 +21,18 @@ void appendLine(std::string& out, const OrderedJson& value);
 
 void appendName(std::string& out, const std::string& name) {
     const auto isPlain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
-    if (std::ranges::all_of(name, isPlain)) out.append(1, '"').append(name).append("\": ");
-    else appendLine(out, OrderedJson(name)), out += ": ";
+    if (std::ranges::all_of(name, isPlain))
+        out.append(1, '"').append(name).append("\": ");
+    else
+        appendLine(out, OrderedJson(name)), out += ": ";
 }
 
 // Bytes that are no UTF-8 cannot stand in JSON and become U+FFFD.
 void appendLine(std::string& out, const OrderedJson& value) {
-    if (value.is_number_float()) out += jsonNumber(value.get<double>());
-    else if (!value.is_structured()) out += value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    if (value.is_number_float())
+        out += jsonNumber(value.get<double>());
+    else if (!value.is_structured())
+        out += value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     if (!value.is_structured()) return;
     out += value.is_array() ? "[" : "{ ";
     for (auto item = value.begin(); item != value.end(); ++item) {

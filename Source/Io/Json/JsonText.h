@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How every JSON text is read: within its limit, strictly, whole or not at all; and the version that ours have. For the .cpp files of Files.
+// How every JSON text is read: within its limit, strictly, whole or not at all; and the version that ours
+// have. For the .cpp files of Files.
 #pragma once
 #include "Io/Json/JsonField.h"
 #include "Io/Result.h"
@@ -10,10 +11,11 @@
 
 namespace physvib {
 
-/// What `read` makes of the value that `text` spells, or one line that begins with `name`. `read` takes a Json& and
-/// throws JsonError. Any thread.
+/// What `read` makes of the value that `text` spells, or one line that begins with `name`. `read` takes a
+/// Json& and throws JsonError. Any thread.
 template <class Read>
-Result<std::invoke_result_t<Read, Json&>> readJson(std::string_view text, std::string_view name, std::size_t maxBytes, Read read) {
+Result<std::invoke_result_t<Read, Json&>> readJson(std::string_view text, std::string_view name,
+                                                   std::size_t maxBytes, Read read) {
     try {
         if (text.size() > maxBytes)
             throw JsonError({}, "expected at most " + std::to_string(maxBytes) + " bytes, found more");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Repeated fields and deep nesting are refused while the parser runs; places are counted as editors count them.
+// Repeated fields and deep nesting are refused while the parser runs; places are counted as editors count
+// them.
 #include "Io/Json/StrictJson.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Text/NumberText.h"
@@ -36,7 +37,8 @@ std::string detailOf(const std::exception& error) {
 }
 
 /// Builds the value while the parser runs, and throws JsonError at a repeated field or too deep a nesting.
-/// (The library's own builder looks through a whole list after each object in it: minutes for a hundred thousand.)
+/// (The library's own builder looks through a whole list after each object in it: minutes for a hundred
+/// thousand.)
 class StrictBuilder final : public nlohmann::json_sax<Json> {
 public:
     explicit StrictBuilder(std::string_view text)
@@ -88,7 +90,8 @@ private:
         return true;
     }
     bool open(Json container) {
-        if (open_.size() == limits::maxJsonDepth) throw JsonError({}, "nested deeper than " + std::to_string(limits::maxJsonDepth) + " levels");
+        if (open_.size() == limits::maxJsonDepth)
+            throw JsonError({}, "nested deeper than " + std::to_string(limits::maxJsonDepth) + " levels");
         open_.push_back({&place(std::move(container))});
         return true;
     }
@@ -101,8 +104,10 @@ private:
         std::string words;
         for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
             const Level& level = open_[i];
-            if (level.value->is_array()) words += "[" + std::to_string(level.value->size() - 1) + "]";
-            else words.append(words.empty() ? "" : ".").append(printable(level.name));
+            if (level.value->is_array())
+                words += "[" + std::to_string(level.value->size() - 1) + "]";
+            else
+                words.append(words.empty() ? "" : ".").append(printable(level.name));
         }
         return words;
     }
@@ -119,11 +124,15 @@ JsonError::JsonError(const std::string& path, const std::string& message)
 
 namespace {
 
-/// Each value and field has a mark; in memory it takes thirty times the bytes that an empty list takes in a text.
+/// Each value and field has a mark; in memory it takes thirty times the bytes that an empty list takes in a
+/// text.
 void expectFewMarks(std::string_view text) {
     const std::size_t most = limits::maxJsonMarks + text.size() / limits::jsonBytesPerMark;
-    const auto found = static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return c == ',' || c == ':' || c == '[' || c == '{'; }));
-    if (found > most) throw JsonError({}, "expected at most " + std::to_string(most) + " values and fields in so many bytes, found more");
+    const auto found = static_cast<std::size_t>(
+        std::ranges::count_if(text, [](char c) { return c == ',' || c == ':' || c == '[' || c == '{'; }));
+    if (found > most)
+        throw JsonError({}, "expected at most " + std::to_string(most) +
+                                " values and fields in so many bytes, found more");
 }
 
 } // namespace

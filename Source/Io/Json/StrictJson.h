@@ -7,7 +7,8 @@
 #include <string>
 #include <string_view>
 
-// Compiled once, in StrictJson.cpp: in every file that reads or writes JSON it is most of the compiler's work.
+// Compiled once, in StrictJson.cpp: in every file that reads or writes JSON it is most of the compiler's
+// work.
 extern template class nlohmann::basic_json<>;
 
 namespace physvib {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Words about strangers' files, fit for a terminal, a log, a screen: one line of UTF-8, whatever the file or its name holds.
+// Words about strangers' files, fit for a terminal, a log, a screen: one line of UTF-8, whatever the file or
+// its name holds.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +30,8 @@ constexpr Utf8Character firstCharacter(std::string_view text) noexcept {
     }
     constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
     const bool isHalfOfAPair = code >= 0xd800 && code < 0xe000;
-    return code < least[bytes] || code > 0x10ffff || isHalfOfAPair ? Utf8Character{} : Utf8Character{code, bytes};
+    return code < least[bytes] || code > 0x10ffff || isHalfOfAPair ? Utf8Character{}
+                                                                   : Utf8Character{code, bytes};
 }
 
 /// Any thread.
@@ -42,10 +44,11 @@ constexpr bool isUtf8(std::string_view text) noexcept {
     return true;
 }
 
-/// Whether a terminal or a text box would do something instead of showing it: control characters (both sets), line and
-/// paragraph ends, marks that turn the direction of what follows.
+/// Whether a terminal or a text box would do something instead of showing it: control characters (both sets),
+/// line and paragraph ends, marks that turn the direction of what follows.
 constexpr bool isControl(std::uint32_t code) noexcept {
-    return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x200e || code == 0x200f || (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+    return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x200e || code == 0x200f ||
+           (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
 }
 
 /// `text` with \xNN for every byte of what is no UTF-8 or controls. Any thread.
@@ -57,9 +60,11 @@ inline std::string cleanLine(std::string_view text) {
         const bool isShown = bytes > 0 && !isControl(code);
         const std::string_view taken = text.substr(0, bytes > 0 ? bytes : 1);
         text.remove_prefix(taken.size());
-        if (isShown) out += taken;
+        if (isShown)
+            out += taken;
         else
-            for (const char c : taken) out.append("\\x").append(1, hex[static_cast<unsigned char>(c) >> 4]).append(1, hex[c & 15]);
+            for (const char c : taken)
+                out.append("\\x").append(1, hex[static_cast<unsigned char>(c) >> 4]).append(1, hex[c & 15]);
     }
     return out;
 }

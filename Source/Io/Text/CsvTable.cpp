@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Lines into cells, strictly: what is not a table is refused by line.
 #include "Io/Text/CsvTable.h"
-#include "Io/Text/CsvText.h"
 #include "Io/Disk/FileLimits.h"
-#include "Io/Text/NumberText.h"
 #include "Io/Disk/ReadFile.h"
+#include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 
 namespace physvib {
@@ -31,18 +31,20 @@ bool takeCell(std::string_view& rest, std::string& cell) {
     return trimmed(takeUntil(',', rest)).empty();
 }
 
-/// A spreadsheet would take the text for a formula and reckon it: behind an apostrophe it stays text. Those that have one get another, so
-/// that reading takes away what writing has added.
+/// A spreadsheet would take the text for a formula and reckon it: behind an apostrophe it stays text. Those
+/// that have one get another, so that reading takes away what writing has added.
 bool isTakenForFormula(std::string_view text) noexcept {
     const std::size_t first = std::min(text.find_first_not_of('\''), text.size());
     constexpr std::string_view signs = "=+-@";
-    return first < text.size() && signs.find(text[first]) != std::string_view::npos && !parseNumber<double>(text);
+    return first < text.size() && signs.find(text[first]) != std::string_view::npos &&
+           !parseNumber<double>(text);
 }
 
 class TableReader {
 public:
     TableReader(std::string_view text, std::string_view name, CsvHeader header)
-        : rest_{text}, header_{header} {
+        : rest_{text}
+        , header_{header} {
         table_.name = name;
         dropByteOrderMark(rest_);
     }
@@ -57,7 +59,9 @@ public:
         if (error_.empty() && row.line == 0) fail("expected rows after the header, found none");
         return error_.empty() ? "" : placed();
     }
-    std::string placed() const { return table_.name + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": " + error_; }
+    std::string placed() const {
+        return table_.name + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": " + error_;
+    }
 
 private:
     bool readHeader() {
@@ -66,14 +70,16 @@ private:
             if (rest_.empty()) return fail("expected a header line, found the end of the file");
             header = nextLine();
             if (!header.starts_with('#')) continue;
-            if (table_.comments.size() < limits::maxTableColumns) table_.comments.emplace_back(trimmed(header.substr(1)));
+            if (table_.comments.size() < limits::maxTableColumns)
+                table_.comments.emplace_back(trimmed(header.substr(1)));
             header = {};
         }
         if (!takeCells(header, table_.columns)) return false;
         for (const std::string& column : table_.columns) {
             if (header_ == CsvHeader::loose) break;
             if (column.empty()) return fail("expected a name for every column");
-            if (std::ranges::count(table_.columns, column) > 1) return fail("column " + printable(column) + " appears twice");
+            if (std::ranges::count(table_.columns, column) > 1)
+                return fail("column " + printable(column) + " appears twice");
         }
         return true;
     }
@@ -83,16 +89,21 @@ private:
         row.cells.clear();
         row.line = line_;
         if (!takeCells(line, row.cells)) return false;
-        return row.cells.size() == table_.columns.size() || fail("expected " + std::to_string(table_.columns.size()) + " cells, found " + std::to_string(row.cells.size()) +
-                                                                 " (a cell with a comma stands in quotes)");
+        return row.cells.size() == table_.columns.size() ||
+               fail("expected " + std::to_string(table_.columns.size()) + " cells, found " +
+                    std::to_string(row.cells.size()) + " (a cell with a comma stands in quotes)");
     }
     bool takeCells(std::string_view line, std::vector<std::string>& cells) {
         for (bool another = !line.empty(); another;) {
-            if (cells.size() == limits::maxTableColumns) return fail("expected at most " + std::to_string(limits::maxTableColumns) + " cells in a row");
+            if (cells.size() == limits::maxTableColumns)
+                return fail("expected at most " + std::to_string(limits::maxTableColumns) +
+                            " cells in a row");
             const std::string_view whole = line;
-            if (!takeCell(line, cells.emplace_back())) return fail("expected quotes around whole cells, and in pairs");
+            if (!takeCell(line, cells.emplace_back()))
+                return fail("expected quotes around whole cells, and in pairs");
             if (cells.back().starts_with('\'') && isTakenForFormula(cells.back())) cells.back().erase(0, 1);
-            if (cells.back().size() > limits::maxCellBytes) return fail("expected cells of at most " + std::to_string(limits::maxCellBytes) + " bytes");
+            if (cells.back().size() > limits::maxCellBytes)
+                return fail("expected cells of at most " + std::to_string(limits::maxCellBytes) + " bytes");
             const std::size_t taken = whole.size() - line.size();
             another = taken > 0 && whole[taken - 1] == ',';
         }
@@ -123,15 +134,16 @@ std::optional<std::size_t> CsvTable::column(std::string_view wanted) const noexc
 }
 
 std::string CsvTable::fault(const CsvRow& row, std::size_t at, std::string_view expected) const {
-    return name + ":" + std::to_string(row.line) + ": column " + printable(columns[at]) + ": expected " + std::string(expected) + ", found " +
-           inQuotes(row.cells[at]);
+    return name + ":" + std::to_string(row.line) + ": column " + printable(columns[at]) + ": expected " +
+           std::string(expected) + ", found " + inQuotes(row.cells[at]);
 }
 
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view name, CsvHeader header) {
     CsvTable table;
     TableReader reader{text, name, header};
     const auto tooMany = [&](const CsvRow& row, std::size_t most, const char* what) {
-        return table.name + ":" + std::to_string(row.line) + ": expected at most " + std::to_string(most) + what;
+        return table.name + ":" + std::to_string(row.line) + ": expected at most " + std::to_string(most) +
+               what;
     };
     const auto begin = [&](const CsvTable& head) {
         table = head;
@@ -139,7 +151,8 @@ Result<CsvTable> readCsvTable(std::string_view text, std::string_view name, CsvH
     };
     const auto take = [&](CsvRow& row) {
         if (table.rows.size() == limits::maxTableRows) return tooMany(row, limits::maxTableRows, " rows");
-        if ((table.rows.size() + 1) * table.columns.size() > limits::maxTableCells) return tooMany(row, limits::maxTableCells, " cells in all");
+        if ((table.rows.size() + 1) * table.columns.size() > limits::maxTableCells)
+            return tooMany(row, limits::maxTableCells, " cells in all");
         table.rows.push_back(std::move(row));
         row.cells.reserve(table.columns.size());
         return std::string{};
@@ -148,17 +161,20 @@ Result<CsvTable> readCsvTable(std::string_view text, std::string_view name, CsvH
     return table;
 }
 
-std::string eachCsvRow(std::string_view text, std::string_view name, const std::function<std::string(const CsvTable&)>& begin,
+std::string eachCsvRow(std::string_view text, std::string_view name,
+                       const std::function<std::string(const CsvTable&)>& begin,
                        const std::function<std::string(const CsvRow&)>& take) {
     return TableReader{text, name, CsvHeader::named}.read(begin, take);
 }
 
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path) {
-    return loadText(path, limits::maxTableBytes, [](std::string_view text, std::string_view name) { return readCsvTable(text, name); });
+    return loadText(path, limits::maxTableBytes,
+                    [](std::string_view text, std::string_view name) { return readCsvTable(text, name); });
 }
 
 void appendCell(std::string& line, std::string_view text) {
-    const bool needsQuotes = text.find_first_of(",\"#") != std::string_view::npos || text.starts_with(' ') || text.ends_with(' ');
+    const bool needsQuotes =
+        text.find_first_of(",\"#") != std::string_view::npos || text.starts_with(' ') || text.ends_with(' ');
     if (needsQuotes) line += '"';
     if (isTakenForFormula(text)) line += '\'';
     for (const char c : text) {

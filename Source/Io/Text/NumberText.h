@@ -50,10 +50,12 @@ inline std::string plainNumber(double number) {
 /// With that many decimals, for people to read: 4.81. Any thread.
 inline std::string fixedNumber(double number, int decimals) {
     char digits[400];
-    const auto end = std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed, decimals).ptr;
+    const auto end =
+        std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed, decimals).ptr;
     std::string text(digits, end);
     // no -0.00
-    return text.find_first_of("123456789") == std::string::npos && text.starts_with('-') ? text.substr(1) : text;
+    return text.find_first_of("123456789") == std::string::npos && text.starts_with('-') ? text.substr(1)
+                                                                                         : text;
 }
 
 /// At most 40 characters of `text`, whatever a terminal might misread as \xNN. Any thread.

@@ -36,9 +36,7 @@ std::string shortNumber(double value) {
     return digits;
 }
 
-double decibels(double amplitude) {
-    return toDecibels(std::abs(amplitude));
-}
+double decibels(double amplitude) { return toDecibels(std::abs(amplitude)); }
 
 std::string decibelText(double amplitude) {
     return decibels(amplitude) < -limits::retireDecibels ? "silent"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chunk by chunk; only format and data are looked at, and never more is asked of memory than the file has bytes for.
+// Chunk by chunk; only format and data are looked at, and never more is asked of memory than the file has
+// bytes for.
 #include "Io/Wav/WavFile.h"
 #include <algorithm>
 #include <bit>
@@ -13,7 +14,8 @@ namespace physvib {
 namespace {
 
 constexpr std::size_t blockFrames = 4096;
-constexpr std::uint64_t unknownLength = 0x7fff0000; // what is written to a pipe cannot say how long it is: programs say this, or more
+constexpr std::uint64_t unknownLength = 0x7fff0000; // what is written to a pipe cannot say how long it is:
+                                                    // programs say this, or more
 
 class WavReader {
 public:
@@ -30,10 +32,13 @@ public:
 private:
     std::uint64_t frameBytes() const noexcept { return static_cast<std::uint64_t>(channels_) * bits_ / 8; }
 
-    bool take(std::span<unsigned char> bytes) { return std::fread(bytes.data(), 1, bytes.size(), &file_) == bytes.size(); }
+    bool take(std::span<unsigned char> bytes) {
+        return std::fread(bytes.data(), 1, bytes.size(), &file_) == bytes.size();
+    }
     std::uint64_t number(int bytes) { // little-endian; 0 behind the end, where no loop goes on
         std::uint64_t value = 0;
-        for (int i = 0; i < bytes; ++i) value |= static_cast<std::uint64_t>(std::max(0, std::fgetc(&file_))) << (8 * i);
+        for (int i = 0; i < bytes; ++i)
+            value |= static_cast<std::uint64_t>(std::max(0, std::fgetc(&file_))) << (8 * i);
         return value;
     }
     bool takeName() { return std::fread(name_, 1, 4, &file_) == 4; }
@@ -77,7 +82,9 @@ private:
         // the rest of its GUID is always the same
         if (format == extensible && bytes >= 40) format = (number(8), number(2));
         isFloat_ = format == ieeeFloat;
-        const bool isKnown = isFloat_ ? bits_ == 32 : format == pcm && (bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32);
+        const bool isKnown = isFloat_
+                                 ? bits_ == 32
+                                 : format == pcm && (bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32);
         return (isKnown && channels_ > 0) || fail("expected PCM of 8, 16, 24 or 32 bits, or float of 32");
     }
 
@@ -86,12 +93,14 @@ private:
         const std::uint64_t present = size_ - std::min(size_, begin);
         dataBytes_ = std::min(bytes, present);
         return bytes <= present || bytes >= unknownLength ||
-               fail("expected " + std::to_string(bytes) + " bytes of samples, as its header says, found " + std::to_string(present) + ": it ends early");
+               fail("expected " + std::to_string(bytes) + " bytes of samples, as its header says, found " +
+                    std::to_string(present) + ": it ends early");
     }
 
     std::string takeSamples(std::size_t frames, SoundTaker& taker) {
         std::vector<unsigned char> block(frameBytes() * blockFrames);
-        std::vector<std::vector<float>> samples(static_cast<std::size_t>(channels_), std::vector<float>(blockFrames));
+        std::vector<std::vector<float>> samples(static_cast<std::size_t>(channels_),
+                                                std::vector<float>(blockFrames));
         std::vector<const float*> at;
         for (const auto& channel : samples) at.push_back(channel.data());
         for (std::size_t done = 0; done < frames;) {
@@ -109,7 +118,8 @@ private:
     /// The next one, and past it.
     float sample(const unsigned char*& from) const noexcept {
         std::uint32_t high = 0; // its bits are the highest ones
-        for (std::uint64_t i = 4 - bits_ / 8; i < 4; ++i) high |= static_cast<std::uint32_t>(*from++) << (8 * i);
+        for (std::uint64_t i = 4 - bits_ / 8; i < 4; ++i)
+            high |= static_cast<std::uint32_t>(*from++) << (8 * i);
         if (isFloat_) return std::bit_cast<float>(high);
         if (bits_ == 8) high ^= 0x80000000; // the only one that is not signed
         return static_cast<float>(static_cast<std::int32_t>(high)) * 0x1p-31f;

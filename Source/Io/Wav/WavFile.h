@@ -8,9 +8,10 @@
 
 namespace physvib {
 
-/// The samples of a WAVE file (RIFF or RF64; PCM of 8, 16, 24 or 32 bits, float of 32), from the beginning of `file`, which
-/// can be searched; full scale is 1. Or what is wrong with it, without its name: more than the limits of recordings, or
-/// less than the header says. A length that was not known when the header was written is what is there. Any thread.
+/// The samples of a WAVE file (RIFF or RF64; PCM of 8, 16, 24 or 32 bits, float of 32), from the beginning of
+/// `file`, which can be searched; full scale is 1. Or what is wrong with it, without its name: more than the
+/// limits of recordings, or less than the header says. A length that was not known when the header was
+/// written is what is there. Any thread.
 Result<SampledSound> readWav(std::FILE& file);
 
 /// The same block by block: empty, or what is wrong with it, or what `taker` says. Any thread.
@@ -18,7 +19,8 @@ std::string streamWav(std::FILE& file, SoundTaker& taker);
 
 constexpr std::size_t wavSizeBytes = 28;
 
-/// How long a WAVE file (RIFF or RF64) says it is in its first wavSizeBytes bytes; 0: they begin none. Any thread.
+/// How long a WAVE file (RIFF or RF64) says it is in its first wavSizeBytes bytes; 0: they begin none. Any
+/// thread.
 std::int64_t wavFileBytes(std::string_view head) noexcept;
 
 } // namespace physvib

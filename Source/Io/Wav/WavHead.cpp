@@ -47,7 +47,8 @@ std::string wavInfo(const std::string& comment) {
     std::string sampler(60, '\0'); // middle C and no loops: files with a comment have said so since JUCE
                                    // wrote them, and keep their bytes
     sampler[12] = 60;
-    return chunk("smpl", std::move(sampler)) + chunk("LIST", "INFO" + chunk("ICMT", cleanLine(comment) + '\0'));
+    return chunk("smpl", std::move(sampler)) +
+           chunk("LIST", "INFO" + chunk("ICMT", cleanLine(comment) + '\0'));
 }
 
 // A chunk that counts in 64 bits comes first, or its room. A plain format is shorter: there is more room

@@ -11,8 +11,8 @@ constexpr std::int64_t wavHeadBytes = 104; ///< without the comment
 /// The chunk with the comment; empty without one. Any thread.
 std::string wavInfo(const std::string& comment);
 
-/// 32-bit float, one and two channels plain, three and more WAVE_FORMAT_EXTENSIBLE with an empty speaker mask; 4 GB and more RF64.
-/// `info`: of wavInfo. Any thread.
+/// 32-bit float, one and two channels plain, three and more WAVE_FORMAT_EXTENSIBLE with an empty speaker
+/// mask; 4 GB and more RF64. `info`: of wavInfo. Any thread.
 std::string wavHead(int channels, int sampleRateHz, std::int64_t dataBytes, const std::string& info);
 
 /// Whether a WAVE file can hold so much and be no RF64. Any thread.

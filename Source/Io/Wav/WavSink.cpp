@@ -22,9 +22,7 @@ WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRate
     setComment(comment);
 }
 
-void WavSink::setComment(const std::string& comment) {
-    info_ = wavInfo(comment);
-}
+void WavSink::setComment(const std::string& comment) { info_ = wavInfo(comment); }
 
 bool WavSink::write(const float* const* channels, int frames) {
     if (!error().empty() || isComplete_) return false;

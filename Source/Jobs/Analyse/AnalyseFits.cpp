@@ -2,8 +2,8 @@
 // A fit per participant, a mean with its interval per condition.
 #include "Jobs/Analyse/AnalyseFits.h"
 #include "Jobs/Analyse/Analysis.h"
-#include "Jobs/Analyse/FitCharts.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
+#include "Jobs/Analyse/FitCharts.h"
 #include "Study/Statistics/Bootstrap.h"
 #include "Study/Statistics/LevelFits.h"
 #include "Study/Statistics/Moments.h"
@@ -19,31 +19,42 @@ using LevelAnswers = StudyData<LevelAnswer>;
 Result<LevelAnswers> readAnswers(const AnalysisJob& o, LevelAnswerColumns columns) {
     if (!o.level.empty()) columns.level = o.level;
     if (!o.measure.empty()) columns.measure = o.measure;
-    return readStudyFiles(o, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
+    return readStudyFiles(
+        o, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
 }
 
 /// "threshold 12.3 (11.0 to 13.4)".
 std::string meanWords(const char* name, const std::vector<double>& values, int decimals) {
     const BootstrapInterval mean = bootstrapMean(values);
     std::string words = std::string(name) + " " + fixedNumber(mean.mean, decimals);
-    if (values.size() > 1) words += " (" + fixedNumber(mean.least, decimals) + " to " + fixedNumber(mean.most, decimals) + ")";
+    if (values.size() > 1)
+        words += " (" + fixedNumber(mean.least, decimals) + " to " + fixedNumber(mean.most, decimals) + ")";
     return words;
 }
 
-std::string peopleWords(std::size_t n) { return std::to_string(n) + (n == 1 ? " participant" : " participants"); }
+std::string peopleWords(std::size_t n) {
+    return std::to_string(n) + (n == 1 ? " participant" : " participants");
+}
 
-std::string prefixOf(const std::string& condition) { return condition.empty() ? "" : printable(condition) + ": "; }
+std::string prefixOf(const std::string& condition) {
+    return condition.empty() ? "" : printable(condition) + ": ";
+}
 
-void leaveOut(AnalysisReport& report, const std::string& condition, const std::string& participant, const std::string& fault) {
-    report.warnings.push_back(prefixOf(condition) + "participant " + printable(participant) + " left out: " + fault);
+void leaveOut(AnalysisReport& report, const std::string& condition, const std::string& participant,
+              const std::string& fault) {
+    report.warnings.push_back(prefixOf(condition) + "participant " + printable(participant) +
+                              " left out: " + fault);
 }
 
 /// One line for all who were left out.
-AnalysisReport nobodyFitted(const AnalysisJob& o, const AnalysisReport& report) { return {o.files.front() + ": nobody can be fitted; " + report.warnings.back()}; }
+AnalysisReport nobodyFitted(const AnalysisJob& o, const AnalysisReport& report) {
+    return {o.files.front() + ": nobody can be fitted; " + report.warnings.back()};
+}
 
 /// Of the first condition; a report has all.
 ChartFrame frameOf(const AnalysisJob& o, const std::string& condition, bool isSimulated) {
-    return {"fit", condition.empty() ? std::filesystem::path{o.files.front()}.filename().string() : condition, isSimulated};
+    return {"fit", condition.empty() ? std::filesystem::path{o.files.front()}.filename().string() : condition,
+            isSimulated};
 }
 
 /// Of a threshold that no level was near; empty if it lies between the participant's levels.
@@ -71,7 +82,8 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
-    ExportTable table{"psychometric", report.isSimulated, "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood"};
+    ExportTable table{"psychometric", report.isSimulated,
+                      "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood"};
     for (const auto& condition : data.value.conditions) {
         std::vector<double> thresholds, jnds;
         for (const auto& own : psychometricByParticipant(condition.trials, o.model)) {
@@ -85,7 +97,9 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
             thresholds.push_back(f.threshold);
             jnds.push_back(f.jnd());
             table.cell(condition.name).cell(own.participant).cell(own.trials);
-            for (const double number : {f.threshold, f.width, f.jnd(), f.guess, f.lapse, own.fit.logLikelihood}) table.cell(number);
+            for (const double number :
+                 {f.threshold, f.width, f.jnd(), f.guess, f.lapse, own.fit.logLikelihood})
+                table.cell(number);
             table.endRow();
         }
         if (thresholds.empty()) return nobodyFitted(o, report);
@@ -108,7 +122,8 @@ AnalysisReport analysePowerLaw(const AnalysisJob& o) {
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
-    ExportTable table{"power-law", report.isSimulated, "condition,participant,trials,exponent,factor,r_squared"};
+    ExportTable table{"power-law", report.isSimulated,
+                      "condition,participant,trials,exponent,factor,r_squared"};
     for (const auto& condition : data.value.conditions) {
         std::vector<double> exponents;
         for (const auto& own : powerLawByParticipant(condition.trials)) {
@@ -117,16 +132,25 @@ AnalysisReport analysePowerLaw(const AnalysisJob& o) {
                 continue;
             }
             exponents.push_back(own.law.exponent);
-            table.cell(condition.name).cell(own.participant).cell(own.trials).cell(own.law.exponent).cell(own.law.factor).cell(own.law.determination);
+            table.cell(condition.name)
+                .cell(own.participant)
+                .cell(own.trials)
+                .cell(own.law.exponent)
+                .cell(own.law.factor)
+                .cell(own.law.determination);
             table.endRow();
         }
         if (exponents.empty()) return nobodyFitted(o, report);
-        out << prefixOf(condition.name) << meanWords("exponent", exponents, 3) << ", " << peopleWords(exponents.size()) << '\n';
+        out << prefixOf(condition.name) << meanWords("exponent", exponents, 3) << ", "
+            << peopleWords(exponents.size()) << '\n';
     }
     report.words = out.str();
     report.table = table.text();
     const auto first = data.value.conditions.front();
-    report.picture = [first, level = o.level.empty() ? std::string("level") : o.level, frame = frameOf(o, first.name, report.isSimulated)] { return powerLawChart(frame, first.trials, level); };
+    report.picture = [first, level = o.level.empty() ? std::string("level") : o.level,
+                      frame = frameOf(o, first.name, report.isSimulated)] {
+        return powerLawChart(frame, first.trials, level);
+    };
     return report;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Functions fitted to each participant's trials: psychometric functions, and the power law of magnitude estimations.
+// Functions fitted to each participant's trials: psychometric functions, and the power law of magnitude
+// estimations.
 #pragma once
 
 namespace physvib {

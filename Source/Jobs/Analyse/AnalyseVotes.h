@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Analyses of opinions and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
+// Analyses of opinions and levels: forced choices, slider ratings, staircases, QUEST+, adjustments,
+// magnitudes.
 #pragma once
 
 namespace physvib {

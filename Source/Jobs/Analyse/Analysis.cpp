@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The list of all analyses, and which of them fit a table.
 #include "Jobs/Analyse/Analysis.h"
-#include "Study/Files/TrialColumns.h"
 #include "Jobs/Analyse/AnalyseFits.h"
 #include "Jobs/Analyse/AnalyseGrids.h"
 #include "Jobs/Analyse/AnalyseLabels.h"
 #include "Jobs/Analyse/AnalyseTests.h"
 #include "Jobs/Analyse/AnalyseVotes.h"
+#include "Study/Files/TrialColumns.h"
 #include "Study/StudyTasks.h"
 #include <algorithm>
 #include <filesystem>
@@ -43,7 +43,12 @@ constexpr Analysis analyses[] = {
     {Analysis::Kind::fit, "power-law", "Stevens' exponent of magnitude estimations", analysePowerLaw},
 };
 
-static_assert(std::ranges::all_of(studyTasks, [](const auto& task) { return task.analysis.empty() || std::ranges::find(analyses, task.analysis, &Analysis::name) != std::end(analyses); }),
+static_assert(std::ranges::all_of(studyTasks,
+                                  [](const auto& task) {
+                                      return task.analysis.empty() ||
+                                             std::ranges::find(analyses, task.analysis, &Analysis::name) !=
+                                                 std::end(analyses);
+                                  }),
               "every task's analysis is one of these");
 
 /// "trials of the task locate", or "columns of such trials" where a table names no task.
@@ -51,7 +56,9 @@ std::string trialWordsOf(const CsvTable& table, const std::string& analysis) {
     const auto task = table.column(trialColumns::task);
     std::set<std::string> tasks;
     for (const CsvRow& row : table.rows)
-        if (const StudyTaskDescription* const did = task ? studyTaskNamed(row.cells[*task]) : nullptr; did != nullptr && (did->analysis == analysis || (analysis == "levels" && did->answer == AnswerKind::choice)))
+        if (const StudyTaskDescription* const did = task ? studyTaskNamed(row.cells[*task]) : nullptr;
+            did != nullptr &&
+            (did->analysis == analysis || (analysis == "levels" && did->answer == AnswerKind::choice)))
             tasks.emplace(did->name);
     if (tasks.empty()) return "the columns of another kind of trials";
     std::string words = tasks.size() == 1 ? "trials of the task" : "trials of the tasks";
@@ -72,9 +79,12 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
             const StudyTaskDescription* const did = studyTaskNamed(row.cells[*task]);
             if (did == nullptr) continue;
             const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
-            const bool isAdapted = did->answer == AnswerKind::choice && correct && !row.cells[*correct].empty();
-            if (isAdapted || did->analysis == "levels") found.insert("levels"); // of trainings, too
-            else if (!isTraining) found.emplace(did->analysis);
+            const bool isAdapted =
+                did->answer == AnswerKind::choice && correct && !row.cells[*correct].empty();
+            if (isAdapted || did->analysis == "levels")
+                found.insert("levels"); // of trainings, too
+            else if (!isTraining)
+                found.emplace(did->analysis);
         }
     } else {
         if (has("stimulus") && has("response")) found.insert("confusion");
@@ -86,8 +96,10 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
         if (has("c1")) found.insert("percent-counts");
         if (has("choice")) found.insert("choices");
         if ((has("value") && has("stimulus")) || (has("level_db") && has("correct"))) found.insert("levels");
-        const bool hasScale = std::ranges::any_of(table.columns, [](const auto& column) { return !trialColumns::has(column); });
-        if (found.empty() && has("participant") && (has("stimulus") || has("condition")) && hasScale) found.insert("ratings");
+        const bool hasScale =
+            std::ranges::any_of(table.columns, [](const auto& column) { return !trialColumns::has(column); });
+        if (found.empty() && has("participant") && (has("stimulus") || has("condition")) && hasScale)
+            found.insert("ratings");
     }
     std::vector<std::string> names;
     for (const Analysis& analysis : analyses)
@@ -97,12 +109,14 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
 
 namespace {
 
-/// Of a table that an analysis could not take: which trials it holds, and which call reads them. Empty if no analysis is known for them, or if
-/// it is this one's own kind and something else is wrong.
+/// Of a table that an analysis could not take: which trials it holds, and which call reads them. Empty if no
+/// analysis is known for them, or if it is this one's own kind and something else is wrong.
 std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     if (asked.kind == Analysis::Kind::test || job.files.empty() || job.made != nullptr) return {};
     const auto text = readFile(job.files.front(), limits::maxTableBytes);
-    auto table = text ? readCsvTable(text.value, job.files.front(), job.columns.empty() ? CsvHeader::named : CsvHeader::loose) : Result<CsvTable>{Failure{text.error}};
+    auto table = text ? readCsvTable(text.value, job.files.front(),
+                                     job.columns.empty() ? CsvHeader::named : CsvHeader::loose)
+                      : Result<CsvTable>{Failure{text.error}};
     std::size_t leftOut = 0;
     if (!table || !takeColumns(table.value, job.columns, leftOut).empty()) return {};
     std::string words;
@@ -111,7 +125,11 @@ std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
             (asked.name == "icons" && name == "confusion") ||
             (asked.name == "places" && name == "resolution" && table.value.column("target_x")))
             return {};
-        words.append(words.empty() ? "; the file has " : ", and ").append(trialWordsOf(table.value, name)).append(", which `physvib analyse ").append(name).append("` reads");
+        words.append(words.empty() ? "; the file has " : ", and ")
+            .append(trialWordsOf(table.value, name))
+            .append(", which `physvib analyse ")
+            .append(name)
+            .append("` reads");
     }
     return words;
 }

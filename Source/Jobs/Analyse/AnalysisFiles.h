@@ -4,10 +4,10 @@
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
-#include "Study/Files/StudyCsv.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
 #include "Pictures/StudyPictures.h"
+#include "Study/Files/StudyCsv.h"
 #include <map>
 #include <string>
 #include <string_view>
@@ -30,7 +30,7 @@ inline std::string wholeLabel(std::string_view label) {
 /// What an analysis reads.
 struct StudySources {
     std::vector<std::string> files;
-    std::vector<ColumnName> columns{};                          ///< of another program's tables
+    std::vector<ColumnName> columns{}; ///< of another program's tables
     /// tables by their names that are not on the disk (yet); they have our columns
     const std::map<std::string, std::string>* made = nullptr;
     bool operator==(const StudySources&) const = default;
@@ -38,7 +38,8 @@ struct StudySources {
 
 /// Reads every file and gives the texts to `reader` at once.
 template <class Reader>
-auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t mostBytes = limits::maxTableBytes) -> decltype(reader(std::vector<NamedText>{})) {
+auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t mostBytes = limits::maxTableBytes)
+    -> decltype(reader(std::vector<NamedText>{})) {
     std::vector<std::string> texts(sources.files.size());
     std::vector<NamedText> files;
     for (std::size_t i = 0; i < texts.size(); ++i) {

@@ -70,7 +70,8 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
     for (const auto& [level, count] : counts) largest = std::max(largest, count.second);
     for (const auto& [level, count] : counts) {
         const double share = 100.0 * count.first / count.second;
-        answers.points.push_back({level, {share, share, share}, 0.5 + 1.3 * std::sqrt(count.second / largest)});
+        answers.points.push_back(
+            {level, {share, share, share}, 0.5 + 1.3 * std::sqrt(count.second / largest)});
     }
     if (!thresholds.empty()) {
         LineSeries mean = curve(
@@ -87,10 +88,12 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
     return lineChart(chart);
 }
 
-std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials, const std::string& levelWords) {
+std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
+                          const std::string& levelWords) {
     std::map<std::string, std::map<double, std::vector<double>>> people; // log10 of magnitudes
     for (const LevelAnswer& trial : trials)
-        if (trial.answer > 0.0 && trial.level > 0.0) people[trial.participant][trial.level].push_back(std::log10(trial.answer));
+        if (trial.answer > 0.0 && trial.level > 0.0)
+            people[trial.participant][trial.level].push_back(std::log10(trial.answer));
     std::map<double, std::vector<double>> relative;
     for (const auto& [who, levels] : people) {
         std::vector<double> means;
@@ -106,7 +109,10 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
     double middle = 0.0;
     for (const auto& [level, values] : relative) {
         const Moments moments{values};
-        points.points.push_back({level, {std::pow(10.0, moments.mean), std::pow(10.0, moments.mean - moments.halfInterval()), std::pow(10.0, moments.mean + moments.halfInterval())}});
+        points.points.push_back(
+            {level,
+             {std::pow(10.0, moments.mean), std::pow(10.0, moments.mean - moments.halfInterval()),
+              std::pow(10.0, moments.mean + moments.halfInterval())}});
         middle += std::log10(level) / static_cast<double>(relative.size());
     }
     std::vector<double> exponents;

@@ -26,6 +26,7 @@ int decimalsOf(double jnd) noexcept;
 
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                               const PsychometricModel& model, const FitWords& words);
-std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials, const std::string& levelWords);
+std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
+                          const std::string& levelWords);
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conditions whose names have two parts, as PHONE-3x3, as series and groups of a chart, and as factors of a test.
+// Conditions whose names have two parts, as PHONE-3x3, as series and groups of a chart, and as factors of a
+// test.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +13,9 @@ struct ConditionAxes {
     std::vector<std::string> series, groups; ///< one empty series: conditions are groups
     std::vector<std::string> factors;        ///< for --within; empty: one condition
 
-    std::string conditionOf(std::size_t s, std::size_t g) const { return series[s].empty() ? groups[g] : series[s] + "-" + groups[g]; }
+    std::string conditionOf(std::size_t s, std::size_t g) const {
+        return series[s].empty() ? groups[g] : series[s] + "-" + groups[g];
+    }
 
     /// `names`: each once. Any thread (allocates).
     static ConditionAxes of(std::vector<std::string> names) {
@@ -20,11 +23,13 @@ struct ConditionAxes {
         ConditionAxes axes;
         for (const std::string& name : names) {
             const std::size_t hyphen = name.find('-');
-            if (hyphen == std::string::npos || name.find('-', hyphen + 1) != std::string::npos) return plain(std::move(names));
+            if (hyphen == std::string::npos || name.find('-', hyphen + 1) != std::string::npos)
+                return plain(std::move(names));
             add(axes.series, name.substr(0, hyphen));
             add(axes.groups, name.substr(hyphen + 1));
         }
-        if (axes.series.size() * axes.groups.size() != names.size() || axes.groups.size() < 2) return plain(std::move(names));
+        if (axes.series.size() * axes.groups.size() != names.size() || axes.groups.size() < 2)
+            return plain(std::move(names));
         if (axes.series.size() > 1) axes.factors.emplace_back("condition.1");
         axes.factors.emplace_back("condition.2");
         return axes;
@@ -33,7 +38,9 @@ struct ConditionAxes {
 private:
     static ConditionAxes plain(std::vector<std::string> names) {
         const bool isOne = names.size() < 2;
-        return {{""}, std::move(names), isOne ? std::vector<std::string>{} : std::vector<std::string>{"condition"}};
+        return {{""},
+                std::move(names),
+                isOne ? std::vector<std::string>{} : std::vector<std::string>{"condition"}};
     }
     static void add(std::vector<std::string>& words, std::string word) {
         if (std::ranges::find(words, word) == words.end()) words.push_back(std::move(word));

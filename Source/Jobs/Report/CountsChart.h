@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Percent counts as a picture: of a study's responses, of what merging makes of them, and of those that are published.
+// Percent counts as a picture: of a study's responses, of what merging makes of them, and of those that are
+// published.
 #pragma once
 #include "Io/Charts/Charts.h"
 #include "Study/PercentCounts.h"

@@ -27,18 +27,10 @@ std::string joinedWords(const Items& items, const char* between, WordsOf wordsOf
     return words;
 }
 
-std::string spoken(const std::string& words) {
-    return "\u201c" + words + "\u201d";
-}
-std::string secondsWords(double seconds) {
-    return numberText(seconds) + " s";
-}
-std::string dbWords(double db) {
-    return numberText(db) + " dB";
-}
-std::string rangeWords(double from, double to) {
-    return "from " + numberText(from) + " to " + dbWords(to);
-}
+std::string spoken(const std::string& words) { return "\u201c" + words + "\u201d"; }
+std::string secondsWords(double seconds) { return numberText(seconds) + " s"; }
+std::string dbWords(double db) { return numberText(db) + " dB"; }
+std::string rangeWords(double from, double to) { return "from " + numberText(from) + " to " + dbWords(to); }
 
 std::string setWords(const PatternSet& set) {
     return "pulse patterns on " + std::to_string(set.enchanters) +

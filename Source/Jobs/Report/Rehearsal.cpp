@@ -16,7 +16,8 @@ ReportTrials rehearse(const std::string& name, const std::string& observer, int 
         Experiment experiment{protocol, participant};
         const SimulatedObserver answering{*observerNamed(observer), protocol, participant};
         std::string text = trialHeader(protocol, participant, PHYSVIB_VERSION);
-        while (!experiment.isDone()) text += trialRow(protocol, participant, experiment.take(answering.answer(experiment)));
+        while (!experiment.isDone())
+            text += trialRow(protocol, participant, experiment.take(answering.answer(experiment)));
         texts.emplace_back(name + "-" + code + ".csv", std::move(text));
     }
     return readReportTrials(texts, {}, protocol).value;

@@ -6,7 +6,8 @@
 
 namespace physvib {
 
-/// The trials of that built-in protocol, of so many participants who answer as `observer` does. Marked as simulated. Any thread (allocates).
+/// The trials of that built-in protocol, of so many participants who answer as `observer` does. Marked as
+/// simulated. Any thread (allocates).
 ReportTrials rehearse(const std::string& protocol, const std::string& observer, int participants);
 
 } // namespace physvib

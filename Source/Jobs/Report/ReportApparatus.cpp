@@ -21,17 +21,21 @@ struct Felt {
 /// Device, master level, noise, version: what was the same, and of which trials.
 using Kinds = std::map<std::vector<std::string>, Felt>;
 
-bool isNoise(const std::string& cell) {
-    return cell != columns::noNoise && !cell.empty();
-}
+bool isNoise(const std::string& cell) { return cell != columns::noNoise && !cell.empty(); }
 
 std::vector<std::string> sentencesOf(const Kinds& kinds) {
     std::vector<std::string> sentences;
     for (const auto& [kind, felt] : kinds) {
         const bool hasNoise = isNoise(kind[2]);
-        sentences.push_back(std::to_string(felt.trials) + " trials were felt through the device " + kind[0] + " at a master level of " + kind[1] + " dB, " +
-                            (hasNoise ? "with pink noise of " + kind[2] + " dB of full scale (root mean square)" : std::string{"without pink noise"}) + "; " +
-                            (felt.limited > 0 ? "the limiter lowered " + std::to_string(felt.limited) + " of them, by at most " + fixedNumber(felt.mostLimitedDb, 1) + " dB." : std::string{"the limiter lowered none of them."}));
+        sentences.push_back(
+            std::to_string(felt.trials) + " trials were felt through the device " + kind[0] +
+            " at a master level of " + kind[1] + " dB, " +
+            (hasNoise ? "with pink noise of " + kind[2] + " dB of full scale (root mean square)"
+                      : std::string{"without pink noise"}) +
+            "; " +
+            (felt.limited > 0 ? "the limiter lowered " + std::to_string(felt.limited) +
+                                    " of them, by at most " + fixedNumber(felt.mostLimitedDb, 1) + " dB."
+                              : std::string{"the limiter lowered none of them."}));
     }
     return sentences;
 }
@@ -62,26 +66,35 @@ void tellApparatus(ReportBuilder& report) {
             ++unknown;
             continue;
         }
-        Felt& felt = kinds[{cell(row, columns::device), cell(row, columns::masterDb), cell(row, columns::noiseDb), cell(row, columns::version)}];
+        Felt& felt = kinds[{cell(row, columns::device), cell(row, columns::masterDb),
+                            cell(row, columns::noiseDb), cell(row, columns::version)}];
         const double db = parseNumber<double>(cell(row, columns::limiterDb)).value_or(0.0);
         ++felt.trials;
         felt.limited += db > 0.05 ? 1 : 0;
         felt.mostLimitedDb = std::max(felt.mostLimitedDb, db);
     }
-    if (unknown > 0) report.page.note(std::to_string(unknown) + " trials do not say on which device, at which level and with which noise they were felt: nothing is claimed about that");
+    if (unknown > 0)
+        report.page.note(std::to_string(unknown) +
+                         " trials do not say on which device, at which level and with which noise they were "
+                         "felt: nothing is claimed about that");
     if (kinds.empty()) return tellNoise(report, kinds);
-    ExportTable table{"apparatus", report.isSimulated(), "device,master_db,noise_db,version,trials,trials_with_the_limiter,most_limiter_db"};
+    ExportTable table{"apparatus", report.isSimulated(),
+                      "device,master_db,noise_db,version,trials,trials_with_the_limiter,most_limiter_db"};
     for (const auto& [kind, felt] : kinds) {
         for (const std::string& word : kind) table.cell(word);
         table.cell(felt.trials).cell(felt.limited).cell(felt.mostLimitedDb);
         table.endRow();
     }
     report.addTable("apparatus.csv", table.text());
-    report.page.paragraph("Device, master level in dB, root mean square of the pink noise in dB of full scale (off: there was none), version of the program, and by how much the limiter lowered what was felt.");
+    report.page.paragraph(
+        "Device, master level in dB, root mean square of the pink noise in dB of full scale (off: there was "
+        "none), version of the program, and by how much the limiter lowered what was felt.");
     report.page.table(table.text(), "apparatus.csv");
     for (const std::string& sentence : sentencesOf(kinds)) report.page.paragraph(sentence);
     tellNoise(report, kinds);
-    if (kinds.size() > 1) report.page.note("trials were felt with " + std::to_string(kinds.size()) + " different settings of the apparatus");
+    if (kinds.size() > 1)
+        report.page.note("trials were felt with " + std::to_string(kinds.size()) +
+                         " different settings of the apparatus");
 }
 
 } // namespace physvib

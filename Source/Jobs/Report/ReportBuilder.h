@@ -40,11 +40,14 @@ public:
     void addTable(const std::string& name, std::string csv) { tables_[name] = std::move(csv); }
     const std::string& tableText(const std::string& name) const { return tables_.at(name); }
 
-    /// Runs an analysis: its warnings and words go onto the page, its table beside it, under `name`.CSV. Empty `error` if all is well.
+    /// Runs an analysis: its warnings and words go onto the page, its table beside it, under `name`.CSV.
+    /// Empty `error` if all is well.
     AnalysisReport analysis(const std::string& kind, const AnalysisJob& options, const std::string& name);
 
-    /// Runs a test: its call and lines go onto the page, its table beside it. No lines: why not stands on the page. Long ones show no lines, only where they are.
-    std::vector<TestLine> test(const std::string& kind, AnalysisJob options, const std::string& name, bool isLong = false);
+    /// Runs a test: its call and lines go onto the page, its table beside it. No lines: why not stands on the
+    /// page. Long ones show no lines, only where they are.
+    std::vector<TestLine> test(const std::string& kind, AnalysisJob options, const std::string& name,
+                               bool isLong = false);
 
     /// A name for the next chart.
     std::string chartName() { return "chart" + std::to_string(++charts_); }
@@ -55,7 +58,7 @@ public:
 private:
     void warn(const std::vector<std::string>& warnings);
     void tellAssumptions(AnalysisJob options, const std::string& name); ///< of an analysis of variance
-    std::map<std::string, std::string> tables_; // by file name
+    std::map<std::string, std::string> tables_;                         // by file name
     std::vector<ReportTest> tests_;
     std::vector<std::string> warned_;
     int charts_ = 0;

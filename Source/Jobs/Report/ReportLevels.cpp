@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Levels: thresholds with the functions behind them, matches, magnitudes.
-#include "Jobs/Analyse/FitCharts.h"
-#include "Jobs/Report/ReportSections.h"
 #include "Io/Charts/Charts.h"
-#include "Study/Files/StudyCsv.h"
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
+#include "Jobs/Analyse/FitCharts.h"
+#include "Jobs/Report/ReportSections.h"
+#include "Study/Files/StudyCsv.h"
 #include "Study/LevelTrials.h"
 #include <algorithm>
 
@@ -25,7 +25,8 @@ void tellThresholds(ReportBuilder& report) {
     report.page.subheading("Psychometric functions");
     AnalysisJob fit = report.optionsFor(trialsTable);
     fit.model.guess = guessOf(report.trials);
-    if (const auto words = report.analysis("psychometric", fit, "psychometric.csv"); !words.error.empty()) return;
+    if (const auto words = report.analysis("psychometric", fit, "psychometric.csv"); !words.error.empty())
+        return;
     const NamedText file{report.tableText(trialsTable), trialsTable};
     const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
@@ -55,8 +56,14 @@ void tellMagnitudes(ReportBuilder& report) {
     if (!words.error.empty()) return;
     std::vector<std::string> charts;
     for (const auto& condition : data.value.conditions)
-        charts.push_back(powerLawChart({report.chartName(), condition.name.empty() ? "Magnitudes" : condition.name, report.isSimulated()}, condition.trials, "level"));
-    report.page.figure(charts, "Magnitude estimations: geometric means over participants with 95 % intervals, and the mean power law, both axes logarithmic. Each participant's numbers are divided by their own geometric mean first, as everyone chooses a scale.");
+        charts.push_back(
+            powerLawChart({report.chartName(), condition.name.empty() ? "Magnitudes" : condition.name,
+                           report.isSimulated()},
+                          condition.trials, "level"));
+    report.page.figure(charts,
+                       "Magnitude estimations: geometric means over participants with 95 % intervals, and "
+                       "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
+                       "their own geometric mean first, as everyone chooses a scale.");
     AnalysisJob test = report.optionsFor(trialsTable);
     test.measure = "value";
     test.within = {"stimulus"};
@@ -77,11 +84,16 @@ std::string valuesOf(std::string_view stimulus) {
 }
 
 std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
-    BarChart chart{{report.chartName(), "Matched levels", report.isSimulated()}, "stimulus", "level (dB)", {}, {{"", {}}}};
+    BarChart chart{{report.chartName(), "Matched levels", report.isSimulated()},
+                   "stimulus",
+                   "level (dB)",
+                   {},
+                   {{"", {}}}};
     for (const LevelSummary& s : summaries) {
         if (s.kind != LevelTrial::Kind::adjustment) continue;
         chart.groups.push_back(valuesOf(s.stimulus));
-        chart.series.front().bars.push_back(ChartValue{s.estimate, s.estimate - s.halfInterval, s.estimate + s.halfInterval});
+        chart.series.front().bars.push_back(
+            ChartValue{s.estimate, s.estimate - s.halfInterval, s.estimate + s.halfInterval});
     }
     return chart.groups.size() < 2 ? std::string{} : barChart(chart);
 }
@@ -128,7 +140,9 @@ void tellLevels(ReportBuilder& report) {
         return;
     tellEndsOfRanges(report);
     if (const std::string chart = matchesChart(report, summariseLevels(trials)); !chart.empty())
-        report.page.figure({chart}, "Levels that were set until both were equally strong: means, 95 % intervals over participants.");
+        report.page.figure(
+            {chart},
+            "Levels that were set until both were equally strong: means, 95 % intervals over participants.");
     if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest)) tellThresholds(report);
     if (has(LevelTrial::Kind::magnitude)) tellMagnitudes(report);
 }

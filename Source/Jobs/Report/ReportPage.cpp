@@ -3,8 +3,8 @@
 #include "Jobs/Report/ReportPage.h"
 #include "Io/Charts/Svg.h"
 #include "Io/Text/CsvTable.h"
-#include "Io/Text/NumberText.h"
 #include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -33,7 +33,8 @@ figure { margin: 1.4em 0; text-align: center; break-inside: avoid; } figure svg 
 /// "2.7e-06".
 std::string shortPower(double number) {
     char digits[32];
-    return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::scientific, 1).ptr};
+    return {digits,
+            std::to_chars(digits, digits + sizeof digits, number, std::chars_format::scientific, 1).ptr};
 }
 
 /// Four significant places for a reader; the file beside has all.
@@ -63,8 +64,12 @@ std::string cellHtml(const std::string& cell) {
 } // namespace
 
 ReportPage::ReportPage(std::string title, bool isSimulated, std::string mark)
-    : title_{std::move(title)}, mark_{std::move(mark)}, isSimulated_{isSimulated} {
-    if (isSimulated_ && mark_.empty()) mark_ = "SIMULATED: a simulated observer answered, not a person. No figure here says anything about people.";
+    : title_{std::move(title)}
+    , mark_{std::move(mark)}
+    , isSimulated_{isSimulated} {
+    if (isSimulated_ && mark_.empty())
+        mark_ = "SIMULATED: a simulated observer answered, not a person. No figure here says anything about "
+                "people.";
 }
 
 void ReportPage::element(std::string_view tag, std::string_view words) {
@@ -112,20 +117,26 @@ void ReportPage::table(std::string_view csv, std::string_view file, std::size_t 
         body_ += "</tr>\n";
     }
     body_ += "</table>\n";
-    if (read.value.rows.size() > mostRows) paragraph("and " + std::to_string(read.value.rows.size() - mostRows) + " more rows in " + std::string(file));
+    if (read.value.rows.size() > mostRows)
+        paragraph("and " + std::to_string(read.value.rows.size() - mostRows) + " more rows in " +
+                  std::string(file));
     if (isFolded) body_ += "</details>\n";
 }
 
 void ReportPage::figure(const std::vector<std::string>& svgs, std::string_view caption) {
     body_ += "<figure>\n";
     for (const std::string& svg : svgs) body_ += svg;
-    body_ += "<figcaption><b>Figure " + std::to_string(++figures_) + "</b> " + markup(caption) + "</figcaption>\n</figure>\n";
+    body_ += "<figcaption><b>Figure " + std::to_string(++figures_) + "</b> " + markup(caption) +
+             "</figcaption>\n</figure>\n";
 }
 
 std::string ReportPage::html() const {
-    std::string out = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
-    out += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n<title>" + markup(title_) + (isSimulated_ ? " (simulated)" : "") +
-           "</title>\n<style>" + std::string(pageStyle) + "</style>\n</head>\n<body>\n<h1>" + markup(title_) + "</h1>\n";
+    std::string out = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+                      "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+    out += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+           "'unsafe-inline'\">\n<title>" +
+           markup(title_) + (isSimulated_ ? " (simulated)" : "") + "</title>\n<style>" +
+           std::string(pageStyle) + "</style>\n</head>\n<body>\n<h1>" + markup(title_) + "</h1>\n";
     if (isSimulated_) out += "<div class=\"watermark\" aria-hidden=\"true\">SIMULATED</div>\n";
     if (!mark_.empty()) out += "<p class=\"mark\">" + markup(mark_) + "</p>\n";
     return out + body_ + "</body>\n</html>\n";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A page of HTML that needs nothing but itself: no network, no script; A4 when printed. What comes from files is escaped here.
+// A page of HTML that needs nothing but itself: no network, no script; A4 when printed. What comes from files
+// is escaped here.
 #pragma once
 #include <string>
 #include <string_view>
@@ -21,7 +22,8 @@ public:
     void lines(std::string_view words); ///< as `analyse` prints them
     void call(std::string_view words);  ///< of the program
     void list(const std::vector<std::string>& items);
-    /// CSV text, comments and all; at most so many rows, and where the others are. Folded: shown by a click, and never in print.
+    /// CSV text, comments and all; at most so many rows, and where the others are. Folded: shown by a click,
+    /// and never in print.
     void table(std::string_view csv, std::string_view file, std::size_t mostRows = 60, bool isFolded = false);
     /// Charts beside each other, one caption.
     void figure(const std::vector<std::string>& svgs, std::string_view caption);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Places pointed at: responses and normals, perceived rows and columns, territories, percent counts.
+#include "Io/Charts/Charts.h"
 #include "Jobs/Report/CountsChart.h"
 #include "Jobs/Report/ReportSections.h"
-#include "Io/Charts/Charts.h"
 #include "Study/Files/StudyCsv.h"
 #include "Study/ResponseMap.h"
 #include "Study/Statistics/Moments.h"
@@ -18,24 +18,31 @@ struct PlacesOf {
 };
 
 PlaceChart fieldOf(ReportBuilder& report, const PlacesOf& one) {
-    PlaceChart chart{{report.chartName(), one.condition, report.isSimulated()}, one.resolution.normals.rows, one.resolution.normals.columns};
+    PlaceChart chart{{report.chartName(), one.condition, report.isSimulated()},
+                     one.resolution.normals.rows,
+                     one.resolution.normals.columns};
     const auto& normals = one.resolution.normals.normals;
     for (std::size_t i = 0; i < normals.size(); ++i)
-        if (normals[i].responses > 0) chart.ellipses.push_back({i, normals[i].meanX, normals[i].meanY, normals[i].varianceX, normals[i].varianceY, normals[i].covariance});
+        if (normals[i].responses > 0)
+            chart.ellipses.push_back({i, normals[i].meanX, normals[i].meanY, normals[i].varianceX,
+                                      normals[i].varianceY, normals[i].covariance});
     return chart;
 }
 
 std::string responsesChart(ReportBuilder& report, const PlacesOf& one) {
     PlaceChart chart = fieldOf(report, one);
     for (const LocationTrial& trial : one.trials)
-        chart.places.push_back({static_cast<std::size_t>(trial.targetRow - 1) * chart.columns + static_cast<std::size_t>(trial.targetColumn - 1), trial.x, trial.y});
+        chart.places.push_back({static_cast<std::size_t>(trial.targetRow - 1) * chart.columns +
+                                    static_cast<std::size_t>(trial.targetColumn - 1),
+                                trial.x, trial.y});
     return placeChart(chart);
 }
 
 std::string territoryChart(ReportBuilder& report, const PlacesOf& one) {
     constexpr std::size_t columns = 164, rows = 85; // fine enough for a page; percent counts use every pixel
     PlaceChart chart = fieldOf(report, one);
-    for (const std::uint16_t owner : likelihoodMap(one.resolution.normals, columns, rows)) chart.territory.push_back(owner);
+    for (const std::uint16_t owner : likelihoodMap(one.resolution.normals, columns, rows))
+        chart.territory.push_back(owner);
     chart.mapColumns = columns;
     for (const PlaceEllipse& e : chart.ellipses) chart.labels.push_back({e.target, e.x, e.y});
     chart.ellipses.clear();
@@ -43,11 +50,15 @@ std::string territoryChart(ReportBuilder& report, const PlacesOf& one) {
 }
 
 /// Mean perceived place against the intended one, over participants. `isRow`: rows, else columns.
-std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std::vector<PlacesOf>& places, bool isRow) {
-    const auto participant = all.column("participant"), condition = all.column("condition"), target = all.column(isRow ? "target_row" : "target_column"), at = all.column(isRow ? "y" : "x"),
-               phase = all.column("phase");
-    LineChart chart{{report.chartName(), isRow ? "Perceived row" : "Perceived column", report.isSimulated()}, isRow ? "intended target row" : "intended target column",
-                    isRow ? "perceived, share of the height" : "perceived, share of the width", {}};
+std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std::vector<PlacesOf>& places,
+                           bool isRow) {
+    const auto participant = all.column("participant"), condition = all.column("condition"),
+               target = all.column(isRow ? "target_row" : "target_column"),
+               at = all.column(isRow ? "y" : "x"), phase = all.column("phase");
+    LineChart chart{{report.chartName(), isRow ? "Perceived row" : "Perceived column", report.isSimulated()},
+                    isRow ? "intended target row" : "intended target column",
+                    isRow ? "perceived, share of the height" : "perceived, share of the width",
+                    {}};
     chart.width = 335.0;
     chart.height = 330.0;
     chart.yRange = {0.0, 1.0};
@@ -67,8 +78,11 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
             for (const auto& [who, values] : people) means.push_back(Moments(values).mean);
             const Moments moments{means};
             // so that intervals do not hide each other
-            const double offset = 0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1));
-            series.points.push_back({line + offset, {moments.mean, moments.mean - moments.halfInterval(), moments.mean + moments.halfInterval()}});
+            const double offset =
+                0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1));
+            series.points.push_back({line + offset,
+                                     {moments.mean, moments.mean - moments.halfInterval(),
+                                      moments.mean + moments.halfInterval()}});
         }
         chart.series.push_back(std::move(series));
     }
@@ -84,11 +98,13 @@ void testPlaces(ReportBuilder& report, const PlacesOf& one, bool hasConditions, 
         rows.insert(trial.targetRow);
         columns.insert(trial.targetColumn);
     }
-    const std::string suffix = (isRow ? "row" : "column") + (hasConditions ? "-" + fileWord(one.condition) : std::string{}) + ".csv";
+    const std::string suffix =
+        (isRow ? "row" : "column") + (hasConditions ? "-" + fileWord(one.condition) : std::string{}) + ".csv";
     if (rows.size() > 1) test.within.emplace_back("target_row");
     if (columns.size() > 1) test.within.emplace_back("target_column");
     if (test.within.empty()) return;
-    report.page.subheading((isRow ? "Perceived row" : "Perceived column") + (hasConditions ? ", " + one.condition : std::string{}));
+    report.page.subheading((isRow ? "Perceived row" : "Perceived column") +
+                           (hasConditions ? ", " + one.condition : std::string{}));
     report.test("anova", test, "anova-perceived-" + suffix);
     test.within = {isRow ? "target_row" : "target_column"};
     if ((isRow ? rows : columns).size() < 2) return;
@@ -103,7 +119,8 @@ void tellPlaces(ReportBuilder& report) {
     const NamedText file{report.tableText(trialsTable), trialsTable};
     const auto data = readLocations({&file, 1});
     if (!data) return report.page.note(data.error);
-    AnalysisReport resolution = report.analysis("resolution", report.optionsFor(trialsTable), "resolution.csv");
+    AnalysisReport resolution =
+        report.analysis("resolution", report.optionsFor(trialsTable), "resolution.csv");
     if (!resolution.error.empty()) return;
     report.addTable("percent-counts.csv", resolution.counts);
     std::vector<PlacesOf> places;
@@ -116,20 +133,36 @@ void tellPlaces(ReportBuilder& report) {
     for (const PlacesOf& one : places) {
         responses.push_back(responsesChart(report, one));
         territories.push_back(territoryChart(report, one));
-        counts.push_back(countsChart({report.chartName(), one.condition, report.isSimulated()}, one.resolution.counts));
+        counts.push_back(
+            countsChart({report.chartName(), one.condition, report.isSimulated()}, one.resolution.counts));
         const auto& ties = one.resolution.resolution.ties;
         if (!ties.empty())
-            grids.push_back(countsChart({report.chartName(), one.condition + ": " + std::to_string(ties.front().columnGroups.size()) + " x " + std::to_string(ties.front().rowGroups.size()), report.isSimulated()},
-                                        merged(one.resolution.counts, ties.front())));
+            grids.push_back(
+                countsChart({report.chartName(),
+                             one.condition + ": " + std::to_string(ties.front().columnGroups.size()) + " x " +
+                                 std::to_string(ties.front().rowGroups.size()),
+                             report.isSimulated()},
+                            merged(one.resolution.counts, ties.front())));
     }
-    report.page.figure(responses, "Every response (dots, coloured by target) and the normal distribution of each target's responses (ellipses of one standard deviation; as thesis Fig. 4.6).");
+    report.page.figure(responses,
+                       "Every response (dots, coloured by target) and the normal distribution of each "
+                       "target's responses (ellipses of one standard deviation; as thesis Fig. 4.6).");
     const auto& all = report.trials.all;
-    report.page.figure({perceivedChart(report, all, places, false), perceivedChart(report, all, places, true)}, "Mean perceived column and row against the intended one (as thesis Fig. 4.7), 95 % intervals over participants.");
-    report.page.figure(territories, "The likeliest target of every place (Eq. 4.4, 4.5; as thesis Fig. 4.8). Numbers, row,column of the target, stand at the mean of its responses; where one lies in another's territory, it is not told apart.");
-    report.page.figure(counts, "Percent counts: the share of the field that each target is likeliest for (as thesis Fig. 4.9 a). Framed: below 1.42 %.");
-    if (!grids.empty()) report.page.figure(grids, "Neighbouring rows and columns merged until every cell reaches 1.42 % (as thesis Fig. 4.9 b): the perceptual resolution, columns x rows.");
+    report.page.figure(
+        {perceivedChart(report, all, places, false), perceivedChart(report, all, places, true)},
+        "Mean perceived column and row against the intended one (as thesis Fig. 4.7), 95 % intervals over "
+        "participants.");
+    report.page.figure(territories, "The likeliest target of every place (Eq. 4.4, 4.5; as thesis Fig. 4.8). "
+                                    "Numbers, row,column of the target, stand at the mean of its responses; "
+                                    "where one lies in another's territory, it is not told apart.");
+    report.page.figure(counts, "Percent counts: the share of the field that each target is likeliest for (as "
+                               "thesis Fig. 4.9 a). Framed: below 1.42 %.");
+    if (!grids.empty())
+        report.page.figure(grids, "Neighbouring rows and columns merged until every cell reaches 1.42 % (as "
+                                  "thesis Fig. 4.9 b): the perceptual resolution, columns x rows.");
     report.page.subheading("Do perceived places differ by target?");
-    report.page.paragraph("As thesis Table 4.1, but over participants: each participant's mean per target is one value. The thesis' degrees of freedom are those of single trials.");
+    report.page.paragraph("As thesis Table 4.1, but over participants: each participant's mean per target is "
+                          "one value. The thesis' degrees of freedom are those of single trials.");
     const bool hasConditions = all.column("condition").has_value() && places.size() > 1;
     for (const PlacesOf& one : places)
         for (const bool isRow : {true, false}) testPlaces(report, one, hasConditions, isRow);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What stands in a paper's section on methods, as far as files know it.
+#include "Io/Text/CsvText.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
 #include "Jobs/Report/ProtocolWords.h"
 #include "Jobs/Report/ReportSections.h"
-#include "Io/Text/CsvText.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Study/Files/TrialColumns.h"
-#include "Study/StudyTasks.h"
 #include "Study/Statistics/Bootstrap.h"
 #include "Study/Statistics/Moments.h"
+#include "Study/StudyTasks.h"
 #include <algorithm>
 #include <set>
 #include <sstream>
@@ -65,19 +65,26 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
             own.adaptive += isMain && trials.knowTasks() && !cell(row, "correct").empty();
             own.observer = cell(row, trialColumns::observer);
             (cell(row, trialColumns::phase) == trialColumns::training ? own.training : own.main) += 1;
-            own.unanswered += answerOf(cell(row, trialColumns::task)) == AnswerKind::label && cell(row, "response").empty();
-            if (const auto seconds = parseNumber<double>(cell(row, "response_s")); seconds && cell(row, trialColumns::phase) != trialColumns::training) own.seconds.push_back(*seconds);
+            own.unanswered +=
+                answerOf(cell(row, trialColumns::task)) == AnswerKind::label && cell(row, "response").empty();
+            if (const auto seconds = parseNumber<double>(cell(row, "response_s"));
+                seconds && cell(row, trialColumns::phase) != trialColumns::training)
+                own.seconds.push_back(*seconds);
         }
     }
     return people;
 }
 
-std::string count(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+std::string count(std::size_t n, const char* what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
 
 /// Of a built-in protocol, once and all together.
 void tellDeviations(ReportPage& page, const Protocol& protocol) {
     std::vector<std::string> lines;
-    for (const ThesisDeviation& one : deviationsOf(protocol)) lines.push_back(std::string{one.section}.append(": ").append(one.thesis).append("; here: ").append(one.here));
+    for (const ThesisDeviation& one : deviationsOf(protocol))
+        lines.push_back(
+            std::string{one.section}.append(": ").append(one.thesis).append("; here: ").append(one.here));
     if (lines.empty()) return;
     page.subheading("Deviations from the thesis");
     page.list(lines);
@@ -87,7 +94,8 @@ void tellProtocol(ReportPage& page, const Protocol& protocol) {
     for (const std::string& sentence : protocolSentences(protocol)) page.paragraph(sentence);
     page.subheading("Conditions");
     std::vector<std::string> conditions, sessions;
-    for (const ConditionPlan& condition : protocol.conditions) conditions.push_back(conditionWords(condition));
+    for (const ConditionPlan& condition : protocol.conditions)
+        conditions.push_back(conditionWords(condition));
     for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session));
     page.list(conditions);
     page.subheading("Sessions");
@@ -120,7 +128,9 @@ void tellCalls(ReportBuilder& report) {
     }
     report.addTable("stimuli.csv", table.text());
     report.page.subheading("How stimuli were made");
-    report.page.paragraph("Each of these calls of physvib renders a stimulus again; one of each condition and session, all " + std::to_string(calls.size()) + " in stimuli.csv:");
+    report.page.paragraph(
+        "Each of these calls of physvib renders a stimulus again; one of each condition and session, all " +
+        std::to_string(calls.size()) + " in stimuli.csv:");
     for (const auto& [key, call] : examples) {
         std::string lines;
         for (std::size_t from = 0; from < call.size();) {
@@ -143,9 +153,11 @@ std::vector<double> numbersOf(std::string_view cell) {
 /// A sentence on a column of tellDoses' table, and a space.
 std::string meaningOf(std::string_view column) {
     if (column == "level_db")
-        return "level_db: in dB of the condition's own level, or of a call's full scale; where participants set a "
+        return "level_db: in dB of the condition's own level, or of a call's full scale; where participants "
+               "set a "
                "level, that at the start. ";
-    if (column == trialColumns::peakG) return "peak_g: the peak of what was felt, of each part of a trial, in g. ";
+    if (column == trialColumns::peakG)
+        return "peak_g: the peak of what was felt, of each part of a trial, in g. ";
     if (column == trialColumns::rmsG) return "rms_g: its root mean square, in g. ";
     if (column == trialColumns::exposure)
         return "a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1. ";
@@ -157,7 +169,8 @@ void tellDoses(ReportBuilder& report) {
     if (!report.trials.knowTasks()) return; // in units that only their program knows
     const CsvTable& all = report.trials.all;
     const Cells cell{all};
-    ExportTable table{"levels-and-exposure", report.isSimulated(), "condition,session,measure,values,least,mean,most"};
+    ExportTable table{"levels-and-exposure", report.isSimulated(),
+                      "condition,session,measure,values,least,mean,most"};
     std::string meanings;
     for (const std::string& column : all.columns) {
         if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
@@ -165,7 +178,10 @@ void tellDoses(ReportBuilder& report) {
         for (const CsvRow& row : all.rows)
             for (const double value : numbersOf(cell(row, column)))
                 values[{cell(row, "condition"), cell(row, "session")}].push_back(value);
-        if (column == "level_db" && std::ranges::all_of(values, [](const auto& v) { return std::ranges::all_of(v.second, [](double db) { return db == 0.0; }); })) continue;
+        if (column == "level_db" && std::ranges::all_of(values, [](const auto& v) {
+                return std::ranges::all_of(v.second, [](double db) { return db == 0.0; });
+            }))
+            continue;
         if (!values.empty()) meanings += meaningOf(column);
         for (const auto& [key, own] : values) {
             double sum = 0.0;
@@ -174,18 +190,22 @@ void tellDoses(ReportBuilder& report) {
             // levels follow answers, exposure adds up
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
             table.cell(*std::ranges::min_element(own));
-            if (hasMean) table.cell(sum / static_cast<double>(own.size()));
-            else table.cell("");
+            if (hasMean)
+                table.cell(sum / static_cast<double>(own.size()));
+            else
+                table.cell("");
             table.cell(*std::ranges::max_element(own));
             table.endRow();
         }
     }
     report.page.subheading("Levels and exposure");
-    if (meanings.empty()) return report.page.paragraph("Every trial had the level of its call; nobody measured what was felt.");
+    if (meanings.empty())
+        return report.page.paragraph("Every trial had the level of its call; nobody measured what was felt.");
     report.addTable("levels-and-exposure.csv", table.text());
     report.page.paragraph(meanings.substr(0, meanings.size() - 1));
     report.page.table(table.text(), "levels-and-exposure.csv");
-    if (meanings.find(trialColumns::exposure) == std::string::npos) report.page.note("exposure was not measured in these trials");
+    if (meanings.find(trialColumns::exposure) == std::string::npos)
+        report.page.note("exposure was not measured in these trials");
 }
 
 /// "6 female, 5 male, 1 not known": how often each word occurs; of `strangers` there is no line.
@@ -196,7 +216,8 @@ std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t 
     for (const PersonFacts* const person : people) ++counts[person->*field];
     std::string words;
     for (const auto& [word, number] : counts)
-        if (!word.empty()) words.append(words.empty() ? "" : ", ").append(std::to_string(number)).append(" ").append(word);
+        if (!word.empty())
+            words.append(words.empty() ? "" : ", ").append(std::to_string(number)).append(" ").append(word);
     if (counts.contains("") && !words.empty()) words += ", " + std::to_string(counts.at("")) + " not known";
     return words;
 }
@@ -211,22 +232,32 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
     for (const auto& [code, own] : attended) {
         const PersonFacts* const person = facts.person(code);
         strangers += person == nullptr;
-        if (person == nullptr && !facts.people.empty()) notes.push_back("nothing is known of participant " + code + ": no line in the table of people");
+        if (person == nullptr && !facts.people.empty())
+            notes.push_back("nothing is known of participant " + code + ": no line in the table of people");
         if (person == nullptr || !person->excluded.empty()) continue;
         people.push_back(person);
         if (person->ageYears) ages.push_back(*person->ageYears);
     }
     for (const PersonFacts& person : facts.people)
-        if (std::ranges::find(attended, person.participant, &std::pair<std::string, Attended>::first) == attended.end()) notes.push_back("participant " + person.participant + " of the table of people has no trials here");
+        if (std::ranges::find(attended, person.participant, &std::pair<std::string, Attended>::first) ==
+            attended.end())
+            notes.push_back("participant " + person.participant +
+                            " of the table of people has no trials here");
     const Moments moments{ages};
     if (!ages.empty())
-        report.page.paragraph("Age: mean " + fixedNumber(moments.mean, 1) + " years, standard deviation " + fixedNumber(moments.deviation, 1) + ", " + numberText(*std::ranges::min_element(ages)) + " to " +
-                              numberText(*std::ranges::max_element(ages)) + " (" + std::to_string(ages.size()) + " of " + std::to_string(people.size() + strangers) + " known).");
-    if (const std::string words = countsOf(people, strangers, &PersonFacts::sex); !words.empty()) report.page.paragraph("Sex: " + words + ".");
-    if (const std::string words = countsOf(people, strangers, &PersonFacts::handedness); !words.empty()) report.page.paragraph("Handedness: " + words + ".");
+        report.page.paragraph(
+            "Age: mean " + fixedNumber(moments.mean, 1) + " years, standard deviation " +
+            fixedNumber(moments.deviation, 1) + ", " + numberText(*std::ranges::min_element(ages)) + " to " +
+            numberText(*std::ranges::max_element(ages)) + " (" + std::to_string(ages.size()) + " of " +
+            std::to_string(people.size() + strangers) + " known).");
+    if (const std::string words = countsOf(people, strangers, &PersonFacts::sex); !words.empty())
+        report.page.paragraph("Sex: " + words + ".");
+    if (const std::string words = countsOf(people, strangers, &PersonFacts::handedness); !words.empty())
+        report.page.paragraph("Handedness: " + words + ".");
     if (!facts.ethics.empty()) report.page.paragraph("Ethics: " + facts.ethics);
     if (!facts.consent.empty()) report.page.paragraph("Consent: " + facts.consent);
-    if (facts.people.empty()) notes.emplace_back("to be filled in: age, sex and handedness of the participants (--people)");
+    if (facts.people.empty())
+        notes.emplace_back("to be filled in: age, sex and handedness of the participants (--people)");
     if (facts.ethics.empty()) notes.emplace_back("to be filled in: approval by an ethics board (--ethics)");
     if (facts.consent.empty()) notes.emplace_back("to be filled in: consent of the participants (--consent)");
     if (!report.isSimulated() || !facts.people.empty()) report.page.notes(notes);
@@ -253,47 +284,75 @@ void tellParticipants(ReportBuilder& report) {
     report.page.heading("Participants");
     const auto people = attendance(report.trials);
     const StudyFacts& facts = report.trials.facts;
-    ExportTable table{"participants", report.isSimulated(),
-                      std::string{"participant,number,observer,trials,training_trials,unanswered,median_response_s"} + (facts.people.empty() ? "" : ",age,sex,handedness,excluded")};
+    ExportTable table{
+        "participants", report.isSimulated(),
+        std::string{"participant,number,observer,trials,training_trials,unanswered,median_response_s"} +
+            (facts.people.empty() ? "" : ",age,sex,handedness,excluded")};
     std::size_t most = 0;
     for (const auto& [code, own] : people) {
-        table.cell(code).cell(own.number).cell(own.observer).cell(own.main).cell(own.training).cell(own.unanswered);
-        if (own.seconds.empty()) table.cell("");
-        else table.cell(medianOf(own.seconds));
+        table.cell(code)
+            .cell(own.number)
+            .cell(own.observer)
+            .cell(own.main)
+            .cell(own.training)
+            .cell(own.unanswered);
+        if (own.seconds.empty())
+            table.cell("");
+        else
+            table.cell(medianOf(own.seconds));
         if (!facts.people.empty()) {
             const PersonFacts* const person = facts.person(code);
             const PersonFacts one = person != nullptr ? *person : PersonFacts{};
-            table.cell(one.ageYears ? numberText(*one.ageYears) : std::string{}).cell(one.sex).cell(one.handedness).cell(one.excluded);
+            table.cell(one.ageYears ? numberText(*one.ageYears) : std::string{})
+                .cell(one.sex)
+                .cell(one.handedness)
+                .cell(one.excluded);
         }
         table.endRow();
         if (!facts.isExcluded(code)) most = std::max(most, own.main - own.adaptive);
     }
     report.addTable("participants.csv", table.text());
-    report.page.paragraph(count(people.size(), "participant") + " in " + count(report.trials.files.size(), "file") + ".");
+    report.page.paragraph(count(people.size(), "participant") + " in " +
+                          count(report.trials.files.size(), "file") + ".");
     if (!report.trials.sharedNote.empty()) report.page.note(report.trials.sharedNote);
     tellFacts(report, people);
-    if (people.size() == 1) report.page.note("one participant: intervals and tests over participants are not possible, and nothing here says anything about other people");
+    if (people.size() == 1)
+        report.page.note("one participant: intervals and tests over participants are not possible, and "
+                         "nothing here says anything about other people");
     report.page.table(table.text(), "participants.csv");
     std::vector<std::string> exclusions;
     for (const auto& [code, own] : people) {
         if (facts.isExcluded(code)) {
-            exclusions.push_back("participant " + code + " is excluded, with all trials: " + facts.person(code)->excluded);
+            exclusions.push_back("participant " + code +
+                                 " is excluded, with all trials: " + facts.person(code)->excluded);
             continue;
         }
-        if (own.main - own.adaptive < most) exclusions.push_back("participant " + code + " has " + std::to_string(own.main) + " trials, others have up to " + std::to_string(most) + ": tests leave out who lacks a combination of levels");
-        if (own.unanswered > 0) exclusions.push_back("participant " + code + ": " + count(own.unanswered, "trial") + " without an answer left out");
+        if (own.main - own.adaptive < most)
+            exclusions.push_back("participant " + code + " has " + std::to_string(own.main) +
+                                 " trials, others have up to " + std::to_string(most) +
+                                 ": tests leave out who lacks a combination of levels");
+        if (own.unanswered > 0)
+            exclusions.push_back("participant " + code + ": " + count(own.unanswered, "trial") +
+                                 " without an answer left out");
     }
-    if (report.trials.rowsLeftOut > 0) exclusions.push_back(count(report.trials.rowsLeftOut, "row") + " with nothing in one of the named columns left out");
+    if (report.trials.rowsLeftOut > 0)
+        exclusions.push_back(count(report.trials.rowsLeftOut, "row") +
+                             " with nothing in one of the named columns left out");
     report.page.subheading("Exclusions");
-    if (exclusions.empty()) report.page.paragraph("Nobody and no main trial is left out.");
-    else report.page.list(exclusions);
-    if (const std::string words = trainingWords(report.trials.all); !words.empty()) report.page.paragraph(words);
+    if (exclusions.empty())
+        report.page.paragraph("Nobody and no main trial is left out.");
+    else
+        report.page.list(exclusions);
+    if (const std::string words = trainingWords(report.trials.all); !words.empty())
+        report.page.paragraph(words);
 }
 
 void tellProcedure(ReportBuilder& report) {
     report.page.heading("Procedure");
-    if (report.trials.protocol) tellProtocol(report.page, *report.trials.protocol);
-    else report.page.note(report.trials.protocolNote);
+    if (report.trials.protocol)
+        tellProtocol(report.page, *report.trials.protocol);
+    else
+        report.page.note(report.trials.protocolNote);
     tellOrders(report);
     tellApparatus(report);
     tellCalls(report);
@@ -303,8 +362,13 @@ void tellProcedure(ReportBuilder& report) {
 void tellProvenance(ReportBuilder& report) {
     report.page.heading("Files, versions, seeds");
     std::vector<std::string> facts{std::string("report: physvib ") + PHYSVIB_VERSION};
-    for (const auto& [key, words] : std::initializer_list<std::pair<const char*, const char*>>{{"version", "trials: physvib "}, {"protocol", "protocol: "}, {"hash", "hash of the protocol: "}, {"seed", "seed of all orders: "}})
-        if (const std::string value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
+    for (const auto& [key, words] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"version", "trials: physvib "},
+                                                                    {"protocol", "protocol: "},
+                                                                    {"hash", "hash of the protocol: "},
+                                                                    {"seed", "seed of all orders: "}})
+        if (const std::string value = report.trials.common(key); !value.empty())
+            facts.push_back(words + value);
     const auto has = [&](const char* table) { return report.tables().contains(table); };
     if (has("psychometric.csv") || has("power-law.csv"))
         facts.push_back("intervals of thresholds and exponents over " + std::to_string(fewestDrawn) +

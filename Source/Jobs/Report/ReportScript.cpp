@@ -6,7 +6,8 @@
 namespace physvib {
 namespace {
 
-constexpr std::string_view scriptHead = R"R(# Repeats the tests of this report: Rscript report.R, in its folder. Needs R with the package afex (Debian: r-base-core r-cran-afex).
+constexpr std::string_view scriptHead =
+    R"R(# Repeats the tests of this report: Rscript report.R, in its folder. Needs R with the package afex (Debian: r-base-core r-cran-afex).
 suppressMessages(library(afex))
 options(warn = -1)
 checked <- 0; differing <- 0
@@ -130,11 +131,15 @@ std::string vectorInR(const std::vector<std::string>& words) {
 }
 
 std::string lineOf(const ReportTest& test) {
-    const std::string function = test.analysis == "anova" ? "anova.test" : test.analysis == "pairs" ? "pairs.test" : test.analysis;
-    std::string line = function + "(" + inR(test.table) + ", " + inR(test.options.files.front()) + ", " + inR(test.options.measure) + ", " + vectorInR(test.options.within);
+    const std::string function = test.analysis == "anova"   ? "anova.test"
+                                 : test.analysis == "pairs" ? "pairs.test"
+                                                            : test.analysis;
+    std::string line = function + "(" + inR(test.table) + ", " + inR(test.options.files.front()) + ", " +
+                       inR(test.options.measure) + ", " + vectorInR(test.options.within);
     if (!test.options.where.empty()) line += ", where = " + vectorInR(test.options.where);
     if (test.analysis == "pairs" && test.options.pairTest == PairTest::ranks) line += ", by = \"ranks\"";
-    if (test.analysis == "pairs" && test.options.correction == Correction::bonferroni) line += ", correction = \"bonferroni\"";
+    if (test.analysis == "pairs" && test.options.correction == Correction::bonferroni)
+        line += ", correction = \"bonferroni\"";
     return line + ")\n";
 }
 
@@ -144,7 +149,8 @@ std::string reportScript(const ReportBuilder& report) {
     std::string script{scriptHead};
     for (const ReportTest& test : report.tests()) script += lineOf(test);
     if (report.tables().contains("choices.csv")) script += "choices(\"choices.csv\", \"trials.csv\")\n";
-    return script + "\ncat(checked, \"p repeated,\", differing, \"differ\\n\")\nif (differing > 0) quit(status = 1)\n";
+    return script +
+           "\ncat(checked, \"p repeated,\", differing, \"differ\\n\")\nif (differing > 0) quit(status = 1)\n";
 }
 
 } // namespace physvib

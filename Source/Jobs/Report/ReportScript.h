@@ -6,7 +6,8 @@
 
 namespace physvib {
 
-/// Run in the report's folder, it prints each p beside R's and fails if one differs by more than a millionth. Any thread (allocates).
+/// Run in the report's folder, it prints each p beside R's and fails if one differs by more than a millionth.
+/// Any thread (allocates).
 std::string reportScript(const ReportBuilder& report);
 
 } // namespace physvib

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Files to one table; what their first lines say.
 #include "Jobs/Report/ReportTrials.h"
-#include "Study/Files/ProtocolFile.h"
 #include "Io/Text/NumberText.h"
+#include "Study/Files/ProtocolFile.h"
 #include "Study/Files/SharedParticipants.h"
 #include "Study/Files/TrialColumns.h"
 #include "Study/StudyTasks.h"
@@ -13,10 +13,15 @@ namespace physvib {
 namespace {
 
 bool saysSimulated(const TrialFile& file) {
-    const auto holds = [](const std::string& text) { return text.find(trialColumns::simulated) != std::string::npos; };
-    if (const auto observer = file.head.find("observer"); observer != file.head.end() && holds(observer->second)) return true;
+    const auto holds = [](const std::string& text) {
+        return text.find(trialColumns::simulated) != std::string::npos;
+    };
+    if (const auto observer = file.head.find("observer");
+        observer != file.head.end() && holds(observer->second))
+        return true;
     const auto column = file.table.column(trialColumns::observer);
-    return column && std::ranges::any_of(file.table.rows, [&](const CsvRow& row) { return holds(row.cells[*column]); });
+    return column &&
+           std::ranges::any_of(file.table.rows, [&](const CsvRow& row) { return holds(row.cells[*column]); });
 }
 
 std::string valueOf(const TrialFile& file, const std::string& key) {
@@ -50,16 +55,25 @@ CsvTable joined(const std::vector<TrialFile>& files) {
 
 void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) {
     const std::string name = trials.common("protocol"), hash = trials.common("hash");
-    const auto fits = [&](const Protocol& protocol) { return protocol.name == name && protocolHash(protocol) == hash; };
+    const auto fits = [&](const Protocol& protocol) {
+        return protocol.name == name && protocolHash(protocol) == hash;
+    };
     if (given) {
-        if (fits(*given)) trials.protocol = given;
-        else trials.protocolNote = "the protocol that was given is not the one of these trials (name and hash of their first lines)";
+        if (fits(*given))
+            trials.protocol = given;
+        else
+            trials.protocolNote = "the protocol that was given is not the one of these trials (name and hash "
+                                  "of their first lines)";
         return;
     }
     const auto& known = knownProtocols();
-    if (const auto found = std::ranges::find_if(known, fits); found != known.end()) trials.protocol = *found;
-    else if (name.empty()) trials.protocolNote = "the tables name no protocol";
-    else trials.protocolNote = "protocol " + printable(name) + " (hash " + printable(hash) + ") is no built-in one: give it by --protocol, and its own words stand here";
+    if (const auto found = std::ranges::find_if(known, fits); found != known.end())
+        trials.protocol = *found;
+    else if (name.empty())
+        trials.protocolNote = "the tables name no protocol";
+    else
+        trials.protocolNote = "protocol " + printable(name) + " (hash " + printable(hash) +
+                              ") is no built-in one: give it by --protocol, and its own words stand here";
 }
 
 /// Whether rows say how they were felt, and all of them without noise.
@@ -76,37 +90,45 @@ bool wasWithoutNoise(const CsvTable& all) {
 std::string callsFault(const CsvTable& table, const CallCheck& callFault) {
     const auto column = table.column("render");
     for (const CsvRow& row : table.rows)
-        if (column && callFault && !callFault(row.cells[*column]).empty()) return table.fault(row, *column, "calls that write no file");
+        if (column && callFault && !callFault(row.cells[*column]).empty())
+            return table.fault(row, *column, "calls that write no file");
     return {};
 }
 
 } // namespace
 
-bool ReportTrials::knowTasks() const {
-    return all.column(trialColumns::task).has_value();
-}
+bool ReportTrials::knowTasks() const { return all.column(trialColumns::task).has_value(); }
 
 std::string ReportTrials::common(const std::string& key) const {
     const std::string value = valueOf(files.front(), key);
-    return std::ranges::all_of(files, [&](const TrialFile& file) { return valueOf(file, key) == value; }) ? value : std::string{};
+    return std::ranges::all_of(files, [&](const TrialFile& file) { return valueOf(file, key) == value; })
+               ? value
+               : std::string{};
 }
 
-Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, std::string>>& texts, const std::vector<ColumnName>& columns, const std::optional<Protocol>& protocol, const CallCheck& callFault) {
+Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, std::string>>& texts,
+                                      const std::vector<ColumnName>& columns,
+                                      const std::optional<Protocol>& protocol, const CallCheck& callFault) {
     ReportTrials trials;
     SharedParticipants shared;
     for (const auto& [path, text] : texts) {
         auto table = readCsvTable(text, path, columns.empty() ? CsvHeader::named : CsvHeader::loose);
         if (!table) return Failure{table.error};
-        if (std::string fault = takeColumns(table.value, columns, trials.rowsLeftOut); !fault.empty()) return Failure{std::move(fault)};
-        if (std::string fault = callsFault(table.value, callFault); !fault.empty()) return Failure{std::move(fault)};
+        if (std::string fault = takeColumns(table.value, columns, trials.rowsLeftOut); !fault.empty())
+            return Failure{std::move(fault)};
+        if (std::string fault = callsFault(table.value, callFault); !fault.empty())
+            return Failure{std::move(fault)};
         if (std::string fault = shared.add(table.value); !fault.empty()) return Failure{std::move(fault)};
-        TrialFile file{std::filesystem::path{path}.filename().string(),
-                       trialHeadOf(table.value.comments), std::move(table.value)};
+        TrialFile file{std::filesystem::path{path}.filename().string(), trialHeadOf(table.value.comments),
+                       std::move(table.value)};
         if (!trials.files.empty()) {
             const TrialFile& first = trials.files.front();
             if (valueOf(first, "protocol") != valueOf(file, "protocol"))
-                return Failure{path + ":1: expected trials of the protocol " + inQuotes(valueOf(first, "protocol")) + ", as in " + first.name + ", found " + inQuotes(valueOf(file, "protocol"))};
-            if (asked(first.table) != asked(file.table)) return Failure{path + ": expected the columns of " + first.name + ", found others"};
+                return Failure{path + ":1: expected trials of the protocol " +
+                               inQuotes(valueOf(first, "protocol")) + ", as in " + first.name + ", found " +
+                               inQuotes(valueOf(file, "protocol"))};
+            if (asked(first.table) != asked(file.table))
+                return Failure{path + ": expected the columns of " + first.name + ", found others"};
         }
         trials.isSimulated |= saysSimulated(file);
         trials.files.push_back(std::move(file));
@@ -123,9 +145,13 @@ std::string takeFacts(ReportTrials& trials, StudyFacts facts) {
     if (!trials.facts.noise.empty() && wasWithoutNoise(trials.all))
         return trials.files.front().name + ": --noise: expected trials with pink noise, found none";
     if (trials.facts.people.empty()) return {};
-    if (!participant) return trials.files.front().name + ": --people: expected a column participant, found none";
-    std::erase_if(trials.all.rows, [&](const CsvRow& row) { return trials.facts.isExcluded(row.cells[*participant]); });
-    return trials.all.rows.empty() ? trials.files.front().name + ": --people: expected a participant who is not excluded, found none" : std::string{};
+    if (!participant)
+        return trials.files.front().name + ": --people: expected a column participant, found none";
+    std::erase_if(trials.all.rows,
+                  [&](const CsvRow& row) { return trials.facts.isExcluded(row.cells[*participant]); });
+    return trials.all.rows.empty() ? trials.files.front().name +
+                                         ": --people: expected a participant who is not excluded, found none"
+                                   : std::string{};
 }
 
 std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) {

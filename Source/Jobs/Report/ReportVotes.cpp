@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Opinions: shares of forced choices, ratings on scales.
-#include "Jobs/Report/ReportSections.h"
 #include "Io/Charts/Charts.h"
-#include "Study/Files/StudyCsv.h"
 #include "Io/Text/CsvText.h"
+#include "Jobs/Report/ReportSections.h"
+#include "Study/Files/StudyCsv.h"
 #include "Study/Statistics/Moments.h"
 #include "Study/Votes.h"
 #include <set>
@@ -11,8 +11,10 @@
 namespace physvib {
 namespace {
 
-/// Factors of conditions like "pair=wood size=small", each with its values in the order of the table; none if one has no such name.
-std::vector<std::pair<std::string, std::vector<std::string>>> factorsOf(const std::vector<ChoiceTrial>& trials) {
+/// Factors of conditions like "pair=wood size=small", each with its values in the order of the table; none if
+/// one has no such name.
+std::vector<std::pair<std::string, std::vector<std::string>>>
+factorsOf(const std::vector<ChoiceTrial>& trials) {
     std::vector<std::pair<std::string, std::vector<std::string>>> factors;
     for (const ChoiceTrial& trial : trials)
         for (std::string_view rest = trial.condition; !rest.empty();) {
@@ -20,9 +22,11 @@ std::vector<std::pair<std::string, std::vector<std::string>>> factorsOf(const st
             const std::size_t equals = word.find('=');
             if (equals == std::string_view::npos) return {};
             const std::string name{word.substr(0, equals)}, value{word.substr(equals + 1)};
-            auto found = std::ranges::find(factors, name, &std::pair<std::string, std::vector<std::string>>::first);
+            auto found =
+                std::ranges::find(factors, name, &std::pair<std::string, std::vector<std::string>>::first);
             if (found == factors.end()) found = factors.insert(factors.end(), {name, {}});
-            if (std::ranges::find(found->second, value) == found->second.end()) found->second.push_back(value);
+            if (std::ranges::find(found->second, value) == found->second.end())
+                found->second.push_back(value);
         }
     return factors;
 }
@@ -39,7 +43,9 @@ const ChoiceSummary* named(const std::vector<ChoiceSummary>& all, const std::str
     return found == all.end() ? nullptr : &*found;
 }
 
-ChartValue shareValue(const ChoiceShare& share) { return {100.0 * share.share, 100.0 * share.least, 100.0 * share.most}; }
+ChartValue shareValue(const ChoiceShare& share) {
+    return {100.0 * share.share, 100.0 * share.least, 100.0 * share.most};
+}
 
 /// The p of all bars of a figure, corrected by Holm for their number.
 TestReport correctedOver(const std::vector<const ChoiceSummary*>& summaries) {
@@ -54,9 +60,12 @@ TestReport correctedOver(const std::vector<const ChoiceSummary*>& summaries) {
 }
 
 /// A bar per alternative and summary; the first alternative's bar is marked if two differ from one half.
-std::string shareChart(ReportBuilder& report, const std::string& title, const std::string& words, const std::vector<std::string>& groups, const std::vector<const ChoiceSummary*>& summaries) {
+std::string shareChart(ReportBuilder& report, const std::string& title, const std::string& words,
+                       const std::vector<std::string>& groups,
+                       const std::vector<const ChoiceSummary*>& summaries) {
     BarChart chart{{report.chartName(), title, report.isSimulated()}, words, "chosen (%)", groups, {}};
-    for (const ChoiceShare& share : summaries.front()->shares) chart.series.push_back({share.alternative, {}});
+    for (const ChoiceShare& share : summaries.front()->shares)
+        chart.series.push_back({share.alternative, {}});
     const TestReport corrected = correctedOver(summaries);
     for (std::size_t i = 0; i < summaries.size(); ++i)
         for (std::size_t s = 0; s < chart.series.size(); ++s) {
@@ -69,7 +78,9 @@ std::string shareChart(ReportBuilder& report, const std::string& title, const st
     return barChart(chart);
 }
 
-void tellChoiceTests(ReportBuilder& report, const std::vector<std::pair<std::string, std::vector<std::string>>>& factors, const std::string& alternative) {
+void tellChoiceTests(ReportBuilder& report,
+                     const std::vector<std::pair<std::string, std::vector<std::string>>>& factors,
+                     const std::string& alternative) {
     AnalysisJob test = report.optionsFor(trialsTable);
     test.measure = "choice=" + alternative;
     for (const auto& [name, values] : factors)
@@ -83,15 +94,24 @@ void tellChoiceTests(ReportBuilder& report, const std::vector<std::pair<std::str
 }
 
 /// Of two factors' combinations, over the levels of all others: mean share of the first alternative.
-std::string combinationChart(ReportBuilder& report, const std::vector<ChoiceTrial>& trials, const std::pair<std::string, std::vector<std::string>>& first,
-                             const std::pair<std::string, std::vector<std::string>>& second, const std::string& alternative) {
-    BarChart chart{{report.chartName(), "Chosen: " + alternative + ", by " + first.first + " and " + second.first, report.isSimulated()}, second.first, "chosen (%)", second.second, {}};
+std::string combinationChart(ReportBuilder& report, const std::vector<ChoiceTrial>& trials,
+                             const std::pair<std::string, std::vector<std::string>>& first,
+                             const std::pair<std::string, std::vector<std::string>>& second,
+                             const std::string& alternative) {
+    BarChart chart{{report.chartName(),
+                    "Chosen: " + alternative + ", by " + first.first + " and " + second.first,
+                    report.isSimulated()},
+                   second.first,
+                   "chosen (%)",
+                   second.second,
+                   {}};
     for (const std::string& a : first.second) {
         chart.series.push_back({first.first + " " + a, {}});
         for (const std::string& b : second.second) {
             std::vector<ChoiceTrial> chosen;
             for (const ChoiceTrial& trial : trials) {
-                if (hasWord(trial.condition, first.first, a) && hasWord(trial.condition, second.first, b)) chosen.push_back({trial.participant, "", trial.choice});
+                if (hasWord(trial.condition, first.first, a) && hasWord(trial.condition, second.first, b))
+                    chosen.push_back({trial.participant, "", trial.choice});
             }
             std::optional<ChartValue> bar;
             for (const ChoiceSummary& summary : summariseChoices(chosen))
@@ -113,7 +133,8 @@ struct RatedFactor {
     const char* varied;
     const char* fixed;
 };
-constexpr RatedFactor ratedFactors[] = {{"A", "amplitude", "AV", "AF"}, {"F", "frequency", "FV", "FF"}, {"DR", "decay rate", "DRV", "DRF"}};
+constexpr RatedFactor ratedFactors[] = {
+    {"A", "amplitude", "AV", "AF"}, {"F", "frequency", "FV", "FF"}, {"DR", "decay rate", "DRV", "DRF"}};
 
 const RatingSummary* rated(const std::vector<RatingSummary>& all, const std::string& name) {
     const auto found = std::ranges::find(all, name, &RatingSummary::condition);
@@ -126,12 +147,19 @@ ChartValue scoreOf(const RatingSummary& summary, std::size_t scale) {
 }
 
 /// The three factors of the thesis' methods, a panel per scale, marked by the scale's analysis of variance.
-std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<std::string>& scales, const std::vector<RatingSummary>& summaries, const std::vector<std::vector<TestLine>>& tests) {
+std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<std::string>& scales,
+                                      const std::vector<RatingSummary>& summaries,
+                                      const std::vector<std::vector<TestLine>>& tests) {
     std::vector<std::string> charts;
     for (std::size_t s = 0; s < scales.size(); ++s) {
-        BarChart chart{{report.chartName(), scales[s], report.isSimulated()}, "", "mean score (0 to 100)", {}, {{"varied", {}}, {"fixed", {}}}};
+        BarChart chart{{report.chartName(), scales[s], report.isSimulated()},
+                       "",
+                       "mean score (0 to 100)",
+                       {},
+                       {{"varied", {}}, {"fixed", {}}}};
         for (const RatedFactor& factor : ratedFactors) {
-            const auto *const varied = rated(summaries, factor.varied), *const fixed = rated(summaries, factor.fixed);
+            const auto *const varied = rated(summaries, factor.varied), *const fixed =
+                                                                            rated(summaries, factor.fixed);
             if (!varied || !fixed) continue;
             std::string mark;
             for (const TestLine& line : tests[s])
@@ -146,8 +174,14 @@ std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<s
     return charts;
 }
 
-std::string conditionsChart(ReportBuilder& report, const std::vector<std::string>& scales, const std::vector<RatingSummary>& summaries, const std::set<std::string>& conditions) {
-    BarChart chart{{report.chartName(), "Mean scores", report.isSimulated()}, "condition", "mean score (0 to 100)", {}, {}};
+std::string conditionsChart(ReportBuilder& report, const std::vector<std::string>& scales,
+                            const std::vector<RatingSummary>& summaries,
+                            const std::set<std::string>& conditions) {
+    BarChart chart{{report.chartName(), "Mean scores", report.isSimulated()},
+                   "condition",
+                   "mean score (0 to 100)",
+                   {},
+                   {}};
     for (const std::string& scale : scales) chart.series.push_back({scale, {}});
     for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) { // AV-FV-DRV first
         if (!conditions.contains(at->condition)) continue;
@@ -165,7 +199,9 @@ void tellChoices(ReportBuilder& report) {
     const NamedText file{report.tableText(trialsTable), trialsTable};
     const auto data = readChoices({&file, 1});
     if (!data) return report.page.note(data.error);
-    if (const auto words = report.analysis("choices", report.optionsFor(trialsTable), "choices.csv"); !words.error.empty()) return;
+    if (const auto words = report.analysis("choices", report.optionsFor(trialsTable), "choices.csv");
+        !words.error.empty())
+        return;
     const auto& trials = data.value.conditions.front().trials;
     const auto summaries = summariseChoices(trials);
     std::vector<std::string> groups{"all"};
@@ -173,7 +209,8 @@ void tellChoices(ReportBuilder& report) {
     const auto factors = factorsOf(trials);
     for (const auto& [name, values] : factors)
         for (const std::string& value : values)
-            if (const auto* const summary = named(summaries, name + "=" + value); summary && values.size() > 1) {
+            if (const auto* const summary = named(summaries, name + "=" + value);
+                summary && values.size() > 1) {
                 groups.push_back(value);
                 chosen.push_back(summary);
             }
@@ -184,8 +221,12 @@ void tellChoices(ReportBuilder& report) {
         }
     std::string names;
     for (const auto& [name, values] : factors) names.append(names.empty() ? "all; by " : ", ").append(name);
-    report.page.figure({shareChart(report, "Shares of the alternatives", names.empty() ? "condition" : names, groups, chosen)},
-                       "Mean of the participants' shares (as thesis Fig. 5.8, which has medians), 95 % intervals over participants. Marks: signed ranks of the shares against one half, corrected by Holm for the bars of this figure: * p < 0.05, ** p < 0.01, *** p < 0.001.");
+    report.page.figure(
+        {shareChart(report, "Shares of the alternatives", names.empty() ? "condition" : names, groups,
+                    chosen)},
+        "Mean of the participants' shares (as thesis Fig. 5.8, which has medians), 95 % intervals over "
+        "participants. Marks: signed ranks of the shares against one half, corrected by Holm for the bars of "
+        "this figure: * p < 0.05, ** p < 0.01, *** p < 0.001.");
     if (summaries.front().shares.size() != 2) return;
     const std::string alternative = summaries.front().shares.front().alternative;
     tellChoiceTests(report, factors, alternative);
@@ -193,8 +234,9 @@ void tellChoices(ReportBuilder& report) {
     for (const auto& factor : factors)
         if (factor.second.size() > 1) several.push_back(factor);
     if (several.size() < 2) return;
-    report.page.figure({combinationChart(report, trials, several[several.size() - 2], several.back(), alternative)},
-                       "Shares by two factors (as thesis Fig. 5.9), 95 % intervals over participants, within 0 and 100 %.");
+    report.page.figure(
+        {combinationChart(report, trials, several[several.size() - 2], several.back(), alternative)},
+        "Shares by two factors (as thesis Fig. 5.9), 95 % intervals over participants, within 0 and 100 %.");
 }
 
 void tellRatings(ReportBuilder& report) {
@@ -202,7 +244,9 @@ void tellRatings(ReportBuilder& report) {
     const NamedText file{report.tableText(trialsTable), trialsTable};
     const auto data = readRatings({&file, 1});
     if (!data) return report.page.note(data.error);
-    if (const auto words = report.analysis("ratings", report.optionsFor(trialsTable), "ratings.csv"); !words.error.empty()) return;
+    if (const auto words = report.analysis("ratings", report.optionsFor(trialsTable), "ratings.csv");
+        !words.error.empty())
+        return;
     const auto& trials = data.value.data.conditions.front().trials;
     const auto& scales = data.value.scales;
     const auto summaries = summariseRatings(trials);
@@ -213,10 +257,12 @@ void tellRatings(ReportBuilder& report) {
     for (std::size_t s = 0; s < scales.size() && conditions.size() > 1; ++s) {
         AnalysisJob test = report.optionsFor(trialsTable);
         test.measure = scales[s];
-        if (!hasMethods) test.within = {report.trials.all.column("stimulus") ? "stimulus" : "condition"};
+        if (!hasMethods)
+            test.within = {report.trials.all.column("stimulus") ? "stimulus" : "condition"};
         else
             for (const RatedFactor& factor : ratedFactors)
-                if (rated(summaries, factor.varied) && rated(summaries, factor.fixed)) test.within.emplace_back(factor.name);
+                if (rated(summaries, factor.varied) && rated(summaries, factor.fixed))
+                    test.within.emplace_back(factor.name);
         report.page.subheading(scales[s]);
         tests[s] = report.test("anova", test, "anova-" + fileWord(scales[s]) + ".csv");
         if (hasMethods) continue;
@@ -224,8 +270,13 @@ void tellRatings(ReportBuilder& report) {
         report.test("pairs", test, "pairs-" + fileWord(scales[s]) + ".csv", true);
     }
     if (hasMethods)
-        report.page.figure(factorCharts(report, scales, summaries, tests), "Mean scores by factor (as thesis Fig. 5.13), 95 % intervals over participants. Marks: main effect in the analysis of variance of that scale (two levels each, so no pairs are to be compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05.");
-    report.page.figure({conditionsChart(report, scales, summaries, conditions)}, "Mean scores by condition (as thesis Fig. 5.14), 95 % intervals over participants.");
+        report.page.figure(
+            factorCharts(report, scales, summaries, tests),
+            "Mean scores by factor (as thesis Fig. 5.13), 95 % intervals over participants. Marks: main "
+            "effect in the analysis of variance of that scale (two levels each, so no pairs are to be "
+            "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05.");
+    report.page.figure({conditionsChart(report, scales, summaries, conditions)},
+                       "Mean scores by condition (as thesis Fig. 5.14), 95 % intervals over participants.");
 }
 
 } // namespace physvib

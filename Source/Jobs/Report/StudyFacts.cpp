@@ -10,7 +10,8 @@
 namespace physvib {
 namespace {
 
-constexpr std::array<std::string_view, 5> peopleColumns{"participant", "age", "sex", "handedness", "excluded"};
+constexpr std::array<std::string_view, 5> peopleColumns{"participant", "age", "sex", "handedness",
+                                                        "excluded"};
 constexpr double oldestYears = 130.0;
 
 } // namespace
@@ -30,8 +31,12 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
     if (!read) return Failure{read.error};
     const CsvTable& table = read.value;
     for (const std::string& column : table.columns)
-        if (std::ranges::find(peopleColumns, column) == peopleColumns.end()) return Failure{table.name + ": expected the columns participant, age, sex, handedness, excluded, found " + inQuotes(column)};
-    if (!table.column("participant")) return Failure{table.name + ": expected a column participant, found none"};
+        if (std::ranges::find(peopleColumns, column) == peopleColumns.end())
+            return Failure{table.name +
+                           ": expected the columns participant, age, sex, handedness, excluded, found " +
+                           inQuotes(column)};
+    if (!table.column("participant"))
+        return Failure{table.name + ": expected a column participant, found none"};
     std::vector<PersonFacts> people;
     std::set<std::string> codes;
     for (const CsvRow& row : table.rows) {
@@ -40,10 +45,13 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
             return at ? row.cells[*at] : std::string{};
         };
         PersonFacts facts{cell("participant"), {}, cell("sex"), cell("handedness"), cell("excluded")};
-        if (facts.participant.empty() || !codes.insert(facts.participant).second) return Failure{table.fault(row, *table.column("participant"), "a code of its own for each participant")};
+        if (facts.participant.empty() || !codes.insert(facts.participant).second)
+            return Failure{
+                table.fault(row, *table.column("participant"), "a code of its own for each participant")};
         if (const std::string age = cell("age"); !age.empty()) {
             facts.ageYears = parseNumber<double>(age);
-            if (!facts.ageYears || *facts.ageYears < 0.0 || *facts.ageYears > oldestYears) return Failure{table.fault(row, *table.column("age"), "years from 0 to 130")};
+            if (!facts.ageYears || *facts.ageYears < 0.0 || *facts.ageYears > oldestYears)
+                return Failure{table.fault(row, *table.column("age"), "years from 0 to 130")};
         }
         people.push_back(std::move(facts));
     }

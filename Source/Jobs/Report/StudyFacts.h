@@ -15,7 +15,7 @@ struct PersonFacts {
     std::string participant; ///< code, as in the trial files
     std::optional<double> ageYears;
     std::string sex, handedness;
-    std::string excluded;    ///< why all trials are left out; empty: they count
+    std::string excluded; ///< why all trials are left out; empty: they count
     bool operator==(const PersonFacts&) const = default;
 };
 
@@ -31,7 +31,8 @@ struct StudyFacts {
     bool isExcluded(std::string_view participant) const noexcept;
 };
 
-/// A table with the column participant and any of age, sex, handedness, excluded; or one line `people.csv:3: column age: expected ...`. Any thread.
+/// A table with the column participant and any of age, sex, handedness, excluded; or one line `people.csv:3:
+/// column age: expected ...`. Any thread.
 Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_view name);
 
 } // namespace physvib

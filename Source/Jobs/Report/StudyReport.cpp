@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Sections by what the trials are.
 #include "Jobs/Report/StudyReport.h"
+#include "Jobs/Analyse/AnalysisFiles.h"
 #include "Jobs/Report/ReportScript.h"
 #include "Jobs/Report/ReportSections.h"
-#include "Jobs/Analyse/AnalysisFiles.h"
 #include "Study/StudyTasks.h"
 #include <algorithm>
 
@@ -19,13 +19,19 @@ constexpr Section sections[] = {{"confusion", tellIdentification}, {"resolution"
                                 {"places", tellPlaceErrors},       {"choices", tellChoices},
                                 {"ratings", tellRatings},          {"levels", tellLevels}};
 
-static_assert(std::ranges::all_of(studyTasks, [](const auto& task) { return task.analysis.empty() || std::ranges::find(sections, task.analysis, &Section::analysis) != std::end(sections); }),
+static_assert(std::ranges::all_of(studyTasks,
+                                  [](const auto& task) {
+                                      return task.analysis.empty() ||
+                                             std::ranges::find(sections, task.analysis, &Section::analysis) !=
+                                                 std::end(sections);
+                                  }),
               "every task's analysis has its section");
 
 std::string firstLine(const ReportTrials& trials) {
     Provenance provenance{PHYSVIB_VERSION, {{"report", "trials"}}};
     for (const char* key : {"protocol", "hash", "seed"})
-        if (const std::string value = trials.common(key); !value.empty()) provenance.entries.emplace_back(key, value);
+        if (const std::string value = trials.common(key); !value.empty())
+            provenance.entries.emplace_back(key, value);
     if (trials.isSimulated) provenance.entries.emplace_back("observer", "simulated");
     return provenanceComment(provenance);
 }
@@ -49,7 +55,8 @@ StudyReport studyReport(const ReportTrials& trials) {
     for (const Section& section : sections)
         if (std::ranges::find(kinds, section.analysis) != kinds.end()) section.tell(report);
     if (kinds.empty()) {
-        made.notes.emplace_back("no analysis is known for these trials: the report has their table and the participants only");
+        made.notes.emplace_back(
+            "no analysis is known for these trials: the report has their table and the participants only");
         report.page.heading("Results");
         report.page.note(made.notes.back());
         report.page.table(report.tableText(trialsTable), trialsTable);

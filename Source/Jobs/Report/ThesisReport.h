@@ -6,7 +6,8 @@
 
 namespace physvib {
 
-/// Names within the folder and their bytes: index.html, tables, a folder with a report of its own per rehearsed study. The same bytes every time. M only.
+/// Names within the folder and their bytes: index.html, tables, a folder with a report of its own per
+/// rehearsed study. The same bytes every time. M only.
 std::map<std::string, std::string> thesisReport();
 
 } // namespace physvib

@@ -27,23 +27,30 @@ std::vector<Action> movedTo(const SceneDrawing& drawing, const std::map<std::str
         const auto motionOf = [&](const std::string& name) -> std::optional<Motion> {
             const auto place = places.find(name);
             const BodyDescription* body = drawing.find(name);
-            return place == places.end() || body == nullptr ? std::nullopt : std::optional{Motion{placeOf(*body), place->second}};
+            return place == places.end() || body == nullptr
+                       ? std::nullopt
+                       : std::optional{Motion{placeOf(*body), place->second}};
         };
         const auto a = motionOf(joint.bodyA), b = motionOf(joint.bodyB);
         if (!a && !b) continue;
         JointDescription next = joint;
         const Motion& any = a ? *a : *b;
-        std::visit([&](auto& kind) {
-            if constexpr (requires { kind.anchorMetres; }) kind.anchorMetres = any(kind.anchorMetres);
-            else {
-                if (a) kind.anchorAMetres = (*a)(kind.anchorAMetres);
-                if (b) kind.anchorBMetres = (*b)(kind.anchorBMetres);
-            }
-            if constexpr (requires { kind.axis; })
-                if (a) kind.axis = a->way(kind.axis);
-        }, next.joint);
+        std::visit(
+            [&](auto& kind) {
+                if constexpr (requires { kind.anchorMetres; })
+                    kind.anchorMetres = any(kind.anchorMetres);
+                else {
+                    if (a) kind.anchorAMetres = (*a)(kind.anchorAMetres);
+                    if (b) kind.anchorBMetres = (*b)(kind.anchorBMetres);
+                }
+                if constexpr (requires { kind.axis; })
+                    if (a) kind.axis = a->way(kind.axis);
+            },
+            next.joint);
         for (const std::string& other : {joint.bodyA, joint.bodyB})
-            if (const BodyDescription* body = drawing.find(other); body != nullptr && body->type != BodyType::staticBody) putAt(other, nullptr);
+            if (const BodyDescription* body = drawing.find(other);
+                body != nullptr && body->type != BodyType::staticBody)
+                putAt(other, nullptr);
         before.push_back(UnjoinAction{joint.name});
         after.push_back(JoinAction{std::move(next)});
     }
@@ -54,9 +61,12 @@ std::vector<Action> movedTo(const SceneDrawing& drawing, const std::map<std::str
 
 std::vector<Action> erased(const SceneDrawing& drawing, const std::vector<std::string>& names) {
     std::vector<Action> actions;
-    const auto isMeant = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+    const auto isMeant = [&](const std::string& name) {
+        return std::ranges::find(names, name) != names.end();
+    };
     for (const JointDescription& joint : drawing.drawn().joints)
-        if (isMeant(joint.name) || isMeant(joint.bodyA) || isMeant(joint.bodyB)) actions.push_back(UnjoinAction{joint.name});
+        if (isMeant(joint.name) || isMeant(joint.bodyA) || isMeant(joint.bodyB))
+            actions.push_back(UnjoinAction{joint.name});
     for (const std::string& name : names)
         if (drawing.find(name) != nullptr) actions.push_back(RemoveAction{name});
     return actions;
@@ -64,7 +74,9 @@ std::vector<Action> erased(const SceneDrawing& drawing, const std::vector<std::s
 
 Copied copied(const SceneDrawing& drawing, const std::vector<std::string>& names) {
     Copied copy;
-    const auto isMeant = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+    const auto isMeant = [&](const std::string& name) {
+        return std::ranges::find(names, name) != names.end();
+    };
     for (const BodyDescription& body : drawing.drawn().bodies)
         if (isMeant(body.name)) copy.bodies.push_back(body);
     for (const JointDescription& joint : drawing.drawn().joints)
@@ -72,12 +84,15 @@ Copied copied(const SceneDrawing& drawing, const std::vector<std::string>& names
     return copy;
 }
 
-std::vector<Action> pasted(const SceneDrawing& drawing, const Copied& copy, const Vector& beside, std::vector<std::string>& names) {
+std::vector<Action> pasted(const SceneDrawing& drawing, const Copied& copy, const Vector& beside,
+                           std::vector<std::string>& names) {
     SceneDrawing trial = drawing;
     std::vector<Action> actions;
     std::map<std::string, std::string> renamed;
     const auto add = [&](Action action) { trial.take(action), actions.push_back(std::move(action)); };
-    const auto stemOf = [](const std::string& name) { return name.substr(0, std::min(name.find_last_not_of("0123456789 ") + 1, name.size())); };
+    const auto stemOf = [](const std::string& name) {
+        return name.substr(0, std::min(name.find_last_not_of("0123456789 ") + 1, name.size()));
+    };
     const auto shifted = [&](Vector& place) { place = {place.x + beside.x, place.y + beside.y}; };
     for (BodyDescription body : copy.bodies) {
         const std::string stem = stemOf(body.name), name = trial.freeName(stem.empty() ? "body" : stem);
@@ -90,10 +105,14 @@ std::vector<Action> pasted(const SceneDrawing& drawing, const Copied& copy, cons
         joint.name = trial.freeName("joint");
         joint.bodyA = renamed[joint.bodyA];
         joint.bodyB = renamed[joint.bodyB];
-        std::visit([&](auto& kind) {
-            if constexpr (requires { kind.anchorMetres; }) shifted(kind.anchorMetres);
-            else shifted(kind.anchorAMetres), shifted(kind.anchorBMetres);
-        }, joint.joint);
+        std::visit(
+            [&](auto& kind) {
+                if constexpr (requires { kind.anchorMetres; })
+                    shifted(kind.anchorMetres);
+                else
+                    shifted(kind.anchorAMetres), shifted(kind.anchorBMetres);
+            },
+            joint.joint);
         add(JoinAction{std::move(joint)});
     }
     return actions;
@@ -110,7 +129,8 @@ Scene newScene(const Scene& like, SceneGround ground) {
     scene.inputs.clear();
     scene.variables.clear();
     if (ground == SceneGround::empty || scene.materials.empty()) return scene;
-    const double w = scene.fieldWidthMetres, h = scene.fieldHeightMetres, thick = std::max(2.0 * sceneLimits::minSizeMetres, 0.05 * std::min(w, h));
+    const double w = scene.fieldWidthMetres, h = scene.fieldHeightMetres,
+                 thick = std::max(2.0 * sceneLimits::minSizeMetres, 0.05 * std::min(w, h));
     const auto wall = [&](const char* name, double x, double y, double width, double height) {
         BodyDescription body;
         body.name = name;

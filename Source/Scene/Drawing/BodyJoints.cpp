@@ -92,30 +92,32 @@ Scene sceneNow(const Scene& drawn, const PoseNow& now) {
     for (JointDescription& joint : scene.joints) {
         const auto a = motions.find(joint.bodyA), b = motions.find(joint.bodyB);
         if (a == motions.end() || b == motions.end()) continue;
-        std::visit([&](auto& kind) {
-            if constexpr (requires { kind.anchorAMetres; }) {
-                kind.anchorAMetres = a->second(kind.anchorAMetres);
-                kind.anchorBMetres = b->second(kind.anchorBMetres);
-                return;
-            } else {
-                const Vector onA = a->second(kind.anchorMetres), onB = b->second(kind.anchorMetres);
-                const double angle = b->second.angle() - a->second.angle();
-                kind.anchorMetres = onA;
-                if constexpr (requires { kind.axis; }) {
-                    kind.axis = a->second.way(kind.axis);
-                    const double length = std::hypot(kind.axis.x, kind.axis.y),
-                                 way =
-                                     ((onB.x - onA.x) * kind.axis.x + (onB.y - onA.y) * kind.axis.y) / length;
-                    if (kind.travelMetres)
-                        kind.travelMetres =
-                            Interval{kind.travelMetres->lower - way, kind.travelMetres->upper - way};
+        std::visit(
+            [&](auto& kind) {
+                if constexpr (requires { kind.anchorAMetres; }) {
+                    kind.anchorAMetres = a->second(kind.anchorAMetres);
+                    kind.anchorBMetres = b->second(kind.anchorBMetres);
+                    return;
+                } else {
+                    const Vector onA = a->second(kind.anchorMetres), onB = b->second(kind.anchorMetres);
+                    const double angle = b->second.angle() - a->second.angle();
+                    kind.anchorMetres = onA;
+                    if constexpr (requires { kind.axis; }) {
+                        kind.axis = a->second.way(kind.axis);
+                        const double length = std::hypot(kind.axis.x, kind.axis.y),
+                                     way = ((onB.x - onA.x) * kind.axis.x + (onB.y - onA.y) * kind.axis.y) /
+                                           length;
+                        if (kind.travelMetres)
+                            kind.travelMetres =
+                                Interval{kind.travelMetres->lower - way, kind.travelMetres->upper - way};
+                    }
+                    if constexpr (requires { kind.limitsRadians; })
+                        if (kind.limitsRadians)
+                            kind.limitsRadians = Interval{kind.limitsRadians->lower - angle,
+                                                          kind.limitsRadians->upper - angle};
                 }
-                if constexpr (requires { kind.limitsRadians; })
-                    if (kind.limitsRadians)
-                        kind.limitsRadians =
-                            Interval{kind.limitsRadians->lower - angle, kind.limitsRadians->upper - angle};
-            }
-        }, joint.joint);
+            },
+            joint.joint);
     }
     return scene;
 }

@@ -16,7 +16,9 @@ double sized(double metres, double factor) {
 
 class Scale {
 public:
-    Scale(double x, double y) : x_{x}, y_{y} {}
+    Scale(double x, double y)
+        : x_{x}
+        , y_{y} {}
     void operator()(CircleShape& circle) const {
         circle.radiusMetres = sized(circle.radiusMetres, std::max(x_, y_));
     }

@@ -13,9 +13,14 @@ constexpr double smallest = 2.0 * sceneLimits::minSizeMetres; // across
 constexpr std::size_t mostLineCorners = sceneLimits::maxChainVertices / 2;
 
 double distance(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
-double cross(const Vector& o, const Vector& a, const Vector& b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); }
+double cross(const Vector& o, const Vector& a, const Vector& b) {
+    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
 
-Failure tooSmall(const char* what) { return Failure{std::string{what} + ": expected at least " + std::to_string(sceneLimits::minSizeMetres).substr(0, 4) + " m across"}; }
+Failure tooSmall(const char* what) {
+    return Failure{std::string{what} + ": expected at least " +
+                   std::to_string(sceneLimits::minSizeMetres).substr(0, 4) + " m across"};
+}
 
 BodyDescription bodyOf(Shape shape, const Vector& at, BodyType type) {
     BodyDescription body;
@@ -28,12 +33,14 @@ BodyDescription bodyOf(Shape shape, const Vector& at, BodyType type) {
 
 /// Counter-clockwise.
 std::vector<Vector> hullOf(std::vector<Vector> points) {
-    std::ranges::sort(points, [](const Vector& a, const Vector& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    std::ranges::sort(
+        points, [](const Vector& a, const Vector& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
     std::vector<Vector> hull;
     const auto chain = [&hull](auto first, auto last) {
         const std::size_t begin = hull.size();
         for (; first != last; ++first) {
-            while (hull.size() >= begin + 2 && cross(hull[hull.size() - 2], hull.back(), *first) <= 0.0) hull.pop_back();
+            while (hull.size() >= begin + 2 && cross(hull[hull.size() - 2], hull.back(), *first) <= 0.0)
+                hull.pop_back();
             hull.push_back(*first);
         }
         hull.pop_back(); // the other chain begins with it
@@ -55,7 +62,8 @@ void thin(std::vector<Vector>& hull, std::size_t most) {
         std::size_t least = 0;
         double leastArea = HUGE_VAL;
         for (std::size_t i = 0; i < hull.size(); ++i) {
-            const double area = std::abs(cross(hull[(i + hull.size() - 1) % hull.size()], hull[i], hull[(i + 1) % hull.size()]));
+            const double area = std::abs(
+                cross(hull[(i + hull.size() - 1) % hull.size()], hull[i], hull[(i + 1) % hull.size()]));
             if (area < leastArea) leastArea = area, least = i;
         }
         hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(least));
@@ -85,7 +93,8 @@ double offLine(const Vector& p, const Vector& a, const Vector& b) {
 }
 
 /// Douglas and Peucker's: the farthest place from the chord stays, and both parts follow.
-void keepCorners(const std::vector<Vector>& way, std::size_t first, std::size_t last, double tolerance, std::vector<Vector>& kept) {
+void keepCorners(const std::vector<Vector>& way, std::size_t first, std::size_t last, double tolerance,
+                 std::vector<Vector>& kept) {
     std::size_t farthest = first;
     double most = tolerance;
     for (std::size_t i = first + 1; i < last; ++i)
@@ -93,7 +102,8 @@ void keepCorners(const std::vector<Vector>& way, std::size_t first, std::size_t 
     if (farthest != first) {
         keepCorners(way, first, farthest, tolerance, kept);
         keepCorners(way, farthest, last, tolerance, kept);
-    } else kept.push_back(way[last]);
+    } else
+        kept.push_back(way[last]);
 }
 
 } // namespace
@@ -107,7 +117,8 @@ Result<BodyDescription> drawnBall(const Vector& centre, const Vector& rim) {
 Result<BodyDescription> drawnBox(const Vector& corner, const Vector& opposite) {
     const double width = std::abs(opposite.x - corner.x), height = std::abs(opposite.y - corner.y);
     if (std::min(width, height) < smallest) return tooSmall("box");
-    return bodyOf(BoxShape{width, height}, {0.5 * (corner.x + opposite.x), 0.5 * (corner.y + opposite.y)}, BodyType::dynamicBody);
+    return bodyOf(BoxShape{width, height}, {0.5 * (corner.x + opposite.x), 0.5 * (corner.y + opposite.y)},
+                  BodyType::dynamicBody);
 }
 
 Result<BodyDescription> drawnPolygon(const std::vector<Vector>& corners) {
@@ -121,7 +132,8 @@ Result<BodyDescription> drawnPolygon(const std::vector<Vector>& corners) {
 Result<BodyDescription> drawnWall(const Vector& from, const Vector& to, double thicknessMetres) {
     const double length = distance(from, to);
     if (std::min(length, thicknessMetres) < sceneLimits::minSizeMetres) return tooSmall("wall");
-    BodyDescription wall = bodyOf(BoxShape{length, thicknessMetres}, {0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}, BodyType::staticBody);
+    BodyDescription wall = bodyOf(BoxShape{length, thicknessMetres},
+                                  {0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}, BodyType::staticBody);
     wall.angleRadians = std::atan2(to.y - from.y, to.x - from.x);
     return wall;
 }

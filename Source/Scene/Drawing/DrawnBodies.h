@@ -21,7 +21,8 @@ Result<BodyDescription> drawnWall(const Vector& from, const Vector& to, double t
 /// A static line along the way of a hand that is hit from both sides, at most `toleranceMetres` beside it.
 Result<BodyDescription> drawnLine(const std::vector<Vector>& way, double toleranceMetres);
 
-/// Whether a new body is to be felt: as others that move are, or as the first of a scene in which none is. Any thread.
+/// Whether a new body is to be felt: as others that move are, or as the first of a scene in which none is.
+/// Any thread.
 bool startsAsSource(const Scene& scene, const BodyDescription& body);
 
 /// The nearest multiple of `gridMetres`; 0: as it is. Any thread.

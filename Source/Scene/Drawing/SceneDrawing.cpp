@@ -11,14 +11,16 @@ namespace physvib {
 namespace {
 
 bool isStructural(const Action& action) {
-    return bodyPutBy(action) != nullptr || std::holds_alternative<RemoveAction>(action) || std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
+    return bodyPutBy(action) != nullptr || std::holds_alternative<RemoveAction>(action) ||
+           std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
 }
 
 /// One action per fixture, as each was.
 template <class Make>
 std::vector<Action> ofFixtures(const BodyDescription* body, Make make) {
     std::vector<Action> back;
-    for (std::size_t i = 0; body != nullptr && i < body->fixtures.size(); ++i) back.push_back(make(static_cast<int>(i), body->fixtures[i]));
+    for (std::size_t i = 0; body != nullptr && i < body->fixtures.size(); ++i)
+        back.push_back(make(static_cast<int>(i), body->fixtures[i]));
     return back;
 }
 
@@ -43,8 +45,10 @@ std::string SceneDrawing::check(const std::vector<Action>& actions) const {
 bool SceneDrawing::take(const Action& action) {
     if (!isLasting(action)) return false;
     editScene(drawn_, action);
-    if (isStructural(action)) cast_.inputs.push_back({0.0, action});
-    else describeEdit(cast_, action);
+    if (isStructural(action))
+        cast_.inputs.push_back({0.0, action});
+    else
+        describeEdit(cast_, action);
     return true;
 }
 
@@ -89,21 +93,27 @@ std::vector<Action> SceneDrawing::undoOf(const Action& action, const PoseNow& no
         return joint == drawn_.joints.end() ? std::vector<Action>{} : std::vector<Action>{JoinAction{*joint}};
     }
     if (const auto* material = std::get_if<MaterialAction>(&action))
-        return ofFixtures(find(material->body), [&](int i, const FixtureDescription& f) { return MaterialAction{material->body, i, f.material}; });
+        return ofFixtures(find(material->body), [&](int i, const FixtureDescription& f) {
+            return MaterialAction{material->body, i, f.material};
+        });
     if (const auto* camera = std::get_if<CameraAction>(&action))
-        return ofFixtures(find(camera->body), [&](int i, const FixtureDescription& f) { return CameraAction{camera->body, i, f.isCamera}; });
+        return ofFixtures(find(camera->body), [&](int i, const FixtureDescription& f) {
+            return CameraAction{camera->body, i, f.isCamera};
+        });
     if (const auto* sound = std::get_if<SoundAction>(&action)) {
         const Material& old = drawn_.materials[static_cast<std::size_t>(sound->material)];
         return {SoundAction{sound->material, old.frequencyHz, old.decayPerSecond}};
     }
     if (const auto* texture = std::get_if<TextureAction>(&action)) {
         const Material& old = drawn_.materials[static_cast<std::size_t>(texture->material)];
-        return {TextureAction{texture->material, old.grainMetres, old.roughness, old.grainPattern, old.rolling}};
+        return {
+            TextureAction{texture->material, old.grainMetres, old.roughness, old.grainPattern, old.rolling}};
     }
     return {};
 }
 
-std::string SceneEdit::run(bool isForth, const SceneDrawing& drawing, const PoseNow& now, const std::function<std::string(const Action&)>& act) {
+std::string SceneEdit::run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
+                           const std::function<std::string(const Action&)>& act) {
     const auto& actions = isForth ? forth_ : back_;
     std::vector<Action> opposite;
     std::string fault;

@@ -23,7 +23,8 @@ public:
     /// What stands there, as it starts; without inputs.
     const Scene& drawn() const noexcept { return drawn_; }
 
-    /// The scene with all bodies that there have been, under the numbers of sceneCast(); as a session numbers them.
+    /// The scene with all bodies that there have been, under the numbers of sceneCast(); as a session numbers
+    /// them.
     const Scene& cast() const noexcept { return cast_; }
 
     /// What is wrong with these actions, one after the other; empty: a session would take them.
@@ -46,11 +47,13 @@ private:
 /// One edit of several actions that is done and undone as a whole.
 class SceneEdit {
 public:
-    explicit SceneEdit(std::vector<Action> actions) : forth_{std::move(actions)} {}
+    explicit SceneEdit(std::vector<Action> actions)
+        : forth_{std::move(actions)} {}
 
-    /// Calls `act` with each action, after what undoes it was noted; empty, or what is wrong with the first that was refused: those
-    /// before it are undone by the next turn.
-    std::string run(bool isForth, const SceneDrawing& drawing, const PoseNow& now, const std::function<std::string(const Action&)>& act);
+    /// Calls `act` with each action, after what undoes it was noted; empty, or what is wrong with the first
+    /// that was refused: those before it are undone by the next turn.
+    std::string run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
+                    const std::function<std::string(const Action&)>& act);
 
     const std::vector<Action>& forth() const noexcept { return forth_; }
     /// `next` went on with this edit: undone, both are.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fields of controls and panners, with their ranges.
 #include "Scene/Sessions/ControlJson.h"
-#include "Scene/SceneFileLimits.h"
 #include "Scene/LayoutJson.h"
+#include "Scene/SceneFileLimits.h"
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -15,7 +15,8 @@ constexpr double leastExponent = 1e-3, mostExponent = 100.0;
 int readChannel(const JsonField& field, int channels) {
     const int found = field.wholeNumber();
     if (found < 1 || found > channels)
-        field.fail("expected a channel from 1 to " + std::to_string(channels) + ", found " + std::to_string(found));
+        field.fail("expected a channel from 1 to " + std::to_string(channels) + ", found " +
+                   std::to_string(found));
     return found - 1;
 }
 
@@ -31,13 +32,17 @@ PhantomPanner readPanner(const JsonField& json, int channels) {
     json.expectObject({"layout", "law", "exponent", "field_m", "grain_law"});
     const auto layout = readLayoutFields(json["layout"]).geometry;
     if (layout.count > channels)
-        json["layout"].fail("expected at most " + std::to_string(channels) + " actuators, as many as there are channels");
+        json["layout"].fail("expected at most " + std::to_string(channels) +
+                            " actuators, as many as there are channels");
     const JsonField field = json["field_m"];
     if (field.arraySize() != 2) field.fail("expected [width, height]");
-    PhantomPanner panner{layout, panningLaws[json["law"].oneOf(panningLawNames)].law, json["exponent"].numberWithin(leastExponent, mostExponent),
-                         field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres), field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
+    PhantomPanner panner{layout, panningLaws[json["law"].oneOf(panningLawNames)].law,
+                         json["exponent"].numberWithin(leastExponent, mostExponent),
+                         field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres),
+                         field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
     // missing: as all else
-    if (json.has("grain_law")) panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
+    if (json.has("grain_law"))
+        panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
     return panner;
 }
 
@@ -47,15 +52,18 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
     const ControlDescription& one = controlTable[json["control"].oneOf(controlNames)];
     RenderControl control;
     control.kind = one.kind;
-    if (one.holds == Holds::nothing) expectFields(json, {}, otherField);
+    if (one.holds == Holds::nothing)
+        expectFields(json, {}, otherField);
     else if (one.holds == Holds::panner) {
         expectFields(json, {one.field}, otherField);
         control.panner = readPanner(json[one.field], channels);
     } else {
         expectFields(json, {"channel", one.field}, otherField);
         control.channel = readChannel(json["channel"], channels);
-        if (one.holds == Holds::truth) control.value = json[one.field].truth() ? 1.0f : 0.0f;
-        else control.value = static_cast<float>(json[one.field].numberWithin(one.least, one.most));
+        if (one.holds == Holds::truth)
+            control.value = json[one.field].truth() ? 1.0f : 0.0f;
+        else
+            control.value = static_cast<float>(json[one.field].numberWithin(one.least, one.most));
     }
     return control;
 }

@@ -25,7 +25,8 @@ inline constexpr auto controlTable = std::to_array<ControlDescription>({
     {"gain", RenderControl::Kind::gain, ControlDescription::Holds::number, "value", -1000.0, 1000.0},
     {"mute", RenderControl::Kind::mute, ControlDescription::Holds::truth, "on"},
     {"stop", RenderControl::Kind::stopAll, ControlDescription::Holds::nothing},
-    {"delay", RenderControl::Kind::delay, ControlDescription::Holds::number, "seconds", 0.0, limits::maxChannelDelaySeconds},
+    {"delay", RenderControl::Kind::delay, ControlDescription::Holds::number, "seconds", 0.0,
+     limits::maxChannelDelaySeconds},
     {"ceiling", RenderControl::Kind::ceiling, ControlDescription::Holds::number, "value", 1e-6, 1.0},
 });
 inline constexpr auto controlNames = namesOf(controlTable);

@@ -2,8 +2,8 @@
 // Number by number the lesser one, and a note of each.
 #include "Scene/Sessions/DeskLimits.h"
 #include "Io/Json/JsonText.h"
-#include "Scene/Sessions/MixJson.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/Sessions/MixJson.h"
 #include "Scene/Sessions/StripGroups.h"
 #include <algorithm>
 

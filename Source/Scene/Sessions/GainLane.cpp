@@ -7,9 +7,7 @@
 namespace physvib {
 namespace {
 
-double onFaderStep(double db) noexcept {
-    return std::round(10.0 * db) / 10.0;
-}
+double onFaderStep(double db) noexcept { return std::round(10.0 * db) / 10.0; }
 
 double lineAt(const GainPoint& from, const GainPoint& to, double seconds) noexcept {
     const double length = to.seconds - from.seconds;

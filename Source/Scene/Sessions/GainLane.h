@@ -29,7 +29,8 @@ double sumDb(std::initializer_list<double> gainsDb) noexcept;
 /// A lane that is the sum of both at each of their points (allocates).
 GainLane sumOf(const GainLane& a, const GainLane& b);
 
-/// Without points that are within 0.25 dB of the line between their neighbours, and at most so many (allocates).
+/// Without points that are within 0.25 dB of the line between their neighbours, and at most so many
+/// (allocates).
 GainLane thinned(const GainLane& lane, std::size_t mostPoints = mostGainPoints);
 
 } // namespace physvib

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Which of the kinds a line is; their fields are read where those of files are.
 #include "Scene/Sessions/InputLine.h"
-#include "Scene/Sessions/ControlJson.h"
 #include "Io/Json/JsonLines.h"
-#include "Scene/JsonReader.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/JsonReader.h"
+#include "Scene/Sessions/ControlJson.h"
 #include <algorithm>
 #include <cmath>
 
@@ -14,9 +14,7 @@ namespace {
 struct ActionLine {
     Action action;
 };
-void visitFields(auto& v, FieldsOf<ActionLine>) {
-    v.variant("input", &ActionLine::action, actionNames);
-}
+void visitFields(auto& v, FieldsOf<ActionLine>) { v.variant("input", &ActionLine::action, actionNames); }
 
 constexpr std::size_t mostNumbers = 1024; // of a list
 constexpr std::string_view silenceName = "silence", truthName = "on";
@@ -26,8 +24,10 @@ void addNumbers(const JsonField& list, std::vector<double>& numbers, bool isPair
     if (isPair && count != 2) list.fail("expected a pair of numbers");
     if (count > mostNumbers) list.fail("expected at most " + std::to_string(mostNumbers) + " numbers");
     for (std::size_t i = 0; i < count; ++i) {
-        if (!isPair && list.item(i).isArray()) addNumbers(list.item(i), numbers, true);
-        else numbers.push_back(list.item(i).number());
+        if (!isPair && list.item(i).isArray())
+            addNumbers(list.item(i), numbers, true);
+        else
+            numbers.push_back(list.item(i).number());
     }
 }
 
@@ -69,7 +69,8 @@ std::optional<double> takeId(Json& root) {
     if (!root.is_object() || !root.contains(idName)) return std::nullopt;
     const JsonField field = JsonField(root, {})[idName];
     const double id = field.number();
-    if (!isId(id)) field.fail("expected a whole number from -" + plainNumber(mostId) + " to " + plainNumber(mostId));
+    if (!isId(id))
+        field.fail("expected a whole number from -" + plainNumber(mostId) + " to " + plainNumber(mostId));
     root.erase(std::string(idName));
     return id;
 }
@@ -79,7 +80,8 @@ std::optional<double> idIn(std::string_view line) {
     constexpr std::string_view key = "\"id\"", blank = " \t";
     const auto at = line.find(key);
     const auto colon = at == line.npos ? at : line.find_first_not_of(blank, at + key.size());
-    const auto begin = colon == line.npos || line[colon] != ':' ? line.npos : line.find_first_not_of(blank, colon + 1);
+    const auto begin =
+        colon == line.npos || line[colon] != ':' ? line.npos : line.find_first_not_of(blank, colon + 1);
     if (begin == line.npos) return std::nullopt;
     const auto id = parseNumber<double>(line.substr(begin, line.find_first_of(",} \t\r", begin) - begin));
     return id && isId(*id) ? id : std::nullopt;
@@ -89,7 +91,9 @@ OrderedJson plainJson(const PlainValue& value) {
     return std::visit([](const auto& plain) { return OrderedJson(plain); }, value);
 }
 
-bool isControl(const std::string& name) { return name == silenceName || std::ranges::find(controlNames, name) != controlNames.end(); }
+bool isControl(const std::string& name) {
+    return name == silenceName || std::ranges::find(controlNames, name) != controlNames.end();
+}
 
 } // namespace
 
@@ -137,14 +141,19 @@ bool asksForSilence(std::string_view line) {
     return namesSilence(kinds.empty() ? line : kinds);
 }
 
-Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials, int channels) {
-    if (!isControl(plain.name) && std::ranges::find(actionNames, plain.name) == actionNames.end()) return Failure{inQuotes(plain.name) + ": expected the name of a message, an input or a control"};
+Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials,
+                                 int channels) {
+    if (!isControl(plain.name) && std::ranges::find(actionNames, plain.name) == actionNames.end())
+        return Failure{inQuotes(plain.name) + ": expected the name of a message, an input or a control"};
     Json json{{isControl(plain.name) ? "control" : "input", plain.name}};
     for (const NamedValue& value : plain.values) {
-        if (json.contains(value.name)) return Failure{plain.name + ": " + printable(value.name) + ": expected once"};
+        if (json.contains(value.name))
+            return Failure{plain.name + ": " + printable(value.name) + ": expected once"};
         const auto* number = std::get_if<double>(&value.value);
-        if (number != nullptr && value.name == truthName) json[value.name] = *number != 0.0;
-        else json[value.name] = std::visit([](const auto& found) { return Json(found); }, value.value);
+        if (number != nullptr && value.name == truthName)
+            json[value.name] = *number != 0.0;
+        else
+            json[value.name] = std::visit([](const auto& found) { return Json(found); }, value.value);
     }
     try {
         return readLine(JsonField(json, {}), materials, channels);

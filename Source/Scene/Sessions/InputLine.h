@@ -3,8 +3,8 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Io/Result.h"
-#include "Scene/Sessions/PlainMessage.h"
 #include "Scene/Scene.h"
+#include "Scene/Sessions/PlainMessage.h"
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -30,9 +30,10 @@ struct InputLine : Result<LineInput> {
 };
 
 /// `{"input": "impulse", "body": "ball", "impulse_ns": [0, 5]}`: as in a scene's script, without a time.
-/// `{"control": "gain", "channel": 1, "value": 0.5}`: as in a session file, without a time; `{"control": "silence",
-/// "on": true}` as well. `{"message": "path", "places": [[0, 0], [1, 2]], "seconds": 1}`: a message with values that are numbers,
-/// words, or lists of numbers or of pairs of them. Or, of the first thing that is wrong, one line `body: ...`. Any thread.
+/// `{"control": "gain", "channel": 1, "value": 0.5}`: as in a session file, without a time; `{"control":
+/// "silence", "on": true}` as well. `{"message": "path", "places": [[0, 0], [1, 2]], "seconds": 1}`: a
+/// message with values that are numbers, words, or lists of numbers or of pairs of them. Or, of the first
+/// thing that is wrong, one line `body: ...`. Any thread.
 InputLine readInputLine(std::string_view line, const std::vector<Material>& materials, int channels);
 
 /// Whether the word stands in it, in letters of any case. Any thread.
@@ -45,8 +46,9 @@ bool asksForSilence(std::string_view line);
 /// What is told of an error that silences.
 inline constexpr std::string_view silencedAllTheSame = "; silenced all the same";
 
-/// The same of an input or a control that comes as a name and named values (`gain`, with `channel` and `value`): those without nested
-/// fields; a number other than 0 is true. Any thread.
-Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials, int channels);
+/// The same of an input or a control that comes as a name and named values (`gain`, with `channel` and
+/// `value`): those without nested fields; a number other than 0 is true. Any thread.
+Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials,
+                                 int channels);
 
 } // namespace physvib

@@ -17,7 +17,7 @@
 namespace physvib {
 
 struct Strip {
-    double gainDb = 0.0;     ///< leastStripDb (silence) to mostStripDb
+    double gainDb = 0.0; ///< leastStripDb (silence) to mostStripDb
     bool isMuted = false;
     bool isSolo = false;
     bool isInverted = false; ///< polarity
@@ -46,7 +46,8 @@ inline int freeOutput(std::span<const Strip> strips) noexcept {
         if (std::ranges::find(strips, k, &Strip::output) == strips.end()) return k;
 }
 
-/// For one enchanter more: on the first output that no other has, with the lowest ceiling of the others. Any thread.
+/// For one enchanter more: on the first output that no other has, with the lowest ceiling of the others. Any
+/// thread.
 inline Strip nextStrip(std::span<const Strip> strips) noexcept {
     Strip next;
     next.output = freeOutput(strips);
@@ -77,7 +78,7 @@ struct Mix {
     double exponent = 1.0;
     std::vector<Strip> strips; ///< one per enchanter
     std::vector<StripGroup> groups{};
-    double levelDb = -12.0;    ///< master; the least is silence
+    double levelDb = -12.0;                              ///< master; the least is silence
     double dragNewtonSecondsPerScreenMetre = thesisDrag; ///< that a drag in the world pushes with
 
     int count() const noexcept { return layout.geometry.count; }
@@ -98,8 +99,11 @@ struct Mix {
 
 /// True if their enchanters sit at the same places of the same extent. Any thread.
 inline bool isSame(const EnchanterLayout& a, const EnchanterLayout& b) noexcept {
-    const auto equal = [](const EnchanterPlace& p, const EnchanterPlace& q) { return p.xMetres == q.xMetres && p.yMetres == q.yMetres; };
-    return a.extentWidthMetres == b.extentWidthMetres && a.extentHeightMetres == b.extentHeightMetres && a.count == b.count &&
+    const auto equal = [](const EnchanterPlace& p, const EnchanterPlace& q) {
+        return p.xMetres == q.xMetres && p.yMetres == q.yMetres;
+    };
+    return a.extentWidthMetres == b.extentWidthMetres && a.extentHeightMetres == b.extentHeightMetres &&
+           a.count == b.count &&
            std::equal(a.places.begin(), a.places.begin() + a.count, b.places.begin(), equal);
 }
 
@@ -110,18 +114,23 @@ inline float channelGain(const Strip& strip) noexcept {
 }
 
 /// What all enchanters are multiplied by at last. Any thread.
-inline float masterGain(const Mix& mix) noexcept { return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(fromDecibels(mix.levelDb)); }
+inline float masterGain(const Mix& mix) noexcept {
+    return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(fromDecibels(mix.levelDb));
+}
 
 /// The largest sample that a strip lets pass. Any thread.
-inline float ceilingOf(const Strip& strip) noexcept { return static_cast<float>(fromDecibels(strip.ceilingDb)); }
+inline float ceilingOf(const Strip& strip) noexcept {
+    return static_cast<float>(fromDecibels(strip.ceilingDb));
+}
 
 /// What a session has been told of a channel's strip; at first what it begins with.
 struct ToldStrip {
     float gain = 1.0f, delaySeconds = 0.0f, ceiling = 1.0f, mute = 0.0f;
 };
 
-/// Tells a session, strip by strip, what it does not know yet; `told` has room for all of them. `tell(control)` is false where it
-/// found no room: so is this then, and it is told by the next call. Any thread.
+/// Tells a session, strip by strip, what it does not know yet; `told` has room for all of them.
+/// `tell(control)` is false where it found no room: so is this then, and it is told by the next call. Any
+/// thread.
 template <class Tell>
 bool tellStrips(std::span<ToldStrip> told, std::span<const Strip> strips, Tell tell) {
     using Kind = RenderControl::Kind;
@@ -129,8 +138,10 @@ bool tellStrips(std::span<ToldStrip> told, std::span<const Strip> strips, Tell t
     for (std::size_t j = 0; j < strips.size(); ++j) {
         const auto change = [&](Kind kind, float value, float& known) {
             if (value == known) return;
-            if (tell(RenderControl{0, kind, static_cast<int>(j), value, {}})) known = value;
-            else isTold = false;
+            if (tell(RenderControl{0, kind, static_cast<int>(j), value, {}}))
+                known = value;
+            else
+                isTold = false;
         };
         change(Kind::gain, channelGain(strips[j]), told[j].gain);
         change(Kind::delay, static_cast<float>(1e-3 * strips[j].delayMs), told[j].delaySeconds);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Fields of the desk, its strips and their equalisers, with their ranges.
 #include "Scene/Sessions/MixJson.h"
-#include "Scene/SceneFileLimits.h"
-#include "Scene/LayoutJson.h"
-#include "Io/Text/NumberText.h"
 #include "Core/Limits.h"
+#include "Io/Text/NumberText.h"
+#include "Scene/LayoutJson.h"
+#include "Scene/SceneFileLimits.h"
 
 namespace physvib {
 namespace {
@@ -65,7 +65,8 @@ Strip readStrip(const JsonField& json, Outputs outputs) {
     if (outputs == Outputs::chosen)
         json.expectObject(
             {"gain_db", "mute", "solo", "invert", "delay_ms", "ceiling_db", "output", "group", "lane"});
-    else json.expectObject({"gain_db", "mute", "solo", "invert", "delay_ms", "ceiling_db"});
+    else
+        json.expectObject({"gain_db", "mute", "solo", "invert", "delay_ms", "ceiling_db"});
     Strip strip;
     strip.gainDb = json["gain_db"].numberWithin(leastStripDb, mostStripDb);
     strip.isMuted = json["mute"].truth();
@@ -74,8 +75,8 @@ Strip readStrip(const JsonField& json, Outputs outputs) {
     strip.delayMs = json["delay_ms"].numberWithin(0.0, 1e3 * limits::maxChannelDelaySeconds);
     strip.ceilingDb = json["ceiling_db"].numberWithin(leastCeilingDb, 0.0);
     if (outputs == Outputs::chosen)
-        strip.output =
-            static_cast<int>(json["output"].numberWithin(0, mostOutputs)) - 1; // people count from 1; 0: none
+        strip.output = static_cast<int>(json["output"].numberWithin(0, mostOutputs)) - 1; // people count from
+                                                                                          // 1; 0: none
     if (json.has("group"))
         strip.group = static_cast<int>(json["group"].numberWithin(1, mostGroups)) - 1; // the same
     if (json.has("lane")) strip.lane = readLane(json["lane"]);
@@ -114,7 +115,9 @@ OrderedJson stripsJson(std::span<const Strip> strips, Outputs outputs) {
 
 FrequencyBand readBand(const JsonField& json) {
     if (json.arraySize() != 2) json.fail("expected [lowest, highest]");
-    const auto hz = [&](std::size_t i) { return json.item(i).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz); };
+    const auto hz = [&](std::size_t i) {
+        return json.item(i).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz);
+    };
     const FrequencyBand band{hz(0), hz(1)};
     if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
     return band;
@@ -123,13 +126,16 @@ FrequencyBand readBand(const JsonField& json) {
 OrderedJson bandJson(const FrequencyBand& band) { return {band.lowHz, band.highHz}; }
 
 EqualisedActuators readEqualised(const JsonField& list, int channels) {
-    if (list.arraySize() != static_cast<std::size_t>(channels)) list.fail("expected " + std::to_string(channels) + " items, one per channel");
+    if (list.arraySize() != static_cast<std::size_t>(channels))
+        list.fail("expected " + std::to_string(channels) + " items, one per channel");
     EqualisedActuators equalised{};
     for (std::size_t j = 0; j < list.arraySize(); ++j) {
         const JsonField item = list.item(j);
         if (item.isNull()) continue;
         item.expectObject({"resonance_hz", "q", "band_hz"});
-        const Resonator resonator{item["resonance_hz"].numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz), item["q"].numberWithin(limits::leastQ, limits::mostQ)};
+        const Resonator resonator{
+            item["resonance_hz"].numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz),
+            item["q"].numberWithin(limits::leastQ, limits::mostQ)};
         equalised[j] = {resonator, readBand(item["band_hz"])};
     }
     return equalised;
@@ -139,8 +145,11 @@ OrderedJson equalisedJson(const EqualisedActuators& equalised, int channels) {
     OrderedJson list = OrderedJson::array();
     for (std::size_t j = 0; j < static_cast<std::size_t>(channels); ++j) {
         const auto& [resonator, band] = equalised[j];
-        if (!equalised[j].isKnown()) list.push_back(nullptr);
-        else list.push_back({{"resonance_hz", resonator.resonanceHz}, {"q", resonator.q}, {"band_hz", bandJson(band)}});
+        if (!equalised[j].isKnown())
+            list.push_back(nullptr);
+        else
+            list.push_back(
+                {{"resonance_hz", resonator.resonanceHz}, {"q", resonator.q}, {"band_hz", bandJson(band)}});
     }
     return list;
 }
@@ -154,7 +163,8 @@ Mix readMix(const JsonField& json) {
     mix.exponent = json["exponent"].numberWithin(1e-3, 100.0);
     mix.levelDb = json["level_db"].numberWithin(leastStripDb, 0.0);
     for (const char* const name : {oldDrag, "drag_ns_per_screen_m"})
-        if (json.has(name)) mix.dragNewtonSecondsPerScreenMetre = json[name].numberWithin(leastDrag, mostDrag);
+        if (json.has(name))
+            mix.dragNewtonSecondsPerScreenMetre = json[name].numberWithin(leastDrag, mostDrag);
     mix.strips = readStrips(json["strips"], mix.count(), Outputs::chosen);
     if (json.has("groups")) mix.groups = readGroups(json["groups"]);
     for (std::size_t j = 0; j < mix.strips.size(); ++j)
@@ -167,11 +177,11 @@ Mix readMix(const JsonField& json) {
 
 OrderedJson mixJson(const Mix& mix) {
     OrderedJson json{{"layout", OrderedJson::parse(layoutJson(mix.layout))},
-            {"law", nameOf(mix.law)},
-            {"exponent", mix.exponent},
-            {"level_db", mix.levelDb},
-            {"drag_ns_per_screen_m", mix.dragNewtonSecondsPerScreenMetre},
-            {"strips", stripsJson(mix.strips, Outputs::chosen)}};
+                     {"law", nameOf(mix.law)},
+                     {"exponent", mix.exponent},
+                     {"level_db", mix.levelDb},
+                     {"drag_ns_per_screen_m", mix.dragNewtonSecondsPerScreenMetre},
+                     {"strips", stripsJson(mix.strips, Outputs::chosen)}};
     if (!mix.groups.empty()) json["groups"] = groupsJson(mix.groups);
     return json;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A message as any door brings it or takes an answer away: a name, and named values. What it means stands elsewhere.
+// A message as any door brings it or takes an answer away: a name, and named values. What it means stands
+// elsewhere.
 #pragma once
 #include <string>
 #include <variant>

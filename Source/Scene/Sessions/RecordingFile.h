@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recorded contacts as sessions and calls name them: where the samples are, and how to know that they are still the same.
+// Recorded contacts as sessions and calls name them: where the samples are, and how to know that they are
+// still the same.
 #pragma once
 #include "Io/Disk/ContentHash.h"
 #include "Io/Result.h"
@@ -17,7 +18,8 @@ struct RecordingFile {
     std::string path{};          ///< a WAV file, or "synthetic-SEED"
     double decayPerSecond = 0.0; ///< of the material; 0: not known
     bool isMatched = false;      ///< as strong as the material's mode; else as high: its peak is 1
-    std::string hash{};          ///< contentHash of the file when it was read; empty: whatever it holds; always of what is synthetic
+    std::string hash{}; ///< contentHash of the file when it was read; empty: whatever it holds; always of
+                        ///< what is synthetic
     bool operator==(const RecordingFile&) const = default;
 };
 

@@ -3,20 +3,20 @@
 #include "Scene/Sessions/SessionFile.h"
 #include "Core/ClipNumber.h"
 #include "Core/Decibels.h"
-#include "Scene/Sessions/ControlJson.h"
 #include "Io/Disk/FileClash.h"
-#include "Scene/SceneFileLimits.h"
 #include "Io/Disk/ReadFile.h"
+#include "Io/Json/JsonText.h"
+#include "Io/Text/NumberText.h"
 #include "Scene/EventColumns.h"
 #include "Scene/JsonReader.h"
-#include "Io/Json/JsonText.h"
 #include "Scene/JsonWriter.h"
+#include "Scene/SceneEdits.h"
+#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneValidation.h"
+#include "Scene/Sessions/ControlJson.h"
 #include "Scene/Sessions/MixJson.h"
-#include "Io/Text/NumberText.h"
 #include "Scene/Sessions/SessionJournalText.h"
 #include "Scene/Sessions/SessionJson.h"
-#include "Scene/SceneEdits.h"
-#include "Scene/SceneValidation.h"
 #include "Scene/World/Simulation.h"
 #include <cmath>
 
@@ -32,7 +32,8 @@ constexpr double maxSeconds = static_cast<double>(limits::maxSessionNs) * 1e-9;
 int readWhole(const JsonField& field, int least, int most) {
     const int found = field.wholeNumber();
     if (found < least || found > most)
-        field.fail("expected " + std::to_string(least) + " to " + std::to_string(most) + ", found " + std::to_string(found));
+        field.fail("expected " + std::to_string(least) + " to " + std::to_string(most) + ", found " +
+                   std::to_string(found));
     return found;
 }
 
@@ -46,7 +47,9 @@ std::int64_t readNextTime(const JsonField& item, std::int64_t last) {
 /// With those that its script spawns.
 std::size_t bodiesOf(const Scene& scene) {
     std::size_t count = scene.bodies.size();
-    for (const ScriptInput& input : scene.script) count += std::holds_alternative<SpawnAction>(input.action) ? static_cast<std::size_t>(input.times) : 0;
+    for (const ScriptInput& input : scene.script)
+        count +=
+            std::holds_alternative<SpawnAction>(input.action) ? static_cast<std::size_t>(input.times) : 0;
     return count;
 }
 
@@ -55,13 +58,15 @@ SceneTake readTake(const JsonField& json, const SceneTake* before) {
     SceneTake take = readTakeStart(json, before);
     take.worldEndNs = readTime(json["world_end_s"]);
     if (json.has("inputs"))
-        detail::readValue(json["inputs"], take.inputs, items(0, sceneLimits::maxLiveInputs), take.scene->materials);
+        detail::readValue(json["inputs"], take.inputs, items(0, sceneLimits::maxLiveInputs),
+                          take.scene->materials);
     for (std::size_t i = 0, count = json.has("stalls") ? json["stalls"].arraySize() : 0; i < count; ++i) {
         const JsonField stall = json["stalls"].item(i);
         take.stalls.push_back(readStall(stall, take));
     }
     const bool isKnownToBeValid = before != nullptr && take.scene == before->scene && take.inputs.empty();
-    if (const std::string fault = isKnownToBeValid ? std::string{} : validate(take.whole()); !fault.empty()) json.fail(fault);
+    if (const std::string fault = isKnownToBeValid ? std::string{} : validate(take.whole()); !fault.empty())
+        json.fail(fault);
     return take;
 }
 
@@ -73,25 +78,31 @@ double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; } // the
 SceneTake readTakeStart(const JsonField& json, const SceneTake* before) {
     SceneTake take;
     take.startNs = readTime(json["start_s"]);
-    if (before != nullptr && take.startNs < before->startNs) json["start_s"].fail("expected a time that is not before that of the take above");
+    if (before != nullptr && take.startNs < before->startNs)
+        json["start_s"].fail("expected a time that is not before that of the take above");
     take.seed = static_cast<std::uint32_t>(json["seed"].numberUpTo(4294967295.0));
-    if (before != nullptr && !json.has("scene")) take.scene = before->scene;
-    else take.scene = std::make_shared<const Scene>(readFields<Scene>(json["scene"]));
+    if (before != nullptr && !json.has("scene"))
+        take.scene = before->scene;
+    else
+        take.scene = std::make_shared<const Scene>(readFields<Scene>(json["scene"]));
     return take;
 }
 
 WorldStall readStall(const JsonField& json, const SceneTake& take) {
     json.expectObject({"time_s", "seconds", "steps"});
     const std::int64_t last = take.stalls.empty() ? 0 : take.stalls.back().worldNs;
-    return {readNextTime(json, last), readTime(json["seconds"]), json.has("steps") ? readWhole(json["steps"], 1, 1'000'000'000) : 1};
+    return {readNextTime(json, last), readTime(json["seconds"]),
+            json.has("steps") ? readWhole(json["steps"], 1, 1'000'000'000) : 1};
 }
 
 void readTimedControl(const JsonField& json, SavedSession& session) {
     SessionLog& log = session.log;
     const RenderControl control = readControl(json, session.channels, "time_s");
     const std::int64_t time = readNextTime(json, session.log.lastControlNs());
-    if (control.kind == RenderControl::Kind::panner) log.panners.push_back({time, control.panner});
-    else log.channels.push_back({time, control.kind, control.channel, control.value});
+    if (control.kind == RenderControl::Kind::panner)
+        log.panners.push_back({time, control.panner});
+    else
+        log.channels.push_back({time, control.kind, control.channel, control.value});
 }
 
 namespace {
@@ -125,7 +136,8 @@ StrikeCourse readCourse(const JsonField& strike) {
 } // namespace
 
 CollisionEvent readStrike(const JsonField& json) {
-    json.expectObject({"time_s", "frequency_hz", "decay_per_s", "amplitude", "x_m", "y_m", "duration_s", "to_x_m", "to_y_m", "travel_s", "since_s", "spread"});
+    json.expectObject({"time_s", "frequency_hz", "decay_per_s", "amplitude", "x_m", "y_m", "duration_s",
+                       "to_x_m", "to_y_m", "travel_s", "since_s", "spread"});
     CollisionEvent strike;
     strike.timeNs = readTime(json["time_s"]);
     strike.frequencyHz = json["frequency_hz"].positiveNumber();
@@ -136,7 +148,9 @@ CollisionEvent readStrike(const JsonField& json) {
     if (json.has("duration_s")) strike.durationNs = readTime(json["duration_s"]);
     strike.course = readCourse(json);
     if (isTooSlow(strike)) json["frequency_hz"].fail(tooSlowFault(strike));
-    if (!isPlayable(strike)) json.fail("expected a strike that can be played: within the ranges of an event list, with a decay or a duration");
+    if (!isPlayable(strike))
+        json.fail("expected a strike that can be played: within the ranges of an event list, with a decay or "
+                  "a duration");
     return strike;
 }
 
@@ -156,28 +170,36 @@ RecordingFile readRecordingFile(const JsonField& json) {
 void readClipFile(const JsonField& json, SessionLog& log) {
     json.expectObject({"frequency_hz", "file", "channel", "hash"});
     const auto number = static_cast<int>(log.clips.size());
-    if (number == mostClips) json.fail("expected at most " + std::to_string(mostClips) + " channels of clips, found more");
+    if (number == mostClips)
+        json.fail("expected at most " + std::to_string(mostClips) + " channels of clips, found more");
     if (const double found = json["frequency_hz"].positiveNumber(); found != clipFrequencyHz(number))
-        json["frequency_hz"].fail("expected " + numberText(clipFrequencyHz(number)) + ", for clip " + std::to_string(number + 1) + ", found " + numberText(found));
-    ClipFile clip{{clipFrequencyHz(number), json["file"].text()}, json.has("channel") ? readWhole(json["channel"], 0, limits::maxEnchanters - 1) : 0};
+        json["frequency_hz"].fail("expected " + numberText(clipFrequencyHz(number)) + ", for clip " +
+                                  std::to_string(number + 1) + ", found " + numberText(found));
+    ClipFile clip{{clipFrequencyHz(number), json["file"].text()},
+                  json.has("channel") ? readWhole(json["channel"], 0, limits::maxEnchanters - 1) : 0};
     clip.file.hash = json["hash"].text();
     log.clips.push_back(std::move(clip));
 }
 
 void readRecordingsChange(const JsonField& json, SessionLog& log) {
     json.expectObject({"time_s", "files"});
-    RecordingsChange change{readNextTime(json, log.recordings.empty() ? 0 : log.recordings.back().timeNs), {}};
-    for (std::size_t k = 0; k < json["files"].arraySize(); ++k) change.files.push_back(readRecordingFile(json["files"].item(k)));
+    RecordingsChange change{readNextTime(json, log.recordings.empty() ? 0 : log.recordings.back().timeNs),
+                            {}};
+    for (std::size_t k = 0; k < json["files"].arraySize(); ++k)
+        change.files.push_back(readRecordingFile(json["files"].item(k)));
     log.recordings.push_back(std::move(change));
 }
 
 namespace {
 
 EventShaping readShaping(const JsonField& json) {
-    json.expectObject({"method", "fixed_amplitude", "remap_hz", "gain", "perceived_level", "gamma", "holds_level"});
+    json.expectObject(
+        {"method", "fixed_amplitude", "remap_hz", "gain", "perceived_level", "gamma", "holds_level"});
     EventShaping shaping;
-    if (json.has("method") && !renderingMethodNamed(json["method"].text(), shaping.method)) json["method"].fail("expected a name from AV-FV-DRV to AF-FF-DRF");
-    if (json.has("fixed_amplitude")) shaping.method.fixedAmplitude = json["fixed_amplitude"].numberUpTo(limits::maxAmplitude);
+    if (json.has("method") && !renderingMethodNamed(json["method"].text(), shaping.method))
+        json["method"].fail("expected a name from AV-FV-DRV to AF-FF-DRF");
+    if (json.has("fixed_amplitude"))
+        shaping.method.fixedAmplitude = json["fixed_amplitude"].numberUpTo(limits::maxAmplitude);
     if (json.has("holds_level")) shaping.method.holdsLevel = json["holds_level"].truth();
     if (json.has("gain")) shaping.gain = json["gain"].numberUpTo(limits::maxAmplitude);
     if (json.has("perceived_level")) shaping.perceived.isWeighted = json["perceived_level"].truth();
@@ -190,11 +212,14 @@ EventShaping readShaping(const JsonField& json) {
 
 SavedSession readSessionHead(const JsonField& root, std::initializer_list<std::string_view> others) {
     checkVersion(root, sessionVersionField, sessionFormatVersion);
-    std::vector<std::string_view> known{sessionVersionField, "steps_per_second", "timing", "location", "limiter", "ceilings", "equalised", "shaping", "channels", "panning"};
+    std::vector<std::string_view> known{sessionVersionField, "steps_per_second", "timing",    "location",
+                                        "limiter",           "ceilings",         "equalised", "shaping",
+                                        "channels",          "panning"};
     known.insert(known.end(), others);
     root.expectOnly(known);
     SavedSession session;
-    session.run.stepsPerSecond = readWhole(root["steps_per_second"], Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond);
+    session.run.stepsPerSecond =
+        readWhole(root["steps_per_second"], Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond);
     session.run.timing = static_cast<ImpactTiming>(root["timing"].oneOf(timingNames));
     session.run.location = static_cast<ImpactLocation>(root["location"].oneOf(locationNames));
     session.limiterEnabled = root["limiter"].truth();
@@ -209,20 +234,25 @@ SavedSession readSessionHead(const JsonField& root, std::initializer_list<std::s
 namespace {
 
 SavedSession readSessionRoot(const JsonField& root) {
-    SavedSession session = readSessionHead(root, {"seconds", "takes", "controls", "recordings", "clips", "strikes", "desk"});
+    SavedSession session =
+        readSessionHead(root, {"seconds", "takes", "controls", "recordings", "clips", "strikes", "desk"});
     session.lengthNs = readTime(root["seconds"]);
     const JsonField takes = root["takes"];
     if (takes.arraySize() == 0) takes.fail("expected at least 1 take, found none");
     for (std::size_t i = 0, bodies = 0; i < takes.arraySize(); ++i) {
-        session.log.takes.push_back(readTake(takes.item(i), session.log.takes.empty() ? nullptr : &session.log.takes.back()));
+        session.log.takes.push_back(
+            readTake(takes.item(i), session.log.takes.empty() ? nullptr : &session.log.takes.back()));
         bodies += bodiesOf(*session.log.takes.back().scene);
-        if (bodies > limits::maxTakeBodies) takes.fail("expected at most " + std::to_string(limits::maxTakeBodies) + " bodies in all takes");
+        if (bodies > limits::maxTakeBodies)
+            takes.fail("expected at most " + std::to_string(limits::maxTakeBodies) + " bodies in all takes");
     }
     for (std::size_t i = 0, count = root.has("controls") ? root["controls"].arraySize() : 0; i < count; ++i)
         readTimedControl(root["controls"].item(i), session);
-    for (std::size_t i = 0, count = root.has("recordings") ? root["recordings"].arraySize() : 0; i < count; ++i)
+    for (std::size_t i = 0, count = root.has("recordings") ? root["recordings"].arraySize() : 0; i < count;
+         ++i)
         readRecordingsChange(root["recordings"].item(i), session.log);
-    for (std::size_t i = 0, count = root.has("clips") ? root["clips"].arraySize() : 0; i < count; ++i) readClipFile(root["clips"].item(i), session.log);
+    for (std::size_t i = 0, count = root.has("clips") ? root["clips"].arraySize() : 0; i < count; ++i)
+        readClipFile(root["clips"].item(i), session.log);
     for (std::size_t i = 0, count = root.has("strikes") ? root["strikes"].arraySize() : 0; i < count; ++i)
         session.log.strikes.push_back(readStrike(root["strikes"].item(i)));
     if (root.has("desk")) {
@@ -236,11 +266,16 @@ SavedSession readSessionRoot(const JsonField& root) {
 } // namespace
 
 OrderedJson strikeJson(const CollisionEvent& strike) {
-    OrderedJson json{{"time_s", seconds(strike.timeNs)}, {"frequency_hz", strike.frequencyHz}, {"decay_per_s", strike.decayPerSecond},
-                     {"amplitude", strike.amplitude}, {"x_m", strike.x}, {"y_m", strike.y}};
+    OrderedJson json{{"time_s", seconds(strike.timeNs)},
+                     {"frequency_hz", strike.frequencyHz},
+                     {"decay_per_s", strike.decayPerSecond},
+                     {"amplitude", strike.amplitude},
+                     {"x_m", strike.x},
+                     {"y_m", strike.y}};
     if (strike.durationNs > 0) json["duration_s"] = seconds(strike.durationNs);
     const StrikeCourse& course = strike.course;
-    if (course.travelNs > 0) json.update({{"to_x_m", course.toX}, {"to_y_m", course.toY}, {"travel_s", seconds(course.travelNs)}});
+    if (course.travelNs > 0)
+        json.update({{"to_x_m", course.toX}, {"to_y_m", course.toY}, {"travel_s", seconds(course.travelNs)}});
     if (course.sinceNs > 0) json["since_s"] = seconds(course.sinceNs);
     if (course.spread != Spread::layout) json["spread"] = nameOf(course.spread);
     return json;
@@ -255,7 +290,9 @@ OrderedJson takeStartJson(const SceneTake& take, const SceneTake* before, bool w
     return json;
 }
 
-OrderedJson inputJson(const LiveInput& input, const Scene& scene) { return fieldsJson(input, scene.materials); }
+OrderedJson inputJson(const LiveInput& input, const Scene& scene) {
+    return fieldsJson(input, scene.materials);
+}
 
 OrderedJson stallJson(const WorldStall& stall) {
     OrderedJson json{{"time_s", seconds(stall.worldNs)}, {"seconds", seconds(stall.lengthNs)}};
@@ -280,7 +317,8 @@ OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
 
 OrderedJson shapingJson(const EventShaping& shaping) {
     const auto name = nameOf(shaping.method);
-    OrderedJson json{{"method", std::string(name.begin(), name.end())}, {"fixed_amplitude", shaping.method.fixedAmplitude}};
+    OrderedJson json{{"method", std::string(name.begin(), name.end())},
+                     {"fixed_amplitude", shaping.method.fixedAmplitude}};
     if (shaping.method.holdsLevel) json["holds_level"] = true;
     if (shaping.remap.band.isKnown()) json["remap_hz"] = bandJson(shaping.remap.band);
     if (shaping.gain != 1.0) json["gain"] = shaping.gain;
@@ -318,8 +356,10 @@ OrderedJson recordingsJson(const RecordingsChange& change, const std::filesystem
 
 OrderedJson sessionHeadJson(const SavedSession& session, bool isJournal) {
     OrderedJson root{{sessionVersionField, sessionFormatVersion}};
-    if (isJournal) root["journal"] = journalFormatVersion;
-    else root["seconds"] = seconds(session.lengthNs);
+    if (isJournal)
+        root["journal"] = journalFormatVersion;
+    else
+        root["seconds"] = seconds(session.lengthNs);
     root["steps_per_second"] = session.run.stepsPerSecond;
     root["timing"] = timingNames[static_cast<std::size_t>(session.run.timing)];
     root["location"] = locationNames[static_cast<std::size_t>(session.run.location)];
@@ -329,7 +369,8 @@ OrderedJson sessionHeadJson(const SavedSession& session, bool isJournal) {
     if (!isJournal) root["takes"] = OrderedJson::array();
     const std::vector<double> ceilings(session.ceilings.begin(), session.ceilings.begin() + session.channels);
     if (std::ranges::any_of(ceilings, [](double most) { return most != 1.0; })) root["ceilings"] = ceilings;
-    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) root["equalised"] = equalisedJson(session.equalised, session.channels);
+    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown))
+        root["equalised"] = equalisedJson(session.equalised, session.channels);
     if (session.shaping != EventShaping{}) root["shaping"] = shapingJson(session.shaping);
     return root;
 }
@@ -338,19 +379,26 @@ OrderedJson sessionHeadJson(const SavedSession& session, bool isJournal) {
 
 Result<SavedSession> readSession(std::string_view text, std::string_view name) {
     if (isJournal(text)) return readJournal(text, name);
-    return readJson(text, name, limits::maxSessionFileBytes, [](const Json& root) { return detail::readSessionRoot(JsonField(root, {})); });
+    return readJson(text, name, limits::maxSessionFileBytes,
+                    [](const Json& root) { return detail::readSessionRoot(JsonField(root, {})); });
 }
 
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
     auto session = loadText(path, limits::maxSessionFileBytes, readSession);
     for (const RecordingsChange& change : session.value.log.recordings)
         for (const RecordingFile& file : change.files)
-            if (file.hash.empty() && !syntheticSeed(file.path) && !isWithin(path.parent_path(), path.parent_path() / file.path))
-                return Failure{path.string() + ": recordings: expected a hash for a file that is not in the session's folder or below, found none for " + inQuotes(file.path)};
+            if (file.hash.empty() && !syntheticSeed(file.path) &&
+                !isWithin(path.parent_path(), path.parent_path() / file.path))
+                return Failure{path.string() +
+                               ": recordings: expected a hash for a file that is not in the session's folder "
+                               "or below, found none for " +
+                               inQuotes(file.path)};
     for (RecordingsChange& change : session.value.log.recordings)
         for (RecordingFile& file : change.files)
-            if (!syntheticSeed(file.path)) file.path = (path.parent_path() / file.path).lexically_normal().string();
-    for (ClipFile& clip : session.value.log.clips) clip.file.path = (path.parent_path() / clip.file.path).lexically_normal().string();
+            if (!syntheticSeed(file.path))
+                file.path = (path.parent_path() / file.path).lexically_normal().string();
+    for (ClipFile& clip : session.value.log.clips)
+        clip.file.path = (path.parent_path() / clip.file.path).lexically_normal().string();
     return session;
 }
 
@@ -361,10 +409,13 @@ std::string sessionJson(const SavedSession& session, const std::filesystem::path
         root["takes"].push_back(detail::takeJson(take, before));
         before = &take;
     }
-    for (const RenderControl& control : controlsOf(session.log, true, session.channels)) root["controls"].push_back(detail::timedControlJson(control));
-    for (const RecordingsChange& change : session.log.recordings) root["recordings"].push_back(detail::recordingsJson(change, folder));
+    for (const RenderControl& control : controlsOf(session.log, true, session.channels))
+        root["controls"].push_back(detail::timedControlJson(control));
+    for (const RecordingsChange& change : session.log.recordings)
+        root["recordings"].push_back(detail::recordingsJson(change, folder));
     for (const ClipFile& clip : session.log.clips) root["clips"].push_back(detail::clipJson(clip, folder));
-    for (const CollisionEvent& strike : session.log.strikes) root["strikes"].push_back(detail::strikeJson(strike));
+    for (const CollisionEvent& strike : session.log.strikes)
+        root["strikes"].push_back(detail::strikeJson(strike));
     if (session.mix) root["desk"] = mixJson(*session.mix);
     return jsonLines(root);
 }
@@ -374,7 +425,8 @@ Mix mixOf(const SavedSession& session) {
     Mix mix;
     mix.scene = std::make_shared<const Scene>(sceneAsLeft(session.log.takes.back()));
     mix.seed = session.log.takes.back().seed;
-    const PhantomPanner& panner = session.log.panners.empty() ? session.panner : session.log.panners.back().panner;
+    const PhantomPanner& panner =
+        session.log.panners.empty() ? session.panner : session.log.panners.back().panner;
     mix.layout = describeLayout("own", panner.layout());
     mix.law = panner.law();
     mix.exponent = panner.exponent();
@@ -388,10 +440,13 @@ Mix mixOf(const SavedSession& session) {
         if (change.channel >= mix.count()) continue;
         Strip& strip = mix.strips[static_cast<std::size_t>(change.channel)];
         if (change.kind == RenderControl::Kind::mute) strip.isMuted = change.value != 0.0f;
-        if (change.kind == RenderControl::Kind::ceiling) strip.ceilingDb = std::clamp(decibels(change.value), leastCeilingDb, 0.0);
+        if (change.kind == RenderControl::Kind::ceiling)
+            strip.ceilingDb = std::clamp(decibels(change.value), leastCeilingDb, 0.0);
         if (change.kind != RenderControl::Kind::gain) continue;
         strip.isInverted = change.value < 0.0f;
-        strip.gainDb = change.value == 0.0f ? leastStripDb : std::clamp(decibels(std::abs(change.value)), leastStripDb, mostStripDb);
+        strip.gainDb = change.value == 0.0f
+                           ? leastStripDb
+                           : std::clamp(decibels(std::abs(change.value)), leastStripDb, mostStripDb);
     }
     return mix;
 }
@@ -399,9 +454,11 @@ Mix mixOf(const SavedSession& session) {
 std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels) {
     std::vector<RenderControl> all;
     if (keepLayouts)
-        for (const PannerChange& change : log.panners) all.push_back({change.timeNs, RenderControl::Kind::panner, 0, 0.0f, change.panner});
+        for (const PannerChange& change : log.panners)
+            all.push_back({change.timeNs, RenderControl::Kind::panner, 0, 0.0f, change.panner});
     for (const ChannelChange& change : log.channels)
-        if (change.channel < channels) all.push_back({change.timeNs, change.kind, change.channel, change.value, {}});
+        if (change.channel < channels)
+            all.push_back({change.timeNs, change.kind, change.channel, change.value, {}});
     std::ranges::stable_sort(all, {}, &RenderControl::timeNs);
     return all;
 }

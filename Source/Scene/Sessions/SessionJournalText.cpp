@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Lines out and in.
 #include "Scene/Sessions/SessionJournalText.h"
-#include "Scene/SceneFileLimits.h"
-#include "Scene/JsonReader.h"
 #include "Io/Json/JsonText.h"
-#include "Scene/Sessions/SessionJson.h"
+#include "Scene/JsonReader.h"
+#include "Scene/SceneFileLimits.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/Sessions/SessionJson.h"
 #include <algorithm>
 #include <utility>
 
@@ -27,7 +27,8 @@ class JournalReader {
 public:
     void read(const JsonField& json) {
         if (lines_++ == 0) return begin(json);
-        json.expectObject({"take", "input", "stall", "control", "recordings", "clip", "strike", "world_end_s", "seconds"});
+        json.expectObject(
+            {"take", "input", "stall", "control", "recordings", "clip", "strike", "world_end_s", "seconds"});
         if (json.has("take")) addTake(json["take"]);
         if (json.has("input")) addInput(json["input"]);
         if (json.has("stall")) addStall(json["stall"]);
@@ -62,14 +63,17 @@ private:
     }
     void addInput(const JsonField& json) {
         SceneTake& last = take(json);
-        if (last.inputs.size() == sceneLimits::maxLiveInputs) json.fail("expected at most " + std::to_string(sceneLimits::maxLiveInputs) + " inputs of a take");
+        if (last.inputs.size() == sceneLimits::maxLiveInputs)
+            json.fail("expected at most " + std::to_string(sceneLimits::maxLiveInputs) + " inputs of a take");
         detail::readValue(json, last.inputs.emplace_back(), {}, last.scene->materials);
     }
     void addStall(const JsonField& json) {
         SceneTake& last = take(json);
         const WorldStall stall = detail::readStall(json, last);
-        if (!last.stalls.empty() && last.stalls.back().worldNs == stall.worldNs) last.stalls.back() = stall;
-        else last.stalls.push_back(stall);
+        if (!last.stalls.empty() && last.stalls.back().worldNs == stall.worldNs)
+            last.stalls.back() = stall;
+        else
+            last.stalls.push_back(stall);
     }
 
     SavedSession session_;
@@ -79,8 +83,10 @@ private:
 /// What is told, without what was cut off.
 std::string_view toldPart(std::string_view text) {
     constexpr std::string_view told = "\n{ \"seconds\": ";
-    for (std::size_t at = text.rfind(told); at != std::string_view::npos && at > 0; at = text.rfind(told, at - 1))
-        if (const std::size_t end = text.find('\n', at + 1); end != std::string_view::npos) return text.substr(0, end + 1);
+    for (std::size_t at = text.rfind(told); at != std::string_view::npos && at > 0;
+         at = text.rfind(told, at - 1))
+        if (const std::size_t end = text.find('\n', at + 1); end != std::string_view::npos)
+            return text.substr(0, end + 1);
     return text.substr(0, text.find('\n') + 1);
 }
 
@@ -89,13 +95,16 @@ std::string_view toldPart(std::string_view text) {
 bool isJournal(std::string_view text) noexcept {
     constexpr std::size_t mostVersionBytes = 40;
     const std::string_view head = text.substr(0, std::min(text.find('\n'), mostVersionBytes));
-    return head.starts_with("{ \"physvib_session\": ") && head.find("\"journal\": ") != std::string_view::npos;
+    return head.starts_with("{ \"physvib_session\": ") &&
+           head.find("\"journal\": ") != std::string_view::npos;
 }
 
 Result<SavedSession> readJournal(std::string_view text, std::string_view name) {
     std::string where{name};
     try {
-        if (text.size() > limits::maxSessionFileBytes) throw JsonError({}, "expected at most " + std::to_string(limits::maxSessionFileBytes) + " bytes, found more");
+        if (text.size() > limits::maxSessionFileBytes)
+            throw JsonError({}, "expected at most " + std::to_string(limits::maxSessionFileBytes) +
+                                    " bytes, found more");
         JournalReader reader;
         std::string_view rest = toldPart(text);
         for (std::size_t line = 1; !rest.empty(); ++line) {
@@ -123,9 +132,12 @@ std::string JournalLines::take(SessionLog& log, std::int64_t sessionNs) {
         return {};
     }
     std::string text = linesOf(log, sessionNs);
-    if (inputs_ > sceneLimits::maxLiveInputs) full_ = std::to_string(sceneLimits::maxLiveInputs) + " inputs";
-    else if (bytes_ + text.size() > mostBytes) full_ = std::to_string(mostBytes / 1'000'000) + " MB";
-    else if (sessionNs > limits::maxSessionNs) full_ = std::to_string(limits::maxSessionNs / 86'400'000'000'000) + " days";
+    if (inputs_ > sceneLimits::maxLiveInputs)
+        full_ = std::to_string(sceneLimits::maxLiveInputs) + " inputs";
+    else if (bytes_ + text.size() > mostBytes)
+        full_ = std::to_string(mostBytes / 1'000'000) + " MB";
+    else if (sessionNs > limits::maxSessionNs)
+        full_ = std::to_string(limits::maxSessionNs / 86'400'000'000'000) + " days";
     if (!full_.empty()) return {};
     bytes_ += text.size();
     toldNs_ = sessionNs;
@@ -140,7 +152,8 @@ std::string JournalLines::linesOf(SessionLog& log, std::int64_t sessionNs) {
             inputs_ = 0;
             lastStall_ = {-1};
         }
-        for (const LiveInput& input : take.inputs) text += lineOf("input", detail::inputJson(input, *take.scene));
+        for (const LiveInput& input : take.inputs)
+            text += lineOf("input", detail::inputJson(input, *take.scene));
         inputs_ += std::exchange(take.inputs, {}).size();
         for (const WorldStall& stall : take.stalls)
             if (std::exchange(lastStall_, stall) != stall) text += lineOf("stall", detail::stallJson(stall));
@@ -151,8 +164,10 @@ std::string JournalLines::linesOf(SessionLog& log, std::int64_t sessionNs) {
         before_.scene = take.scene;
     }
     if (log.takes.size() > 1) log.takes.erase(log.takes.begin(), log.takes.end() - 1);
-    for (const RenderControl& control : controlsOf(log, true, channels_)) text += lineOf("control", detail::timedControlJson(control));
-    for (const RecordingsChange& change : log.recordings) text += lineOf("recordings", detail::recordingsJson(change, folder_));
+    for (const RenderControl& control : controlsOf(log, true, channels_))
+        text += lineOf("control", detail::timedControlJson(control));
+    for (const RecordingsChange& change : log.recordings)
+        text += lineOf("recordings", detail::recordingsJson(change, folder_));
     for (const ClipFile& clip : log.clips) text += lineOf("clip", detail::clipJson(clip, folder_));
     for (const CollisionEvent& strike : log.strikes) text += lineOf("strike", detail::strikeJson(strike));
     log.panners.clear();

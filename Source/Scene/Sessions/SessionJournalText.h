@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A session while it is played: lines that are only ever added, so that saving costs what is new.
 //
-// The first line is the head of a session file; each of the others adds one thing: a take, an input, a stall (which takes
-// the place of the one before if it begins where that began), a control, recordings, a clip, a strike; or it says up to which
-// time all of them have been told. What follows the last such line counts for nothing: it was cut off.
+// The first line is the head of a session file; each of the others adds one thing: a take, an input, a stall
+// (which takes the place of the one before if it begins where that began), a control, recordings, a clip, a
+// strike; or it says up to which time all of them have been told. What follows the last such line counts for
+// nothing: it was cut off.
 #pragma once
 #include "Scene/Sessions/SessionFile.h"
 #include <cstddef>
@@ -30,8 +31,8 @@ public:
     /// The first line.
     const std::string& head() const noexcept { return head_; }
 
-    /// The lines of what Session::readLog has moved to `log` since the last call, which is all up to `sessionNs`; `log` keeps
-    /// what the next call needs. Empty once the journal is full.
+    /// The lines of what Session::readLog has moved to `log` since the last call, which is all up to
+    /// `sessionNs`; `log` keeps what the next call needs. Empty once the journal is full.
     std::string take(SessionLog& log, std::int64_t sessionNs);
 
     /// Empty, or what a file cannot hold more of: the session that was told ends there.

@@ -2,8 +2,8 @@
 // Everything that was done in a session: what it takes to render it again.
 #pragma once
 #include "Core/RenderControl.h"
-#include "Scene/Sessions/RecordingFile.h"
 #include "Scene/SceneTake.h"
+#include "Scene/Sessions/RecordingFile.h"
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -39,20 +39,21 @@ struct ClipFile {
 };
 
 struct SessionLog {
-    std::vector<SceneTake> takes; ///< one after the other; the last goes on
-    std::vector<PannerChange> panners;   ///< in time order
-    std::vector<ChannelChange> channels; ///< in time order
+    std::vector<SceneTake> takes;             ///< one after the other; the last goes on
+    std::vector<PannerChange> panners;        ///< in time order
+    std::vector<ChannelChange> channels;      ///< in time order
     std::vector<RecordingsChange> recordings; ///< in time order; without one there are none
     std::vector<CollisionEvent> strikes; ///< apart from the world, in the order in which they were asked for
-    std::vector<ClipFile> clips{};       ///< each once, before its first strike; named clipFrequencyHz(0), (1)...
+    std::vector<ClipFile> clips{}; ///< each once, before its first strike; named clipFrequencyHz(0), (1)...
 
     std::int64_t lastControlNs() const noexcept {
-        return std::max(panners.empty() ? 0 : panners.back().timeNs, channels.empty() ? 0 : channels.back().timeNs);
+        return std::max(panners.empty() ? 0 : panners.back().timeNs,
+                        channels.empty() ? 0 : channels.back().timeNs);
     }
 };
 
-/// The controls in time order, as a renderer takes them, without recordings; `keepLayouts` false leaves layouts out, and channels from
-/// `channels` on. Any thread.
+/// The controls in time order, as a renderer takes them, without recordings; `keepLayouts` false leaves
+/// layouts out, and channels from `channels` on. Any thread.
 std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels);
 
 } // namespace physvib

@@ -79,8 +79,10 @@ std::string freeGroupName(const Mix& mix) {
 
 void removeGroup(Mix& mix, int group) {
     for (Strip& strip : mix.strips) {
-        if (strip.group == group) strip = ungrouped(strip, mix.groups[static_cast<std::size_t>(group)]);
-        else if (strip.group > group) --strip.group;
+        if (strip.group == group)
+            strip = ungrouped(strip, mix.groups[static_cast<std::size_t>(group)]);
+        else if (strip.group > group)
+            --strip.group;
     }
     mix.groups.erase(mix.groups.begin() + group);
 }

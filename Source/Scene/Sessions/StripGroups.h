@@ -7,8 +7,8 @@
 
 namespace physvib {
 
-/// The strips as the session is told of them: with their group's fader and mute, in no group, without lanes. Any thread
-/// (allocates), as all of these.
+/// The strips as the session is told of them: with their group's fader and mute, in no group, without lanes.
+/// Any thread (allocates), as all of these.
 std::vector<Strip> feltStrips(const Mix& mix);
 
 /// Whether a lane of the strip or of its group moves its gain.
@@ -17,7 +17,8 @@ bool hasLane(const Mix& mix, std::size_t strip);
 /// The strip's gain at that time of the scene, in dB: fader, group and both lanes.
 double gainDbAt(const Mix& mix, std::size_t strip, double seconds);
 
-/// The same at its loudest; and what group and lanes add to the fader then, which is not held to a fader's range.
+/// The same at its loudest; and what group and lanes add to the fader then, which is not held to a fader's
+/// range.
 double loudestDb(const Mix& mix, std::size_t strip);
 double mostAddedDb(const Mix& mix, std::size_t strip);
 

@@ -11,8 +11,8 @@ struct BodyMoments {
     double inertiaKgSquareMetres = 0.0; ///< about the centre
 };
 
-/// Moments by density and area of the fixtures, not the rounded masses of Table 5.1, scaled to the body's own mass where it
-/// states one. Any thread.
+/// Moments by density and area of the fixtures, not the rounded masses of Table 5.1, scaled to the body's own
+/// mass where it states one. Any thread.
 BodyMoments bodyMoments(const BodyDescription& body, const Scene& scene) noexcept;
 
 /// Mass for Eq. 5.4, kg: of a body that is not dynamic, the one it states. Any thread.

@@ -7,8 +7,8 @@
 
 namespace physvib {
 
-/// Bodies in one place touch in pairs, which are as many as the square of the bodies: two thousand would ask for a gigabyte and minutes.
-/// From maxContacts on, pairs pass through each other, and are counted. M only.
+/// Bodies in one place touch in pairs, which are as many as the square of the bodies: two thousand would ask
+/// for a gigabyte and minutes. From maxContacts on, pairs pass through each other, and are counted. M only.
 class ContactBound final : public b2ContactFilter {
 public:
     explicit ContactBound(const b2World& world)

@@ -2,8 +2,8 @@
 // The scene with one more input must be a valid scene.
 #include "Scene/World/InputCheck.h"
 #include "Scene/SceneRanges.h"
-#include "Scene/World/SceneCast.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <utility>
 #include <variant>
@@ -15,8 +15,12 @@ namespace {
 bool isSpawn(const Action& action) { return std::holds_alternative<SpawnAction>(action); }
 bool isRemoval(const Action& action) { return std::holds_alternative<RemoveAction>(action); }
 bool isChange(const Action& action) { return std::holds_alternative<ChangeAction>(action); }
-bool isJoining(const Action& action) { return std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action); }
-bool isSwitch(const Action& action) { return std::holds_alternative<CameraAction>(action) || std::holds_alternative<MaterialAction>(action); }
+bool isJoining(const Action& action) {
+    return std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
+}
+bool isSwitch(const Action& action) {
+    return std::holds_alternative<CameraAction>(action) || std::holds_alternative<MaterialAction>(action);
+}
 
 /// Of those five.
 const std::string& bodyOf(const Action& action) {
@@ -28,8 +32,8 @@ const std::string& bodyOf(const Action& action) {
     return none;
 }
 
-/// Whether it matters, after what was done before, for what comes later. Pushes and tilts change nothing that others are checked
-/// against, and they are most of a long list; nor does saying something twice.
+/// Whether it matters, after what was done before, for what comes later. Pushes and tilts change nothing that
+/// others are checked against, and they are most of a long list; nor does saying something twice.
 bool matters(const std::vector<LiveInput>& before, const Action& action) {
     if (isSpawn(action) || isChange(action) || isJoining(action)) return true;
     if (!isSwitch(action) && !isRemoval(action)) return false;
@@ -61,15 +65,21 @@ bool InputCheck::fold(const Action& action) {
     }
     const auto* change = std::get_if<ChangeAction>(&action);
     if (change == nullptr) return false;
-    const auto last = std::find_if(inputs.rbegin(), inputs.rend(), [&](const LiveInput& input) { return bodyOf(input.action) == change->body.name; });
+    const auto last = std::find_if(inputs.rbegin(), inputs.rend(), [&](const LiveInput& input) {
+        return bodyOf(input.action) == change->body.name;
+    });
     if (last == inputs.rend()) return false;
     const BodyDescription* const put = bodyPutBy(last->action);
     if (put != nullptr && put->fixtures.size() <= change->body.fixtures.size()) {
-        if (auto* before = std::get_if<SpawnAction>(&last->action)) before->body = change->body;
-        else last->action = *change;
+        if (auto* before = std::get_if<SpawnAction>(&last->action))
+            before->body = change->body;
+        else
+            last->action = *change;
         return true;
     }
-    const auto isSpawned = [&](const LiveInput& input) { return isSpawn(input.action) && bodyOf(input.action) == change->body.name; };
+    const auto isSpawned = [&](const LiveInput& input) {
+        return isSpawn(input.action) && bodyOf(input.action) == change->body.name;
+    };
     if (!isRemoval(last->action) || std::ranges::none_of(inputs, isSpawned)) return false;
     // what was before may be forgotten
     inputs.push_back({inputs.back().timeSeconds, SpawnAction{change->body, {}}});
@@ -84,14 +94,18 @@ void InputCheck::keep(LiveInput input) {
 
 void InputCheck::forgetOldest() {
     auto& inputs = scene_.inputs;
-    while (static_cast<std::size_t>(std::ranges::count_if(inputs, isRemoval, &LiveInput::action)) > remembered) {
+    while (static_cast<std::size_t>(std::ranges::count_if(inputs, isRemoval, &LiveInput::action)) >
+           remembered) {
         const auto oldest = std::ranges::find_if(inputs, isRemoval, &LiveInput::action);
         const std::string body = bodyOf(oldest->action);
         const auto isOf = [&](const LiveInput& input) { return bodyOf(input.action) == body; };
-        const auto next = std::find_if(oldest, inputs.end(), [&](const LiveInput& input) { return isSpawn(input.action) && isOf(input); });
+        const auto next = std::find_if(oldest, inputs.end(), [&](const LiveInput& input) {
+            return isSpawn(input.action) && isOf(input);
+        });
         // what comes then is said of another body of that name
         inputs.erase(std::remove_if(inputs.begin(), next, isOf), next);
-        if (std::ranges::none_of(scriptedCast(scene_), [&](const BodyDescription& known) { return known.name == body; }))
+        if (std::ranges::none_of(scriptedCast(scene_),
+                                 [&](const BodyDescription& known) { return known.name == body; }))
             std::erase_if(inputs, [&](const LiveInput& input) {
                 const auto* join = std::get_if<JoinAction>(&input.action);
                 return join != nullptr && (join->joint.bodyA == body || join->joint.bodyB == body);

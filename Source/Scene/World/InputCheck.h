@@ -14,13 +14,13 @@ class InputCheck {
 public:
     static constexpr std::size_t endless = std::numeric_limits<std::size_t>::max();
 
-    /// The scene must be valid; its inputs are those that were before. `most` of them are taken: as many as a file may hold, or
-    /// endless.
+    /// The scene must be valid; its inputs are those that were before. `most` of them are taken: as many as a
+    /// file may hold, or endless.
     explicit InputCheck(const Scene& scene, std::size_t most = sceneLimits::maxLiveInputs);
 
     /// Empty, and the input counts for those that follow; or what is wrong, as validate() says it. Costs as
-    /// much as validate() of the scene with its spawns. A body that was removed may still be named, and nothing happens;
-    /// of endless ones the newest `remembered`.
+    /// much as validate() of the scene with its spawns. A body that was removed may still be named, and
+    /// nothing happens; of endless ones the newest `remembered`.
     std::string take(const Action& action);
 
     static constexpr std::size_t remembered = 64; ///< an installation may spawn and remove for months

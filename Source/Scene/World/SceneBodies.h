@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From the descriptions of a scene to Box2D's bodies, fixtures and joints.
 #pragma once
-#include "Scene/World/BodyStart.h"
 #include "Scene/Scene.h"
+#include "Scene/World/BodyStart.h"
 #include <box2d/box2d.h>
 #include <vector>
 
@@ -30,7 +30,8 @@ void setSurface(b2Fixture& fixture, const FixtureDescription& description, const
 /// Creates a joint between two bodies where they are now. M only.
 b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB);
 
-/// Puts `to` in the place of `from` in one of its joints, with the same points of it; what takes the joint's place, which is destroyed. M only.
+/// Puts `to` in the place of `from` in one of its joints, with the same points of it; what takes the joint's
+/// place, which is destroyed. M only.
 b2Joint& moveJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to);
 
 } // namespace physvib

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which fixtures may ever have a camera, and what these need.
+#include "Scene/SceneReferences.h"
 #include "Scene/World/PlacedBodies.h"
 #include "Scene/World/SceneCast.h"
-#include "Scene/SceneReferences.h"
 #include <algorithm>
 #include <compare>
 #include <cstddef>
@@ -44,7 +44,8 @@ private:
     // A name may go on to another body, of which nothing has been said yet.
     struct Bearer {
         std::string_view name;
-        int number; // of those that live inputs have spawned by that name; what is said before the first is said of it
+        int number; // of those that live inputs have spawned by that name; what is said before the first is
+                    // said of it
         auto operator<=>(const Bearer&) const = default;
     };
     void count(std::string_view name) { ++bearers_[name]; }

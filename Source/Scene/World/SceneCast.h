@@ -14,8 +14,8 @@ BodyDescription spawnedBody(const SpawnAction& spawn, int repetition, int times)
 /// few). Any thread.
 std::vector<BodyDescription> scriptedCast(const Scene& scene);
 
-/// The same and what live inputs spawn or change, in their order. Fixture numbers in events count through the fixtures
-/// of this list.
+/// The same and what live inputs spawn or change, in their order. Fixture numbers in events count through the
+/// fixtures of this list.
 std::vector<BodyDescription> sceneCast(const Scene& scene);
 
 /// Index of the body that has this fixture number; cast.size() if none has. Any thread.

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Box2D's joint for mice, with a hand that moves between its inputs.
 #include "Scene/World/SceneGrips.h"
-#include "Scene/World/SceneBodies.h"
 #include "Scene/SceneLimits.h"
+#include "Scene/World/SceneBodies.h"
 #include <algorithm>
 
 namespace physvib {
 
 b2Vec2 SceneGrips::Grip::at(std::int64_t step) const noexcept {
     if (step >= end) return to;
-    const auto share = static_cast<float>(static_cast<double>(step - start) / static_cast<double>(end - start));
+    const auto share =
+        static_cast<float>(static_cast<double>(step - start) / static_cast<double>(end - start));
     return from + share * (to - from);
 }
 
@@ -30,7 +31,8 @@ SceneGrips::Grip& SceneGrips::hold(b2Body& body, const std::optional<Vector>& po
         def.bodyA = &ground();
         def.bodyB = &body;
         def.target = point ? body.GetWorldPoint(box2dVector(*point)) : body.GetWorldCenter();
-        grip = grips_.insert(grips_.end(), {&body, static_cast<b2MouseJoint*>(world_.CreateJoint(&def)), {}, {}, 0, 0});
+        grip = grips_.insert(grips_.end(),
+                             {&body, static_cast<b2MouseJoint*>(world_.CreateJoint(&def)), {}, {}, 0, 0});
     }
     float stiffness = 0.0F, damping = 0.0F; // anew each time: the mass may be another
     b2LinearStiffness(stiffness, damping, springHz, dampingRatio, &ground(), &body);
@@ -51,7 +53,8 @@ void SceneGrips::move(std::int64_t step) {
     for (Grip& grip : grips_) grip.joint->SetTarget(grip.at(step));
 }
 
-// It has no fixtures: nothing touches it. Made by the first grip, so that worlds without hands stay as they are.
+// It has no fixtures: nothing touches it. Made by the first grip, so that worlds without hands stay as they
+// are.
 b2Body& SceneGrips::ground() {
     if (ground_ == nullptr) {
         const b2BodyDef def;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hands that hold bodies: each is a spring from a point of a body to where the hand is, as strong as a hand may be.
+// Hands that hold bodies: each is a spring from a point of a body to where the hand is, as strong as a hand
+// may be.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/World/StepClock.h"
@@ -9,8 +10,8 @@
 
 namespace physvib {
 
-/// The grips of one world, one per body. A hand goes straight and evenly, so that what it drags over a rough surface is not
-/// felt to follow it in jumps. Whoever disables or destroys a body lets it go before. M only.
+/// The grips of one world, one per body. A hand goes straight and evenly, so that what it drags over a rough
+/// surface is not felt to follow it in jumps. Whoever disables or destroys a body lets it go before. M only.
 class SceneGrips {
 public:
     static constexpr float springHz = 5.0F; ///< Box2D's own for a mouse: firm, and calm at 100 steps a second
@@ -41,7 +42,7 @@ private:
 
     b2World& world_;
     const StepClock& clock_;
-    std::vector<Grip> grips_; // in the order in which they began
+    std::vector<Grip> grips_;  // in the order in which they began
     b2Body* ground_ = nullptr; // what hands stand on, for Box2D
 };
 

@@ -72,7 +72,8 @@ public:
     b2Joint& operator()(const SliderJoint& joint) const {
         const double length = std::hypot(joint.axis.x, joint.axis.y);
         b2PrismaticJointDef def;
-        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres), box2dVector({joint.axis.x / length, joint.axis.y / length}));
+        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres),
+                       box2dVector({joint.axis.x / length, joint.axis.y / length}));
         def.enableLimit = joint.travelMetres.has_value();
         const Interval travel = joint.travelMetres.value_or(Interval{});
         def.lowerTranslation = static_cast<float>(travel.lower);

@@ -7,9 +7,9 @@
 namespace physvib {
 namespace {
 
-constexpr double reachSeconds = 0.1;      // to where the mouse is, if that is near
-constexpr double steepestRadians = 0.5;   // held so, what is moved goes as fast as it can
-constexpr double leastChange = 0.05;      // m/s: less is no new input
+constexpr double reachSeconds = 0.1;    // to where the mouse is, if that is near
+constexpr double steepestRadians = 0.5; // held so, what is moved goes as fast as it can
+constexpr double leastChange = 0.05;    // m/s: less is no new input
 
 bool isFelt(const BodyDescription& body) {
     return std::ranges::any_of(body.fixtures, &FixtureDescription::isCamera);
@@ -18,9 +18,12 @@ bool isFelt(const BodyDescription& body) {
 double reachOf(const FixtureDescription& fixture) {
     double most = 0.0;
     if (const auto* polygon = std::get_if<PolygonShape>(&fixture.shape))
-        for (const Vector& v : polygon->verticesMetres) most = std::max(most, std::abs(fixture.offsetMetres.x + v.x));
-    if (const auto* box = std::get_if<BoxShape>(&fixture.shape)) most = std::abs(fixture.offsetMetres.x) + 0.5 * box->widthMetres;
-    if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) most = std::abs(fixture.offsetMetres.x) + circle->radiusMetres;
+        for (const Vector& v : polygon->verticesMetres)
+            most = std::max(most, std::abs(fixture.offsetMetres.x + v.x));
+    if (const auto* box = std::get_if<BoxShape>(&fixture.shape))
+        most = std::abs(fixture.offsetMetres.x) + 0.5 * box->widthMetres;
+    if (const auto* circle = std::get_if<CircleShape>(&fixture.shape))
+        most = std::abs(fixture.offsetMetres.x) + circle->radiusMetres;
     return most;
 }
 
@@ -31,18 +34,23 @@ ScenePlayer::ScenePlayer(const Scene& scene)
     for (const BodyDescription& body : scene.bodies) {
         if (body.type != BodyType::kinematicBody || !isFelt(body)) continue;
         body_ = body.name;
-        for (const auto& fixture : body.fixtures) halfWidthMetres_ = std::max(halfWidthMetres_, reachOf(fixture));
+        for (const auto& fixture : body.fixtures)
+            halfWidthMetres_ = std::max(halfWidthMetres_, reachOf(fixture));
         return;
     }
     for (const JointDescription& joint : scene.joints) {
         const auto* wheel = std::get_if<WheelJoint>(&joint.joint);
         const auto car = std::ranges::find(scene.bodies, joint.bodyA, &BodyDescription::name);
-        if (wheel != nullptr && wheel->maxTorqueNewtonMetres > 0.0 && car != scene.bodies.end() && isFelt(*car)) wheels_.push_back(joint.name);
+        if (wheel != nullptr && wheel->maxTorqueNewtonMetres > 0.0 && car != scene.bodies.end() &&
+            isFelt(*car))
+            wheels_.push_back(joint.name);
     }
 }
 
 std::vector<Action> ScenePlayer::go(double metresPerSecond) {
-    if (!moves() || (std::abs(metresPerSecond - goes_) < leastChange && (metresPerSecond != 0.0 || goes_ == 0.0))) return {};
+    if (!moves() ||
+        (std::abs(metresPerSecond - goes_) < leastChange && (metresPerSecond != 0.0 || goes_ == 0.0)))
+        return {};
     goes_ = metresPerSecond;
     return {VelocityAction{body_, {goes_, 0.0}}};
 }
@@ -53,7 +61,8 @@ std::vector<Action> ScenePlayer::steer(int way) {
     step_ = way == 0 || way * step_ < 0 ? 0 : std::clamp(step_ + way, -mostSteps, mostSteps);
     std::vector<Action> all;
     // clockwise is to the right
-    for (const std::string& wheel : wheels_) all.push_back(MotorAction{wheel, -step_ * stepRadiansPerSecond, {}});
+    for (const std::string& wheel : wheels_)
+        all.push_back(MotorAction{wheel, -step_ * stepRadiansPerSecond, {}});
     return all;
 }
 
@@ -66,14 +75,16 @@ std::vector<Action> ScenePlayer::tilt(double angleRadians) {
 }
 
 std::vector<Action> ScenePlayer::keepInside(double fromMetres) {
-    const bool leaves = (goes_ < 0.0 && fromMetres <= halfWidthMetres_) || (goes_ > 0.0 && fromMetres >= fieldWidthMetres_ - halfWidthMetres_);
+    const bool leaves = (goes_ < 0.0 && fromMetres <= halfWidthMetres_) ||
+                        (goes_ > 0.0 && fromMetres >= fieldWidthMetres_ - halfWidthMetres_);
     return leaves ? go(0.0) : std::vector<Action>{};
 }
 
 bool ScenePlayer::isPlayedBy(const Action& action) const noexcept {
     const auto* velocity = std::get_if<VelocityAction>(&action);
     const auto* motor = std::get_if<MotorAction>(&action);
-    return (velocity != nullptr && velocity->body == body_) || (motor != nullptr && std::ranges::find(wheels_, motor->joint) != wheels_.end());
+    return (velocity != nullptr && velocity->body == body_) ||
+           (motor != nullptr && std::ranges::find(wheels_, motor->joint) != wheels_.end());
 }
 
 } // namespace physvib

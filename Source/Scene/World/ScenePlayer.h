@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What somebody plays in a scene that has no hands for every body: a basket that is moved, a car that is driven.
+// What somebody plays in a scene that has no hands for every body: a basket that is moved, a car that is
+// driven.
 #pragma once
 #include "Scene/Scene.h"
 #include <optional>
@@ -8,10 +9,11 @@
 
 namespace physvib {
 
-/// A kinematic body that is felt is moved sideways; else motors of wheels of a body that is felt are driven. One thread at a time.
+/// A kinematic body that is felt is moved sideways; else motors of wheels of a body that is felt are driven.
+/// One thread at a time.
 class ScenePlayer {
 public:
-    static constexpr double mostMetresPerSecond = 4.0; ///< of what is moved
+    static constexpr double mostMetresPerSecond = 4.0;  ///< of what is moved
     static constexpr double stepRadiansPerSecond = 6.0; ///< of what is driven; each key goes a step faster
     static constexpr int mostSteps = 3;
 

@@ -14,7 +14,8 @@ SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs
     return runTakes({&take, 1}, run, endNs, goesOn);
 }
 
-SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn) {
+SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs,
+                     const StepWatch& goesOn) {
     SceneEvents all;
     for (const SceneTake& take : takes) {
         Simulation world{take.whole(), take.seed, run.stepsPerSecond, run.timing, run.location};
@@ -39,10 +40,11 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
 std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs) {
     std::vector<BodyPose> last;
     timeNs = std::max<std::int64_t>(timeNs, 0);
-    followPoses(scene, run, std::max<std::int64_t>(timeNs, 1), timeNs + 1, [&](std::int64_t, std::span<const BodyPose> poses) {
-        last.assign(poses.begin(), poses.end());
-        return true;
-    });
+    followPoses(scene, run, std::max<std::int64_t>(timeNs, 1), timeNs + 1,
+                [&](std::int64_t, std::span<const BodyPose> poses) {
+                    last.assign(poses.begin(), poses.end());
+                    return true;
+                });
     return last;
 }
 

@@ -28,30 +28,38 @@ struct SceneEvents {
     ContactCounts counts{}; ///< of all takes
 };
 
-/// Asked before the first step of a take and after each step, with the session time that is reached; false: what has been made so far is enough.
+/// Asked before the first step of a take and after each step, with the session time that is reached; false:
+/// what has been made so far is enough.
 using StepWatch = std::function<bool(std::int64_t timeNs)>;
 
 /// M only. Throws what Simulation throws.
-SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn = {});
+SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs,
+                     const StepWatch& goesOn = {});
 
 /// The events of a session, again, in session time: of each take up to its end, of the last one all before
 /// `endNs`. `run` gives the step rate; seeds are the takes' own. M only. Throws what Simulation throws.
-SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn = {});
+SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs,
+                     const StepWatch& goesOn = {});
 
 /// Poses of all bodies at the last step not after `timeNs`. M only; simulates from the start.
 std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);
 
-/// Takes a session time, the scene of its take with all inputs, and the poses of that scene's cast at the last step not after it; false:
-/// that is enough.
-using TakeWatch = std::function<bool(std::int64_t timeNs, const Scene& scene, std::span<const BodyPose> poses)>;
+/// Takes a session time, the scene of its take with all inputs, and the poses of that scene's cast at the
+/// last step not after it; false: that is enough.
+using TakeWatch =
+    std::function<bool(std::int64_t timeNs, const Scene& scene, std::span<const BodyPose> poses)>;
 
-/// A session at fromNs, fromNs + everyNs... before `endNs`, with its pauses and slow motion, in one go. `run` and the rest as of runTakes.
-void followTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t fromNs, std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see);
+/// A session at fromNs, fromNs + everyNs... before `endNs`, with its pauses and slow motion, in one go. `run`
+/// and the rest as of runTakes.
+void followTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t fromNs,
+                 std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see);
 
 /// Takes a time and the poses of all bodies at the last step not after it; false: that is enough.
 using PoseWatch = std::function<bool(std::int64_t timeNs, std::span<const BodyPose> poses)>;
 
-/// The same at 0, everyNs, 2 everyNs... before `endNs`, in one go. M only; simulates from the start. Throws what Simulation throws.
-void followPoses(const Scene& scene, const SceneRun& run, std::int64_t everyNs, std::int64_t endNs, const PoseWatch& see);
+/// The same at 0, everyNs, 2 everyNs... before `endNs`, in one go. M only; simulates from the start. Throws
+/// what Simulation throws.
+void followPoses(const Scene& scene, const SceneRun& run, std::int64_t everyNs, std::int64_t endNs,
+                 const PoseWatch& see);
 
 } // namespace physvib

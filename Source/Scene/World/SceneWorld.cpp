@@ -12,7 +12,8 @@ namespace physvib {
 
 namespace {
 
-// How long a removed body is kept: hits that it made are told until ReleaseImpacts::latestNs after them, some steps later.
+// How long a removed body is kept: hits that it made are told until ReleaseImpacts::latestNs after them, some
+// steps later.
 constexpr double heldSeconds = 0.5;
 
 Vector turnedBy(const Vector& v, double angleRadians) {
@@ -48,7 +49,8 @@ void SceneWorld::build() {
     scripted_ = nextBody_;
     scriptedNames_ = bodyNames_;
     for (const JointDescription& joint : scene_.joints)
-        joints_.emplace(joint.name, &createJoint(world_, joint, *find(joint.bodyA)->body, *find(joint.bodyB)->body));
+        joints_.emplace(joint.name,
+                        &createJoint(world_, joint, *find(joint.bodyA)->body, *find(joint.bodyB)->body));
     std::size_t next = scene_.bodies.size();
     for (const ScriptInput& input : scene_.script)
         if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) {
@@ -61,7 +63,8 @@ SceneWorld::Body& SceneWorld::add(const BodyDescription& body, const BodyStart& 
     std::vector<b2Fixture*> created;
     b2Body& made = createBody(world_, scene_, body, start, clock_.stepSeconds(), created);
     bodyNames_.emplace(body.name, nextBody_);
-    Body& added = bodies_.emplace(nextBody_++, Body{&made, nextFixture_, std::move(created), body, body}).first->second;
+    Body& added =
+        bodies_.emplace(nextBody_++, Body{&made, nextFixture_, std::move(created), body, body}).first->second;
     nextFixture_ += added.fixtures.size();
     return added;
 }
@@ -112,7 +115,8 @@ void SceneWorld::forFixtures(const std::string& body, int fixture, Change change
 
 void SceneWorld::setMaterial(Body& body, std::size_t fixture, int material) {
     body.now.fixtures[fixture].material = material;
-    setSurface(*body.fixtures[fixture], body.now.fixtures[fixture], materials_[static_cast<std::size_t>(material)]);
+    setSurface(*body.fixtures[fixture], body.now.fixtures[fixture],
+               materials_[static_cast<std::size_t>(material)]);
     setMass(*body.body, body.now, scene_);
 }
 
@@ -123,7 +127,8 @@ void SceneWorld::addInput(std::int64_t step, Action action) {
 
 void SceneWorld::forgetDone() {
     if (2 * nextInput_ < scene_.inputs.size() || nextInput_ == 0) return; // each is moved once, on average
-    scene_.inputs.erase(scene_.inputs.begin(), scene_.inputs.begin() + static_cast<std::ptrdiff_t>(nextInput_));
+    scene_.inputs.erase(scene_.inputs.begin(),
+                        scene_.inputs.begin() + static_cast<std::ptrdiff_t>(nextInput_));
     nextInput_ = 0;
 }
 
@@ -135,7 +140,8 @@ bool SceneWorld::act(std::int64_t step) {
     return live || script;
 }
 
-// They have neither contacts nor places in Box2D's tree since they were disabled: the others' order stays as it is.
+// They have neither contacts nor places in Box2D's tree since they were disabled: the others' order stays as
+// it is.
 void SceneWorld::destroyRemoved(std::int64_t step) {
     for (; !leaving_.empty() && leaving_.front().step <= step; leaving_.pop_front()) {
         const auto gone = bodies_.find(leaving_.front().body);
@@ -244,7 +250,8 @@ bool SceneWorld::act(const RemoveAction& action) {
         bodyNames_.erase(place);
         // the one that was changed: the script may want it
         const auto scripted = scriptedNames_.find(action.body);
-        if (scripted == scriptedNames_.end()) dropJoints(body);
+        if (scripted == scriptedNames_.end())
+            dropJoints(body);
         else {
             moveJoints(body, *bodies_.at(scripted->second).body);
             bodyNames_.emplace(*scripted);
@@ -254,7 +261,8 @@ bool SceneWorld::act(const RemoveAction& action) {
     return false;
 }
 
-// It has no contacts any more. The script may want it again, else it is destroyed when its hits have been told.
+// It has no contacts any more. The script may want it again, else it is destroyed when its hits have been
+// told.
 void SceneWorld::retire(std::size_t number) {
     b2Body& body = *bodies_.at(number).body;
     grips_.letGo(body);
@@ -264,7 +272,8 @@ void SceneWorld::retire(std::size_t number) {
 
 void SceneWorld::moveJoints(b2Body& from, b2Body& to) {
     for (auto& [name, joint] : joints_)
-        if (joint->GetBodyA() == &from || joint->GetBodyB() == &from) joint = &moveJoint(world_, *joint, from, to);
+        if (joint->GetBodyA() == &from || joint->GetBodyB() == &from)
+            joint = &moveJoint(world_, *joint, from, to);
 }
 
 void SceneWorld::dropJoints(b2Body& body) {
@@ -288,8 +297,10 @@ bool SceneWorld::act(const ChangeAction& action) {
     const std::size_t old = before == nullptr ? nextBody_ : place->second;
     if (before != nullptr) bodyNames_.erase(place);
     b2Body& now = *add(action.body, start).body;
-    if (stays) now.SetAngularVelocity(before->body->GetAngularVelocity());
-    else startHalfAStepBehind(now);
+    if (stays)
+        now.SetAngularVelocity(before->body->GetAngularVelocity());
+    else
+        startHalfAStepBehind(now);
     if (before == nullptr) return true;
     moveJoints(*before->body, now);
     retire(old);
@@ -299,7 +310,8 @@ bool SceneWorld::act(const ChangeAction& action) {
 bool SceneWorld::act(const JoinAction& action) {
     act(UnjoinAction{action.joint.name});
     b2Body *const a = findInWorld(action.joint.bodyA), *const b = findInWorld(action.joint.bodyB);
-    if (a != nullptr && b != nullptr) joints_.emplace(action.joint.name, &createJoint(world_, action.joint, *a, *b));
+    if (a != nullptr && b != nullptr)
+        joints_.emplace(action.joint.name, &createJoint(world_, action.joint, *a, *b));
     return false;
 }
 

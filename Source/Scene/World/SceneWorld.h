@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The Box2D world of a scene, and what the actions of its script and of live inputs do to it.
 #pragma once
+#include "Scene/Scene.h"
+#include "Scene/SceneScript.h"
 #include "Scene/World/BodyStart.h"
 #include "Scene/World/ContactBound.h"
-#include "Scene/Scene.h"
 #include "Scene/World/SceneGrips.h"
-#include "Scene/SceneScript.h"
 #include "Scene/World/StepClock.h"
 #include <box2d/box2d.h>
 #include <cstddef>
@@ -27,10 +27,11 @@ struct BodyPose {
     bool isPresent = true; ///< false: not spawned yet, or removed
 };
 
-/// All bodies of scriptedCast() exist from the start; those that are not there (yet) are disabled, which for Box2D
-/// means no contacts: the script may want them again. What a live input spawns or changes is created when it acts, under the
-/// numbers that follow, and destroyed soon after it was removed or changed again. Numbers are never used twice.
-/// Seed 0 starts bodies exactly as described, any other a little beside (see jitteredStart). M only.
+/// All bodies of scriptedCast() exist from the start; those that are not there (yet) are disabled, which for
+/// Box2D means no contacts: the script may want them again. What a live input spawns or changes is created
+/// when it acts, under the numbers that follow, and destroyed soon after it was removed or changed again.
+/// Numbers are never used twice. Seed 0 starts bodies exactly as described, any other a little beside (see
+/// jitteredStart). M only.
 class SceneWorld {
 public:
     /// The scene must be valid. Does what its script wants done in step 0.
@@ -45,7 +46,8 @@ public:
     /// have another sound, texture or camera since. Allocates for new bodies and grips only.
     bool act(std::int64_t step);
 
-    /// Drops from scene() the live inputs that have acted, for worlds without end whose inputs are kept elsewhere.
+    /// Drops from scene() the live inputs that have acted, for worlds without end whose inputs are kept
+    /// elsewhere.
     void forgetDone();
 
     b2World& world() noexcept { return world_; }
@@ -138,17 +140,17 @@ private:
     bool jitters_;
     std::mt19937 random_;
     SceneScript script_;
-    Vector gravity_;  // before hold_
+    Vector gravity_; // before hold_
     HoldAction hold_;
     b2World world_;
     ContactBound bound_{world_};
     SceneGrips grips_{world_, clock_};
-    std::vector<Material> materials_; // with the sounds and textures of now
+    std::vector<Material> materials_;    // with the sounds and textures of now
     std::map<std::size_t, Body> bodies_; // by number
     // numbers; below scripted_ stands scriptedCast()
     std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0;
     std::map<std::string, std::size_t, std::less<>> bodyNames_;
-    std::deque<Leaving> leaving_; // in the order of their steps
+    std::deque<Leaving> leaving_;                                   // in the order of their steps
     std::map<std::string, std::size_t, std::less<>> scriptedNames_; // of scriptedCast()
     std::map<std::string, b2Joint*, std::less<>> joints_;
     std::map<const SpawnAction*, std::size_t> spawned_; // the body of the script's first repetition

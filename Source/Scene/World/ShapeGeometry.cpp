@@ -11,18 +11,10 @@ namespace physvib {
 
 namespace {
 
-Vector operator-(const Vector& a, const Vector& b) {
-    return {a.x - b.x, a.y - b.y};
-}
-double dot(const Vector& a, const Vector& b) {
-    return a.x * b.x + a.y * b.y;
-}
-double cross(const Vector& a, const Vector& b) {
-    return a.x * b.y - a.y * b.x;
-}
-double length(const Vector& a) {
-    return std::hypot(a.x, a.y);
-}
+Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
+double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
+double cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
+double length(const Vector& a) { return std::hypot(a.x, a.y); }
 
 const Vector& after(const std::vector<Vector>& outline, std::size_t i) {
     return outline[i + 1 < outline.size() ? i + 1 : 0];
@@ -41,9 +33,7 @@ ShapeMoments moments(const BoxShape& b) {
     const double squares = b.widthMetres * b.widthMetres + b.heightMetres * b.heightMetres;
     return {b.widthMetres * b.heightMetres, {}, squares / 12.0};
 }
-ShapeMoments moments(const ChainShape&) {
-    return {};
-}
+ShapeMoments moments(const ChainShape&) { return {}; }
 
 // Triangles from the first vertex, so that a far away outline loses no digits.
 ShapeMoments moments(const PolygonShape& p) {
@@ -65,15 +55,9 @@ ShapeMoments moments(const PolygonShape& p) {
             second / (6.0 * twiceArea) - dot(centre, centre)};
 }
 
-double thickness(const CircleShape& c) {
-    return 2.0 * c.radiusMetres;
-}
-double thickness(const BoxShape& b) {
-    return std::min(b.widthMetres, b.heightMetres);
-}
-double thickness(const ChainShape&) {
-    return 0.0;
-}
+double thickness(const CircleShape& c) { return 2.0 * c.radiusMetres; }
+double thickness(const BoxShape& b) { return std::min(b.widthMetres, b.heightMetres); }
+double thickness(const ChainShape&) { return 0.0; }
 // The narrowest strip around a convex outline lies along one of its edges.
 double thickness(const PolygonShape& p) {
     const auto& v = p.verticesMetres;
@@ -93,18 +77,12 @@ double farthestPair(const std::vector<Vector>& points) {
     return farthest;
 }
 
-double longest(const CircleShape& c) {
-    return 2.0 * c.radiusMetres;
-}
+double longest(const CircleShape& c) { return 2.0 * c.radiusMetres; }
 double longest(const BoxShape& b) {
     return std::max(b.widthMetres, b.heightMetres); // the longer side, as one speaks of a box
 }
-double longest(const PolygonShape& p) {
-    return farthestPair(p.verticesMetres);
-}
-double longest(const ChainShape& c) {
-    return farthestPair(c.verticesMetres);
-}
+double longest(const PolygonShape& p) { return farthestPair(p.verticesMetres); }
+double longest(const ChainShape& c) { return farthestPair(c.verticesMetres); }
 
 } // namespace
 

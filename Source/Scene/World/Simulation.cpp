@@ -38,8 +38,8 @@ ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocatio
 HapticFixture hapticOf(const SceneWorld::FixtureNow& now) {
     // controls may take its decay away
     const bool isSilent = isEndless(now.material.frequencyHz, now.material.decayPerSecond);
-    HapticFixture values{isSilent ? 0.0 : now.material.frequencyHz, now.material.decayPerSecond, now.description.isCamera, now.body.massKg,
-                         now.description.voice};
+    HapticFixture values{isSilent ? 0.0 : now.material.frequencyHz, now.material.decayPerSecond,
+                         now.description.isCamera, now.body.massKg, now.description.voice};
     values.texture = now.material.texture();
     return values;
 }

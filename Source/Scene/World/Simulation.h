@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A scene's world in motion: steps it, and hands out its collisions as a time-sorted stream of events.
 #pragma once
+#include "Contacts/ImpactModel.h"
 #include "Core/CollisionEvent.h"
 #include "Physics/Attachment.h"
-#include "Contacts/ImpactModel.h"
 #include "Scene/Scene.h"
 #include "Scene/World/SceneWorld.h"
 #include "Scene/World/StepClock.h"
@@ -34,10 +34,12 @@ public:
     /// `timeSeconds`, or in the next one if that is past, or when those added before it have acted.
     void addInput(double timeSeconds, Action action);
 
-    /// The scene with all inputs so far: a simulation of it, with the same seed and rate, does all of it again.
+    /// The scene with all inputs so far: a simulation of it, with the same seed and rate, does all of it
+    /// again.
     const Scene& scene() const noexcept { return world_.scene(); }
 
-    /// Drops from scene() the inputs that have acted, for simulations without end whose inputs are kept elsewhere.
+    /// Drops from scene() the inputs that have acted, for simulations without end whose inputs are kept
+    /// elsewhere.
     void forgetDone() { world_.forgetDone(); }
 
     /// Advances the world by one step and appends the events that are final now.
@@ -54,7 +56,9 @@ public:
     BodyPose pose(std::size_t index) const noexcept { return world_.pose(index); }
     std::size_t bodyCount() const noexcept { return world_.bodyCount(); }
     template <class Use>
-    void forAllBodies(Use use) const { world_.forAllBodies(use); } ///< see SceneWorld
+    void forAllBodies(Use use) const {
+        world_.forAllBodies(use);
+    } ///< see SceneWorld
     /// Those that Box2D knows: what inputs spawn and remove goes.
     std::size_t bodiesInBox2d() const noexcept { return world_.bodiesInBox2d(); }
 

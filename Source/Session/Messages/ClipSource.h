@@ -11,8 +11,10 @@
 namespace physvib {
 
 struct LoadedClip {
-    std::vector<ContactRecording> channels; ///< one or more, of one file, at one rate, as long as one another; their file tells path and hash
-    std::vector<EnchanterPlace> shares;     ///< of the field, 0 to 1, one per channel; none: the file has no places
+    std::vector<ContactRecording> channels; ///< one or more, of one file, at one rate, as long as one
+                                            ///< another; their file tells path and hash
+    std::vector<EnchanterPlace> shares;     ///< of the field, 0 to 1, one per channel; none: the file has no
+                                            ///< places
 };
 
 /// By the name in a message: the clip, or one line. Called on the thread of the door.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every message that a session takes, in one table: inputs (lines, OSC) read it, Docs/messages.md is held against it.
+// Every message that a session takes, in one table: inputs (lines, OSC) read it, Docs/messages.md is held
+// against it.
 #pragma once
 #include "Core/Limits.h"
 #include <array>
@@ -19,30 +20,33 @@ struct PlainMessage;
 
 struct MessageArgument {
     enum class Type {
-        number,  ///< from `least` to `most`
+        number, ///< from `least` to `most`
         word,
-        place,   ///< an enchanter's letter, or x and y in metres of the field
-        places,  ///< letters, or x, y, x, y...
-        numbers  ///< rising, each from `least` to `most`
+        place,  ///< an enchanter's letter, or x and y in metres of the field
+        places, ///< letters, or x, y, x, y...
+        numbers ///< rising, each from `least` to `most`
     };
     std::string_view name;
     Type type = Type::number;
     double least = 0.0, most = 0.0;
-    std::string_view usual;   ///< what stands for it if it is left out, as in a line; empty: see `meaning`
+    std::string_view usual; ///< what stands for it if it is left out, as in a line; empty: see `meaning`
     std::string_view meaning;
 };
 
 struct MessageDescription {
-    /// What is struck, in time order, from time 0 on. What is cut ends at the zero crossing nearest to its end, of the frequency that the shaping has
-    /// played. `materials` are the scene's. Throws MessageError. Any thread but R. In MessageStrikes.cpp.
-    using Strikes = std::vector<CollisionEvent>(const MessageValues& values, const std::vector<Material>& materials, const EventShaping& shaping);
+    /// What is struck, in time order, from time 0 on. What is cut ends at the zero crossing nearest to its
+    /// end, of the frequency that the shaping has played. `materials` are the scene's. Throws MessageError.
+    /// Any thread but R. In MessageStrikes.cpp.
+    using Strikes = std::vector<CollisionEvent>(const MessageValues& values,
+                                                const std::vector<Material>& materials,
+                                                const EventShaping& shaping);
     /// Of a query. Any thread but R. In MessageRouter.cpp.
     using Answer = PlainMessage(const Session& session);
     struct Clip {};
     struct Stop {};
 
     std::string_view name, meaning;
-    std::span<const MessageArgument> arguments; ///< without those that all but queries have
+    std::span<const MessageArgument> arguments;      ///< without those that all but queries have
     std::variant<Strikes*, Answer*, Clip, Stop> act; ///< what the router does with it
 
     constexpr bool isQuery() const noexcept { return std::holds_alternative<Answer*>(act); }
@@ -56,46 +60,67 @@ constexpr double mostAheadSeconds = 86'400.0; // a day's programme, sent in the 
 constexpr int mostPlaces = 64, mostPulses = 64;
 
 /// What a name means is the same in every message.
-inline constexpr MessageArgument frequency{"frequency_hz", Type::number, limits::slowestToneHz, limits::maxFrequencyHz, "205", "of the tone"};
-inline constexpr MessageArgument level{"level", Type::number, 0.0, 1.0, "0.5", "peak at gain 1, in shares of full scale"};
-inline constexpr MessageArgument place{"place", Type::place, 0.0, 0.0, "", "where; left out: the middle of the field"};
-inline constexpr MessageArgument law{"law", Type::word, 0.0, 0.0, "layout", "how it is spread: `layout` (as hits are), by a [law](panning.md#laws), `equal`, `alone`"};
+inline constexpr MessageArgument frequency{"frequency_hz",         Type::number, limits::slowestToneHz,
+                                           limits::maxFrequencyHz, "205",        "of the tone"};
+inline constexpr MessageArgument level{"level", Type::number, 0.0,
+                                       1.0,     "0.5",        "peak at gain 1, in shares of full scale"};
+inline constexpr MessageArgument place{"place", Type::place, 0.0,
+                                       0.0,     "",          "where; left out: the middle of the field"};
+inline constexpr MessageArgument law{
+    "law",    Type::word,
+    0.0,      0.0,
+    "layout", "how it is spread: `layout` (as hits are), by a [law](panning.md#laws), `equal`, `alone`"};
 
 inline constexpr std::array when{
-    MessageArgument{"at", Type::number, 0.0, limits::maxTimeNs * 1e-9, "now", "session time in s, or `now`; felt the output latency later"},
+    MessageArgument{"at", Type::number, 0.0, limits::maxTimeNs * 1e-9, "now",
+                    "session time in s, or `now`; felt the output latency later"},
     MessageArgument{"in", Type::number, 0.0, mostAheadSeconds, "0", "seconds from now, instead of `at`"}};
 
 inline constexpr std::array strike{
     MessageArgument{"material", Type::word, 0.0, 0.0, "", "of the scene, for its frequency and decay"},
-    MessageArgument{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "", "instead of a material; below 5 with a decay of at least 1"},
+    MessageArgument{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "",
+                    "instead of a material; below 5 with a decay of at least 1"},
     MessageArgument{"decay_per_s", Type::number, 0.0, limits::maxDecayPerSecond, "", "with it; left out: 0"},
-    place, level,
-    MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0", "after which it is cut, at a zero crossing; 0: when it has decayed"},
+    place,
+    level,
+    MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0",
+                    "after which it is cut, at a zero crossing; 0: when it has decayed"},
     law};
 inline constexpr std::array pattern{
-    MessageArgument{"pattern", Type::word, 0.0, 0.0, "", "one to three actuators and a pulse's ms: `ABA-250`"},
-    MessageArgument{"enchanters", Type::word, 0.0, 0.0, "", "instead of it, letters of up to 64 pulses: `ABCDDCBA`"},
+    MessageArgument{"pattern", Type::word, 0.0, 0.0, "",
+                    "one to three actuators and a pulse's ms: `ABA-250`"},
+    MessageArgument{"enchanters", Type::word, 0.0, 0.0, "",
+                    "instead of it, letters of up to 64 pulses: `ABCDDCBA`"},
     MessageArgument{"pulse_s", Type::number, 0.001, 10.0, "0.25", "length of each of those"},
     MessageArgument{"gap_s", Type::number, 0.0, 10.0, "0.1", "silence between two pulses"},
-    frequency, level};
+    frequency,
+    level};
 inline constexpr std::array phantom{
-    place,
-    MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "length"},
-    law, frequency, level};
+    place, MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "length"}, law, frequency,
+    level};
 inline constexpr std::array path{
-    MessageArgument{"places", Type::places, 0.0, 0.0, "", "2 to 64 of them, joined by straight lines: `AD`, `[[0, 0], [1, 0.5]]`"},
+    MessageArgument{"places", Type::places, 0.0, 0.0, "",
+                    "2 to 64 of them, joined by straight lines: `AD`, `[[0, 0], [1, 0.5]]`"},
     MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "for all of it, at one speed"},
     MessageArgument{"speed_m_per_s", Type::number, 1e-6, 1e6, "", "instead of `seconds`"},
-    MessageArgument{"times_s", Type::numbers, 0.0, mostSeconds, "", "instead of `seconds`: when each place is reached"},
-    MessageArgument{"strokes", Type::number, 0.0, 64.0, "0", "so many still vibrations along it, timed as Tactile Brush does; 0: one that moves"},
-    MessageArgument{"law", Type::word, 0.0, 0.0, "equal", "as of a strike; `equal` is felt where it is, and equally strong all the way; `linear`, `log` and `log-outer` lag behind (linear: 0.16 where 0.3 is meant)"},
-    frequency, level};
+    MessageArgument{"times_s", Type::numbers, 0.0, mostSeconds, "",
+                    "instead of `seconds`: when each place is reached"},
+    MessageArgument{"strokes", Type::number, 0.0, 64.0, "0",
+                    "so many still vibrations along it, timed as Tactile Brush does; 0: one that moves"},
+    MessageArgument{"law", Type::word, 0.0, 0.0, "equal",
+                    "as of a strike; `equal` is felt where it is, and equally strong all the way; `linear`, "
+                    "`log` and `log-outer` lag behind (linear: 0.16 where 0.3 is meant)"},
+    frequency,
+    level};
 
 inline constexpr std::array clip{
-    MessageArgument{"file", Type::word, 0.0, 0.0, "", "WAV, FLAC, Ogg Vorbis, `.hjif`, `.hmpg`, `.haptic` or `.ahap`, in the folder that the door reads from"},
-    MessageArgument{"place", Type::place, 0.0, 0.0, "", "where; left out: its own places, or one channel per actuator, or the middle of the field"},
-    MessageArgument{"level", Type::number, 0.0, 1.0, "1", "of what is in the file, at gain 1"},
-    law};
+    MessageArgument{"file", Type::word, 0.0, 0.0, "",
+                    "WAV, FLAC, Ogg Vorbis, `.hjif`, `.hmpg`, `.haptic` or `.ahap`, in the folder that the "
+                    "door reads from"},
+    MessageArgument{
+        "place", Type::place, 0.0, 0.0, "",
+        "where; left out: its own places, or one channel per actuator, or the middle of the field"},
+    MessageArgument{"level", Type::number, 0.0, 1.0, "1", "of what is in the file, at gain 1"}, law};
 
 } // namespace messages
 
@@ -108,10 +133,22 @@ inline constexpr auto messageTable = std::to_array<MessageDescription>({
     {"phantom", "a vibration that stays at a place", messages::phantom, phantomStrikes},
     {"path", "a vibration that moves", messages::path, pathStrikes},
     {"clip", "a recording or a haptic file", messages::clip, MessageDescription::Clip{}},
-    {"stop", "what sounds fades out within 10 ms; what was asked for before and has not begun is forgotten", {}, MessageDescription::Stop{}},
-    {"status", "answers session time, strikes that wait, bodies, collisions lost, and time given up in stalls", {}, statusAnswer},
-    {"layout", "answers the law, the field, and the actuators' places in metres of the field", {}, layoutAnswer},
-    {"latency", "answers the output latency: how long after its time each vibration is felt", {}, latencyAnswer},
+    {"stop",
+     "what sounds fades out within 10 ms; what was asked for before and has not begun is forgotten",
+     {},
+     MessageDescription::Stop{}},
+    {"status",
+     "answers session time, strikes that wait, bodies, collisions lost, and time given up in stalls",
+     {},
+     statusAnswer},
+    {"layout",
+     "answers the law, the field, and the actuators' places in metres of the field",
+     {},
+     layoutAnswer},
+    {"latency",
+     "answers the output latency: how long after its time each vibration is felt",
+     {},
+     latencyAnswer},
 });
 
 } // namespace physvib

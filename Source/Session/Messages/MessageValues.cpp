@@ -16,17 +16,21 @@ bool isOnSomeField(double metres) { return std::abs(metres) <= farthestMetres; }
 
 } // namespace
 
-MessageValues::MessageValues(const PlainMessage& message, const MessageDescription& description, const PhantomPanner& panner)
+MessageValues::MessageValues(const PlainMessage& message, const MessageDescription& description,
+                             const PhantomPanner& panner)
     : message_{message}
     , description_{description}
     , panner_{panner} {
     for (auto value = message.values.begin(); value != message.values.end(); ++value) {
         argument(value->name);
-        if (std::ranges::find(message.values.begin(), value, value->name, &NamedValue::name) != value) fail(value->name, "expected once");
+        if (std::ranges::find(message.values.begin(), value, value->name, &NamedValue::name) != value)
+            fail(value->name, "expected once");
     }
 }
 
-void MessageValues::fail(std::string_view name, const std::string& what) const { throw MessageError{std::string(name) + ": " + what}; }
+void MessageValues::fail(std::string_view name, const std::string& what) const {
+    throw MessageError{std::string(name) + ": " + what};
+}
 
 const PlainValue* MessageValues::find(std::string_view name) const {
     const auto found = std::ranges::find(message_.values, name, &NamedValue::name);
@@ -42,7 +46,9 @@ const MessageArgument& MessageValues::argument(std::string_view name) const {
 }
 
 double MessageValues::inRange(const MessageArgument& argument, double found) const {
-    if (!(found >= argument.least && found <= argument.most)) fail(argument.name, "expected " + numberText(argument.least) + " to " + plainNumber(argument.most) + ", found " + numberText(found));
+    if (!(found >= argument.least && found <= argument.most))
+        fail(argument.name, "expected " + numberText(argument.least) + " to " + plainNumber(argument.most) +
+                                ", found " + numberText(found));
     return found;
 }
 
@@ -80,7 +86,8 @@ std::vector<double> MessageValues::numbers(std::string_view name) const {
     if (found == nullptr) fail(name, "expected a list of numbers");
     double last = -1.0;
     for (const double number : *found) {
-        if (inRange(argument(name), number) <= last) fail(name, "expected rising numbers, found " + numberText(number) + " after " + numberText(last));
+        if (inRange(argument(name), number) <= last)
+            fail(name, "expected rising numbers, found " + numberText(number) + " after " + numberText(last));
         last = number;
     }
     return *found;
@@ -97,17 +104,22 @@ EnchanterPlace MessageValues::enchanter(std::string_view name, char letter) cons
     const EnchanterLayout& layout = panner_.layout();
     const int j = letter - 'A';
     if (j < 0 || j >= layout.count || letter > 'Z')
-        fail(name, "expected " + std::string(layout.count > 1 ? "letters from A to " : "the letter ") + static_cast<char>('A' + std::min(layout.count, 26) - 1) + ", found " + inQuotes({&letter, 1}));
+        fail(name, "expected " + std::string(layout.count > 1 ? "letters from A to " : "the letter ") +
+                       static_cast<char>('A' + std::min(layout.count, 26) - 1) + ", found " +
+                       inQuotes({&letter, 1}));
     const EnchanterPlace& at = layout.places[static_cast<std::size_t>(j)];
-    return {at.xMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres, at.yMetres * panner_.fieldHeightMetres() / layout.extentHeightMetres};
+    return {at.xMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres,
+            at.yMetres * panner_.fieldHeightMetres() / layout.extentHeightMetres};
 }
 
 EnchanterPlace MessageValues::place() const {
     const PlainValue* const value = find("place");
     if (value == nullptr) return {0.5 * panner_.fieldWidthMetres(), 0.5 * panner_.fieldHeightMetres()};
-    if (const auto* letter = std::get_if<std::string>(value); letter != nullptr && letter->size() == 1) return enchanter("place", letter->front());
+    if (const auto* letter = std::get_if<std::string>(value); letter != nullptr && letter->size() == 1)
+        return enchanter("place", letter->front());
     const auto* const found = std::get_if<std::vector<double>>(value);
-    if (found == nullptr || found->size() != 2 || !std::ranges::all_of(*found, isOnSomeField)) fail("place", "expected x and y in metres, or an actuator's letter");
+    if (found == nullptr || found->size() != 2 || !std::ranges::all_of(*found, isOnSomeField))
+        fail("place", "expected x and y in metres, or an actuator's letter");
     return {(*found)[0], (*found)[1]};
 }
 
@@ -118,10 +130,13 @@ std::vector<EnchanterPlace> MessageValues::places() const {
     if (const auto* letters = std::get_if<std::string>(value))
         for (const char letter : *letters) all.push_back(enchanter("places", letter));
     if (const auto* found = std::get_if<std::vector<double>>(value)) {
-        if (found->size() % 2 != 0 || !std::ranges::all_of(*found, isOnSomeField)) fail("places", "expected pairs of x and y in metres");
+        if (found->size() % 2 != 0 || !std::ranges::all_of(*found, isOnSomeField))
+            fail("places", "expected pairs of x and y in metres");
         for (std::size_t i = 0; i < found->size(); i += 2) all.push_back({(*found)[i], (*found)[i + 1]});
     }
-    if (all.size() < 2 || all.size() > messages::mostPlaces) fail("places", "expected 2 to " + std::to_string(messages::mostPlaces) + " places, found " + std::to_string(all.size()));
+    if (all.size() < 2 || all.size() > messages::mostPlaces)
+        fail("places", "expected 2 to " + std::to_string(messages::mostPlaces) + " places, found " +
+                           std::to_string(all.size()));
     return all;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The values of one message, asked for by the names in the table; each refusal is worded here, for every door.
+// The values of one message, asked for by the names in the table; each refusal is worded here, for every
+// door.
 #pragma once
 #include "Core/PhantomPanner.h"
 #include "Scene/Sessions/PlainMessage.h"
@@ -20,8 +21,10 @@ struct MessageError : std::runtime_error {
 /// All throw MessageError. Any thread but R.
 class MessageValues {
 public:
-    /// Of a message in the table. Both outlive it. Throws of a value that the message does not have, or has twice.
-    MessageValues(const PlainMessage& message, const MessageDescription& description, const PhantomPanner& panner);
+    /// Of a message in the table. Both outlive it. Throws of a value that the message does not have, or has
+    /// twice.
+    MessageValues(const PlainMessage& message, const MessageDescription& description,
+                  const PhantomPanner& panner);
 
     bool has(std::string_view name) const { return find(name) != nullptr; }
     double number(std::string_view name) const; ///< or what is usual
@@ -29,7 +32,7 @@ public:
     std::string word(std::string_view name) const; ///< or what is usual
     bool isWord(std::string_view name) const;
     std::vector<double> numbers(std::string_view name) const;
-    Spread spread() const; ///< of `law`
+    Spread spread() const;        ///< of `law`
     EnchanterPlace place() const; ///< in metres of the field
     std::vector<EnchanterPlace> places() const;
 

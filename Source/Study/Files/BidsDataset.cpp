@@ -75,14 +75,20 @@ std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsW
         if (c == participant) continue;
         const auto* const known = meaningOf(trials.columns[c]);
         OrderedJson& own = json[bidsName(trials.columns[c])];
-        own["Description"] = known ? std::string{known->description} + (known->ours == trialColumns::task ? listed(studyTaskNames, " or ") : "") : "Column " + cellOf(trials.columns[c]) + " of the trial file: a rating scale from 0 to 100, or a column of another program";
+        own["Description"] =
+            known ? std::string{known->description} +
+                        (known->ours == trialColumns::task ? listed(studyTaskNames, " or ") : "")
+                  : "Column " + cellOf(trials.columns[c]) +
+                        " of the trial file: a rating scale from 0 to 100, or a column of another program";
         if (known && !known->units.empty()) own["Units"] = known->units;
     }
     return jsonLines(json);
 }
 
 std::string description(const BidsWords& words) {
-    OrderedJson json = {{"Name", words.name + (words.isSimulated ? " (SIMULATED: no person answered)" : "")}, {"BIDSVersion", "1.8.0"}, {"DatasetType", "raw"}};
+    OrderedJson json = {{"Name", words.name + (words.isSimulated ? " (SIMULATED: no person answered)" : "")},
+                        {"BIDSVersion", "1.8.0"},
+                        {"DatasetType", "raw"}};
     json["GeneratedBy"] = OrderedJson::array({OrderedJson{{"Name", "physvib"}, {"Version", words.version}}});
     for (const auto& [key, value] : words.source) json["PhysVib"][key] = value;
     return jsonLines(json);
@@ -106,9 +112,13 @@ std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const Bid
         auto found = std::ranges::find(labels, code, &std::pair<std::string, std::string>::first);
         if (found == labels.end()) {
             std::string label = labelOf(code);
-            for (int number = 2; std::ranges::count(labels, label, &std::pair<std::string, std::string>::second) > 0; ++number) label = labelOf(code) + "x" + std::to_string(number);
+            for (int number = 2;
+                 std::ranges::count(labels, label, &std::pair<std::string, std::string>::second) > 0;
+                 ++number)
+                label = labelOf(code) + "x" + std::to_string(number);
             found = labels.insert(labels.end(), {code, label});
-            people += "sub-" + label + "\t" + cellOf(code) + "\t" + (observer ? cellOf(row.cells[*observer]) : "n/a") + "\n";
+            people += "sub-" + label + "\t" + cellOf(code) + "\t" +
+                      (observer ? cellOf(row.cells[*observer]) : "n/a") + "\n";
         }
         const std::string subject = "sub-" + found->second;
         std::string& own = files[subject + "/beh/" + subject + "_task-" + task + "_beh.tsv"];
@@ -122,11 +132,16 @@ std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const Bid
         own += '\n';
     }
     files["participants.tsv"] = people;
-    files["participants.json"] = jsonLines(OrderedJson{{"code", {{"Description", "Code of the participant in the trial files; no other personal datum is kept"}}},
-                                                       {"observer", {{"Description", "Who answered: person, or the name of a simulated observer"}}}});
+    files["participants.json"] = jsonLines(OrderedJson{
+        {"code",
+         {{"Description", "Code of the participant in the trial files; no other personal datum is kept"}}},
+        {"observer", {{"Description", "Who answered: person, or the name of a simulated observer"}}}});
     files["dataset_description.json"] = description(words);
     files["task-" + task + "_beh.json"] = sidecar(trials, *participant, words);
-    files["README"] = words.name + "\n\nBehaviour of a study with physvib: a row per trial, in the order in which it was done. Column meanings: task-" + task + "_beh.json.\n" +
+    files["README"] = words.name +
+                      "\n\nBehaviour of a study with physvib: a row per trial, in the order in which it was "
+                      "done. Column meanings: task-" +
+                      task + "_beh.json.\n" +
                       (words.isSimulated ? "SIMULATED: a simulated observer answered, not a person.\n" : "");
     return files;
 }

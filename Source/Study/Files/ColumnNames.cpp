@@ -14,9 +14,12 @@ namespace {
 
 /// "touch_x:0:1230" in its parts; a column's name that ends otherwise is all name.
 ColumnName withRange(std::string ours, std::string words) {
-    const std::size_t second = words.rfind(':'), first = second == std::string::npos || second == 0 ? std::string::npos : words.rfind(':', second - 1);
+    const std::size_t second = words.rfind(':'), first = second == std::string::npos || second == 0
+                                                             ? std::string::npos
+                                                             : words.rfind(':', second - 1);
     if (first == std::string::npos || first == 0) return {std::move(ours), std::move(words)};
-    const auto from = parseNumber<double>(words.substr(first + 1, second - first - 1)), to = parseNumber<double>(words.substr(second + 1));
+    const auto from = parseNumber<double>(words.substr(first + 1, second - first - 1)),
+               to = parseNumber<double>(words.substr(second + 1));
     if (!from || !to || *from == *to) return {std::move(ours), std::move(words)};
     return {std::move(ours), words.substr(0, first), std::pair{*from, *to}};
 }
@@ -44,7 +47,9 @@ std::string numberLines(CsvTable& table, std::string_view places, const char* li
     }
     if (values.size() > mostGridLines) return {};
     table.columns.emplace_back(lines);
-    for (CsvRow& row : table.rows) row.cells.push_back(std::to_string(1 + std::distance(values.begin(), values.find(*parseNumber<double>(row.cells[*column])))));
+    for (CsvRow& row : table.rows)
+        row.cells.push_back(std::to_string(
+            1 + std::distance(values.begin(), values.find(*parseNumber<double>(row.cells[*column])))));
     return {};
 }
 
@@ -55,9 +60,11 @@ Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> wo
     for (const std::string& word : words) {
         const std::size_t equals = word.find('=');
         if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
-            return Failure{"expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found " + inQuotes(word)};
+            return Failure{"expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found " +
+                           inQuotes(word)};
         names.push_back(withRange(word.substr(0, equals), word.substr(equals + 1)));
-        if (std::ranges::count(names, names.back().ours, &ColumnName::ours) > 1) return Failure{"expected each name once, found " + inQuotes(names.back().ours) + " twice"};
+        if (std::ranges::count(names, names.back().ours, &ColumnName::ours) > 1)
+            return Failure{"expected each name once, found " + inQuotes(names.back().ours) + " twice"};
     }
     return names;
 }
@@ -86,12 +93,14 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std:
         from.push_back(*found);
         columns.push_back(name.ours);
     }
-    if (const auto observer = table.column(trialColumns::observer); observer && std::ranges::find(columns, trialColumns::observer) == columns.end()) {
+    if (const auto observer = table.column(trialColumns::observer);
+        observer && std::ranges::find(columns, trialColumns::observer) == columns.end()) {
         from.push_back(*observer);
         columns.emplace_back(trialColumns::observer);
     }
     const auto isWhole = [&](const CsvRow& row) {
-        return std::ranges::none_of(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(names.size()), [&](std::size_t c) { return row.cells[c].empty(); });
+        return std::ranges::none_of(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(names.size()),
+                                    [&](std::size_t c) { return row.cells[c].empty(); });
     };
     rowsLeftOut += std::erase_if(table.rows, [&](const CsvRow& row) { return !isWhole(row); });
     for (CsvRow& row : table.rows) {
@@ -100,7 +109,8 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std:
         row.cells = std::move(cells);
     }
     table.columns = std::move(columns);
-    if (table.rows.empty()) return table.name + ": expected rows with something in every named column, found none";
+    if (table.rows.empty())
+        return table.name + ": expected rows with something in every named column, found none";
     for (std::size_t c = 0; c < names.size(); ++c)
         if (names[c].range)
             if (std::string fault = scale(table, c, *names[c].range); !fault.empty()) return fault;

@@ -15,12 +15,13 @@ namespace physvib {
 /// A column of ours, and what a table calls it.
 struct ColumnName {
     std::string ours, theirs;
-    std::optional<std::pair<double, double>> range{}; ///< the table's numbers that are 0 and 1 here; none: cells stay as they are
+    std::optional<std::pair<double, double>> range{}; ///< the table's numbers that are 0 and 1 here; none:
+                                                      ///< cells stay as they are
     bool operator==(const ColumnName&) const = default;
 };
 
-/// Of words like `response=key_resp.keys` or, of places, `x=touch_x:0:1230` (0 is the left edge, 1230 the right one), each of ours once; or one
-/// line on the first that is none. Any thread.
+/// Of words like `response=key_resp.keys` or, of places, `x=touch_x:0:1230` (0 is the left edge, 1230 the
+/// right one), each of ours once; or one line on the first that is none. Any thread.
 Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words);
 
 /// Empty, or that of an answered and a true place only one has a range: they are in different units. Any

@@ -11,8 +11,9 @@
 
 namespace physvib::detail {
 
-/// A column of that name; or `condition.2`, the second part of what a column `condition` says between hyphens; or `name=level` among the words of a condition or stimulus, or one letter in the name of one of the thesis' methods (5.3): of A, F and
-/// DR, AV-FF-DRV says V, F and V.
+/// A column of that name; or `condition.2`, the second part of what a column `condition` says between
+/// hyphens; or `name=level` among the words of a condition or stimulus, or one letter in the name of one of
+/// the thesis' methods (5.3): of A, F and DR, AV-FF-DRV says V, F and V.
 struct FactorSource {
     std::size_t column = 0;
     std::string mark{}; ///< "pair="; empty: the whole cell of `column`
@@ -21,8 +22,10 @@ struct FactorSource {
 
     static std::optional<FactorSource> of(const CsvTable& table, const std::string& factor) {
         if (const auto column = table.column(factor)) return FactorSource{*column};
-        if (factor.size() > 2 && factor[factor.size() - 2] == '.' && factor.back() >= '1' && factor.back() <= '9')
-            if (const auto column = table.column(std::string_view{factor}.substr(0, factor.size() - 2))) return FactorSource{*column, {}, {}, static_cast<std::size_t>(factor.back() - '0')};
+        if (factor.size() > 2 && factor[factor.size() - 2] == '.' && factor.back() >= '1' &&
+            factor.back() <= '9')
+            if (const auto column = table.column(std::string_view{factor}.substr(0, factor.size() - 2)))
+                return FactorSource{*column, {}, {}, static_cast<std::size_t>(factor.back() - '0')};
         const auto condition = table.column("condition"), stimulus = table.column("stimulus");
         if (!condition && !stimulus) return std::nullopt;
         return FactorSource{condition.value_or(stimulus.value_or(0)), factor + "=", stimulus};
@@ -34,7 +37,11 @@ struct FactorSource {
         const std::string_view found = markedIn(row.cells[column]);
         return found.empty() && alsoIn ? markedIn(row.cells[*alsoIn]) : found;
     }
-    std::string expected() const { return part > 0 ? std::to_string(part) + " parts between hyphens" : mark.empty() ? "a level" : "a word " + printable(mark) + "..."; }
+    std::string expected() const {
+        return part > 0       ? std::to_string(part) + " parts between hyphens"
+               : mark.empty() ? "a level"
+                              : "a word " + printable(mark) + "...";
+    }
 
 private:
     std::string_view partIn(std::string_view rest) const {
@@ -53,7 +60,8 @@ private:
     std::string_view methodLetterIn(std::string_view word) const {
         const std::string_view factor = std::string_view{mark}.substr(0, mark.size() - 1);
         while (!word.empty()) {
-            const std::string_view piece = takeUntil('-', word), letter = piece.substr(std::min(factor.size(), piece.size()));
+            const std::string_view piece = takeUntil('-', word),
+                                   letter = piece.substr(std::min(factor.size(), piece.size()));
             if (piece.starts_with(factor) && (letter == "V" || letter == "F")) return letter;
         }
         return {};

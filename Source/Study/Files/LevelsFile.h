@@ -10,7 +10,8 @@
 
 namespace physvib {
 
-/// The levels that `text` holds: columns condition, stimulus, alternative, level_db; or one line that names file, line and column. Any thread.
+/// The levels that `text` holds: columns condition, stimulus, alternative, level_db; or one line that names
+/// file, line and column. Any thread.
 Result<std::vector<StimulusLevel>> readStimulusLevels(std::string_view text, std::string_view name);
 
 /// `levels` as CSV, with participants and their standard deviation. Any thread.

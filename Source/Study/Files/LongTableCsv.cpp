@@ -2,9 +2,9 @@
 // Columns by name, rows one by one: of a million rows only numbers and the indices of names are kept.
 #include "Study/Files/LongTableCsv.h"
 #include "Io/Text/CsvTable.h"
+#include "Io/Text/NumberText.h"
 #include "Study/Files/FactorSource.h"
 #include "Study/Files/SharedParticipants.h"
-#include "Io/Text/NumberText.h"
 #include "Study/Files/TrialColumns.h"
 #include <cmath>
 #include <optional>
@@ -22,13 +22,18 @@ constexpr double largestMeasure = 1e100; // squares and their sums stay finite
 class LongTableReader {
 public:
     LongTableReader(LongTableData& data, const LongTableColumns& wanted)
-        : data_{data}, wanted_{wanted} {}
+        : data_{data}
+        , wanted_{wanted} {}
 
     std::string read(const NamedText& file) {
         taken_ = 0;
         people_.clear();
-        std::string fault = eachCsvRow(file.text, file.name, [this](const CsvTable& head) { return begin(head); }, [this](const CsvRow& row) { return take(row); });
-        if (fault.empty() && taken_ == 0) fault = std::string(file.name) + ": column " + printable(wanted_.measure) + ": expected numbers, found none";
+        std::string fault = eachCsvRow(
+            file.text, file.name, [this](const CsvTable& head) { return begin(head); },
+            [this](const CsvRow& row) { return take(row); });
+        if (fault.empty() && taken_ == 0)
+            fault = std::string(file.name) + ": column " + printable(wanted_.measure) +
+                    ": expected numbers, found none";
         return fault.empty() ? shared_.add(known_, people_) : fault;
     }
     std::string sharedNote() const { return shared_.note(); }
@@ -37,13 +42,18 @@ private:
     std::string begin(const CsvTable& head) {
         head_ = &head;
         known_ = {head.name, head.comments, {}, {}};
-        for (const std::string& line : head.comments) data_.isSimulated |= line.find(" observer=simulated") != std::string::npos;
+        for (const std::string& line : head.comments)
+            data_.isSimulated |= line.find(" observer=simulated") != std::string::npos;
         observer_ = head.column(trialColumns::observer);
         phase_ = head.column(trialColumns::phase);
-        participant_ = head.column(wanted_.participant.empty() ? trialColumns::names.front() : std::string_view{wanted_.participant});
+        participant_ = head.column(wanted_.participant.empty() ? trialColumns::names.front()
+                                                               : std::string_view{wanted_.participant});
         if (!participant_ && (!wanted_.participant.empty() || !wanted_.within.empty()))
-            return missing(wanted_.participant.empty() ? std::string(trialColumns::names.front()) : wanted_.participant);
-        if (!participant_) data_.warnings.push_back(printable(head.name) + ": no column participant: every row counts as a participant");
+            return missing(wanted_.participant.empty() ? std::string(trialColumns::names.front())
+                                                       : wanted_.participant);
+        if (!participant_)
+            data_.warnings.push_back(printable(head.name) +
+                                     ": no column participant: every row counts as a participant");
         if (!findMeasure()) return missing(wanted_.measure);
         within_.clear();
         for (const std::string& factor : wanted_.within) {
@@ -60,9 +70,12 @@ private:
         const std::string& cell = row.cells[measure_];
         for (const auto& [source, word] : where_)
             if (source.level(row) != word) return {};
-        if (cell.empty() || cell == "NA" || (phase_ && row.cells[*phase_] == trialColumns::training)) return {};
-        const auto value = chosen_.empty() ? parseNumber<double>(cell) : std::optional<double>{cell == chosen_ ? 1.0 : 0.0};
-        if (!value || std::abs(*value) > largestMeasure) return head_->fault(row, measure_, "a number from -1e100 to 1e100");
+        if (cell.empty() || cell == "NA" || (phase_ && row.cells[*phase_] == trialColumns::training))
+            return {};
+        const auto value =
+            chosen_.empty() ? parseNumber<double>(cell) : std::optional<double>{cell == chosen_ ? 1.0 : 0.0};
+        if (!value || std::abs(*value) > largestMeasure)
+            return head_->fault(row, measure_, "a number from -1e100 to 1e100");
         levels_.clear();
         for (const FactorSource& source : within_) {
             levels_.push_back(source.level(row));
@@ -70,12 +83,16 @@ private:
         }
         const std::string_view group = between_ ? between_->level(row) : std::string_view{};
         if (between_ && group.empty()) return head_->fault(row, between_->column, between_->expected());
-        if (participant_ && row.cells[*participant_].empty()) return head_->fault(row, *participant_, "a participant");
-        if (observer_) data_.isSimulated |= row.cells[*observer_].find(trialColumns::simulated) != std::string::npos;
+        if (participant_ && row.cells[*participant_].empty())
+            return head_->fault(row, *participant_, "a participant");
+        if (observer_)
+            data_.isSimulated |= row.cells[*observer_].find(trialColumns::simulated) != std::string::npos;
         ++taken_;
         if (participant_) people_.insert(row.cells[*participant_]);
-        if (participant_) data_.table.add(row.cells[*participant_], levels_, group, *value);
-        else data_.table.add("row " + std::to_string(data_.table.rows() + 1), levels_, group, *value);
+        if (participant_)
+            data_.table.add(row.cells[*participant_], levels_, group, *value);
+        else
+            data_.table.add("row " + std::to_string(data_.table.rows() + 1), levels_, group, *value);
         return {};
     }
 
@@ -101,7 +118,9 @@ private:
         return found.has_value();
     }
 
-    std::string missing(const std::string& column) const { return head_->name + ": expected a column " + printable(column) + ", found none"; }
+    std::string missing(const std::string& column) const {
+        return head_->name + ": expected a column " + printable(column) + ", found none";
+    }
 
     LongTableData& data_;
     const LongTableColumns& wanted_;

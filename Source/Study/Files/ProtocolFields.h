@@ -17,11 +17,11 @@ namespace studyBounds {
 /// Of a field that becomes part of a stimulus.
 constexpr Bounds of(const StimulusRange& range) { return {range.least, range.most}; }
 inline constexpr Bounds levelDb = within(limits::maxLevelDb);
-inline constexpr Bounds rest = upTo(86400.0);         // a day
-inline constexpr Bounds count = upTo(100000.0);       // trials of a week
-inline constexpr Bounds names{{}, {}, 0, 64};         // alternatives, objects, scales: what fits on a screen
+inline constexpr Bounds rest = upTo(86400.0);   // a day
+inline constexpr Bounds count = upTo(100000.0); // trials of a week
+inline constexpr Bounds names{{}, {}, 0, 64};   // alternatives, objects, scales: what fits on a screen
 inline constexpr Bounds call = upTo(static_cast<double>(mostCallBytes)); // of text: bytes
-inline constexpr Bounds lines{1.0, 16.0};             // what merging grids can divide (PercentCounts.h)
+inline constexpr Bounds lines{1.0, 16.0}; // what merging grids can divide (PercentCounts.h)
 } // namespace studyBounds
 
 void visitFields(auto& v, FieldsOf<PatternSet>) {
@@ -50,14 +50,16 @@ void visitFields(auto& v, FieldsOf<CallSet>) {
 }
 
 void visitFields(auto& v, FieldsOf<WorldSet>) {
-    v.field("factors", static_cast<std::vector<StudyFactor> WorldSet::*>(&WorldSet::factors), items(1, 16), Need::required);
+    v.field("factors", static_cast<std::vector<StudyFactor> WorldSet::*>(&WorldSet::factors), items(1, 16),
+            Need::required);
     v.field("call", static_cast<std::string WorldSet::*>(&WorldSet::call), studyBounds::call, Need::required);
     v.field("hands", &WorldSet::hasHands, {}, Need::optional);
     v.field("display_scale", &WorldSet::displayScale, Bounds{1.0, 10000.0}, Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<StudySoundFile>) {
-    v.field("frequency_hz", &StudySoundFile::frequencyHz, Bounds{1.0, limits::maxFrequencyHz}, Need::required);
+    v.field("frequency_hz", &StudySoundFile::frequencyHz, Bounds{1.0, limits::maxFrequencyHz},
+            Need::required);
     v.field("file", &StudySoundFile::file, anyText, Need::required);
 }
 

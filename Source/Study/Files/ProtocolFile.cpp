@@ -33,10 +33,13 @@ Protocol readProtocolRoot(Json& root) {
     checkVersion(JsonField(root, {}), protocolVersionField, protocolFormatVersion);
     root.erase(protocolVersionField);
     auto protocol = readFields<Protocol>(JsonField(root, {}));
-    if (const std::string fault = detail::checkFields("", protocol, 0); !fault.empty()) throw JsonError({}, fault);
+    if (const std::string fault = detail::checkFields("", protocol, 0); !fault.empty())
+        throw JsonError({}, fault);
     if (const std::string fault = validate(protocol); !fault.empty()) throw JsonError({}, fault);
     for (const std::string& scale : scalesOf(protocol))
-        if (trialColumns::has(scale)) throw JsonError({}, "scales: expected names that no other column of a trial file has, found " + inQuotes(scale));
+        if (trialColumns::has(scale))
+            throw JsonError({}, "scales: expected names that no other column of a trial file has, found " +
+                                    inQuotes(scale));
     return protocol;
 }
 
@@ -46,7 +49,8 @@ namespace {
 
 /// Loads what the sessions' levels_file names; empty, or one line.
 std::string takeLevels(Protocol& protocol) {
-    const auto session = std::ranges::find_if(protocol.sessions, [](const SessionPlan& s) { return !s.levelsFile.empty(); });
+    const auto session =
+        std::ranges::find_if(protocol.sessions, [](const SessionPlan& s) { return !s.levelsFile.empty(); });
     if (session == protocol.sessions.end()) return {};
     const auto path = besideProtocol(protocol.folder, session->levelsFile);
     const auto text = readFile(path, limits::maxTableBytes);
@@ -74,7 +78,8 @@ std::string protocolJson(const Protocol& protocol) {
 }
 
 std::string protocolHash(const Protocol& protocol) {
-    return contentHash(protocolJson(protocol) + (protocol.levels.empty() ? std::string{} : stimulusLevelsCsv(protocol.levels, {})));
+    return contentHash(protocolJson(protocol) +
+                       (protocol.levels.empty() ? std::string{} : stimulusLevelsCsv(protocol.levels, {})));
 }
 
 const std::vector<Protocol>& builtInProtocols() {
@@ -114,7 +119,8 @@ std::string linkFault(const std::string& folder, const std::string& path) {
     std::error_code none;
     const std::string found = besideProtocol(folder, path), home = found == path ? std::string{} : folder;
     if (!isPlainPath(path) || !std::filesystem::exists(found, none) || isWithin(home, found)) return {};
-    return found + ": expected a file in " + (home.empty() ? "the folder" : home) + " or below, found a link that leads elsewhere";
+    return found + ": expected a file in " + (home.empty() ? "the folder" : home) +
+           " or below, found a link that leads elsewhere";
 }
 
 namespace {

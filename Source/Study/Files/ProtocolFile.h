@@ -14,8 +14,8 @@ namespace physvib {
 /// The version of the format that is written, and the newest that is read.
 constexpr int protocolFormatVersion = 1;
 
-/// The valid protocol that `text` describes; or one line `name: sessions[1].repetitions: expected 1 to 1000, found 0`.
-/// Any thread.
+/// The valid protocol that `text` describes; or one line `name: sessions[1].repetitions: expected 1 to 1000,
+/// found 0`. Any thread.
 Result<Protocol> readProtocol(std::string_view text, std::string_view name);
 
 /// The same of a file. M only.
@@ -37,10 +37,12 @@ const std::vector<Protocol>& knownProtocols();
 /// one. Any thread (allocates).
 std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol);
 
-/// A file that a protocol names: the one beside the protocol, if it is there, else the one of that path. M only.
+/// A file that a protocol names: the one beside the protocol, if it is there, else the one of that path. M
+/// only.
 std::string besideProtocol(const std::string& folder, const std::string& path);
 
-/// Empty, or that the file which besideProtocol() finds for such a path stands behind a link that leads out of the folder. M only.
+/// Empty, or that the file which besideProtocol() finds for such a path stands behind a link that leads out
+/// of the folder. M only.
 std::string linkFault(const std::string& folder, const std::string& path);
 
 /// One of knownProtocols() by its name, else that of the file, which then is the folder of what it names. M

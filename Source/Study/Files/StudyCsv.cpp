@@ -27,7 +27,9 @@ template <class Trial>
 std::vector<Trial>& conditionNamed(const StudyRows& rows, StudyData<Trial>& data, const std::string& name) {
     const auto found = std::ranges::find(data.conditions, name, &StudyCondition<Trial>::name);
     if (found != data.conditions.end()) return found->trials;
-    if (data.conditions.size() == limits::maxConditions) throw StudyFault{rows.table().name + ": expected at most " + std::to_string(limits::maxConditions) + " conditions, found more"};
+    if (data.conditions.size() == limits::maxConditions)
+        throw StudyFault{rows.table().name + ": expected at most " + std::to_string(limits::maxConditions) +
+                         " conditions, found more"};
     data.conditions.push_back({name, {}});
     return data.conditions.back().trials;
 }
@@ -38,7 +40,8 @@ std::vector<std::string>& warningsOf(StudyData<Trial>& data) {
 }
 std::vector<std::string>& warningsOf(RatingData& ratings) { return ratings.data.warnings; }
 
-/// Runs `take(rows, data)` per file; what it throws becomes a Failure, and so do files without a trial that counts.
+/// Runs `take(rows, data)` per file; what it throws becomes a Failure, and so do files without a trial that
+/// counts.
 template <class Data, class Take>
 Result<Data> readAll(std::span<const NamedText> files, Take take) {
     Data data;
@@ -49,8 +52,12 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
             if (std::string fault = shared.add(rows.table()); !fault.empty())
                 throw StudyFault{std::move(fault)};
             const std::size_t taken = take(rows, data);
-            if (rows.leftOut() > 0) warningsOf(data).push_back(rows.table().name + ": rows left out, with nothing in one of the named columns: " + std::to_string(rows.leftOut()));
-            if (taken == 0) throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
+            if (rows.leftOut() > 0)
+                warningsOf(data).push_back(rows.table().name +
+                                           ": rows left out, with nothing in one of the named columns: " +
+                                           std::to_string(rows.leftOut()));
+            if (taken == 0)
+                throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
         }
     } catch (const StudyFault& fault) {
         return Failure{fault.message};
@@ -66,7 +73,9 @@ void expectFewLabels(const std::string& file, const StudyData<IdentificationTria
         for (const auto& trial : condition.trials) {
             labels.insert(trial.stimulus);
             labels.insert(trial.response);
-            if (labels.size() > limits::maxLabels) throw StudyFault{file + ": expected at most " + std::to_string(limits::maxLabels) + " different stimuli and responses, found more"};
+            if (labels.size() > limits::maxLabels)
+                throw StudyFault{file + ": expected at most " + std::to_string(limits::maxLabels) +
+                                 " different stimuli and responses, found more"};
         }
 }
 
@@ -81,10 +90,12 @@ std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTr
             if (missing++ == 0) firstMissing = row.line;
             return;
         }
-        conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back({rows.text(row, stimulus), row.cells[response], StudyRows::textIf(row, participant)});
+        conditionNamed(rows, data, StudyRows::textIf(row, condition))
+            .push_back({rows.text(row, stimulus), row.cells[response], StudyRows::textIf(row, participant)});
     });
     if (missing > 0)
-        data.warnings.push_back(rows.table().name + ":" + std::to_string(firstMissing) + ": no response; trials left out for that: " + std::to_string(missing));
+        data.warnings.push_back(rows.table().name + ":" + std::to_string(firstMissing) +
+                                ": no response; trials left out for that: " + std::to_string(missing));
     expectFewLabels(rows.table().name, data);
     return data.conditions.empty() ? 0 : taken;
 }
@@ -96,7 +107,8 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
                 rows.table().name + ": column " + place + ": expected at most " +
                 std::to_string(mostGridLines) +
                 " different places, found more; `physvib analyse places` takes targets on no grid"};
-    const auto column = rows.required("target_column"), row = rows.required("target_row"), x = rows.required("x"), y = rows.required("y");
+    const auto column = rows.required("target_column"), row = rows.required("target_row"),
+               x = rows.required("x"), y = rows.required("y");
     const auto condition = rows.optional("condition");
     constexpr int most = static_cast<int>(mostGridLines);
     data.isSimulated |= rows.isSimulated();
@@ -104,7 +116,8 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
     rows.each(AnswerKind::place, [&](const CsvRow& r) {
         ++taken;
         conditionNamed(rows, data, StudyRows::textIf(r, condition))
-            .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most), rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0)});
+            .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most),
+                        rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0)});
     });
     return taken;
 }
@@ -178,19 +191,23 @@ std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
 }
 
 /// "condition stimulus" of what there is; the stimulus alone if all is one condition, as in a trial file.
-std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus, std::optional<std::size_t> condition) {
+std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus,
+                   std::optional<std::size_t> condition) {
     return stimulus ? row.cells[*stimulus] : StudyRows::textIf(row, condition);
 }
 
 std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     const auto named = rows.optional("choice");
     const auto choice = named ? *named : rows.required("response");
-    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"), participant = rows.optional("participant");
+    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
+               participant = rows.optional("participant");
     data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
     rows.each(AnswerKind::choice, [&](const CsvRow& row) {
         ++taken;
-        conditionNamed(rows, data, {}).push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), rows.text(row, choice)});
+        conditionNamed(rows, data, {})
+            .push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition),
+                        rows.text(row, choice)});
     });
     return taken;
 }
@@ -204,11 +221,14 @@ std::vector<std::size_t> scaleColumns(const CsvTable& table) {
 
 std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     const auto scales = scaleColumns(rows.table());
-    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"), participant = rows.optional("participant");
+    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
+               participant = rows.optional("participant");
     std::vector<std::string> names;
     for (const auto c : scales) names.push_back(rows.table().columns[c]);
-    if (names.empty()) throw StudyFault{rows.table().name + ": expected a column per rating scale, found none"};
-    if (!ratings.scales.empty() && ratings.scales != names) throw StudyFault{rows.table().name + ": expected the scales of the files before"};
+    if (names.empty())
+        throw StudyFault{rows.table().name + ": expected a column per rating scale, found none"};
+    if (!ratings.scales.empty() && ratings.scales != names)
+        throw StudyFault{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
     ratings.data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
@@ -225,7 +245,8 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
 const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
     const auto column = rows.optional(trialColumns::quest);
     if (!column || row.cells[*column].empty()) return nullptr;
-    if (!questPlan(row.cells[*column])) throw StudyFault{rows.table().fault(row, *column, "the words of a QUEST+ session")};
+    if (!questPlan(row.cells[*column]))
+        throw StudyFault{rows.table().fault(row, *column, "the words of a QUEST+ session")};
     return &row.cells[*column];
 }
 
@@ -233,12 +254,18 @@ const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
 std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     const auto tasks = rows.optional(trialColumns::task);
     // other programs' tables have one kind
-    const std::optional<AnswerKind> answer = tasks ? answerOf(row.cells[*tasks]) : rows.optional("value") ? AnswerKind::number : AnswerKind::choice;
-    LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")), StudyRows::textIf(row, rows.optional("condition")),
+    const std::optional<AnswerKind> answer = tasks                    ? answerOf(row.cells[*tasks])
+                                             : rows.optional("value") ? AnswerKind::number
+                                                                      : AnswerKind::choice;
+    LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")),
+                     StudyRows::textIf(row, rows.optional("condition")),
                      rows.text(row, rows.required("stimulus"))};
-    if (answer == AnswerKind::level) trial.kind = LevelTrial::Kind::adjustment;
-    else if (answer == AnswerKind::number) trial.kind = LevelTrial::Kind::magnitude;
-    else if (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty()) return std::nullopt;
+    if (answer == AnswerKind::level)
+        trial.kind = LevelTrial::Kind::adjustment;
+    else if (answer == AnswerKind::number)
+        trial.kind = LevelTrial::Kind::magnitude;
+    else if (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty())
+        return std::nullopt;
     if (trial.kind == LevelTrial::Kind::staircase) {
         trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
         trial.session = StudyRows::textIf(row, rows.optional("session"));
@@ -247,7 +274,10 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
             trial.value = rows.wholeNumber(row, rows.required("correct"), 0, 1);
             trial.quest = *quest;
         }
-    } else trial.value = rows.number(row, rows.required("value"), trial.kind == LevelTrial::Kind::magnitude ? leastEstimate : -mostEstimate, mostEstimate);
+    } else
+        trial.value = rows.number(row, rows.required("value"),
+                                  trial.kind == LevelTrial::Kind::magnitude ? leastEstimate : -mostEstimate,
+                                  mostEstimate);
     return trial;
 }
 
@@ -266,7 +296,8 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     return taken;
 }
 
-std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data, const LevelAnswerColumns& columns) {
+std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data,
+                             const LevelAnswerColumns& columns) {
     constexpr double largestLevel = 1e6;
     const auto measure = rows.required(columns.measure);
     const auto level = detail::FactorSource::of(rows.table(), columns.level);
@@ -277,10 +308,14 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
         if (row.cells[measure].empty()) return;
         const auto at = parseNumber<double>(level->level(row));
-        if (!at || std::abs(*at) > largestLevel) throw StudyFault{rows.table().fault(row, level->column, level->expected() + " that is a number from -1e6 to 1e6")};
+        if (!at || std::abs(*at) > largestLevel)
+            throw StudyFault{rows.table().fault(row, level->column,
+                                                level->expected() + " that is a number from -1e6 to 1e6")};
         ++taken;
-        const double answer = columns.isMagnitude ? rows.number(row, measure, leastEstimate, mostEstimate) : rows.wholeNumber(row, measure, 0, 1);
-        conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back({StudyRows::textIf(row, participant), *at, answer});
+        const double answer = columns.isMagnitude ? rows.number(row, measure, leastEstimate, mostEstimate)
+                                                  : rows.wholeNumber(row, measure, 0, 1);
+        conditionNamed(rows, data, StudyRows::textIf(row, condition))
+            .push_back({StudyRows::textIf(row, participant), *at, answer});
     });
     return taken;
 }
@@ -295,7 +330,8 @@ std::vector<std::size_t> countColumns(const StudyRows& rows) {
     }
     if (columns.empty()) rows.required("c1");
     if (rows.optional(numbered("c", mostGridLines + 1)))
-        throw StudyFault{rows.table().name + ": expected at most " + std::to_string(mostGridLines) + " columns c1, c2, ..."};
+        throw StudyFault{rows.table().name + ": expected at most " + std::to_string(mostGridLines) +
+                         " columns c1, c2, ..."};
     return columns;
 }
 
@@ -310,8 +346,11 @@ std::size_t takePercentCounts(const StudyRows& rows, StudyData<PercentCounts>& d
         if (grids.empty()) grids.push_back({r.cells[condition], 0, columns.size(), {}});
         PercentCounts& grid = grids.front();
         const int next = static_cast<int>(++grid.rows);
-        if (grid.columns != columns.size()) throw StudyFault{rows.table().fault(r, condition, "as many columns as in the file before")};
-        if (grid.rows > mostGridLines) throw StudyFault{rows.table().fault(r, row, "at most " + std::to_string(mostGridLines) + " rows")};
+        if (grid.columns != columns.size())
+            throw StudyFault{rows.table().fault(r, condition, "as many columns as in the file before")};
+        if (grid.rows > mostGridLines)
+            throw StudyFault{
+                rows.table().fault(r, row, "at most " + std::to_string(mostGridLines) + " rows")};
         if (rows.wholeNumber(r, row, 1, static_cast<int>(mostGridLines)) != next)
             throw StudyFault{rows.table().fault(r, row, "row " + std::to_string(next) + " of the condition")};
         for (const auto c : columns) grid.percent.push_back(rows.number(r, c, 0.0, 100.0));
@@ -333,14 +372,22 @@ Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files) {
     return readAll<StudyData<PlaceTrial>>(files, takePlaces);
 }
 
-Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) { return readAll<StudyData<ChoiceTrial>>(files, takeChoices); }
+Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) {
+    return readAll<StudyData<ChoiceTrial>>(files, takeChoices);
+}
 
-Result<RatingData> readRatings(std::span<const NamedText> files) { return readAll<RatingData>(files, takeRatings); }
+Result<RatingData> readRatings(std::span<const NamedText> files) {
+    return readAll<RatingData>(files, takeRatings);
+}
 
-Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files) { return readAll<StudyData<LevelTrial>>(files, takeLevelTrial); }
+Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files) {
+    return readAll<StudyData<LevelTrial>>(files, takeLevelTrial);
+}
 
-Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files, const LevelAnswerColumns& columns) {
-    return readAll<StudyData<LevelAnswer>>(files, [&](const StudyRows& rows, auto& data) { return takeLevelAnswers(rows, data, columns); });
+Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files,
+                                                const LevelAnswerColumns& columns) {
+    return readAll<StudyData<LevelAnswer>>(
+        files, [&](const StudyRows& rows, auto& data) { return takeLevelAnswers(rows, data, columns); });
 }
 
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files) {
@@ -357,7 +404,8 @@ std::string percentCountsCsv(std::span<const PercentCounts> counts, const Proven
         for (std::size_t row = 0; row < grid.rows; ++row) {
             appendCell(text, grid.condition);
             text += numbered(",", row + 1);
-            for (std::size_t c = 0; c < columns; ++c) text.append(",").append(c < grid.columns ? numberText(grid.at(row, c)) : "0");
+            for (std::size_t c = 0; c < columns; ++c)
+                text.append(",").append(c < grid.columns ? numberText(grid.at(row, c)) : "0");
             text += '\n';
         }
     return text;

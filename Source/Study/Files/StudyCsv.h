@@ -45,11 +45,12 @@ struct NamedText {
     std::span<const ColumnName> columns{}; ///< of another program's table; empty: the columns have our names
 };
 
-// Common to all: columns that are not asked for are ignored; of a file that `study run` wrote, training trials and
-// trials of other tasks are left out. The first thing that is wrong is told as `name:17: column x: expected what, found
-// "cell"`. Any thread.
+// Common to all: columns that are not asked for are ignored; of a file that `study run` wrote, training
+// trials and trials of other tasks are left out. The first thing that is wrong is told as `name:17: column x:
+// expected what, found "cell"`. Any thread.
 
-/// Columns stimulus, response; condition and participant if there. Trials without a response are left out and told.
+/// Columns stimulus, response; condition and participant if there. Trials without a response are left out and
+/// told.
 Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files);
 
 /// Columns target_column, target_row (1 to mostGridLines), x, y (0 to 1); condition if there.
@@ -60,24 +61,29 @@ Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files)
 /// instead of target_x: the true places in shares of the field, as the answers are; a warning says so.
 Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files);
 
-/// Columns choice (or response); condition (or stimulus) and participant if there. One condition holds them all.
+/// Columns choice (or response); condition (or stimulus) and participant if there. One condition holds them
+/// all.
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);
 
-/// Columns stimulus (or condition), participant if there; every column that a trial file does not have is a scale, 0 to 100.
+/// Columns stimulus (or condition), participant if there; every column that a trial file does not have is a
+/// scale, 0 to 100.
 Result<RatingData> readRatings(std::span<const NamedText> files);
 
-/// A trial file's staircases, QUEST+ sessions, adjustments (training, too) and magnitude estimations. One condition holds them all.
+/// A trial file's staircases, QUEST+ sessions, adjustments (training, too) and magnitude estimations. One
+/// condition holds them all.
 Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files);
 
 /// What a fit is made of, by the names of columns.
 struct LevelAnswerColumns {
-    std::string level;   ///< of numbers; if there is no such column, a word `level=...` of condition or stimulus
-    std::string measure; ///< of answers
+    std::string level;        ///< of numbers; if there is no such column, a word `level=...` of condition or
+                              ///< stimulus
+    std::string measure;      ///< of answers
     bool isMagnitude = false; ///< else answers are 1 or 0
 };
 
 /// Columns as named, condition and participant if there; rows without an answer are left out.
-Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files, const LevelAnswerColumns& columns);
+Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files,
+                                                const LevelAnswerColumns& columns);
 
 /// Columns condition, row, c1 to cN; rows 1, 2, 3... of each condition, numbers from 0 to 100.
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Lists of words, and numbers of tasks as digits, one per factor.
 #include "Study/Files/SweepFile.h"
-#include "Study/Files/StudyFileLimits.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
-#include "Study/Files/SweepText.h"
 #include "Io/Text/NumberText.h"
+#include "Study/Files/StudyFileLimits.h"
+#include "Study/Files/SweepText.h"
 #include <algorithm>
 #include <array>
 
@@ -18,7 +18,8 @@ constexpr int largestSeed = 1'000'000'000;
 struct SweepList {
     const char *name, *factor;
 };
-constexpr std::array<SweepList, 3> sweepLists{{{"layouts", "layout"}, {"laws", "law"}, {"methods", "method"}}};
+constexpr std::array<SweepList, 3> sweepLists{
+    {{"layouts", "layout"}, {"laws", "law"}, {"methods", "method"}}};
 
 std::string readWord(const JsonField& json, SweepWord kind, const std::string& name = {}) {
     const std::string word = json.isNumber() ? numberText(json.number()) : json.text();
@@ -27,13 +28,17 @@ std::string readWord(const JsonField& json, SweepWord kind, const std::string& n
 }
 
 template <class Item>
-void expectOnce(const JsonField& json, const std::vector<Item>& found, const Item& next, const std::string& words) {
-    if (std::ranges::find(found, next) != found.end()) json.fail("expected each only once, found " + words + " again");
+void expectOnce(const JsonField& json, const std::vector<Item>& found, const Item& next,
+                const std::string& words) {
+    if (std::ranges::find(found, next) != found.end())
+        json.fail("expected each only once, found " + words + " again");
 }
 
 std::size_t sizeOfList(const JsonField& json) {
     const std::size_t size = json.arraySize();
-    if (size < 1 || size > limits::maxSweepValues) json.fail("expected 1 to " + std::to_string(limits::maxSweepValues) + " items, found " + std::to_string(size));
+    if (size < 1 || size > limits::maxSweepValues)
+        json.fail("expected 1 to " + std::to_string(limits::maxSweepValues) + " items, found " +
+                  std::to_string(size));
     return size;
 }
 
@@ -66,7 +71,9 @@ SweepScene readSweepScene(const JsonField& json) {
 
 std::uint32_t readSeed(const JsonField& json) {
     const int seed = json.wholeNumber();
-    if (seed < 0) json.fail("expected a seed from 0 to " + std::to_string(largestSeed) + ", found " + std::to_string(seed));
+    if (seed < 0)
+        json.fail("expected a seed from 0 to " + std::to_string(largestSeed) + ", found " +
+                  std::to_string(seed));
     return static_cast<std::uint32_t>(seed);
 }
 
@@ -91,9 +98,13 @@ std::vector<SweepFactor> readOptions(const JsonField& json) {
     constexpr std::array<std::string_view, 6> own{"scene", "set", "seed", "layout", "law", "method"};
     std::vector<SweepFactor> factors;
     for (const std::string& name : json.names()) {
-        const bool isName = !name.empty() && std::ranges::all_of(name, [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; });
-        if (!isName) json.fail("expected names of options of render without dashes in front, found " + inQuotes(name));
-        if (std::ranges::find(own, name) != own.end()) json.fail("expected " + inQuotes(name) + " in a field of its own");
+        const bool isName = !name.empty() && std::ranges::all_of(name, [](char c) {
+            return (c >= 'a' && c <= 'z') || c == '-';
+        });
+        if (!isName)
+            json.fail("expected names of options of render without dashes in front, found " + inQuotes(name));
+        if (std::ranges::find(own, name) != own.end())
+            json.fail("expected " + inQuotes(name) + " in a field of its own");
         if (name == "sound") json.fail("expected \"sounds\" in a field of its own");
         factors.push_back(readFactor(json[name], name));
     }
@@ -102,19 +113,23 @@ std::vector<SweepFactor> readOptions(const JsonField& json) {
 
 /// The product of the sizes, as far as it is of any use.
 std::uint64_t productOf(const std::vector<SweepFactor>& factors, std::uint64_t product) {
-    for (const SweepFactor& factor : factors) product = std::min<std::uint64_t>(product * factor.values.size(), limits::maxSweepTasks + 1);
+    for (const SweepFactor& factor : factors)
+        product = std::min<std::uint64_t>(product * factor.values.size(), limits::maxSweepTasks + 1);
     return product;
 }
 
 SweepDesign readSweepRoot(const JsonField& root) {
     checkVersion(root, sweepVersionField, sweepFormatVersion);
-    root.expectObject({sweepVersionField, "name", "scenes", "seeds", "layouts", "laws", "methods", "sounds", "options"});
+    root.expectObject(
+        {sweepVersionField, "name", "scenes", "seeds", "layouts", "laws", "methods", "sounds", "options"});
     SweepDesign design{root["name"].text(), {}, {}, {}, {}};
     const JsonField scenes = root["scenes"];
     for (std::size_t i = 0, size = sizeOfList(scenes); i < size; ++i) {
         design.scenes.push_back(readSweepScene(scenes.item(i)));
         for (std::size_t k = 0; k < i; ++k)
-            if (design.scenes[k].name == design.scenes[i].name) scenes.item(i).fail("expected each scene only once, found " + inQuotes(design.scenes[i].name) + " again");
+            if (design.scenes[k].name == design.scenes[i].name)
+                scenes.item(i).fail("expected each scene only once, found " +
+                                    inQuotes(design.scenes[i].name) + " again");
     }
     design.seeds = readSeeds(root["seeds"]);
     for (const auto& [name, factor] : sweepLists)
@@ -122,7 +137,8 @@ SweepDesign readSweepRoot(const JsonField& root) {
     if (root.has("sounds")) design.sounds = readFactor(root["sounds"], "sound").values;
     if (root.has("options"))
         for (SweepFactor& factor : readOptions(root["options"])) design.factors.push_back(std::move(factor));
-    if (const auto tasks = design.size(); tasks > limits::maxSweepTasks) root.fail("expected at most " + std::to_string(limits::maxSweepTasks) + " tasks, found more");
+    if (const auto tasks = design.size(); tasks > limits::maxSweepTasks)
+        root.fail("expected at most " + std::to_string(limits::maxSweepTasks) + " tasks, found more");
     return design;
 }
 
@@ -141,7 +157,10 @@ std::vector<std::string> takeValues(const std::vector<SweepFactor>& factors, std
 
 std::uint64_t SweepDesign::size() const noexcept {
     std::uint64_t sum = 0;
-    for (const SweepScene& scene : scenes) sum += productOf(factors, productOf(scene.variables, std::min<std::uint64_t>(seeds.size(), limits::maxSweepTasks + 1)));
+    for (const SweepScene& scene : scenes)
+        sum +=
+            productOf(factors, productOf(scene.variables,
+                                         std::min<std::uint64_t>(seeds.size(), limits::maxSweepTasks + 1)));
     return sum;
 }
 
@@ -161,7 +180,8 @@ SweepTask SweepDesign::task(std::uint64_t index) const {
 }
 
 Result<SweepDesign> readSweep(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxSweepFileBytes, [](const Json& root) { return readSweepRoot(JsonField(root, {})); });
+    return readJson(text, name, limits::maxSweepFileBytes,
+                    [](const Json& root) { return readSweepRoot(JsonField(root, {})); });
 }
 
 } // namespace physvib

@@ -29,7 +29,9 @@ struct SweepSeeds {
     std::vector<std::uint32_t> list;
     std::uint32_t first = 1, count = 0;
     std::uint64_t size() const noexcept { return list.empty() ? count : list.size(); }
-    std::uint32_t at(std::uint64_t index) const noexcept { return list.empty() ? first + static_cast<std::uint32_t>(index) : list[index]; }
+    std::uint32_t at(std::uint64_t index) const noexcept {
+        return list.empty() ? first + static_cast<std::uint32_t>(index) : list[index];
+    }
 };
 
 /// One render: the values that are its own, in the order of its design.
@@ -54,8 +56,9 @@ struct SweepDesign {
     SweepTask task(std::uint64_t index) const;
 };
 
-/// The design that `text` describes, of 1 to limits::maxSweepTasks tasks; or, of the first thing that is wrong, one line
-/// `name: laws[1]: expected ...`. Whether `render` knows an option's value is not asked here. Any thread.
+/// The design that `text` describes, of 1 to limits::maxSweepTasks tasks; or, of the first thing that is
+/// wrong, one line `name: laws[1]: expected ...`. Whether `render` knows an option's value is not asked here.
+/// Any thread.
 Result<SweepDesign> readSweep(std::string_view text, std::string_view name);
 
 } // namespace physvib

@@ -13,8 +13,8 @@ enum class SweepWord { scene, variable, option };
 /// Whether a call can set a variable of that name. Any thread.
 bool isSweepVariable(std::string_view name);
 
-/// Empty, or why a call cannot hold that word. Calls stand in tables for somebody to copy into a shell, and a design may be a stranger's: as in
-/// a protocol. Any thread (allocates).
+/// Empty, or why a call cannot hold that word. Calls stand in tables for somebody to copy into a shell, and a
+/// design may be a stranger's: as in a protocol. Any thread (allocates).
 std::string sweepWordFault(SweepWord kind, const std::string& name, const std::string& word);
 
 /// "render SCENE ...": all that makes the task's render. Any thread (allocates).

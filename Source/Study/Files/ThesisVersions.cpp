@@ -19,20 +19,15 @@ void addToCalls(Protocol& protocol, std::string_view options) {
 
 void edit(Protocol& protocol, ThesisEdit how) {
     switch (how) {
-    case ThesisEdit::none:
-        break;
+    case ThesisEdit::none: break;
     case ThesisEdit::noBreakBefore:
         for (SessionPlan& session : protocol.sessions) session.breakBeforeSeconds = 0.0;
         break;
     case ThesisEdit::noGroups:
         for (ConditionPlan& condition : protocol.conditions) condition.group.clear();
         break;
-    case ThesisEdit::releaseTiming:
-        addToCalls(protocol, "--timing release");
-        break;
-    case ThesisEdit::cutDecays:
-        addToCalls(protocol, "--gamma 0.1");
-        break;
+    case ThesisEdit::releaseTiming: addToCalls(protocol, "--timing release"); break;
+    case ThesisEdit::cutDecays: addToCalls(protocol, "--gamma 0.1"); break;
     }
 }
 

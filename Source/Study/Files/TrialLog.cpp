@@ -2,12 +2,12 @@
 // Rows out and in; the columns are in TrialColumns.h.
 #include "Study/Files/TrialLog.h"
 #include "Io/Disk/FileClash.h"
-#include "Io/Text/CsvTable.h"
 #include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
 #include "Study/Files/ProtocolFields.h"
 #include "Study/Files/ProtocolFile.h"
-#include "Io/Disk/ReadFile.h"
 #include "Study/Files/StudyRows.h"
 #include "Study/Files/TrialColumns.h"
 #include <limits>
@@ -19,7 +19,9 @@ namespace {
 
 namespace columns = trialColumns;
 
-void appendPart(std::string& text, const std::string& part) { text.append(text.empty() ? "" : "|").append(part); }
+void appendPart(std::string& text, const std::string& part) {
+    text.append(text.empty() ? "" : "|").append(part);
+}
 
 std::string joined(const std::vector<std::string>& parts) {
     std::string text;
@@ -53,7 +55,10 @@ void addApparatus(Cells& cells, const Answer& answer) {
 Cells cellsOf(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
     const auto& [trial, answer] = record;
     const SessionPlan& session = protocol.sessions[trial.session];
-    Cells cells{{"participant", participant.code}, {"observer", participant.observer}, {"condition", protocol.conditions[trial.condition].name}, {"session", session.name}};
+    Cells cells{{"participant", participant.code},
+                {"observer", participant.observer},
+                {"condition", protocol.conditions[trial.condition].name},
+                {"session", session.name}};
     cells["phase"] = session.isTraining ? columns::training : "main";
     cells["trial"] = std::to_string(trial.number);
     cells["task"] = describe(trial.task).name;
@@ -65,7 +70,8 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
         cells["target_row"] = std::to_string(target->row);
     }
     if (answer.place) addPlace(cells, *answer.place);
-    if (session.answer() == AnswerKind::level || session.answer() == AnswerKind::number) cells["value"] = numberText(answer.value);
+    if (session.answer() == AnswerKind::level || session.answer() == AnswerKind::number)
+        cells["value"] = numberText(answer.value);
     if (const auto correct = isCorrect(protocol, record)) cells["correct"] = *correct ? "1" : "0";
     cells["replays"] = std::to_string(answer.plays - 1);
     cells["response_s"] = numberText(answer.seconds);
@@ -78,7 +84,8 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     }
     if (answer.exposure) cells[columns::exposure] = levelText(*answer.exposure);
     if (answer.apparatus) addApparatus(cells, answer);
-    for (std::size_t s = 0; s < answer.scores.size(); ++s) cells[session.scales[s]] = numberText(answer.scores[s]);
+    for (std::size_t s = 0; s < answer.scores.size(); ++s)
+        cells[session.scales[s]] = numberText(answer.scores[s]);
     return cells;
 }
 
@@ -91,7 +98,8 @@ std::string headerOf(const std::vector<std::string>& names) {
     return line + "\n";
 }
 
-/// The columns of the header `line`, with its end: all of `names`, or those that older versions had; none: others.
+/// The columns of the header `line`, with its end: all of `names`, or those that older versions had; none:
+/// others.
 std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
     for (const auto isNewer : {columns::isApparatus, columns::isMeasured}) {
         if (line == headerOf(names)) return names;
@@ -104,7 +112,8 @@ std::vector<std::string> columnsIn(std::string_view line, std::vector<std::strin
 class RecordReader {
 public:
     RecordReader(const detail::StudyRows& rows, const Protocol& protocol)
-        : rows_{rows}, protocol_{protocol} {}
+        : rows_{rows}
+        , protocol_{protocol} {}
 
     TrialRecord read(const CsvRow& row) const {
         TrialRecord record;
@@ -119,11 +128,17 @@ public:
         record.answer.response = cell(row, session.answer() == AnswerKind::choice ? "choice" : "response");
         record.answer.plays = 1 + rows_.wholeNumber(row, rows_.required("replays"), 0, 1'000'000);
         record.answer.seconds = rows_.number(row, rows_.required("response_s"), 0.0, 1e9);
-        if (!cell(row, "x").empty()) record.answer.place = FieldPlace{rows_.number(row, rows_.required("x"), 0.0, 1.0), rows_.number(row, rows_.required("y"), 0.0, 1.0)};
-        if (!cell(row, "value").empty()) record.answer.value = rows_.number(row, rows_.required("value"), -mostEstimate, mostEstimate);
-        if (const auto exposure = rows_.optional(columns::exposure); exposure && !row.cells[*exposure].empty()) record.answer.exposure = rows_.number(row, *exposure, 0.0, 1e6);
+        if (!cell(row, "x").empty())
+            record.answer.place = FieldPlace{rows_.number(row, rows_.required("x"), 0.0, 1.0),
+                                             rows_.number(row, rows_.required("y"), 0.0, 1.0)};
+        if (!cell(row, "value").empty())
+            record.answer.value = rows_.number(row, rows_.required("value"), -mostEstimate, mostEstimate);
+        if (const auto exposure = rows_.optional(columns::exposure);
+            exposure && !row.cells[*exposure].empty())
+            record.answer.exposure = rows_.number(row, *exposure, 0.0, 1e6);
         readApparatus(row, record.answer);
-        for (const auto& scale : session.scales) record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
+        for (const auto& scale : session.scales)
+            record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
         return record;
     }
 
@@ -134,15 +149,20 @@ private:
         with.version = cell(row, columns::version);
         with.device = cell(row, columns::device);
         with.masterDb = rows_.number(row, rows_.required(columns::masterDb), -1000.0, 1000.0);
-        if (cell(row, columns::noiseDb) != columns::noNoise) with.noiseDb = rows_.number(row, rows_.required(columns::noiseDb), -1000.0, 0.0);
+        if (cell(row, columns::noiseDb) != columns::noNoise)
+            with.noiseDb = rows_.number(row, rows_.required(columns::noiseDb), -1000.0, 0.0);
         answer.limiterDb = rows_.number(row, rows_.required(columns::limiterDb), 0.0, 1000.0);
     }
-    const std::string& cell(const CsvRow& row, std::string_view column) const { return row.cells[rows_.required(column)]; }
+    const std::string& cell(const CsvRow& row, std::string_view column) const {
+        return row.cells[rows_.required(column)];
+    }
     template <class Item>
     std::size_t indexOf(const CsvRow& row, std::string_view column, const std::vector<Item>& items) const {
         const auto at = rows_.required(column);
         const auto found = std::ranges::find(items, row.cells[at], &Item::name);
-        if (found == items.end()) throw detail::StudyFault{rows_.table().fault(row, at, std::string("a ") + std::string(column) + " of the protocol")};
+        if (found == items.end())
+            throw detail::StudyFault{
+                rows_.table().fault(row, at, std::string("a ") + std::string(column) + " of the protocol")};
         return static_cast<std::size_t>(found - items.begin());
     }
     const detail::StudyRows& rows_;
@@ -169,10 +189,15 @@ std::string headFault(std::string_view found, std::string_view expected) {
     expected = expected.substr(0, expected.find('\n'));
     for (const std::string_view key : {"protocol", "participant", "number", "observer", "seed"})
         if (valueOf(found, key) != valueOf(expected, key))
-            return "expected trials of " + std::string(key) + " " + printable(std::string(valueOf(expected, key))) + ", found " + printable(std::string(valueOf(found, key)));
-    if (valueOf(found, "hash") == valueOf(expected, "hash")) return "expected the columns of a trial file of this protocol, found others";
-    return "was begun with another version of the protocol " + std::string(valueOf(expected, "protocol")) + " (hash " + printable(std::string(valueOf(found, "hash"))) + ", now " +
-           std::string(valueOf(expected, "hash")) + "), so it does not go on: keep it, and begin anew in another folder";
+            return "expected trials of " + std::string(key) + " " +
+                   printable(std::string(valueOf(expected, key))) + ", found " +
+                   printable(std::string(valueOf(found, key)));
+    if (valueOf(found, "hash") == valueOf(expected, "hash"))
+        return "expected the columns of a trial file of this protocol, found others";
+    return "was begun with another version of the protocol " + std::string(valueOf(expected, "protocol")) +
+           " (hash " + printable(std::string(valueOf(found, "hash"))) + ", now " +
+           std::string(valueOf(expected, "hash")) +
+           "), so it does not go on: keep it, and begin anew in another folder";
 }
 
 } // namespace
@@ -191,13 +216,15 @@ std::string trialHeader(const Protocol& protocol, const Participant& participant
 std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
     std::vector<std::string> all(columns::names.begin(), columns::names.end());
     for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
-    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); })) all.emplace_back(columns::quest);
+    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); }))
+        all.emplace_back(columns::quest);
     all.insert(all.end(), columns::measured.begin(), columns::measured.end());
     all.insert(all.end(), columns::apparatus.begin(), columns::apparatus.end());
     return all;
 }
 
-std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record, std::span<const std::string> names) {
+std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record,
+                     std::span<const std::string> names) {
     const Cells cells = cellsOf(protocol, participant, record);
     std::string row;
     bool isFirst = true;
@@ -208,7 +235,8 @@ std::string trialRow(const Protocol& protocol, const Participant& participant, c
     return row + "\n";
 }
 
-Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol, const Participant& participant) {
+Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol,
+                              const Participant& participant) {
     const std::string header = trialHeader(protocol, participant, "");
     TrialLog log;
     log.columns = trialColumnsOf(protocol);
@@ -220,7 +248,9 @@ Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, cons
     const std::size_t names = whole.find('\n') + 1, rows = whole.find('\n', names) + 1;
     if (isOurs) log.columns = columnsIn(whole.substr(names, rows - names), log.columns);
     if (!isOurs || withoutVersion(whole) != withoutVersion(header) || log.columns.empty())
-        return Failure{std::string(name) + ":1: " + (isOurs ? headFault(whole, header) : "expected a trial file of physvib, found something else")};
+        return Failure{
+            std::string(name) + ":1: " +
+            (isOurs ? headFault(whole, header) : "expected a trial file of physvib, found something else")};
     log.wholeBytes = whole.size();
     if (rows == whole.size()) return log;
     try {
@@ -233,17 +263,22 @@ Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, cons
     return log;
 }
 
-TrialLogFile::TrialLogFile(std::filesystem::path path, const Protocol& protocol, Participant participant, std::string_view version)
-    : path_{std::move(path)}, protocol_{protocol}, participant_{std::move(participant)} {
+TrialLogFile::TrialLogFile(std::filesystem::path path, const Protocol& protocol, Participant participant,
+                           std::string_view version)
+    : path_{std::move(path)}
+    , protocol_{protocol}
+    , participant_{std::move(participant)} {
     open(version);
 }
 
 void TrialLogFile::open(std::string_view version) {
     file_ = SystemFile::grow(path_);
     if (!file_.isOpen()) return failToWrite();
-    if (file_.lock() == SystemFile::Lock::others) return fail("another program is writing it: the participant's study runs already");
+    if (file_.lock() == SystemFile::Lock::others)
+        return fail("another program is writing it: the participant's study runs already");
     const auto text = readFile(path_, limits::maxTableBytes);
-    auto log = text ? readTrialLog(text.value, path_.string(), protocol_, participant_) : Result<TrialLog>{Failure{text.error}};
+    auto log = text ? readTrialLog(text.value, path_.string(), protocol_, participant_)
+                    : Result<TrialLog>{Failure{text.error}};
     if (!log) {
         error_ = log.error;
         return;
@@ -253,8 +288,10 @@ void TrialLogFile::open(std::string_view version) {
     const std::size_t kept = log.value.wholeBytes;
     if (kept < text.value.size() && !file_.resize(static_cast<std::int64_t>(kept))) return failToWrite();
     std::error_code ignored;
-    if (kept == 0 && !(write(trialHeader(protocol_, participant_, version)) && sync())) std::filesystem::remove(path_, ignored);
-    else SystemFile::syncFolder(folderOf(path_));
+    if (kept == 0 && !(write(trialHeader(protocol_, participant_, version)) && sync()))
+        std::filesystem::remove(path_, ignored);
+    else
+        SystemFile::syncFolder(folderOf(path_));
 }
 
 bool TrialLogFile::write(const std::string& text) {

@@ -2,11 +2,11 @@
 // A table of texts; what a text leaves open has to be left open in every language.
 #include "Study/Files/Words.h"
 #include "Io/Disk/Embedded.h"
-#include "Study/Files/StudyFileLimits.h"
 #include "Io/Disk/ReadFile.h"
-#include "Scene/JsonReader.h"
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/JsonReader.h"
+#include "Study/Files/StudyFileLimits.h"
 #include <algorithm>
 #include <set>
 
@@ -18,7 +18,8 @@ namespace {
 
 std::set<std::string> namesIn(const std::string& text) {
     std::set<std::string> names;
-    for (std::size_t at = text.find('{'); at != std::string::npos; at = text.find('{', at + 1)) names.insert(text.substr(at, text.find('}', at) - at));
+    for (std::size_t at = text.find('{'); at != std::string::npos; at = text.find('{', at + 1))
+        names.insert(text.substr(at, text.find('}', at) - at));
     return names;
 }
 
@@ -31,14 +32,17 @@ Words readWordsRoot(Json& json) {
     for (const auto& [english, text] : json["texts"].items()) {
         const JsonField field = root["texts"][english.c_str()];
         words.texts.emplace(english, field.text());
-        if (namesIn(english) != namesIn(words.texts[english])) field.fail("expected the same names in braces as in the English text");
+        if (namesIn(english) != namesIn(words.texts[english]))
+            field.fail("expected the same names in braces as in the English text");
     }
     return words;
 }
 
 } // namespace
 
-Result<Words> readWords(std::string_view text, std::string_view name) { return readJson(text, name, limits::maxProtocolFileBytes, readWordsRoot); }
+Result<Words> readWords(std::string_view text, std::string_view name) {
+    return readJson(text, name, limits::maxProtocolFileBytes, readWordsRoot);
+}
 
 const std::vector<Words>& builtInWords() {
     static const std::vector<Words> all = readEmbedded(embeddedWords(), readWords);
@@ -50,7 +54,8 @@ Result<Words> findWords(const std::string& nameOrPath) {
     if (nameOrPath.empty() || nameOrPath == "en") return Words{};
     const auto& all = builtInWords();
     const auto found = std::ranges::find(all, nameOrPath, &Words::name);
-    if (found == all.end()) return Failure{"no words " + inQuotes(nameOrPath) + "; expected en, ko or a file"};
+    if (found == all.end())
+        return Failure{"no words " + inQuotes(nameOrPath) + "; expected en, ko or a file"};
     return *found;
 }
 

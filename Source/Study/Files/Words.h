@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a participant reads, in their language: a text for each of the screens' and of the built-in protocols' own, which are English.
+// What a participant reads, in their language: a text for each of the screens' and of the built-in protocols'
+// own, which are English.
 #pragma once
 #include "Io/Result.h"
 #include <filesystem>
@@ -14,8 +15,8 @@ namespace physvib {
 constexpr int wordsFormatVersion = 1;
 
 struct Words {
-    std::string name;     ///< "ko"; empty: the English ones
-    std::string language; ///< as its speakers call it
+    std::string name;                                      ///< "ko"; empty: the English ones
+    std::string language;                                  ///< as its speakers call it
     std::map<std::string, std::string, std::less<>> texts; ///< by the English text
 
     /// The text in this language; one that is not there stays as it is. Any thread.
@@ -25,8 +26,8 @@ struct Words {
     }
 };
 
-/// `{"physvib_words": 1, "name": "ko", "language": "...", "texts": {"Begin": "..."}}`. A {name} of an English text stands in its translation as
-/// well. Or, of the first thing that is wrong, one line. Any thread.
+/// `{"physvib_words": 1, "name": "ko", "language": "...", "texts": {"Begin": "..."}}`. A {name} of an English
+/// text stands in its translation as well. Or, of the first thing that is wrong, one line. Any thread.
 Result<Words> readWords(std::string_view text, std::string_view name);
 
 /// Those that come with PhysVib, but for English. Built on first use; any thread.

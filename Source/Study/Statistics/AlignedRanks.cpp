@@ -11,9 +11,11 @@
 namespace physvib {
 namespace {
 
-/// Whether the levels of the effect's factors are the same in both cells of the whole table: a number for them.
+/// Whether the levels of the effect's factors are the same in both cells of the whole table: a number for
+/// them.
 std::size_t levelsOf(const Design& design, const DesignEffect& effect, std::size_t value) {
-    std::size_t cell = value % design.cells(), index = effect.isBetween ? design.groups[value / design.cells()] : 0;
+    std::size_t cell = value % design.cells(),
+                index = effect.isBetween ? design.groups[value / design.cells()] : 0;
     for (std::size_t i = design.within.size(); i-- > 0;) {
         const std::size_t levels = design.within[i].levels.size();
         if (effect.within >> i & 1u) index = index * levels + cell % levels;
@@ -29,13 +31,16 @@ std::vector<double> meansBy(const Design& design, const DesignEffect& effect) {
         sums[levelsOf(design, effect, i)] += design.values[i];
         counts[levelsOf(design, effect, i)] += 1.0;
     }
-    for (std::size_t i = 0; i < design.values.size(); ++i) means.push_back(sums[levelsOf(design, effect, i)] / counts[levelsOf(design, effect, i)]);
+    for (std::size_t i = 0; i < design.values.size(); ++i)
+        means.push_back(sums[levelsOf(design, effect, i)] / counts[levelsOf(design, effect, i)]);
     return means;
 }
 
 int order(const DesignEffect& effect) { return std::popcount(effect.within) + effect.isBetween; }
 
-bool isPartOf(const DesignEffect& part, const DesignEffect& effect) { return (part.within & ~effect.within) == 0 && part.isBetween <= effect.isBetween; }
+bool isPartOf(const DesignEffect& part, const DesignEffect& effect) {
+    return (part.within & ~effect.within) == 0 && part.isBetween <= effect.isBetween;
+}
 
 std::vector<double> aligned(const Design& design, const DesignEffect& effect) {
     const auto effects = effectsOf(design);
@@ -51,7 +56,8 @@ std::vector<double> aligned(const Design& design, const DesignEffect& effect) {
     return values;
 }
 
-/// Sums that are equal on paper differ by rounding: steps of a ten-thousand-millionth of the largest value make them equal again.
+/// Sums that are equal on paper differ by rounding: steps of a ten-thousand-millionth of the largest value
+/// make them equal again.
 void makeTiesEqual(std::vector<double>& values) {
     const double largest = largestMagnitude(values);
     if (largest == 0.0) return;
@@ -75,7 +81,8 @@ TestReport alignedRanks(const Design& design) {
         lines.push_back(std::move(own.lines[lines.size()]));
     }
     report.lines = std::move(lines);
-    report.notes.push_back("aligned ranks: each effect is of the ranks that are left when all others are taken off");
+    report.notes.push_back(
+        "aligned ranks: each effect is of the ranks that are left when all others are taken off");
     return report;
 }
 

@@ -24,7 +24,9 @@ BootstrapInterval bootstrapMean(std::span<const double> values, std::uint64_t se
         if (own.deviation > 0.0) distances.push_back((own.mean - moments.mean) / own.standardError());
     }
     std::ranges::sort(distances);
-    const auto at = [&](double share) { return distances[static_cast<std::size_t>(share * static_cast<double>(distances.size() - 1))]; };
+    const auto at = [&](double share) {
+        return distances[static_cast<std::size_t>(share * static_cast<double>(distances.size() - 1))];
+    };
     interval.least = moments.mean - at(0.975) * moments.standardError();
     interval.most = moments.mean - at(0.025) * moments.standardError();
     return interval;

@@ -25,17 +25,23 @@ double twiceTheTail(const std::vector<double>& probabilities, double at) {
 
 } // namespace
 
-double fUpper(double f, double df1, double df2) { return boost::math::ibeta(0.5 * df2, 0.5 * df1, df2 / (df2 + df1 * f)); }
+double fUpper(double f, double df1, double df2) {
+    return boost::math::ibeta(0.5 * df2, 0.5 * df1, df2 / (df2 + df1 * f));
+}
 
 double chiSquaredUpper(double x, double df) { return boost::math::gamma_q(0.5 * df, 0.5 * x); }
 
 double studentTwoSided(double t, double df) { return fUpper(t * t, 1.0, df); }
 
-double studentQuantile(double probability, double df) { return boost::math::quantile(boost::math::students_t{df}, probability); }
+double studentQuantile(double probability, double df) {
+    return boost::math::quantile(boost::math::students_t{df}, probability);
+}
 
 double normalUpper(double z) { return 0.5 * std::erfc(z / std::numbers::sqrt2); }
 
-double normalQuantile(double probability) { return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability); }
+double normalQuantile(double probability) {
+    return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability);
+}
 
 double signedRankTwoSided(double v, std::size_t n) {
     std::vector<double> probabilities(n * (n + 1) / 2 + 1);
@@ -43,7 +49,9 @@ double signedRankTwoSided(double v, std::size_t n) {
     std::size_t most = 0;
     for (std::size_t rank = 1; rank <= n; ++rank) {
         most += rank;
-        for (std::size_t sum = most + 1; sum-- > 0;) probabilities[sum] = 0.5 * probabilities[sum] + (sum >= rank ? 0.5 * probabilities[sum - rank] : 0.0);
+        for (std::size_t sum = most + 1; sum-- > 0;)
+            probabilities[sum] =
+                0.5 * probabilities[sum] + (sum >= rank ? 0.5 * probabilities[sum - rank] : 0.0);
     }
     return twiceTheTail(probabilities, v);
 }

@@ -20,8 +20,12 @@ Moments::Moments(std::span<const double> values) noexcept
     deviation = n > 1 ? std::sqrt(deviation / static_cast<double>(n - 1)) : 0.0;
 }
 
-double Moments::standardError() const noexcept { return n > 1 ? deviation / std::sqrt(static_cast<double>(n)) : 0.0; }
+double Moments::standardError() const noexcept {
+    return n > 1 ? deviation / std::sqrt(static_cast<double>(n)) : 0.0;
+}
 
-double Moments::halfInterval() const { return n > 1 ? studentQuantile(0.975, static_cast<double>(n - 1)) * standardError() : 0.0; }
+double Moments::halfInterval() const {
+    return n > 1 ? studentQuantile(0.975, static_cast<double>(n - 1)) * standardError() : 0.0;
+}
 
 } // namespace physvib

@@ -15,7 +15,8 @@ struct Sample {
     double n = 0.0, mean = 0.0, variance = 0.0;
 
     explicit Sample(const std::vector<double>& values)
-        : n{static_cast<double>(values.size())}, mean{std::accumulate(values.begin(), values.end(), 0.0) / n} {
+        : n{static_cast<double>(values.size())}
+        , mean{std::accumulate(values.begin(), values.end(), 0.0) / n} {
         for (const double v : values) variance += (v - mean) * (v - mean) / (n - 1.0);
     }
     /// Rounding apart, whether values differ at all.
@@ -61,12 +62,14 @@ TestLine pairedRanks(const std::vector<double>& first, const std::vector<double>
 using Test = TestLine (*)(const std::vector<double>&, const std::vector<double>&);
 
 /// Adds a line for every two of `factor`'s levels; a fault if two cannot be compared.
-std::string addPairs(TestReport& report, const DesignFactor& factor, const std::vector<std::vector<double>>& values, Test test) {
+std::string addPairs(TestReport& report, const DesignFactor& factor,
+                     const std::vector<std::vector<double>>& values, Test test) {
     for (std::size_t i = 0; i < values.size(); ++i)
         for (std::size_t j = i + 1; j < values.size(); ++j) {
             TestLine line = test(values[i], values[j]);
             line.effect = factor.name + ": " + factor.levels[i] + " - " + factor.levels[j];
-            if (!line.statistic) return line.effect + ": expected two or more participants whose differences vary, found none";
+            if (!line.statistic)
+                return line.effect + ": expected two or more participants whose differences vary, found none";
             report.lines.push_back(std::move(line));
         }
     return {};
@@ -77,14 +80,18 @@ std::string addPairs(TestReport& report, const DesignFactor& factor, const std::
 TestReport pairs(const Design& design, PairTest test, Correction correction) {
     if (!design.fault.empty()) return {design.fault};
     if (design.within.empty() && !design.between) return {"expected a within-factor or a between-factor"};
-    if (design.participants.size() < 2) return {"expected two or more participants, found only " + design.participants.front()};
+    if (design.participants.size() < 2)
+        return {"expected two or more participants, found only " + design.participants.front()};
     const bool isStudent = test == PairTest::student;
     TestReport report{{}, isStudent ? "t" : "rank sum", isStudent ? "d" : "rank-biserial r"};
     for (std::size_t f = 0; f < design.within.size(); ++f) {
         const Design one = design.alone(f);
         std::vector<std::vector<double>> levels(one.cells());
-        for (std::size_t i = 0; i < one.values.size(); ++i) levels[i % levels.size()].push_back(one.values[i]);
-        if (auto fault = addPairs(report, one.within.front(), levels, isStudent ? pairedT : pairedRanks); !fault.empty()) return {fault};
+        for (std::size_t i = 0; i < one.values.size(); ++i)
+            levels[i % levels.size()].push_back(one.values[i]);
+        if (auto fault = addPairs(report, one.within.front(), levels, isStudent ? pairedT : pairedRanks);
+            !fault.empty())
+            return {fault};
     }
     if (design.between) {
         std::vector<std::vector<double>> groups(design.groupCount());
@@ -94,7 +101,9 @@ TestReport pairs(const Design& design, PairTest test, Correction correction) {
             groups[design.groups[p]].push_back(sum / static_cast<double>(design.cells()));
         }
         const Test ranks = [](const auto& a, const auto& b) { return rankSum(a, b); };
-        if (auto fault = addPairs(report, *design.between, groups, isStudent ? welchT : ranks); !fault.empty()) return {fault};
+        if (auto fault = addPairs(report, *design.between, groups, isStudent ? welchT : ranks);
+            !fault.empty())
+            return {fault};
     }
     correctForNumber(report, correction);
     return report;

@@ -16,7 +16,8 @@ struct PowerLaw {
     double determination = 0.0; ///< r squared of the logarithms
 };
 
-/// Of one participant's trials; exponents are averaged over participants, whose factors are their own choice. Any thread.
+/// Of one participant's trials; exponents are averaged over participants, whose factors are their own choice.
+/// Any thread.
 PowerLaw fitPowerLaw(std::span<const MagnitudeTrial> trials);
 
 } // namespace physvib

@@ -24,7 +24,9 @@ PairedPower::PairedPower(std::size_t participants)
 
 double PairedPower::at(double effect, double alpha) const {
     const double critical = studentQuantile(1.0 - 0.5 * alpha, static_cast<double>(participants_ - 1));
-    const auto found = std::ranges::count_if(samples_, [&](const Sample& sample) { return std::abs(sample.mean + effect) > critical * sample.error; });
+    const auto found = std::ranges::count_if(samples_, [&](const Sample& sample) {
+        return std::abs(sample.mean + effect) > critical * sample.error;
+    });
     return static_cast<double>(found) / static_cast<double>(samples_.size());
 }
 
@@ -42,7 +44,8 @@ double SharePower::at(double share) const {
         for (double& lead : leads) {
             std::size_t hits = 0;
             for (std::size_t trial = 0; trial < trials_; ++trial) hits += random.chance(share) ? 1 : 0;
-            lead = (2.0 * static_cast<double>(hits) - static_cast<double>(trials_)) / static_cast<double>(trials_);
+            lead = (2.0 * static_cast<double>(hits) - static_cast<double>(trials_)) /
+                   static_cast<double>(trials_);
         }
         const TestLine line = signedRank(leads);
         found += line.p && *line.p < 0.05 ? 1 : 0;

@@ -11,8 +11,8 @@
 namespace physvib {
 namespace {
 
-const double logisticSpan = 2.0 * std::log(19.0);                                   // of its argument, from F = 0.05 to 0.95
-constexpr double normalSpan = 3.289707253902943;                                    // 2 x 1.644853626951472
+const double logisticSpan = 2.0 * std::log(19.0); // of its argument, from F = 0.05 to 0.95
+constexpr double normalSpan = 3.289707253902943;  // 2 x 1.644853626951472
 const double weibullSpan = std::log(-std::log(0.05)) - std::log(-std::log(0.95));
 
 /// F, 0.5 at `x` = 0 and 0.9 higher over a width of 1.
@@ -34,7 +34,8 @@ using Point = std::array<double, 3>; // threshold, log of the width, lapse: all 
 class Likelihood {
 public:
     Likelihood(std::span<const LevelCount> counts, const PsychometricModel& model)
-        : counts_{counts}, model_{model} {
+        : counts_{counts}
+        , model_{model} {
         const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
         least_ = least.level;
         range_ = most.level - least.level;
@@ -46,12 +47,14 @@ public:
     }
     /// Minus the logarithm.
     double operator()(const Point& at) const {
-        if (at[0] < -3.0 || at[0] > 4.0 || at[1] < std::log(1e-3) || at[1] > std::log(20.0)) return std::numeric_limits<double>::max();
+        if (at[0] < -3.0 || at[0] > 4.0 || at[1] < std::log(1e-3) || at[1] > std::log(20.0))
+            return std::numeric_limits<double>::max();
         const PsychometricFunction f = function(at);
         double sum = 0.0;
         for (const LevelCount& count : counts_) {
             const double p = std::clamp(f.probability(count.level), 1e-12, 1.0 - 1e-12);
-            sum -= static_cast<double>(count.hits) * std::log(p) + static_cast<double>(count.trials - count.hits) * std::log1p(-p);
+            sum -= static_cast<double>(count.hits) * std::log(p) +
+                   static_cast<double>(count.trials - count.hits) * std::log1p(-p);
         }
         return sum;
     }
@@ -110,7 +113,8 @@ Point climb(const Likelihood& likelihood, const Point& start) {
             worst = farther.value < mirrored.value ? farther : mirrored;
         } else if (mirrored.value < corners[2].value) {
             worst = mirrored;
-        } else if (const Corner nearer = at(mirrored.value < worst.value ? 1.5 : 0.5); nearer.value < std::min(worst.value, mirrored.value)) {
+        } else if (const Corner nearer = at(mirrored.value < worst.value ? 1.5 : 0.5);
+                   nearer.value < std::min(worst.value, mirrored.value)) {
             worst = nearer;
         } else {
             for (std::size_t c = 1; c < corners.size(); ++c) {
@@ -126,19 +130,28 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
     if (counts.empty()) return "expected trials, found none";
     const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
     if (least.level == most.level) return "expected trials at two or more levels, found one";
-    const auto share = [](const LevelCount& c) { return static_cast<double>(c.hits) / static_cast<double>(c.trials); };
+    const auto share = [](const LevelCount& c) {
+        return static_cast<double>(c.hits) / static_cast<double>(c.trials);
+    };
     const auto [lowest, highest] = std::ranges::minmax(counts, {}, share);
-    if (share(lowest) == share(highest)) return "expected answers that change with the level, found the same share at every one";
+    if (share(lowest) == share(highest))
+        return "expected answers that change with the level, found the same share at every one";
     return {};
 }
 
 } // namespace
 
-double PsychometricFunction::probability(double level) const noexcept { return guess + (1.0 - guess - lapse) * risen(shape, (level - threshold) / width); }
+double PsychometricFunction::probability(double level) const noexcept {
+    return guess + (1.0 - guess - lapse) * risen(shape, (level - threshold) / width);
+}
 
-double PsychometricFunction::levelOf(double probability) const { return threshold + width * whereRisen(shape, (probability - guess) / (1.0 - guess - lapse)); }
+double PsychometricFunction::levelOf(double probability) const {
+    return threshold + width * whereRisen(shape, (probability - guess) / (1.0 - guess - lapse));
+}
 
-double PsychometricFunction::jnd() const noexcept { return 0.5 * width * (whereRisen(shape, 0.75) - whereRisen(shape, 0.25)); }
+double PsychometricFunction::jnd() const noexcept {
+    return 0.5 * width * (whereRisen(shape, 0.75) - whereRisen(shape, 0.25));
+}
 
 PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model) {
     if (auto fault = faultOfCounts(counts); !fault.empty()) return {fault};

@@ -29,7 +29,8 @@ struct PsychometricModel {
     bool operator==(const PsychometricModel&) const = default;
 };
 
-/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and goes from 0.05 to 0.95 within the width.
+/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and goes from 0.05 to 0.95 within
+/// the width.
 struct PsychometricFunction {
     PsychometricShape shape = PsychometricShape::logistic;
     double threshold = 0.0, width = 1.0; ///< in the unit of the levels; width > 0

@@ -9,9 +9,12 @@
 namespace physvib {
 namespace {
 
-double answerEntropy(double p) { return p > 0.0 && p < 1.0 ? -p * std::log(p) - (1.0 - p) * std::log1p(-p) : 0.0; }
+double answerEntropy(double p) {
+    return p > 0.0 && p < 1.0 ? -p * std::log(p) - (1.0 - p) * std::log1p(-p) : 0.0;
+}
 
-/// A threshold of the plan stands for all from midway to its neighbours; at the ends for as much on either side.
+/// A threshold of the plan stands for all from midway to its neighbours; at the ends for as much on either
+/// side.
 std::vector<double> edgesOf(const std::vector<double>& places) {
     std::vector<double> edges{places.front()};
     for (std::size_t i = 1; i < places.size(); ++i) edges.push_back(std::midpoint(places[i - 1], places[i]));
@@ -21,10 +24,12 @@ std::vector<double> edgesOf(const std::vector<double>& places) {
     return edges;
 }
 
-double heldBetween(double least, double most, const std::vector<double>& belief, const std::vector<double>& edges) {
+double heldBetween(double least, double most, const std::vector<double>& belief,
+                   const std::vector<double>& edges) {
     double sum = 0.0;
     for (std::size_t i = 0; i < belief.size(); ++i)
-        if (const double part = std::min(edges[i + 1], most) - std::max(edges[i], least); part > 0.0) sum += belief[i] * part / (edges[i + 1] - edges[i]);
+        if (const double part = std::min(edges[i + 1], most) - std::max(edges[i], least); part > 0.0)
+            sum += belief[i] * part / (edges[i + 1] - edges[i]);
     return sum;
 }
 
@@ -44,11 +49,13 @@ QuestPlus::QuestPlus(QuestPlan plan)
 
 PsychometricFunction QuestPlus::possible(std::size_t index) const {
     const std::size_t lapses = plan_.lapses.size(), widths = plan_.widths.size();
-    return {plan_.shape, plan_.thresholds[index / lapses / widths], plan_.widths[index / lapses % widths], plan_.guess, plan_.lapses[index % lapses]};
+    return {plan_.shape, plan_.thresholds[index / lapses / widths], plan_.widths[index / lapses % widths],
+            plan_.guess, plan_.lapses[index % lapses]};
 }
 
 void QuestPlus::chooseNext() {
-    // The belief's entropy that is left is, but for what no level changes, that of the answer under each function minus that of the answer.
+    // The belief's entropy that is left is, but for what no level changes, that of the answer under each
+    // function minus that of the answer.
     double most = -std::numeric_limits<double>::max();
     for (std::size_t level = 0; level < plan_.levels.size(); ++level) {
         double expected = 0.0, known = 0.0;
@@ -56,15 +63,18 @@ void QuestPlus::chooseNext() {
             expected += belief_[i] * correct(level, i);
             known += belief_[i] * unsure_[level * belief_.size() + i];
         }
-        if (const double learnt = answerEntropy(expected) - known; learnt > most) most = learnt, next_ = level;
+        if (const double learnt = answerEntropy(expected) - known; learnt > most)
+            most = learnt, next_ = level;
     }
 }
 
 void QuestPlus::answerAt(double level, bool isCorrect) {
-    const auto nearest = std::ranges::min_element(plan_.levels, {}, [level](double own) { return std::abs(own - level); });
+    const auto nearest =
+        std::ranges::min_element(plan_.levels, {}, [level](double own) { return std::abs(own - level); });
     const auto at = static_cast<std::size_t>(nearest - plan_.levels.begin());
     double sum = 0.0;
-    for (std::size_t i = 0; i < belief_.size(); ++i) sum += belief_[i] *= isCorrect ? correct(at, i) : 1.0 - correct(at, i);
+    for (std::size_t i = 0; i < belief_.size(); ++i)
+        sum += belief_[i] *= isCorrect ? correct(at, i) : 1.0 - correct(at, i);
     for (double& belief : belief_) belief /= sum;
     ++trials_;
     chooseNext();
@@ -84,13 +94,15 @@ PsychometricFunction QuestPlus::estimate() const {
 double QuestPlus::thresholdDeviation() const {
     const double mean = estimate().threshold;
     double variance = 0.0;
-    for (std::size_t i = 0; i < belief_.size(); ++i) variance += belief_[i] * (possible(i).threshold - mean) * (possible(i).threshold - mean);
+    for (std::size_t i = 0; i < belief_.size(); ++i)
+        variance += belief_[i] * (possible(i).threshold - mean) * (possible(i).threshold - mean);
     return std::sqrt(variance);
 }
 
 std::vector<double> QuestPlus::thresholdBelief() const {
     std::vector<double> sums(plan_.thresholds.size());
-    for (std::size_t i = 0; i < belief_.size(); ++i) sums[i / plan_.lapses.size() / plan_.widths.size()] += belief_[i];
+    for (std::size_t i = 0; i < belief_.size(); ++i)
+        sums[i / plan_.lapses.size() / plan_.widths.size()] += belief_[i];
     return sums;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Friedman 1937, Wilcoxon 1945, Mann and Whitney 1947, Kruskal and Wallis 1952, as R's stats package reckons them.
+// Friedman 1937, Wilcoxon 1945, Mann and Whitney 1947, Kruskal and Wallis 1952, as R's stats package reckons
+// them.
 #include "Study/Statistics/RankTests.h"
 #include "Study/Statistics/Distributions.h"
 #include "Study/Statistics/Ranks.h"
@@ -24,10 +25,12 @@ TestReport factorByFactor(const Design& design, TestReport report, Test test) {
     if (!design.fault.empty()) return {design.fault};
     if (design.within.empty()) return {"expected a within-factor"};
     if (design.between) return {"expected no between-factor, found " + design.between->name};
-    if (design.participants.size() < 2) return {"expected two or more participants, found only " + design.participants.front()};
+    if (design.participants.size() < 2)
+        return {"expected two or more participants, found only " + design.participants.front()};
     for (std::size_t i = 0; i < design.within.size(); ++i) {
         TestLine line;
-        if (const std::string fault = test(design.alone(i), line); !fault.empty()) return {"column " + design.within[i].name + ": " + fault};
+        if (const std::string fault = test(design.alone(i), line); !fault.empty())
+            return {"column " + design.within[i].name + ": " + fault};
         line.effect = design.within[i].name;
         report.lines.push_back(std::move(line));
     }
@@ -48,14 +51,25 @@ std::string friedmanLine(const Design& one, TestLine& line) {
     const double scale = n * k * (k + 1.0) - tieTerm / (k - 1.0);
     if (scale <= 0.5) return "expected levels that differ for some participant, found none: all are tied";
     const double chi = 12.0 * between / scale;
-    line = {{}, k - 1.0, {}, chi, chiSquaredUpper(chi, k - 1.0), {}, {}, chi / (n * (k - 1.0)), one.participants.size()};
+    line = {{},
+            k - 1.0,
+            {},
+            chi,
+            chiSquaredUpper(chi, k - 1.0),
+            {},
+            {},
+            chi / (n * (k - 1.0)),
+            one.participants.size()};
     return {};
 }
 
 std::string wilcoxonLine(const Design& one, TestLine& line) {
-    if (one.cells() != 2) return "expected two levels, found " + std::to_string(one.cells()) + " (friedman tests them together, pairs two by two)";
+    if (one.cells() != 2)
+        return "expected two levels, found " + std::to_string(one.cells()) +
+               " (friedman tests them together, pairs two by two)";
     std::vector<double> differences;
-    for (std::size_t p = 0; p < one.participants.size(); ++p) differences.push_back(one.value(p, 0) - one.value(p, 1));
+    for (std::size_t p = 0; p < one.participants.size(); ++p)
+        differences.push_back(one.value(p, 0) - one.value(p, 1));
     line = signedRank(differences);
     line.n = one.participants.size();
     return line.statistic ? "" : "expected levels that differ for some participant, found none";
@@ -67,11 +81,14 @@ std::string groupsOf(const Design& design, std::vector<std::vector<double>>& gro
     if (!design.between) return "expected a between-factor";
     if (!design.within.empty()) return "expected no within-factor, found " + design.within.front().name;
     groups.resize(design.groupCount());
-    for (std::size_t p = 0; p < design.participants.size(); ++p) groups[design.groups[p]].push_back(design.values[p]);
+    for (std::size_t p = 0; p < design.participants.size(); ++p)
+        groups[design.groups[p]].push_back(design.values[p]);
     return {};
 }
 
-std::string allEqual(const Design& design) { return "column " + design.measure + ": expected values that differ, found the same for every participant"; }
+std::string allEqual(const Design& design) {
+    return "column " + design.measure + ": expected values that differ, found the same for every participant";
+}
 
 } // namespace
 
@@ -91,9 +108,12 @@ TestLine signedRank(std::span<const double> differences) {
     }
     const auto n = static_cast<double>(sizes.size());
     const double all = n * (n + 1.0) / 2.0;
-    const bool isExact = sizes.size() < exactBelow && !ranking.hasTies() && sizes.size() == differences.size();
+    const bool isExact =
+        sizes.size() < exactBelow && !ranking.hasTies() && sizes.size() == differences.size();
     line.statistic = v;
-    line.p = isExact ? signedRankTwoSided(v, sizes.size()) : correctedNormal(v - 0.5 * all, n * (n + 1.0) * (2.0 * n + 1.0) / 24.0 - ranking.tieTerm / 48.0);
+    line.p = isExact ? signedRankTwoSided(v, sizes.size())
+                     : correctedNormal(v - 0.5 * all,
+                                       n * (n + 1.0) * (2.0 * n + 1.0) / 24.0 - ranking.tieTerm / 48.0);
     line.effectSize = 2.0 * v / all - 1.0;
     return line;
 }
@@ -107,23 +127,31 @@ TestLine rankSum(std::span<const double> first, std::span<const double> second) 
     line.n = values.size();
     const double variance = m * n / 12.0 * (all + 1.0 - ranking.tieTerm / (all * (all - 1.0)));
     if (variance < 1e-9 * m * n) return line; // all values equal
-    const double w = std::accumulate(ranking.ranks.begin(), ranking.ranks.begin() + static_cast<std::ptrdiff_t>(first.size()), 0.0) - m * (m + 1.0) / 2.0;
+    const double w = std::accumulate(ranking.ranks.begin(),
+                                     ranking.ranks.begin() + static_cast<std::ptrdiff_t>(first.size()), 0.0) -
+                     m * (m + 1.0) / 2.0;
     const bool isExact = first.size() < exactBelow && second.size() < exactBelow && !ranking.hasTies();
     line.statistic = w;
-    line.p = isExact ? rankSumTwoSided(w, first.size(), second.size()) : correctedNormal(w - m * n / 2.0, variance);
+    line.p = isExact ? rankSumTwoSided(w, first.size(), second.size())
+                     : correctedNormal(w - m * n / 2.0, variance);
     line.effectSize = 2.0 * w / (m * n) - 1.0;
     return line;
 }
 
-TestReport friedman(const Design& design) { return factorByFactor(design, {{}, "chi-squared", "Kendall's W"}, friedmanLine); }
+TestReport friedman(const Design& design) {
+    return factorByFactor(design, {{}, "chi-squared", "Kendall's W"}, friedmanLine);
+}
 
-TestReport wilcoxon(const Design& design) { return factorByFactor(design, {{}, "V", "rank-biserial r"}, wilcoxonLine); }
+TestReport wilcoxon(const Design& design) {
+    return factorByFactor(design, {{}, "V", "rank-biserial r"}, wilcoxonLine);
+}
 
 TestReport mannWhitney(const Design& design) {
     std::vector<std::vector<double>> groups;
     if (auto fault = groupsOf(design, groups); !fault.empty()) return {fault};
     if (groups.size() != 2)
-        return {"column " + design.between->name + ": expected two groups, found " + std::to_string(groups.size()) + " (kruskal-wallis tests them together, pairs two by two)"};
+        return {"column " + design.between->name + ": expected two groups, found " +
+                std::to_string(groups.size()) + " (kruskal-wallis tests them together, pairs two by two)"};
     TestLine line = rankSum(groups[0], groups[1]);
     if (!line.statistic) return {allEqual(design)};
     line.effect = design.between->name;
@@ -138,11 +166,14 @@ TestReport kruskalWallis(const Design& design) {
     const double scale = 1.0 - ranking.tieTerm / (n * n * n - n);
     if (scale <= 0.0) return {allEqual(design)};
     std::vector<double> sums(groups.size());
-    for (std::size_t p = 0; p < design.values.size(); ++p) sums[design.groups[p]] += ranking.ranks[p] - 0.5 * (n + 1.0);
+    for (std::size_t p = 0; p < design.values.size(); ++p)
+        sums[design.groups[p]] += ranking.ranks[p] - 0.5 * (n + 1.0);
     double h = 0.0;
-    for (std::size_t g = 0; g < groups.size(); ++g) h += sums[g] * sums[g] / static_cast<double>(groups[g].size());
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        h += sums[g] * sums[g] / static_cast<double>(groups[g].size());
     h *= 12.0 / (n * (n + 1.0)) / scale;
-    TestLine line{design.between->name, k - 1.0, {}, h, chiSquaredUpper(h, k - 1.0), {}, {}, {}, design.values.size()};
+    TestLine line{design.between->name, k - 1.0, {}, h, chiSquaredUpper(h, k - 1.0), {}, {}, {},
+                  design.values.size()};
     if (n > k) line.effectSize = (h - k + 1.0) / (n - k);
     return {{}, "H", "eta squared", {}, {}, {line}};
 }

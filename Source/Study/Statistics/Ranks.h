@@ -23,7 +23,8 @@ inline Ranking rankingOf(std::span<const double> values) {
     Ranking ranking{std::vector<double>(values.size())};
     for (std::size_t from = 0, to = 0; from < order.size(); from = to) {
         while (to < order.size() && values[order[to]] == values[order[from]]) ++to;
-        for (std::size_t i = from; i < to; ++i) ranking.ranks[order[i]] = 0.5 * static_cast<double>(from + to + 1);
+        for (std::size_t i = from; i < to; ++i)
+            ranking.ranks[order[i]] = 0.5 * static_cast<double>(from + to + 1);
         const auto equal = static_cast<double>(to - from);
         ranking.tieTerm += equal * equal * equal - equal;
     }

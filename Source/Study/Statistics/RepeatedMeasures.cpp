@@ -15,7 +15,8 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// Columns: every level against the mean of those before it (Helmert), or, for a factor that an effect leaves out, all alike.
+/// Columns: every level against the mean of those before it (Helmert), or, for a factor that an effect leaves
+/// out, all alike.
 Matrix factorContrasts(std::size_t levels, bool isInEffect) {
     const auto k = static_cast<Eigen::Index>(levels);
     if (!isInEffect) return Matrix::Constant(k, 1, 1.0 / std::sqrt(static_cast<double>(k)));
@@ -31,13 +32,15 @@ Matrix factorContrasts(std::size_t levels, bool isInEffect) {
 Matrix kronecker(const Matrix& a, const Matrix& b) {
     Matrix product(a.rows() * b.rows(), a.cols() * b.cols());
     for (Eigen::Index i = 0; i < a.rows(); ++i)
-        for (Eigen::Index j = 0; j < a.cols(); ++j) product.block(i * b.rows(), j * b.cols(), b.rows(), b.cols()) = a(i, j) * b;
+        for (Eigen::Index j = 0; j < a.cols(); ++j)
+            product.block(i * b.rows(), j * b.cols(), b.rows(), b.cols()) = a(i, j) * b;
     return product;
 }
 
 Matrix contrastsOf(const Design& design, unsigned within) {
     Matrix contrasts = Matrix::Ones(1, 1);
-    for (std::size_t i = 0; i < design.within.size(); ++i) contrasts = kronecker(contrasts, factorContrasts(design.within[i].levels.size(), within >> i & 1u));
+    for (std::size_t i = 0; i < design.within.size(); ++i)
+        contrasts = kronecker(contrasts, factorContrasts(design.within[i].levels.size(), within >> i & 1u));
     return contrasts;
 }
 
@@ -47,10 +50,11 @@ struct Groups {
     Eigen::VectorXd sizes;
 
     explicit Groups(const Design& design)
-        : means{Matrix::Zero(static_cast<Eigen::Index>(design.groupCount()), static_cast<Eigen::Index>(design.cells()))},
-          left{Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-              design.values.data(), static_cast<Eigen::Index>(design.participants.size()), means.cols())},
-          sizes{Eigen::VectorXd::Zero(means.rows())} {
+        : means{Matrix::Zero(static_cast<Eigen::Index>(design.groupCount()),
+                             static_cast<Eigen::Index>(design.cells()))}
+        , left{Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+              design.values.data(), static_cast<Eigen::Index>(design.participants.size()), means.cols())}
+        , sizes{Eigen::VectorXd::Zero(means.rows())} {
         for (Eigen::Index p = 0; p < left.rows(); ++p) {
             means.row(groupOf(design, p)) += left.row(p);
             sizes(groupOf(design, p)) += 1.0;
@@ -70,10 +74,13 @@ struct Groups {
     }
 
 private:
-    static Eigen::Index groupOf(const Design& design, Eigen::Index participant) { return static_cast<Eigen::Index>(design.groups[static_cast<std::size_t>(participant)]); }
+    static Eigen::Index groupOf(const Design& design, Eigen::Index participant) {
+        return static_cast<Eigen::Index>(design.groups[static_cast<std::size_t>(participant)]);
+    }
 };
 
-/// Whether differences between levels are the same for everyone, or follow from others: by the bound of R's qr, which car asks.
+/// Whether differences between levels are the same for everyone, or follow from others: by the bound of R's
+/// qr, which car asks.
 bool isSingular(const Matrix& error) {
     const Matrix triangle = error.householderQr().matrixQR();
     for (Eigen::Index i = 0; i < error.cols(); ++i)
@@ -81,8 +88,9 @@ bool isSingular(const Matrix& error) {
     return false;
 }
 
-/// Mauchly (1940), p by Box's expansion to the second order. `shape`: the error matrix with a mean diagonal of 1. `cells` stand where Box has p:
-/// so they do in R's mauchly.test and in car, and a p that differs from everybody's in the fourth digit helps nobody.
+/// Mauchly (1940), p by Box's expansion to the second order. `shape`: the error matrix with a mean diagonal
+/// of 1. `cells` stand where Box has p: so they do in R's mauchly.test and in car, and a p that differs from
+/// everybody's in the fourth digit helps nobody.
 void addMauchly(const Matrix& shape, double df, double cells, Sphericity& sphericity) {
     const auto p = static_cast<double>(shape.rows());
     if (df < p || isSingular(shape)) return;
@@ -91,7 +99,9 @@ void addMauchly(const Matrix& shape, double df, double cells, Sphericity& spheri
     const double logW = 2.0 * root.matrixLLT().diagonal().array().log().sum();
     if (!std::isfinite(logW)) return;
     const double rho = 1.0 - (2.0 * p * p + p + 2.0) / (6.0 * p * df);
-    const double second = (p + 2.0) * (p - 1.0) * (p - 2.0) * (2.0 * p * p * p + 6.0 * p * p + 3.0 * cells + 2.0) / (288.0 * df * p * rho * df * p * rho);
+    const double second = (p + 2.0) * (p - 1.0) * (p - 2.0) *
+                          (2.0 * p * p * p + 6.0 * p * p + 3.0 * cells + 2.0) /
+                          (288.0 * df * p * rho * df * p * rho);
     const double z = std::max(0.0, -df * rho * logW), f = p * (p + 1.0) / 2.0 - 1.0;
     const double first = chiSquaredUpper(z, f);
     sphericity.mauchlyW = std::exp(std::min(0.0, logW));
@@ -125,8 +135,11 @@ double roundingOf(const std::vector<double>& values) {
 std::string faultOf(const Design& design) {
     if (!design.fault.empty()) return design.fault;
     if (design.within.empty() && !design.between) return "expected a within-factor or a between-factor";
-    if (design.participants.size() < 2) return "expected two or more participants, found only " + design.participants.front();
-    if (design.participants.size() <= design.groupCount()) return "column " + design.between->name + ": expected a group of two or more participants, found none";
+    if (design.participants.size() < 2)
+        return "expected two or more participants, found only " + design.participants.front();
+    if (design.participants.size() <= design.groupCount())
+        return "column " + design.between->name +
+               ": expected a group of two or more participants, found none";
     return {};
 }
 
@@ -135,17 +148,21 @@ std::string faultOf(const Design& design) {
 TestReport repeatedMeasures(const Design& design) {
     if (auto fault = faultOf(design); !fault.empty()) return {fault};
     TestReport report{{}, "F", "generalised eta squared", design.within.empty() ? "" : "Greenhouse-Geisser"};
-    if (design.groupCount() > 1) report.notes.push_back("Type III sums of squares: groups of different sizes count alike");
+    if (design.groupCount() > 1)
+        report.notes.push_back("Type III sums of squares: groups of different sizes count alike");
     const Groups groups{design};
     const double df = groups.errorDf();
     const double nothing = roundingOf(design.values);
     double allErrors = 0.0;
     std::vector<double> squares;
     for (const DesignEffect& effect : effectsOf(design)) {
-        const Matrix contrasts = contrastsOf(design, effect.within), scores = groups.left * contrasts, error = scores.transpose() * scores;
-        if (!effect.isBetween) allErrors += error.trace(); // once per set of contrasts
+        const Matrix contrasts = contrastsOf(design, effect.within), scores = groups.left * contrasts,
+                     error = scores.transpose() * scores;
+        if (!effect.isBetween) allErrors += error.trace();     // once per set of contrasts
         if (effect.within == 0 && !effect.isBetween) continue; // whether the mean is 0 is not asked
-        if (!(error.trace() > nothing)) return {"effect " + effect.name(design) + ": expected participants who differ in it, found none: nothing to compare it with"};
+        if (!(error.trace() > nothing))
+            return {"effect " + effect.name(design) +
+                    ": expected participants who differ in it, found none: nothing to compare it with"};
         TestLine line{effect.name(design), {}, {}, {}, {}, {}, {}, {}, design.participants.size()};
         const auto dimensions = static_cast<double>(contrasts.cols());
         squares.push_back(groups.hypothesisSquares(contrasts, effect.isBetween));
@@ -156,7 +173,8 @@ TestReport repeatedMeasures(const Design& design) {
         if (effect.within != 0) addSphericity(error, df, static_cast<double>(design.cells()), line);
         report.lines.push_back(std::move(line));
     }
-    for (std::size_t i = 0; i < squares.size(); ++i) report.lines[i].effectSize = squares[i] / (squares[i] + allErrors);
+    for (std::size_t i = 0; i < squares.size(); ++i)
+        report.lines[i].effectSize = squares[i] / (squares[i] + allErrors);
     return report;
 }
 

@@ -30,11 +30,13 @@ std::vector<double> shapiroWeights(std::size_t size) {
         squares += 2.0 * a[i] * a[i];
     }
     const double root = std::sqrt(squares), inverse = 1.0 / std::sqrt(n);
-    const double first = a[0] / root + polynomial({0.0, 0.221157, -0.147981, -2.07119, 4.434685, -2.706056}, inverse);
+    const double first =
+        a[0] / root + polynomial({0.0, 0.221157, -0.147981, -2.07119, 4.434685, -2.706056}, inverse);
     double left = squares - 2.0 * a[0] * a[0], used = 1.0 - 2.0 * first * first;
     double second = 0.0;
     if (size > 5) {
-        second = a[1] / root + polynomial({0.0, 0.042981, -0.293762, -1.752461, 5.682633, -3.582633}, inverse);
+        second =
+            a[1] / root + polynomial({0.0, 0.042981, -0.293762, -1.752461, 5.682633, -3.582633}, inverse);
         left -= 2.0 * a[1] * a[1];
         used -= 2.0 * second * second;
     }
@@ -46,7 +48,8 @@ std::vector<double> shapiroWeights(std::size_t size) {
 
 double shapiroP(double w, std::size_t size) {
     const auto n = static_cast<double>(size);
-    if (size == 3) return std::max(0.0, 6.0 / std::numbers::pi * (std::asin(std::sqrt(w)) - std::asin(std::sqrt(0.75))));
+    if (size == 3)
+        return std::max(0.0, 6.0 / std::numbers::pi * (std::asin(std::sqrt(w)) - std::asin(std::sqrt(0.75))));
     double y = std::log(1.0 - w), mean = 0.0, deviation = 1.0;
     if (size <= 11) {
         const double gamma = polynomial({-2.273, 0.459}, n);
@@ -104,9 +107,12 @@ TestReport shapiroByCell(const Design& design) {
                 if (design.groups[p] == group) values.push_back(design.value(p, cell));
             const std::string name = cellName(design, group, cell);
             if (values.size() < fewestForShapiro || values.size() > mostForShapiro)
-                return {name + ": expected " + std::to_string(fewestForShapiro) + " to " + std::to_string(mostForShapiro) + " participants, found " + std::to_string(values.size())};
+                return {name + ": expected " + std::to_string(fewestForShapiro) + " to " +
+                        std::to_string(mostForShapiro) + " participants, found " +
+                        std::to_string(values.size())};
             const auto [least, most] = std::ranges::minmax(values);
-            if (!(most - least > 1e-14 * std::max(std::abs(least), std::abs(most)))) return {name + ": expected values that differ, found the same for every participant"};
+            if (!(most - least > 1e-14 * std::max(std::abs(least), std::abs(most))))
+                return {name + ": expected values that differ, found the same for every participant"};
             report.lines.push_back(shapiroWilk(values));
             report.lines.back().effect = name;
         }

@@ -9,7 +9,8 @@ namespace physvib {
 
 constexpr std::size_t fewestForShapiro = 3, mostForShapiro = 5000;
 
-/// W and p (Royston 1995, AS R94). `values`: fewestForShapiro to mostForShapiro, not all equal. Any thread (allocates).
+/// W and p (Royston 1995, AS R94). `values`: fewestForShapiro to mostForShapiro, not all equal. Any thread
+/// (allocates).
 TestLine shapiroWilk(std::span<const double> values);
 
 /// A line per combination of levels and group. Any thread (allocates).

@@ -15,7 +15,8 @@ void correctForNumber(TestReport& report, Correction correction) {
     double most = 0.0;
     for (std::size_t rank = 0; rank < order.size(); ++rank) {
         TestLine& line = report.lines[order[rank]];
-        const auto tests = static_cast<double>(correction == Correction::holm ? order.size() - rank : order.size());
+        const auto tests =
+            static_cast<double>(correction == Correction::holm ? order.size() - rank : order.size());
         most = std::max(most, std::min(1.0, tests * line.p.value_or(1.0)));
         line.pCorrected = most;
     }

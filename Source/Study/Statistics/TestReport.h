@@ -10,7 +10,8 @@ namespace physvib {
 
 /// Of effects of two and more degrees of freedom within participants.
 struct Sphericity {
-    std::optional<double> mauchlyW, mauchlyP; ///< none where there are too few participants, or some differences follow from others
+    std::optional<double> mauchlyW, mauchlyP; ///< none where there are too few participants, or some
+                                              ///< differences follow from others
     double epsilonHuynhFeldt = 1.0;           ///< may exceed 1; its p takes it for 1 then
     double pHuynhFeldt = 1.0;
 };
@@ -23,10 +24,10 @@ struct TestLine {
 };
 
 struct TestReport {
-    std::string fault;         ///< one line; then there are no lines
-    std::string statistic{};   ///< its letter
-    std::string effectSize{};  ///< its name; empty: none
-    std::string correction{};  ///< what made pCorrected; empty: nothing
+    std::string fault;        ///< one line; then there are no lines
+    std::string statistic{};  ///< its letter
+    std::string effectSize{}; ///< its name; empty: none
+    std::string correction{}; ///< what made pCorrected; empty: nothing
     std::vector<std::string> notes{};
     std::vector<TestLine> lines{};
 };

@@ -10,7 +10,12 @@
 namespace physvib {
 
 void declareColumns(OptionTable& command, std::vector<std::string>& words) {
-    command.add("--columns", words, "of another program's table: what it calls our columns, e.g. participant=subject,response=key_resp.keys").as("NAME=COLUMN[,...]").listed(static_cast<int>(limits::maxTableColumns));
+    command
+        .add("--columns", words,
+             "of another program's table: what it calls our columns, e.g. "
+             "participant=subject,response=key_resp.keys")
+        .as("NAME=COLUMN[,...]")
+        .listed(static_cast<int>(limits::maxTableColumns));
 }
 
 namespace {
@@ -34,46 +39,82 @@ void declareOwn(OptionTable& command, AnalysisJob& o) {
         command.add("--meanings", o.meanings, "how many meanings the icons shall have")
             .in(std::size_t{2}, std::size_t{1000});
     if (name == "confusion")
-        command.add("--participants", o.participantsPath, "percent correct and IT of each participant and condition").written("FILE.csv");
+        command
+            .add("--participants", o.participantsPath,
+                 "percent correct and IT of each participant and condition")
+            .written("FILE.csv");
 }
 
 void declareTest(OptionTable& command, AnalysisJob& o) {
     const std::string name = command.name();
-    command.add("--measure", o.measure, "column of numbers to test; COLUMN=WORD counts 1 where the column says so, else 0").required().as("COLUMN");
+    command
+        .add("--measure", o.measure,
+             "column of numbers to test; COLUMN=WORD counts 1 where the column says so, else 0")
+        .required()
+        .as("COLUMN");
     if (name != "mann-whitney" && name != "kruskal-wallis")
-        command.add("--within", o.within, "factors that every participant has all levels of").as("A[,B[,C]]").listed(mostWithinFactors);
-    if (name != "friedman" && name != "wilcoxon") command.add("--between", o.between, "column of the participants' groups").as("G");
+        command.add("--within", o.within, "factors that every participant has all levels of")
+            .as("A[,B[,C]]")
+            .listed(mostWithinFactors);
+    if (name != "friedman" && name != "wilcoxon")
+        command.add("--between", o.between, "column of the participants' groups").as("G");
     command.add("--where", o.where, "only rows that say so; may be repeated").as("COLUMN=WORD").single();
-    command.add("--participant", o.participant, "column that names the participant (participant)").as("COLUMN");
+    command.add("--participant", o.participant, "column that names the participant (participant)")
+        .as("COLUMN");
     if (name == "anova") {
         command.add("--aligned-ranks", o.usesAlignedRanks, "of aligned ranks, for ratings");
         return; // its correction is of sphericity
     }
-    command.addRow("--correction", [&o](int correction) { o.correction = static_cast<Correction>(correction); }, "of p, for so many lines (none; pairs: holm)")
-        .numbered({{"none", 0}, {"holm", 1}, {"bonferroni", 2}}).as("holm|bonferroni|none");
+    command
+        .addRow(
+            "--correction", [&o](int correction) { o.correction = static_cast<Correction>(correction); },
+            "of p, for so many lines (none; pairs: holm)")
+        .numbered({{"none", 0}, {"holm", 1}, {"bonferroni", 2}})
+        .as("holm|bonferroni|none");
     if (name == "pairs")
-        command.addRow("--test", [&o](int test) { o.pairTest = static_cast<PairTest>(test); }, "of two levels (t)").numbered({{"t", 0}, {"ranks", 1}}).as("t|ranks");
+        command
+            .addRow(
+                "--test", [&o](int test) { o.pairTest = static_cast<PairTest>(test); }, "of two levels (t)")
+            .numbered({{"t", 0}, {"ranks", 1}})
+            .as("t|ranks");
 }
 
 void declareFit(OptionTable& command, AnalysisJob& o) {
     const bool isPsychometric = command.name() == "psychometric";
-    command.add("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (stimulus)").as("COLUMN");
-    command.add("--measure", o.measure, isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)").as("COLUMN");
-    command.add("--picture", o.picturePath, "what was answered and the function, of the first condition").writtenAs("FILE.svg");
+    command
+        .add("--level", o.level,
+             isPsychometric ? "column of levels (level_db)"
+                            : "column of levels > 0, or word of the stimulus (stimulus)")
+        .as("COLUMN");
+    command
+        .add("--measure", o.measure,
+             isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)")
+        .as("COLUMN");
+    command.add("--picture", o.picturePath, "what was answered and the function, of the first condition")
+        .writtenAs("FILE.svg");
     if (!isPsychometric) return;
     std::vector<std::pair<std::string, int>> shapes;
-    for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i) shapes.emplace_back(psychometricShapeNames[i], static_cast<int>(i));
-    command.addRow("--shape", [&o](int shape) { o.model.shape = static_cast<PsychometricShape>(shape); }, "of the function (logistic)").numbered(shapes).as("logistic|normal|weibull");
+    for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i)
+        shapes.emplace_back(psychometricShapeNames[i], static_cast<int>(i));
+    command
+        .addRow(
+            "--shape", [&o](int shape) { o.model.shape = static_cast<PsychometricShape>(shape); },
+            "of the function (logistic)")
+        .numbered(shapes)
+        .as("logistic|normal|weibull");
     command
         .add("--guess", o.model.guess,
              "share of right answers without a percept: 1 / alternatives; 0 of stronger or weaker")
         .in(0.0, 0.9);
-    command.add("--lapse", o.model.lapseUpTo, "highest lapse rate that is fitted; 0: none").in(0.0, mostLapse);
+    command.add("--lapse", o.model.lapseUpTo, "highest lapse rate that is fitted; 0: none")
+        .in(0.0, mostLapse);
 }
 
 OptionTable& declare(OptionTable& command, const Analysis& analysis, AnalysisJob& o) {
     OptionTable& own = command.addCommand(std::string{analysis.name}, analysis.purpose);
-    own.add("files", o.files, "trials, or what the analysis is about; several are taken together").required().as("FILE.csv");
+    own.add("files", o.files, "trials, or what the analysis is about; several are taken together")
+        .required()
+        .as("FILE.csv");
     own.add("--export", o.exportPath, "the result as a table for a statistics package").written("FILE.csv");
     return own;
 }
@@ -103,11 +144,16 @@ int runAnalyse(const OptionTable& command, AnalyseOptions& options) {
     if (report.error.empty() || !report.words.empty()) tellIfSimulated(report.isSimulated);
     std::cout << report.words;
     if (!report.error.empty()) return leave(exitFailed, report.error);
-    return writeStudyFiles({{o.exportPath, report.table}, {o.countsPath, report.counts}, {o.participantsPath, report.participants}, {o.picturePath, report.picture}});
+    return writeStudyFiles({{o.exportPath, report.table},
+                            {o.countsPath, report.counts},
+                            {o.participantsPath, report.participants},
+                            {o.picturePath, report.picture}});
 }
 
 } // namespace
 
-Command analyseCommand() { return commandOf("analyse", "what the trials of a study say", declareAnalyse, runAnalyse); }
+Command analyseCommand() {
+    return commandOf("analyse", "what the trials of a study say", declareAnalyse, runAnalyse);
+}
 
 } // namespace physvib

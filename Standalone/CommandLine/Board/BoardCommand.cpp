@@ -30,7 +30,8 @@ void setLevel(BoardLink& link, double levelDb) {
 
 /// Each channel alone, a quarter of a second of 205 Hz at a quarter of full scale.
 void playScale(BoardLink& link) {
-    const std::int64_t start = BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 50 * ms;
+    const std::int64_t start =
+        BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 50 * ms;
     for (std::size_t j = 0; j < limits::board::channels; ++j) {
         std::array<double, limits::board::channels> gains{};
         gains[j] = 1.0;
@@ -46,28 +47,36 @@ void playScale(BoardLink& link) {
 
 int test(BoardLink& link) {
     link.requestSelfTest();
-    if (!waitFor([&] { return link.status().selfTest.has_value(); }, 3000)) return leave(exitFailed, link.status().port + ": no answer to the self-test");
+    if (!waitFor([&] { return link.status().selfTest.has_value(); }, 3000))
+        return leave(exitFailed, link.status().port + ": no answer to the self-test");
     const auto reply = *link.status().selfTest;
     const auto here = std::make_unique<BoardRenderer>();
     const bool isEqual = reply.hash == wire::expectedSelfTest(*here).hash;
-    std::cout << reply.modes << " modes: " << reply.blockCycles << " of " << reply.cyclesPerBlock << " cycles (" << std::fixed << std::setprecision(1)
-              << 100.0 * reply.blockCycles / reply.cyclesPerBlock << " %); the bits are " << (isEqual ? "those of this computer" : "NOT those of this computer") << '\n';
+    std::cout << reply.modes << " modes: " << reply.blockCycles << " of " << reply.cyclesPerBlock
+              << " cycles (" << std::fixed << std::setprecision(1)
+              << 100.0 * reply.blockCycles / reply.cyclesPerBlock << " %); the bits are "
+              << (isEqual ? "those of this computer" : "NOT those of this computer") << '\n';
     std::cout << "channels 1 to 4 in turn, 205 Hz" << std::endl;
     playScale(link);
     return isEqual ? exitDone : leave(exitFailed, link.status().port + ": the board computes other bits");
 }
 
 /// Hands the events over as their time comes; the last onset on the link's clock.
-std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
+std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events,
+                     const PhantomPanner& panner) {
     PhantomPanner::Gains gains{};
-    const std::int64_t start = BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 20 * ms;
+    const std::int64_t start =
+        BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 20 * ms;
     std::int64_t end = start;
     for (const CollisionEvent& event : events) {
         const std::int64_t onset = start + event.timeNs;
-        if (!waitFor([&] { return onset < BoardLink::nowNs() + 2 * BoardLink::sendAheadMs * ms; }, 1'000'000'000)) break;
+        if (!waitFor([&] { return onset < BoardLink::nowNs() + 2 * BoardLink::sendAheadMs * ms; },
+                     1'000'000'000))
+            break;
         panner.gainsAt(event.x, event.y, gains);
         link.push({onset, boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
-        end = onset + event.durationNs + (event.decayPerSecond > 0 ? static_cast<std::int64_t>(7.0 / event.decayPerSecond * 1e9) : 0);
+        end = onset + event.durationNs +
+              (event.decayPerSecond > 0 ? static_cast<std::int64_t>(7.0 / event.decayPerSecond * 1e9) : 0);
     }
     return std::min(end, BoardLink::nowNs() + 5000 * ms);
 }
@@ -99,8 +108,10 @@ int play(BoardLink& link, const std::vector<CollisionEvent>& events, const Phant
     return finish(link, before);
 }
 
-/// Steps the world up to this computer's clock; a collision at world time w is felt at w + `delayNs`. The time given up after stalls.
-std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t delayNs, const PhantomPanner& panner, BoardLink& link) {
+/// Steps the world up to this computer's clock; a collision at world time w is felt at w + `delayNs`. The
+/// time given up after stalls.
+std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t delayNs,
+                         const PhantomPanner& panner, BoardLink& link) {
     constexpr std::int64_t mostBehind = 500 * ms;
     PhantomPanner::Gains gains{};
     std::vector<CollisionEvent> made;
@@ -116,7 +127,8 @@ std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t del
         world.step(made);
         for (const CollisionEvent& event : made) {
             panner.gainsAt(event.x, event.y, gains);
-            link.push({start + event.timeNs + delayNs, boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
+            link.push({start + event.timeNs + delayNs,
+                       boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
         }
     }
     return slipped;
@@ -134,7 +146,8 @@ void declareBoardOptions(OptionTable& command, BoardOptions& o) {
 }
 
 int runBoard(const BoardOptions& o) {
-    if ((o.action == "play") != !o.eventsPath.empty()) return leave(exitUsage, "board: an event list goes with play, and only with it");
+    if ((o.action == "play") != !o.eventsPath.empty())
+        return leave(exitUsage, "board: an event list goes with play, and only with it");
     std::vector<CollisionEvent> events;
     PhantomPanner panner;
     if (o.action == "play") {
@@ -144,7 +157,9 @@ int runBoard(const BoardOptions& o) {
         const auto layout = layoutNamed(o.layout);
         if (!layout) return leave(exitFailed, layout.error);
         const auto& geometry = layout.value.geometry;
-        if (geometry.count > limits::board::channels) return leave(exitUsage, "--layout: the board has four channels, this layout " + std::to_string(geometry.count));
+        if (geometry.count > limits::board::channels)
+            return leave(exitUsage, "--layout: the board has four channels, this layout " +
+                                        std::to_string(geometry.count));
         const FieldSize said = o.field.isKnown() ? o.field : list.value.field;
         const FieldSize field = said.isKnown() ? said : extentOf(geometry);
         panner = {geometry, PanningLaw::linear, 1.0, field.widthMetres, field.heightMetres};
@@ -172,13 +187,18 @@ int runSceneOnBoard(const std::string& port, const LoadedRender& job, double lev
     const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms;
     const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + spare;
     const std::int64_t slipped = followClock(world, job.endNs(), delay, job.panner(), link);
-    if (interrupted) link.stopAll();
-    else waitFor([] { return false; }, static_cast<int>(delay / ms) + 500); // what is on its way
-    std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(delay) * 1e-6 << " ms after the contact; " << static_cast<double>(slipped) * 1e-6
-              << " ms of stalls\n";
+    if (interrupted)
+        link.stopAll();
+    else
+        waitFor([] { return false; }, static_cast<int>(delay / ms) + 500); // what is on its way
+    std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(delay) * 1e-6
+              << " ms after the contact; " << static_cast<double>(slipped) * 1e-6 << " ms of stalls\n";
     return finish(link, before);
 }
 
-Command boardCommand() { return commandOf("board", "the four-channel board: info, play an event list, test", declareBoardOptions, runBoard); }
+Command boardCommand() {
+    return commandOf("board", "the four-channel board: info, play an event list, test", declareBoardOptions,
+                     runBoard);
+}
 
 } // namespace physvib

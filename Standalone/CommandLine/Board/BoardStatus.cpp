@@ -14,12 +14,19 @@ std::string connectBoard(const BoardLink& link) {
 void printBoardInfo(const BoardLinkStatus& s) {
     const auto& b = s.board;
     const auto& t = s.telemetry;
-    std::cout << s.port << ": " << int(b.channels) << " channels at " << b.sampleRateHz << " Hz, " << b.maxModes << " modes, protocol " << int(b.version) << ", clock "
-              << (b.crystal ? "72 MHz from the crystal" : "64 MHz, internal") << ", " << int(b.resets) << " restarts by the watchdog\n"
-              << (b.version < wire::legsSince ? "what moves is a row of still bursts on this image, an older one" : "what moves is within one step of a device") << '\n'
-              << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call at the earliest; drift " << s.driftPpm << " ppm\n"
-              << t.played << " strikes played, " << t.late << " late, " << t.dropped << " dropped, " << t.stolen << " modes stolen; link: " << t.good << " good, " << t.bad
-              << " bad, " << t.lost << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; "
+    std::cout << s.port << ": " << int(b.channels) << " channels at " << b.sampleRateHz << " Hz, "
+              << b.maxModes << " modes, protocol " << int(b.version) << ", clock "
+              << (b.crystal ? "72 MHz from the crystal" : "64 MHz, internal") << ", " << int(b.resets)
+              << " restarts by the watchdog\n"
+              << (b.version < wire::legsSince
+                      ? "what moves is a row of still bursts on this image, an older one"
+                      : "what moves is within one step of a device")
+              << '\n'
+              << std::fixed << std::setprecision(1) << "felt " << s.playOutMs
+              << " ms after the call at the earliest; drift " << s.driftPpm << " ppm\n"
+              << t.played << " strikes played, " << t.late << " late, " << t.dropped << " dropped, "
+              << t.stolen << " modes stolen; link: " << t.good << " good, " << t.bad << " bad, " << t.lost
+              << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; "
               << "guard acted " << t.guarded << " times; " << t.stackFree << " bytes of stack never used\n";
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Waiting for a board, and what it says of itself.
 #pragma once
-#include "System/Interrupt.h"
 #include "Session/BoardLink.h"
+#include "System/Interrupt.h"
 #include <chrono>
 #include <string>
 #include <thread>

@@ -27,9 +27,13 @@ int runPair(const AttenuationOptions& o) {
     if (!reference) return leave(exitFailed, reference.error);
     const std::size_t axes = reference.value.size();
     if (isolated.value.size() != axes)
-        return leave(exitFailed, o.isolatedPath + ": expected the channels of " + o.referencePath + ", " + std::to_string(axes) + ", found " + std::to_string(isolated.value.size()));
+        return leave(exitFailed, o.isolatedPath + ": expected the channels of " + o.referencePath + ", " +
+                                     std::to_string(axes) + ", found " +
+                                     std::to_string(isolated.value.size()));
     for (std::size_t i = 0; i < axes; ++i)
-        if (!(reference.value[i] > 0.0)) return leave(exitFailed, o.referencePath + ": channel " + std::to_string(i + 1) + ": expected a vibration, found silence");
+        if (!(reference.value[i] > 0.0))
+            return leave(exitFailed, o.referencePath + ": channel " + std::to_string(i + 1) +
+                                         ": expected a vibration, found silence");
     const auto ratios = attenuationRatios(isolated.value, reference.value);
     std::cout << "axis,attenuation_ratio\n";
     for (std::size_t i = 0; i < axes; ++i) std::cout << i + 1 << ',' << numberText(ratios[i]) << '\n';
@@ -46,7 +50,8 @@ Result<std::vector<IsolationMeasurement>> measurementsIn(const std::string& fold
         m.source = list.value.path(row);
         const auto hz = list.value.frequencyHz(row);
         if (!hz) return Failure{hz.error};
-        m.condition = {list.value.cell(row, "material"), list.value.cell(row, "thickness_mm"), list.value.cell(row, "voltage_v"), list.value.cell(row, "axis"), hz.value};
+        m.condition = {list.value.cell(row, "material"), list.value.cell(row, "thickness_mm"),
+                       list.value.cell(row, "voltage_v"), list.value.cell(row, "axis"), hz.value};
         m.isReference = m.condition.material == referenceWord;
         auto levels = axisLevels(m.source);
         if (!levels) return Failure{levels.error};
@@ -71,7 +76,9 @@ constexpr const char* conditionColumns = "material,thickness_mm,frequency_hz,vol
 std::string repetitionTable(const std::vector<IsolationResult>& results) {
     std::string table = std::string(conditionColumns) + "repetition,gamma\n";
     for (const IsolationResult& r : results)
-        for (std::size_t k = 0; k < r.gammas.size(); ++k) table += conditionCells(r.condition) + std::to_string(k + 1) + "," + numberText(r.gammas[k]) + "\n";
+        for (std::size_t k = 0; k < r.gammas.size(); ++k)
+            table +=
+                conditionCells(r.condition) + std::to_string(k + 1) + "," + numberText(r.gammas[k]) + "\n";
     return table;
 }
 
@@ -80,31 +87,49 @@ int runFolder(const AttenuationOptions& o) {
     if (!measurements) return leave(exitFailed, measurements.error);
     const IsolationStudy study = summariseIsolation(measurements.value);
     if (!study.fault.empty()) return leave(exitFailed, study.fault);
-    const int code = writeStudyFiles({StudyFile{o.exportPath, [&] { return repetitionTable(study.results); }},
-                                     StudyFile{o.picturePath, [&] { return isolationPicture(study.results, pictureWords({o.isolatedPath}, false)); }}});
+    const int code = writeStudyFiles(
+        {StudyFile{o.exportPath, [&] { return repetitionTable(study.results); }},
+         StudyFile{o.picturePath,
+                   [&] { return isolationPicture(study.results, pictureWords({o.isolatedPath}, false)); }}});
     if (code != exitDone) return code;
     std::cout << conditionColumns << "repetitions,gamma,standard_deviation\n";
     for (const IsolationResult& r : study.results)
-        std::cout << conditionCells(r.condition) << r.gammas.size() << ',' << numberText(r.mean) << ',' << numberText(r.deviation) << '\n';
+        std::cout << conditionCells(r.condition) << r.gammas.size() << ',' << numberText(r.mean) << ','
+                  << numberText(r.deviation) << '\n';
     return exitDone;
 }
 
 void declareAttenuation(OptionTable& command, AttenuationOptions& o) {
-    command.add("isolated", o.isolatedPath, "recorded behind the layer, a channel per axis; or a folder of conditions with " + std::string(RecordingList::fileName)).as("ISOLATED.wav|FOLDER").required();
+    command
+        .add("isolated", o.isolatedPath,
+             "recorded behind the layer, a channel per axis; or a folder of conditions with " +
+                 std::string(RecordingList::fileName))
+        .as("ISOLATED.wav|FOLDER")
+        .required();
     command.add("reference", o.referencePath, "the same drive recorded without it").as("REFERENCE.wav");
     command.add("--export", o.exportPath, "of a folder: a row per repetition").written("FILE.csv");
-    command.add("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer").writtenAs("FILE.png");
+    command.add("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer")
+        .writtenAs("FILE.png");
 }
 
 int runAttenuation(const AttenuationOptions& o) {
-    if (!o.referencePath.empty() && (!o.exportPath.empty() || !o.picturePath.empty())) return leave(exitUsage, "attenuation: expected --export and --picture with a folder of conditions only");
+    if (!o.referencePath.empty() && (!o.exportPath.empty() || !o.picturePath.empty()))
+        return leave(exitUsage,
+                     "attenuation: expected --export and --picture with a folder of conditions only");
     if (!o.referencePath.empty()) return runPair(o);
-    if (!std::filesystem::is_directory(o.isolatedPath)) return leave(exitUsage, "attenuation: expected a reference beside " + inQuotes(o.isolatedPath) + ", or a folder of conditions");
+    if (!std::filesystem::is_directory(o.isolatedPath))
+        return leave(exitUsage, "attenuation: expected a reference beside " + inQuotes(o.isolatedPath) +
+                                    ", or a folder of conditions");
     return runFolder(o);
 }
 
 } // namespace
 
-Command attenuationCommand() { return commandOf("attenuation", "what an isolation layer holds back, from two recordings or a folder of conditions (thesis 3.1.1)", declareAttenuation, runAttenuation); }
+Command attenuationCommand() {
+    return commandOf(
+        "attenuation",
+        "what an isolation layer holds back, from two recordings or a folder of conditions (thesis 3.1.1)",
+        declareAttenuation, runAttenuation);
+}
 
 } // namespace physvib

@@ -23,7 +23,8 @@ std::complex<double> toneOf(const std::vector<float>& x, double radiansPerSample
     const double step = 2.0 * std::numbers::pi / static_cast<double>(x.size());
     for (std::size_t n = 0; n < x.size(); ++n) {
         const auto at = static_cast<double>(n);
-        sum += (1.0 - std::cos(step * at)) * static_cast<double>(x[n]) * std::polar(1.0, -radiansPerSample * at);
+        sum +=
+            (1.0 - std::cos(step * at)) * static_cast<double>(x[n]) * std::polar(1.0, -radiansPerSample * at);
     }
     return sum * (2.0 / static_cast<double>(x.size()));
 }
@@ -38,7 +39,8 @@ Result<std::vector<Value>> eachChannel(const std::string& path, Measure measure)
     for (const auto& channel : recording.value.channels) {
         std::string fault = recordingFault(channel, rateHz, shortestSeconds);
         if (fault.empty()) fault = clippingFault(channel, rateHz);
-        if (!fault.empty()) return Failure{path + ": channel " + std::to_string(values.size() + 1) + ": " + fault};
+        if (!fault.empty())
+            return Failure{path + ": channel " + std::to_string(values.size() + 1) + ": " + fault};
         values.push_back(measure(channel, rateHz));
     }
     return values;
@@ -47,11 +49,14 @@ Result<std::vector<Value>> eachChannel(const std::string& path, Measure measure)
 } // namespace
 
 Result<std::vector<double>> axisLevels(const std::string& path) {
-    return eachChannel<double>(path, [](const std::vector<float>& channel, double) { return levelOf(channel); });
+    return eachChannel<double>(path,
+                               [](const std::vector<float>& channel, double) { return levelOf(channel); });
 }
 
 Result<std::vector<std::complex<double>>> channelTones(const std::string& path, double frequencyHz) {
-    return eachChannel<std::complex<double>>(path, [=](const std::vector<float>& channel, double rateHz) { return toneOf(channel, 2.0 * std::numbers::pi * frequencyHz / rateHz); });
+    return eachChannel<std::complex<double>>(path, [=](const std::vector<float>& channel, double rateHz) {
+        return toneOf(channel, 2.0 * std::numbers::pi * frequencyHz / rateHz);
+    });
 }
 
 } // namespace physvib

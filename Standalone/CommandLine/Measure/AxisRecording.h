@@ -8,7 +8,8 @@
 
 namespace physvib {
 
-/// Root mean square of each channel without what stands still; or one line that names the file and what is wrong. M.
+/// Root mean square of each channel without what stands still; or one line that names the file and what is
+/// wrong. M.
 Result<std::vector<double>> axisLevels(const std::string& path);
 
 /// Amplitude and phase of each channel at that frequency; or one line. M.

@@ -12,7 +12,8 @@ namespace physvib {
 inline std::optional<FrequencyBand> parseBand(std::string_view text) {
     const std::size_t dash = text.find('-');
     if (dash == std::string_view::npos) return std::nullopt;
-    const auto low = parseNumber<double>(text.substr(0, dash)), high = parseNumber<double>(text.substr(dash + 1));
+    const auto low = parseNumber<double>(text.substr(0, dash)),
+               high = parseNumber<double>(text.substr(dash + 1));
     if (!low || !high || !FrequencyBand{*low, *high}.isKnown()) return std::nullopt;
     return FrequencyBand{*low, *high};
 }

@@ -3,16 +3,16 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "Core/Decibels.h"
-#include "Jobs/LayoutNamed.h"
-#include "Scene/ActuatorFile.h"
+#include "Host/Devices/AudioOutput.h"
+#include "Host/Devices/SweepRecorder.h"
+#include "Host/Recordings/ReadRecording.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/SweepRecorder.h"
-#include "Host/Recordings/ReadRecording.h"
+#include "Jobs/LayoutNamed.h"
 #include "Measure/ActuatorMeasurement.h"
+#include "Scene/ActuatorFile.h"
 #include <cmath>
 #include <optional>
 #include <string>
@@ -29,19 +29,23 @@ struct CalibrateOptions {
     std::string playedPath, recordedPath; ///< WAV pair, instead of a device
     std::string sweepPath;                ///< write the sweep and nothing else
     std::string profilePath;              ///< to write
-    std::string layout, layoutPath;       ///< a layout of such actuators, to write with the profile and its full scale; empty: none
-    std::string place;                    ///< label of the one actuator of it that was measured; empty: all are alike
-    bool isLoopback = false;              ///< a cable instead of an actuator: its latency, no profile
+    std::string layout, layoutPath; ///< a layout of such actuators, to write with the profile and its full
+                                    ///< scale; empty: none
+    std::string place;       ///< label of the one actuator of it that was measured; empty: all are alike
+    bool isLoopback = false; ///< a cable instead of an actuator: its latency, no profile
     std::string name = "calibrated";
-    std::string band;                     ///< "LO-HI" to declare; empty: within 10 dB of the peak
+    std::string band; ///< "LO-HI" to declare; empty: within 10 dB of the peak
     double levelDb = -12.0, seconds = 5.0;
-    double gPerUnit = 0.0;                ///< acceleration of a recorded sample of 1; 0: not known
-    double driveVolts = 0.0;              ///< at a played sample of 1; 0: not known
+    double gPerUnit = 0.0;   ///< acceleration of a recorded sample of 1; 0: not known
+    double driveVolts = 0.0; ///< at a played sample of 1; 0: not known
 };
 
-constexpr double bandDecibels = 10.0; // what a profile declares unless told: the equaliser then costs that much level
+constexpr double bandDecibels = 10.0; // what a profile declares unless told: the equaliser then costs that
+                                      // much level
 
-SweepSettings sweepSettings(const CalibrateOptions& o) { return {.seconds = o.seconds, .level = fromDecibels(o.levelDb)}; }
+SweepSettings sweepSettings(const CalibrateOptions& o) {
+    return {.seconds = o.seconds, .level = fromDecibels(o.levelDb)};
+}
 
 /// Channel 1 of each file.
 Result<RecordedSweep> readPair(const CalibrateOptions& o) {
@@ -50,22 +54,27 @@ Result<RecordedSweep> readPair(const CalibrateOptions& o) {
     auto recorded = readRecording(o.recordedPath);
     if (!recorded) return Failure{recorded.error};
     if (played.value.sampleRateHz != recorded.value.sampleRateHz)
-        return Failure{o.recordedPath + ": expected the rate of " + o.playedPath + ", " + std::to_string(played.value.sampleRateHz) + " Hz, found " +
+        return Failure{o.recordedPath + ": expected the rate of " + o.playedPath + ", " +
+                       std::to_string(played.value.sampleRateHz) + " Hz, found " +
                        std::to_string(recorded.value.sampleRateHz) + " Hz"};
-    return RecordedSweep{static_cast<double>(played.value.sampleRateHz), std::move(played.value.channels.front()), std::move(recorded.value.channels.front()), -1};
+    return RecordedSweep{static_cast<double>(played.value.sampleRateHz),
+                         std::move(played.value.channels.front()), std::move(recorded.value.channels.front()),
+                         -1};
 }
 
 Result<RecordedSweep> measure(const CalibrateOptions& o) {
     if (o.device.empty()) return readPair(o);
     const juce::ScopedJuceInitialiser_GUI juce;
-    return recordSweep({o.device, o.channel - 1, o.input - 1, o.sampleRateHz}, [&](double rateHz) { return sweepOf(sweepSettings(o), rateHz); });
+    return recordSweep({o.device, o.channel - 1, o.input - 1, o.sampleRateHz},
+                       [&](double rateHz) { return sweepOf(sweepSettings(o), rateHz); });
 }
 
 ActuatorProfile profileOf(const CalibrateOptions& o, const MeasuredActuator& m) {
     ActuatorProfile p;
     p.name = o.name;
     p.description = "measured";
-    p.source = "physvib calibrate " PHYSVIB_VERSION ": sweep at " + numberText(m.rateHz) + " Hz, " + fixedNumber(100.0 * (1.0 - m.residualShare), 2) + " % explained";
+    p.source = "physvib calibrate " PHYSVIB_VERSION ": sweep at " + numberText(m.rateHz) + " Hz, " +
+               fixedNumber(100.0 * (1.0 - m.residualShare), 2) + " % explained";
     p.resonanceHz = m.resonator.resonanceHz;
     p.q = m.resonator.q;
     p.band = m.bandWithin(bandDecibels, SweepSettings{}.band);
@@ -86,13 +95,15 @@ int writeSweep(const CalibrateOptions& o) {
         wav.write(&from, static_cast<int>(std::min<std::size_t>(4096, samples.size() - at)));
     }
     if (const std::string& error = wav.finish(); !error.empty()) return leave(exitFailed, error);
-    std::cout << o.sweepPath << "  play it, record what the actuator does, and give both to physvib calibrate\n";
+    std::cout << o.sweepPath
+              << "  play it, record what the actuator does, and give both to physvib calibrate\n";
     return exitDone;
 }
 
 std::string sourceOf(const CalibrateOptions& o) { return o.device.empty() ? o.recordedPath : o.device; }
 
-/// The layout with the profile and its full scale at the place that was measured, or at all; one line if it cannot have them.
+/// The layout with the profile and its full scale at the place that was measured, or at all; one line if it
+/// cannot have them.
 Result<LayoutDescription> layoutWith(const CalibrateOptions& o, double fullScaleG) {
     auto layout = layoutNamed(o.layout);
     if (!layout) return layout;
@@ -109,20 +120,29 @@ Result<LayoutDescription> layoutWith(const CalibrateOptions& o, double fullScale
 }
 
 /// What is wrong with the layout that is asked for, before anything vibrates; empty: nothing.
-std::string layoutFault(const CalibrateOptions& o) { return o.layout.empty() ? std::string{} : layoutWith(o, 1.0).error; }
+std::string layoutFault(const CalibrateOptions& o) {
+    return o.layout.empty() ? std::string{} : layoutWith(o, 1.0).error;
+}
 
 /// How the measured full scale reaches every level in g.
 void offerLayout(const CalibrateOptions& o, const ActuatorProfile& p) {
-    if (!p.fullScaleG) return void(std::cout << "full scale in g is not known: give --g-per-unit, the acceleration that a recorded sample of 1 stands for\n");
+    if (!p.fullScaleG)
+        return void(std::cout << "full scale in g is not known: give --g-per-unit, the acceleration that a "
+                                 "recorded sample of 1 stands for\n");
     std::cout << "full scale " << fixedNumber(*p.fullScaleG, 3) << " g: ";
-    if (!o.layoutPath.empty()) std::cout << o.layoutPath << " has it\n";
-    else std::cout << "render and play use it with --actuator " << o.profilePath << "; for studies and the mixer write a layout that has it: --layout phone4 --layout-out FILE.json\n";
+    if (!o.layoutPath.empty())
+        std::cout << o.layoutPath << " has it\n";
+    else
+        std::cout << "render and play use it with --actuator " << o.profilePath
+                  << "; for studies and the mixer write a layout that has it: --layout phone4 --layout-out "
+                     "FILE.json\n";
 }
 
 /// What was played and recorded, its faults told.
 Result<RecordedSweep> measureAndTell(const CalibrateOptions& o) {
     auto sweep = measure(o);
-    if (sweep && sweep.value.xruns > 0) std::cerr << "physvib: warning: xruns of the device during the sweep: " << sweep.value.xruns << '\n';
+    if (sweep && sweep.value.xruns > 0)
+        std::cerr << "physvib: warning: xruns of the device during the sweep: " << sweep.value.xruns << '\n';
     return sweep;
 }
 
@@ -132,42 +152,59 @@ int tellLoopback(const CalibrateOptions& o) {
     const auto found = fitLoopback(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
     if (!found) return leave(exitFailed, sourceOf(o) + ": " + found.error);
     const MeasuredLoopback& m = found.value;
-    std::cout << "latency of the loop " << fixedNumber(1e3 * m.delaySeconds, 3) << " ms, " << fixedNumber(m.delaySeconds * sweep.value.rateHz, 2) << " frames at " << numberText(sweep.value.rateHz)
-              << " Hz; gain " << fixedNumber(m.gain, 4) << "; " << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
+    std::cout << "latency of the loop " << fixedNumber(1e3 * m.delaySeconds, 3) << " ms, "
+              << fixedNumber(m.delaySeconds * sweep.value.rateHz, 2) << " frames at "
+              << numberText(sweep.value.rateHz) << " Hz; gain " << fixedNumber(m.gain, 4) << "; "
+              << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
     return exitDone;
 }
 
 std::string fault(const CalibrateOptions& o) {
     const bool isPair = !o.playedPath.empty() || !o.recordedPath.empty();
-    if (!o.sweepPath.empty()) return isPair || !o.device.empty() || !o.profilePath.empty() ? "calibrate: --sweep stands alone" : "";
-    if (isPair == !o.device.empty()) return "calibrate: expected --device, or --played and --recorded, or --sweep";
-    if (isPair && (o.playedPath.empty() || o.recordedPath.empty())) return "calibrate: expected both --played and --recorded";
-    if (o.isLoopback) return o.profilePath.empty() ? "" : "calibrate: --loopback measures a cable and writes no profile";
+    if (!o.sweepPath.empty())
+        return isPair || !o.device.empty() || !o.profilePath.empty() ? "calibrate: --sweep stands alone" : "";
+    if (isPair == !o.device.empty())
+        return "calibrate: expected --device, or --played and --recorded, or --sweep";
+    if (isPair && (o.playedPath.empty() || o.recordedPath.empty()))
+        return "calibrate: expected both --played and --recorded";
+    if (o.isLoopback)
+        return o.profilePath.empty() ? "" : "calibrate: --loopback measures a cable and writes no profile";
     if (o.profilePath.empty()) return "calibrate: expected --out FILE.json";
     if (o.layoutPath.empty() != o.layout.empty()) return "calibrate: expected both --layout and --layout-out";
     if (o.layoutPath.empty() && !o.place.empty()) return "--place: expected with --layout and --layout-out";
-    if (!o.layoutPath.empty() && o.gPerUnit <= 0.0) return "--layout-out: expected --g-per-unit, without which the full scale in g is not known";
-    return o.band.empty() || parseBand(o.band) ? std::string{} : "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band);
+    if (!o.layoutPath.empty() && o.gPerUnit <= 0.0)
+        return "--layout-out: expected --g-per-unit, without which the full scale in g is not known";
+    return o.band.empty() || parseBand(o.band)
+               ? std::string{}
+               : "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band);
 }
 
 void declareCalibrate(OptionTable& command, CalibrateOptions& o) {
     command.add("--device", o.device, "device that plays and records (see physvib devices)");
     command.add("--channel", o.channel, "output of the actuator, from 1").in(1, 256);
     command.add("--input", o.input, "input of the accelerometer or microphone, from 1").in(1, 256);
-    command.add("--rate", o.sampleRateHz, "sample rate; left out: as the device stands, 48000 for a file").in(limits::minSampleRateHz, limits::maxSampleRateHz);
+    command.add("--rate", o.sampleRateHz, "sample rate; left out: as the device stands, 48000 for a file")
+        .in(limits::minSampleRateHz, limits::maxSampleRateHz);
     command.add("--played", o.playedPath, "what was played elsewhere").as("FILE.wav");
-    command.add("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment").as("FILE.wav");
+    command.add("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment")
+        .as("FILE.wav");
     command.add("--sweep", o.sweepPath, "only write the sweep").written("FILE.wav");
     command.add("--out", o.profilePath, "the profile").writtenAs("FILE.json");
-    command.add("--layout", o.layout, "also write this layout with the profile and its full scale in g: a preset or a layout file");
+    command.add("--layout", o.layout,
+                "also write this layout with the profile and its full scale in g: a preset or a layout file");
     command.add("--layout-out", o.layoutPath, "where that layout goes").writtenAs("FILE.json");
-    command.add("--place", o.place, "label of the one actuator of the layout that was measured; left out: all of them").as("LABEL");
-    command.add("--loopback", o.isLoopback, "a cable from the output to the input: tell the latency of the loop");
+    command
+        .add("--place", o.place,
+             "label of the one actuator of the layout that was measured; left out: all of them")
+        .as("LABEL");
+    command.add("--loopback", o.isLoopback,
+                "a cable from the output to the input: tell the latency of the loop");
     command.add("--name", o.name, "of the profile");
     command.add("--band", o.band, "to declare; left out: where it is within 10 dB of its peak").as("LO-HI");
     command.add("--level", o.levelDb, "peak of the sweep in dB of full scale").in(-60.0, 0.0);
     command.add("--seconds", o.seconds, "length of the sweep").in(1.0, 60.0);
-    command.add("--g-per-unit", o.gPerUnit, "acceleration in g that a recorded sample of 1 stands for").positive();
+    command.add("--g-per-unit", o.gPerUnit, "acceleration in g that a recorded sample of 1 stands for")
+        .positive();
     command.add("--drive-volts", o.driveVolts, "voltage that a played sample of 1 becomes").positive();
 }
 
@@ -175,19 +212,22 @@ int runCalibrate(const CalibrateOptions& o) {
     if (const auto why = fault(o); !why.empty()) return leave(exitUsage, why);
     if (!o.sweepPath.empty()) return writeSweep(o);
     if (o.isLoopback) return tellLoopback(o);
-    const std::vector<std::string> outputs{o.profilePath, o.layoutPath}, inputs{o.playedPath, o.recordedPath, o.layout};
+    const std::vector<std::string> outputs{o.profilePath, o.layoutPath},
+        inputs{o.playedPath, o.recordedPath, o.layout};
     if (const std::string clash = fileClash(outputs, inputs); !clash.empty()) return leave(exitUsage, clash);
     AtomicFile file(o.profilePath); // before anything vibrates
     std::optional<AtomicFile> layoutFile;
     if (!o.layoutPath.empty()) layoutFile.emplace(o.layoutPath);
-    for (const std::string& error : {file.error(), layoutFile ? layoutFile->error() : std::string{}, layoutFault(o)})
+    for (const std::string& error :
+         {file.error(), layoutFile ? layoutFile->error() : std::string{}, layoutFault(o)})
         if (!error.empty()) return leave(exitFailed, error);
     const auto sweep = measureAndTell(o);
     if (!sweep) return leave(exitFailed, sweep.error);
     const auto measured = fitActuator(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
     if (!measured) return leave(exitFailed, sourceOf(o) + ": " + measured.error);
     const ActuatorProfile profile = profileOf(o, measured.value);
-    if (const auto read = readActuator(actuatorJson(profile), o.profilePath); !read) return leave(exitFailed, read.error);
+    if (const auto read = readActuator(actuatorJson(profile), o.profilePath); !read)
+        return leave(exitFailed, read.error);
     if (layoutFile) {
         const auto layout = layoutWith(o, profile.fullScaleG.value_or(1.0));
         if (!layout) return leave(exitFailed, layout.error);
@@ -197,14 +237,19 @@ int runCalibrate(const CalibrateOptions& o) {
     for (AtomicFile* const one : {&file, layoutFile ? &*layoutFile : nullptr})
         if (one != nullptr && !one->commit().empty()) return leave(exitFailed, one->error());
     const MeasuredActuator& m = measured.value;
-    std::cout << o.profilePath << "  " << fixedNumber(m.resonator.resonanceHz, 2) << " Hz, Q " << fixedNumber(m.resonator.q, 2) << ", gain " << fixedNumber(m.gain, 4) << ", delay "
-              << fixedNumber(1e3 * m.delaySeconds, 2) << " ms; " << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
+    std::cout << o.profilePath << "  " << fixedNumber(m.resonator.resonanceHz, 2) << " Hz, Q "
+              << fixedNumber(m.resonator.q, 2) << ", gain " << fixedNumber(m.gain, 4) << ", delay "
+              << fixedNumber(1e3 * m.delaySeconds, 2) << " ms; "
+              << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
     offerLayout(o, profile);
     return exitDone;
 }
 
 } // namespace
 
-Command calibrateCommand() { return commandOf("calibrate", "measure an actuator and write its profile", declareCalibrate, runCalibrate); }
+Command calibrateCommand() {
+    return commandOf("calibrate", "measure an actuator and write its profile", declareCalibrate,
+                     runCalibrate);
+}
 
 } // namespace physvib

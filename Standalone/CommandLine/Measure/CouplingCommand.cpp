@@ -3,10 +3,10 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
-#include "Jobs/LayoutNamed.h"
-#include "Study/Files/CouplingFile.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
+#include "Jobs/LayoutNamed.h"
+#include "Study/Files/CouplingFile.h"
 #include <map>
 #include <string>
 
@@ -21,7 +21,8 @@ struct CouplingOptions {
 /// Sums of repetitions, and how many they are of each driven enchanter.
 struct Measured {
     explicit Measured(std::size_t enchanters)
-        : sums(enchanters), counts(enchanters, 0) {
+        : sums(enchanters)
+        , counts(enchanters, 0) {
         for (std::size_t j = 0; j < enchanters; ++j) sums.at(j, j) = 0.0;
     }
     CouplingMatrix sums;
@@ -30,10 +31,13 @@ struct Measured {
 
 using ByFrequency = std::map<double, Measured>;
 
-/// Adds a recording: what every enchanter does, in shares of its own full scale, for a drive of 1 of enchanter j.
-std::string add(Measured& measured, std::size_t j, const std::vector<std::complex<double>>& tones, const LayoutDescription& layout) {
+/// Adds a recording: what every enchanter does, in shares of its own full scale, for a drive of 1 of
+/// enchanter j.
+std::string add(Measured& measured, std::size_t j, const std::vector<std::complex<double>>& tones,
+                const LayoutDescription& layout) {
     const auto share = [&](std::size_t i) { return tones[i] / layout.enchanters[i].fullScaleG; };
-    if (!(std::abs(share(j)) > 0.0)) return "expected that the driven actuator vibrates, found silence on its channel";
+    if (!(std::abs(share(j)) > 0.0))
+        return "expected that the driven actuator vibrates, found silence on its channel";
     for (std::size_t i = 0; i < tones.size(); ++i) measured.sums.at(i, j) += share(i) / share(j);
     ++measured.counts[j];
     return {};
@@ -43,8 +47,11 @@ Result<MeasuredCoupling> meansOf(ByFrequency& all, const LayoutDescription& layo
     MeasuredCoupling coupling;
     for (auto& [hz, measured] : all) {
         for (std::size_t j = 0; j < measured.counts.size(); ++j) {
-            if (measured.counts[j] == 0) return Failure{"expected a recording with actuator " + layout.enchanters[j].label + " driven at " + numberText(hz) + " Hz, found none"};
-            for (std::size_t i = 0; i < measured.counts.size(); ++i) measured.sums.at(i, j) /= measured.counts[j];
+            if (measured.counts[j] == 0)
+                return Failure{"expected a recording with actuator " + layout.enchanters[j].label +
+                               " driven at " + numberText(hz) + " Hz, found none"};
+            for (std::size_t i = 0; i < measured.counts.size(); ++i)
+                measured.sums.at(i, j) /= measured.counts[j];
         }
         coupling.frequenciesHz.push_back(hz);
         coupling.matrices.push_back(measured.sums);
@@ -60,22 +67,35 @@ Result<MeasuredCoupling> couplingIn(const std::string& folder, const LayoutDescr
     for (const CsvRow& row : list.value.rows()) {
         const auto hz = list.value.frequencyHz(row);
         if (!hz) return Failure{hz.error};
-        const auto driven = std::ranges::find(layout.enchanters, list.value.cell(row, "driven"), &EnchanterDescription::label);
-        if (driven == layout.enchanters.end()) return Failure{list.value.table().fault(row, *list.value.table().column("driven"), "the label of an actuator of the layout")};
+        const auto driven = std::ranges::find(layout.enchanters, list.value.cell(row, "driven"),
+                                              &EnchanterDescription::label);
+        if (driven == layout.enchanters.end())
+            return Failure{list.value.table().fault(row, *list.value.table().column("driven"),
+                                                    "the label of an actuator of the layout")};
         const std::string path = list.value.path(row);
         const auto tones = channelTones(path, hz.value);
         if (!tones) return Failure{tones.error};
         if (tones.value.size() != enchanters)
-            return Failure{path + ": expected a channel per actuator of the layout, " + std::to_string(enchanters) + ", found " + std::to_string(tones.value.size())};
+            return Failure{path + ": expected a channel per actuator of the layout, " +
+                           std::to_string(enchanters) + ", found " + std::to_string(tones.value.size())};
         const auto at = all.try_emplace(hz.value, enchanters).first;
-        if (auto fault = add(at->second, static_cast<std::size_t>(driven - layout.enchanters.begin()), tones.value, layout); !fault.empty()) return Failure{path + ": " + fault};
+        if (auto fault = add(at->second, static_cast<std::size_t>(driven - layout.enchanters.begin()),
+                             tones.value, layout);
+            !fault.empty())
+            return Failure{path + ": " + fault};
     }
     auto coupling = meansOf(all, layout);
-    return coupling ? coupling : Result<MeasuredCoupling>{Failure{list.value.table().name + ": " + coupling.error}};
+    return coupling ? coupling
+                    : Result<MeasuredCoupling>{Failure{list.value.table().name + ": " + coupling.error}};
 }
 
 void declareCoupling(OptionTable& command, CouplingOptions& o) {
-    command.add("folder", o.folder, "recordings, a channel per actuator's accelerometer, and " + std::string(RecordingList::fileName) + ": file,driven,frequency_hz").as("FOLDER").required();
+    command
+        .add("folder", o.folder,
+             "recordings, a channel per actuator's accelerometer, and " +
+                 std::string(RecordingList::fileName) + ": file,driven,frequency_hz")
+        .as("FOLDER")
+        .required();
     command.add("--layout", o.layout, "whose actuators they are: labels and full scales").required();
     command.add("--out", o.outPath, "the coupling, for render --coupling").written("FILE.json").required();
 }
@@ -85,19 +105,25 @@ int runCoupling(const CouplingOptions& o) {
     if (!layout) return leave(exitFailed, layout.error);
     const auto coupling = couplingIn(o.folder, layout.value);
     if (!coupling) return leave(exitFailed, coupling.error);
-    const std::string text = couplingJson(coupling.value, layout.value.name, "measured: recordings of one driven actuator at a time");
+    const std::string text = couplingJson(coupling.value, layout.value.name,
+                                          "measured: recordings of one driven actuator at a time");
     // e.g. a neighbour that moves five times as much
     if (const auto read = readCoupling(text, o.outPath); !read) return leave(exitFailed, read.error);
     AtomicFile file{o.outPath};
     if (const auto& error = file.write(text); !error.empty()) return leave(exitFailed, error);
     if (const auto& error = file.commit(); !error.empty()) return leave(exitFailed, error);
-    std::cout << o.outPath << "  " << coupling.value.enchanters() << " actuators at " << coupling.value.frequenciesHz.size()
+    std::cout << o.outPath << "  " << coupling.value.enchanters() << " actuators at "
+              << coupling.value.frequenciesHz.size()
               << (coupling.value.frequenciesHz.size() == 1 ? " frequency\n" : " frequencies\n");
     return exitDone;
 }
 
 } // namespace
 
-Command couplingCommand() { return commandOf("coupling", "what actuators make of each other's vibration, from recordings, for render --coupling", declareCoupling, runCoupling); }
+Command couplingCommand() {
+    return commandOf("coupling",
+                     "what actuators make of each other's vibration, from recordings, for render --coupling",
+                     declareCoupling, runCoupling);
+}
 
 } // namespace physvib

@@ -3,11 +3,11 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Measure/TextureText.h"
-#include "Scene/MaterialTable.h"
-#include "Io/Text/NumberText.h"
 #include "Host/Recordings/ReadRecording.h"
+#include "Io/Text/NumberText.h"
 #include "Measure/LoudestChannel.h"
 #include "Measure/MaterialExtractor.h"
+#include "Scene/MaterialTable.h"
 #include <cmath>
 #include <optional>
 #include <string>
@@ -32,7 +32,8 @@ int listMaterials() {
         text += "# " + table.source + '\n';
         if (&table == &builtInMaterials().front()) text += "material,frequency_hz,decay_per_s\n";
         for (const Material& m : table.materials)
-            if (m.frequencyHz > 0.0) text += m.name + "," + numberText(m.frequencyHz) + "," + numberText(m.decayPerSecond) + "\n";
+            if (m.frequencyHz > 0.0)
+                text += m.name + "," + numberText(m.frequencyHz) + "," + numberText(m.decayPerSecond) + "\n";
     }
     std::cout << text;
     return exitDone;
@@ -45,16 +46,23 @@ std::string howSure(const ContactSound& s) {
     if (s.frequencyErrorHz > 0.0) words += " +- " + significant(s.frequencyErrorHz);
     words += ", " + fixedNumber(s.decayPerSecond, 2) + " /s";
     if (s.decayErrorPerSecond > 0.0) words += " +- " + significant(s.decayErrorPerSecond);
-    words += "; residual " + (s.residualShare > 0.0 ? fixedNumber(10.0 * std::log10(s.residualShare), 1) + " dB" : std::string{"none"});
-    return words + "; " + std::to_string(s.partials) + (s.partials == 1 ? " partial" : " partials") + " in " + fixedNumber(s.lengthSeconds, 3) + " s from " +
-           fixedNumber(s.beginSeconds, 4) + " s; confidence " + (s.isConfident() ? "high" : "low");
+    words +=
+        "; residual " + (s.residualShare > 0.0 ? fixedNumber(10.0 * std::log10(s.residualShare), 1) + " dB"
+                                               : std::string{"none"});
+    return words + "; " + std::to_string(s.partials) + (s.partials == 1 ? " partial" : " partials") + " in " +
+           fixedNumber(s.lengthSeconds, 3) + " s from " + fixedNumber(s.beginSeconds, 4) + " s; confidence " +
+           (s.isConfident() ? "high" : "low");
 }
 
 void declareMaterial(OptionTable& command, MaterialOptions& o) {
     command.add("recording", o.path, "one contact; of several, the strongest is taken").as("FILE.wav");
     command.add("--band", o.band, "Hz within which the frequency is looked for").as("LO-HI");
-    command.add("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks").oneOf({"fit", "two-peaks"});
-    command.add("--texture", o.texturePath, "a scrape at a steady speed, or an autoregressive texture: grains instead of one contact").as("FILE.wav|FILE.xml");
+    command.add("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks")
+        .oneOf({"fit", "two-peaks"});
+    command
+        .add("--texture", o.texturePath,
+             "a scrape at a steady speed, or an autoregressive texture: grains instead of one contact")
+        .as("FILE.wav|FILE.xml");
     command.add("--speed", o.speedMetresPerSecond, "m/s at which it was scraped").as("V").in(0.001, 100.0);
     command.add("--load", o.loadNewtons, "N that pressed").as("N").in(0.001, 1000.0);
     command.add("--mass", o.massKg, "kg of what vibrated").as("KG").in(0.0001, 10000.0);
@@ -62,26 +70,35 @@ void declareMaterial(OptionTable& command, MaterialOptions& o) {
 }
 
 int runMaterial(const MaterialOptions& o) {
-    if ((o.lists ? 1 : 0) + (o.path.empty() ? 0 : 1) + (o.texturePath.empty() ? 0 : 1) != 1) return leave(exitUsage, "material: give either FILE.wav or --list or --texture FILE");
-    if (o.texturePath.empty() == o.speedMetresPerSecond.has_value()) return leave(exitUsage, "material: --texture and --speed go together");
+    if ((o.lists ? 1 : 0) + (o.path.empty() ? 0 : 1) + (o.texturePath.empty() ? 0 : 1) != 1)
+        return leave(exitUsage, "material: give either FILE.wav or --list or --texture FILE");
+    if (o.texturePath.empty() == o.speedMetresPerSecond.has_value())
+        return leave(exitUsage, "material: --texture and --speed go together");
     // nan is in every range
-    if (std::isnan(o.speedMetresPerSecond.value_or(0.0) + o.loadNewtons + o.massKg)) return leave(exitUsage, "--speed, --load, --mass: expected numbers");
+    if (std::isnan(o.speedMetresPerSecond.value_or(0.0) + o.loadNewtons + o.massKg))
+        return leave(exitUsage, "--speed, --load, --mass: expected numbers");
     if (o.lists) return listMaterials();
-    if (!o.texturePath.empty()) return tellTexture(o.texturePath, {*o.speedMetresPerSecond, o.loadNewtons, o.massKg});
+    if (!o.texturePath.empty())
+        return tellTexture(o.texturePath, {*o.speedMetresPerSecond, o.loadNewtons, o.massKg});
     const auto band = parseBand(o.band);
-    if (!band) return leave(exitUsage, "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band));
+    if (!band)
+        return leave(exitUsage, "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band));
     const auto recording = readRecording(o.path);
     if (!recording) return leave(exitFailed, recording.error);
-    const auto sound = extractMaterial(loudestOf(recording.value.channels), recording.value.sampleRateHz, {band->lowHz, band->highHz},
+    const auto sound = extractMaterial(loudestOf(recording.value.channels), recording.value.sampleRateHz,
+                                       {band->lowHz, band->highHz},
                                        o.rule == "fit" ? MaterialRule::fit : MaterialRule::twoPeaks);
     if (!sound) return leave(exitFailed, o.path + ": " + sound.error);
-    std::cout << "frequency_hz,decay_per_s\n" << numberText(sound.value.frequencyHz) << ',' << numberText(sound.value.decayPerSecond) << '\n';
+    std::cout << "frequency_hz,decay_per_s\n"
+              << numberText(sound.value.frequencyHz) << ',' << numberText(sound.value.decayPerSecond) << '\n';
     std::cerr << "physvib: " << howSure(sound.value) << '\n';
     return exitDone;
 }
 
 } // namespace
 
-Command materialCommand() { return commandOf("material", "frequency and decay of a recorded contact", declareMaterial, runMaterial); }
+Command materialCommand() {
+    return commandOf("material", "frequency and decay of a recorded contact", declareMaterial, runMaterial);
+}
 
 } // namespace physvib

@@ -15,7 +15,8 @@ public:
     static constexpr const char* fileName = "conditions.csv";
 
     /// The table of the folder; or one line, if it lacks `file` or one of the `required` columns.
-    static Result<RecordingList> open(const std::filesystem::path& folder, const std::vector<std::string>& required);
+    static Result<RecordingList> open(const std::filesystem::path& folder,
+                                      const std::vector<std::string>& required);
 
     const std::vector<CsvRow>& rows() const noexcept { return table_.rows; }
     const CsvTable& table() const noexcept { return table_; }

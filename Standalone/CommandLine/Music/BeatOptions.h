@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How beats of music are felt, as words of a call: of `beats`, and of `play --beats`.
 #pragma once
-#include "Io/Result.h"
 #include "Host/Music/BeatDetector.h"
 #include "Host/Music/BeatStrikes.h"
+#include "Io/Result.h"
 #include <array>
 #include <optional>
 #include <string>

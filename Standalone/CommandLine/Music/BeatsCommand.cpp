@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Block by block from a file of music to strikes, or to what is left of it between two slopes; files appear at the end, or not at all.
+// Block by block from a file of music to strikes, or to what is left of it between two slopes; files appear
+// at the end, or not at all.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Music/BeatOptions.h"
-#include "Jobs/LayoutNamed.h"
-#include "Io/Disk/AtomicFile.h"
-#include "Scene/EventsCsv.h"
-#include "Io/Text/NameList.h"
-#include "Io/Wav/WavSink.h"
 #include "Host/Music/BandPass.h"
 #include "Host/Recordings/ReadRecording.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Text/NameList.h"
+#include "Io/Wav/WavSink.h"
+#include "Jobs/LayoutNamed.h"
+#include "Scene/EventsCsv.h"
 #include "Session/OfflineRender.h"
 #include <algorithm>
 #include <filesystem>
@@ -33,7 +34,8 @@ struct BeatsOptions {
 
 std::string rateFault(int rateHz) {
     if (isSampleRate(rateHz)) return {};
-    return "expected a rate of " + std::to_string(limits::minSampleRateHz) + " to " + std::to_string(limits::maxSampleRateHz) + " Hz, found " + std::to_string(rateHz) + " Hz";
+    return "expected a rate of " + std::to_string(limits::minSampleRateHz) + " to " +
+           std::to_string(limits::maxSampleRateHz) + " Hz, found " + std::to_string(rateHz) + " Hz";
 }
 
 /// Music of any number of channels as the mean of them.
@@ -71,7 +73,10 @@ private:
 
 class BeatTaker final : public MonoTaker {
 public:
-    BeatTaker(const BeatOptions& options, const BeatVoices& voices, const EnchanterLayout& layout) : options_{options}, voices_{voices}, layout_{layout} {}
+    BeatTaker(const BeatOptions& options, const BeatVoices& voices, const EnchanterLayout& layout)
+        : options_{options}
+        , voices_{voices}
+        , layout_{layout} {}
 
     /// What was struck, in time order.
     std::vector<CollisionEvent>& events() {
@@ -87,12 +92,15 @@ private:
     }
     std::string take(std::span<float> mono) override {
         detector_->take(mono, [this](const BandOnset& onset) { strike(onset); });
-        return events_.size() <= limits::maxEventRows ? "" : "expected at most " + std::to_string(limits::maxEventRows) + " strikes";
+        return events_.size() <= limits::maxEventRows
+                   ? ""
+                   : "expected at most " + std::to_string(limits::maxEventRows) + " strikes";
     }
     void strike(const BandOnset& onset) {
         const std::int64_t rate = rateHz(), ns = 1'000'000'000;
         const std::int64_t timeNs = onset.frame / rate * ns + onset.frame % rate * ns / rate;
-        strikeBeat(onset, timeNs, voices_, layout_, layout_.extentWidthMetres, layout_.extentHeightMetres, [this](const CollisionEvent& e) { events_.push_back(e); });
+        strikeBeat(onset, timeNs, voices_, layout_, layout_.extentWidthMetres, layout_.extentHeightMetres,
+                   [this](const CollisionEvent& e) { events_.push_back(e); });
         ++counts_[static_cast<std::size_t>(onset.band)];
     }
 
@@ -107,13 +115,20 @@ private:
 /// The music itself on some channels.
 class ThroughTaker final : public MonoTaker {
 public:
-    ThroughTaker(std::string path, int channels, EnchanterSet felt, FrequencyBand band, float level, std::string comment)
-        : path_{std::move(path)}, felt_{felt}, band_{band}, level_{level}, comment_{std::move(comment)}, channels_(static_cast<std::size_t>(channels)) {}
+    ThroughTaker(std::string path, int channels, EnchanterSet felt, FrequencyBand band, float level,
+                 std::string comment)
+        : path_{std::move(path)}
+        , felt_{felt}
+        , band_{band}
+        , level_{level}
+        , comment_{std::move(comment)}
+        , channels_(static_cast<std::size_t>(channels)) {}
     std::string finish() { return wav_->finish(); }
 
 private:
     std::string open() override {
-        if (band_.lowHz >= 0.5 * rateHz()) return "expected a band that begins below half the rate, " + std::to_string(rateHz() / 2) + " Hz";
+        if (band_.lowHz >= 0.5 * rateHz())
+            return "expected a band that begins below half the rate, " + std::to_string(rateHz() / 2) + " Hz";
         pass_.emplace(band_, rateHz());
         wav_ = std::make_unique<WavSink>(path_, static_cast<int>(channels_.size()), rateHz(), comment_);
         return wav_->error();
@@ -122,7 +137,8 @@ private:
         pass_->process(mono);
         for (float& sample : mono) sample = std::clamp(level_ * sample, -1.0f, 1.0f);
         silence_.assign(mono.size(), 0.0f);
-        for (std::size_t j = 0; j < channels_.size(); ++j) channels_[j] = felt_[j] ? mono.data() : silence_.data();
+        for (std::size_t j = 0; j < channels_.size(); ++j)
+            channels_[j] = felt_[j] ? mono.data() : silence_.data();
         return wav_->write(channels_.data(), static_cast<int>(mono.size())) ? "" : wav_->error();
     }
 
@@ -137,15 +153,24 @@ private:
     std::vector<float> silence_;
 };
 
-Provenance provenanceOf(const BeatsOptions& o) { return {PHYSVIB_VERSION, {{"music", std::filesystem::path{o.music}.filename().string()}, {"layout", o.layout}}}; }
+Provenance provenanceOf(const BeatsOptions& o) {
+    return {PHYSVIB_VERSION,
+            {{"music", std::filesystem::path{o.music}.filename().string()}, {"layout", o.layout}}};
+}
 
-std::string renderTo(WavSink& wav, std::span<const CollisionEvent> events, const EnchanterLayout& layout, int rateHz, std::int64_t frames) {
+std::string renderTo(WavSink& wav, std::span<const CollisionEvent> events, const EnchanterLayout& layout,
+                     int rateHz, std::int64_t frames) {
     OfflineSettings settings;
     settings.renderer.sampleRateHz = rateHz;
-    settings.renderer.panner = PhantomPanner{layout, PanningLaw::linear, 1.0, layout.extentWidthMetres, layout.extentHeightMetres};
+    settings.renderer.panner =
+        PhantomPanner{layout, PanningLaw::linear, 1.0, layout.extentWidthMetres, layout.extentHeightMetres};
     settings.frames = frames;
-    const RenderStatus status = renderOffline(events, settings, [&](const float* const* channels, int count) { return wav.write(channels, count); });
-    if (status.rejected > 0) tell("warning: strikes that could not be played at " + std::to_string(rateHz) + " Hz: " + std::to_string(status.rejected));
+    const RenderStatus status = renderOffline(events, settings, [&](const float* const* channels, int count) {
+        return wav.write(channels, count);
+    });
+    if (status.rejected > 0)
+        tell("warning: strikes that could not be played at " + std::to_string(rateHz) +
+             " Hz: " + std::to_string(status.rejected));
     return wav.error();
 }
 
@@ -153,14 +178,18 @@ int runStrikes(const BeatsOptions& o, const LayoutDescription& layout) {
     const auto voices = beatVoicesOf(o.beats, layout.geometry.count);
     if (!voices) return leave(exitUsage, voices.error);
     std::optional<AtomicFile> list;
-    if (!o.eventsPath.empty() && !list.emplace(o.eventsPath).error().empty()) return leave(exitFailed, list->error());
+    if (!o.eventsPath.empty() && !list.emplace(o.eventsPath).error().empty())
+        return leave(exitFailed, list->error());
     BeatTaker beats{o.beats, voices.value, layout.geometry};
-    if (const std::string fault = streamRecording(o.music, beats); !fault.empty()) return leave(exitFailed, fault);
+    if (const std::string fault = streamRecording(o.music, beats); !fault.empty())
+        return leave(exitFailed, fault);
     const auto& events = beats.events();
-    if (events.empty()) return leave(exitFailed, o.music + ": expected beats, found none (see --sensitivity)");
+    if (events.empty())
+        return leave(exitFailed, o.music + ": expected beats, found none (see --sensitivity)");
     std::unique_ptr<WavSink> wav;
     if (!o.wavPath.empty()) {
-        wav = std::make_unique<WavSink>(o.wavPath, layout.geometry.count, beats.rateHz(), provenanceLine(provenanceOf(o)));
+        wav = std::make_unique<WavSink>(o.wavPath, layout.geometry.count, beats.rateHz(),
+                                        provenanceLine(provenanceOf(o)));
         std::string error = wav->error();
         if (error.empty()) error = renderTo(*wav, events, layout.geometry, beats.rateHz(), beats.frames());
         if (error.empty()) error = wav->complete();
@@ -171,41 +200,53 @@ int runStrikes(const BeatsOptions& o, const LayoutDescription& layout) {
         return leave(exitFailed, list->error());
     if (wav && !wav->finish().empty()) return leave(exitFailed, wav->error());
     std::cout << "beats";
-    for (std::size_t band = 0; band < beatBands.size(); ++band) std::cout << (band > 0 ? ", " : ": ") << beatBands[band].name << ' ' << beats.counts()[band];
+    for (std::size_t band = 0; band < beatBands.size(); ++band)
+        std::cout << (band > 0 ? ", " : ": ") << beatBands[band].name << ' ' << beats.counts()[band];
     std::cout << "; " << events.size() << " strikes\n";
     return exitDone;
 }
 
 int runThrough(const BeatsOptions& o, const LayoutDescription& layout) {
-    if (o.wavPath.empty() || !o.eventsPath.empty()) return leave(exitUsage, "--through: expected --render FILE.wav, and no --out: music has no strikes");
+    if (o.wavPath.empty() || !o.eventsPath.empty())
+        return leave(exitUsage, "--through: expected --render FILE.wav, and no --out: music has no strikes");
     const auto band = o.band.empty() ? BandPass::usual : parseBand(o.band);
     if (!band) return leave(exitUsage, "--band: expected LO-HI in Hz like 50-500, found " + inQuotes(o.band));
     const int count = layout.geometry.count;
     EnchanterSet felt;
     felt.set();
     if (!o.enchanters.empty() && !parseEnchanters(o.enchanters, count, felt))
-        return leave(exitUsage, "--enchanters: expected letters of the " + std::to_string(count) + " actuators, each once, like AC, found " + inQuotes(o.enchanters));
-    ThroughTaker through{o.wavPath, count, felt, *band, static_cast<float>(o.beats.level), provenanceLine(provenanceOf(o))};
-    if (const std::string fault = streamRecording(o.music, through); !fault.empty()) return leave(exitFailed, fault);
+        return leave(exitUsage, "--enchanters: expected letters of the " + std::to_string(count) +
+                                    " actuators, each once, like AC, found " + inQuotes(o.enchanters));
+    ThroughTaker through{
+        o.wavPath, count, felt, *band, static_cast<float>(o.beats.level), provenanceLine(provenanceOf(o))};
+    if (const std::string fault = streamRecording(o.music, through); !fault.empty())
+        return leave(exitFailed, fault);
     if (const std::string error = through.finish(); !error.empty()) return leave(exitFailed, error);
-    std::cout << o.wavPath << "  " << count << " channels, " << numberText(band->lowHz) << " to " << numberText(band->highHz) << " Hz of the music\n";
+    std::cout << o.wavPath << "  " << count << " channels, " << numberText(band->lowHz) << " to "
+              << numberText(band->highHz) << " Hz of the music\n";
     return exitDone;
 }
 
 void declareBeats(OptionTable& command, BeatsOptions& o) {
     command.add("music", o.music, "WAV, FLAC or Ogg Vorbis, of up to a day").required().as("MUSIC.wav");
     command.add("--out", o.eventsPath, "its beats as an event list").written("EVENTS.csv");
-    command.add("--render", o.wavPath, "what is felt, a channel per actuator, as long as the music and at its rate").written("FILE.wav");
+    command
+        .add("--render", o.wavPath,
+             "what is felt, a channel per actuator, as long as the music and at its rate")
+        .written("FILE.wav");
     command.add("--through", o.isThrough, "not its beats but the music itself, between the slopes of --band");
-    command.add("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told").as("LO-HI");
+    command.add("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told")
+        .as("LO-HI");
     command.add("--enchanters", o.enchanters, "who feels it, with --through: all unless told").as("AC");
     command.add("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file");
     declareBeatOptions(command, o.beats);
 }
 
 int runBeats(const BeatsOptions& o) {
-    if (o.eventsPath.empty() && o.wavPath.empty()) return leave(exitUsage, "beats: nothing to write; give --out or --render");
-    if (!o.isThrough && !(o.band.empty() && o.enchanters.empty())) return leave(exitUsage, "--band, --enchanters: expected with --through; see --low, --mid, --high");
+    if (o.eventsPath.empty() && o.wavPath.empty())
+        return leave(exitUsage, "beats: nothing to write; give --out or --render");
+    if (!o.isThrough && !(o.band.empty() && o.enchanters.empty()))
+        return leave(exitUsage, "--band, --enchanters: expected with --through; see --low, --mid, --high");
     const auto layout = layoutNamed(o.layout);
     if (!layout) return leave(exitFailed, layout.error);
     return o.isThrough ? runThrough(o, layout.value) : runStrikes(o, layout.value);
@@ -213,6 +254,9 @@ int runBeats(const BeatsOptions& o) {
 
 } // namespace
 
-Command beatsCommand() { return commandOf("beats", "music as strikes on actuators, or what of it they can render", declareBeats, runBeats); }
+Command beatsCommand() {
+    return commandOf("beats", "music as strikes on actuators, or what of it they can render", declareBeats,
+                     runBeats);
+}
 
 } // namespace physvib

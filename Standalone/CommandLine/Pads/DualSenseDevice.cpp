@@ -13,9 +13,12 @@ Result<std::string> dualSenseDevice(const std::vector<AudioDeviceName>& devices)
     for (const AudioDeviceName& device : devices) {
         if (!dualsense::isDevice(device.name)) continue;
         if (device.channels >= dualsense::outputs) return device.type + ":" + device.name;
-        narrow = device.type + ":" + device.name + ": expected four outputs, found " + std::to_string(device.channels) + ": its profile hides the coils (Docs/pads.md)";
+        narrow = device.type + ":" + device.name + ": expected four outputs, found " +
+                 std::to_string(device.channels) + ": its profile hides the coils (Docs/pads.md)";
     }
-    return Failure{narrow.empty() ? "--device dualsense: no sound device of a DualSense is there; it has one by USB, none by Bluetooth (see physvib devices)" : narrow};
+    return Failure{narrow.empty() ? "--device dualsense: no sound device of a DualSense is there; it has one "
+                                    "by USB, none by Bluetooth (see physvib devices)"
+                                  : narrow};
 }
 
 std::string giveCoilsToSound() {
@@ -26,10 +29,13 @@ std::string giveCoilsToSound() {
         pads.update();
         for (const GamePadInfo& info : pads.list())
             if (auto pad = info.isDualSense ? pads.open(info.name) : nullptr)
-                return pad->sendEffect(report.data(), static_cast<int>(report.size())) ? std::string{} : info.name + ": it did not take the report that gives its coils to sound";
+                return pad->sendEffect(report.data(), static_cast<int>(report.size()))
+                           ? std::string{}
+                           : info.name + ": it did not take the report that gives its coils to sound";
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
     }
-    return "the DualSense's own controls are not there: its coils play sound unless something has made it rumble since it was plugged in";
+    return "the DualSense's own controls are not there: its coils play sound unless something has made it "
+           "rumble since it was plugged in";
 }
 
 } // namespace physvib

@@ -27,7 +27,9 @@ struct PadsOptions {
 constexpr auto lookFor = std::chrono::milliseconds{1500}; // controllers on Bluetooth take a second
 
 PadTrialTime realTime(GamePads& pads) {
-    const auto seconds = [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
+    const auto seconds = [] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    };
     const auto tick = [&pads] {
         pads.update();
         std::this_thread::sleep_for(std::chrono::milliseconds{1});
@@ -41,19 +43,23 @@ std::string abilitiesOf(const GamePadInfo& info, const std::vector<AudioDeviceNa
     if (info.hasAccelerometer) words += ", accelerometer";
     if (!info.isDualSense) return words;
     const auto sound = dualSenseDevice(sounds);
-    return words + (sound ? ", coils at " + sound.value + " (--device dualsense --layout dualsense)" : ", coils by USB sound (not there)");
+    return words + (sound ? ", coils at " + sound.value + " (--device dualsense --layout dualsense)"
+                          : ", coils by USB sound (not there)");
 }
 
 int list() {
     const juce::ScopedJuceInitialiser_GUI juce;
     GamePads pads{GamePads::Driver::sdl}; // accelerometers are told by its drivers alone
     if (!pads.fault().empty()) return leave(exitFailed, pads.fault());
-    for (const auto end = std::chrono::steady_clock::now() + lookFor; pads.list().empty() && std::chrono::steady_clock::now() < end;) realTime(pads).tick();
+    for (const auto end = std::chrono::steady_clock::now() + lookFor;
+         pads.list().empty() && std::chrono::steady_clock::now() < end;)
+        realTime(pads).tick();
     const auto found = pads.list();
     const bool hasDualSense = std::ranges::any_of(found, &GamePadInfo::isDualSense);
     const auto sounds = hasDualSense ? listAudioDevices() : std::vector<AudioDeviceName>{};
     for (const GamePadInfo& info : found)
-        std::cout << info.name << "  " << busName(info.bus) << ", " << abilitiesOf(info, sounds) << "  profile " << info.profile << '\n';
+        std::cout << info.name << "  " << busName(info.bus) << ", " << abilitiesOf(info, sounds)
+                  << "  profile " << info.profile << '\n';
     if (found.empty()) tell("no game controller is there");
     return exitDone;
 }
@@ -61,9 +67,11 @@ int list() {
 /// The controller that is wanted, or one line.
 Result<std::unique_ptr<GamePad>> find(GamePads& pads, const std::string& name) {
     if (!pads.fault().empty()) return Failure{pads.fault()};
-    for (const auto end = std::chrono::steady_clock::now() + lookFor; std::chrono::steady_clock::now() < end && !interrupted; realTime(pads).tick())
+    for (const auto end = std::chrono::steady_clock::now() + lookFor;
+         std::chrono::steady_clock::now() < end && !interrupted; realTime(pads).tick())
         if (auto pad = pads.open(name)) return pad;
-    return Failure{name == anyPad ? "no game controller with motors is there" : "no game controller with motors is called " + inQuotes(name)};
+    return Failure{name == anyPad ? "no game controller with motors is there"
+                                  : "no game controller with motors is called " + inQuotes(name)};
 }
 
 /// Ten hits of 20 ms, from weak to strong, as `play` would send them.
@@ -83,7 +91,8 @@ void playHits(GamePad& pad, const PadLaw& law, const PadTrialTime& time) {
         motors.strike(hit, grips);
     }
     const double begin = time.seconds();
-    for (PadCommand last; time.goesOn() && pad.isAttached() && motors.dueNs() != PadMotors::never; time.tick()) {
+    for (PadCommand last; time.goesOn() && pad.isAttached() && motors.dueNs() != PadMotors::never;
+         time.tick()) {
         if (static_cast<double>(motors.dueNs()) * 1e-9 > time.seconds() - begin) continue;
         const PadCommand command = motors.next(1.0);
         if (!command.isSame(last)) pad.rumble(command.low, command.high);
@@ -102,10 +111,14 @@ int test(const PadsOptions& o) {
     law.commandsPerSecond = std::min(law.commandsPerSecond, mostCommandsPerSecond(pad.info().bus));
     const PadTrialTime time = realTime(pads);
     std::cout << pad.info().name << ", " << profile.value.name << '\n';
-    for (const auto& [words, low, high] : {std::tuple{"heavy motor, left grip", 1.0, 0.0}, {"light motor, right grip", 0.0, 1.0}})
+    for (const auto& [words, low, high] :
+         {std::tuple{"heavy motor, left grip", 1.0, 0.0}, {"light motor, right grip", 0.0, 1.0}})
         for (const double command : {0.2, 0.4, 0.7, 1.0}) {
             std::cout << words << ": command " << numberText(command) << std::endl;
-            if (!holdMotors(pad, low * command, high * command, 0.7, time) || !holdMotors(pad, 0.0, 0.0, 0.5, time)) return leave(exitFailed, pad.isAttached() ? "ended before its time" : pad.info().name + " is gone");
+            if (!holdMotors(pad, low * command, high * command, 0.7, time) ||
+                !holdMotors(pad, 0.0, 0.0, 0.5, time))
+                return leave(exitFailed,
+                             pad.isAttached() ? "ended before its time" : pad.info().name + " is gone");
         }
     std::cout << "ten hits of 20 ms, from 0.1 to 1 of full scale: all of them should be felt" << std::endl;
     playHits(pad, law, time);
@@ -124,38 +137,49 @@ int calibrate(const PadsOptions& o) {
     GamePad& pad = *found.value;
     PadProfile profile = findPad(pad.info().profile).value;
     for (const bool isHeavy : {true, false}) {
-        std::cout << (isHeavy ? "heavy" : "light") << " motor, 15 s: leave the controller alone, on something soft" << std::endl;
+        std::cout << (isHeavy ? "heavy" : "light")
+                  << " motor, 15 s: leave the controller alone, on something soft" << std::endl;
         const auto steps = recordMotor(pad, isHeavy, realTime(pads));
         const auto motor = steps ? fitMotor(steps.value) : Result<PadMotor>{Failure{steps.error}};
         if (!motor) return leave(exitFailed, motor.error);
         const PadMotor& m = isHeavy ? profile.law.low = motor.value : profile.law.high = motor.value;
-        std::cout << "nothing below " << numberText(m.threshold) << ", half at " << numberText(m.half) << ", full at " << numberText(m.full) << ", rises in "
-                  << fixedNumber(1e3 * m.riseSeconds, 0) << " ms, falls in " << fixedNumber(1e3 * m.fallSeconds, 0) << " ms\n";
+        std::cout << "nothing below " << numberText(m.threshold) << ", half at " << numberText(m.half)
+                  << ", full at " << numberText(m.full) << ", rises in "
+                  << fixedNumber(1e3 * m.riseSeconds, 0) << " ms, falls in "
+                  << fixedNumber(1e3 * m.fallSeconds, 0) << " ms\n";
     }
     profile.name = o.name.empty() ? std::filesystem::path{o.profilePath}.stem().string() : o.name;
     profile.description = "measured on " + pad.info().name;
     profile.source = "physvib pads calibrate " PHYSVIB_VERSION ", the controller's own accelerometer";
-    if (const auto read = readPad(padJson(profile), o.profilePath); !read) return leave(exitFailed, read.error);
+    if (const auto read = readPad(padJson(profile), o.profilePath); !read)
+        return leave(exitFailed, read.error);
     file.write(padJson(profile));
     if (const std::string& error = file.commit(); !error.empty()) return leave(exitFailed, error);
-    std::cout << o.profilePath << "  for --pad " << (o.pad == anyPad ? "auto" : o.pad) << '@' << o.profilePath << '\n';
+    std::cout << o.profilePath << "  for --pad " << (o.pad == anyPad ? "auto" : o.pad) << '@' << o.profilePath
+              << '\n';
     return exitDone;
 }
 
 void declare(OptionTable& command, PadsOptions& o) {
-    command.add("action", o.action, "list, test (each motor, then ten hits) or calibrate (by the controller's accelerometer)").oneOf({"list", "test", "calibrate"});
+    command
+        .add("action", o.action,
+             "list, test (each motor, then ten hits) or calibrate (by the controller's accelerometer)")
+        .oneOf({"list", "test", "calibrate"});
     command.add("pad", o.pad, "part of its name, or auto: the first with motors");
     command.add("--out", o.profilePath, "calibrate: the profile").writtenAs("FILE.json");
     command.add("--name", o.name, "calibrate: of the profile; left out: the file's");
 }
 
 int run(const PadsOptions& o) {
-    if (o.action != "calibrate" && !(o.profilePath.empty() && o.name.empty())) return leave(exitUsage, "--out, --name: expected pads calibrate");
+    if (o.action != "calibrate" && !(o.profilePath.empty() && o.name.empty()))
+        return leave(exitUsage, "--out, --name: expected pads calibrate");
     return o.action == "test" ? test(o) : o.action == "calibrate" ? calibrate(o) : list();
 }
 
 } // namespace
 
-Command padsCommand() { return commandOf("pads", "list game controllers, try or measure their motors", declare, run); }
+Command padsCommand() {
+    return commandOf("pads", "list game controllers, try or measure their motors", declare, run);
+}
 
 } // namespace physvib

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Polls standard input, cuts it into lines, looks for silence in them, and hands each to the session.
 #include "CommandLine/Play/InputListener.h"
+#include "Session/BoardLink.h"
 #include "System/ExitCode.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
-#include "Session/BoardLink.h"
 #include <iostream>
 #include <type_traits>
 
@@ -13,8 +13,8 @@ namespace physvib {
 namespace {
 
 constexpr int pollMilliseconds = 50; // only the end of the program waits for it
-constexpr double ringSeconds =
-    0.5; // an impact that was struck last rings as long; a board waits so long for its computer
+constexpr double ringSeconds = 0.5; // an impact that was struck last rings as long; a board waits so long for
+                                    // its computer
 
 } // namespace
 
@@ -84,8 +84,11 @@ void InputListener::end() {
 void InputListener::take(const Line& line) {
     ++lines_;
     if (line.isWhole && line.text.find_first_not_of(" \t\r") == std::string_view::npos) return;
-    InputLine read = line.isWhole ? readInputLine(line.text, session_.world().state().scene->materials, session_.channels())
-                                  : InputLine{Failure{"expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out"}};
+    InputLine read =
+        line.isWhole
+            ? readInputLine(line.text, session_.world().state().scene->materials, session_.channels())
+            : InputLine{Failure{"expected a line of at most " + std::to_string(LineCutter::longest) +
+                                " bytes, left out"}};
     auto answer = read ? act(read.value, line) : Result<PlainMessage>{Failure{read.error}};
     if (!answer && line.silences) answer.error += silencedAllTheSame;
     if (!answer) complain(answer.error);
@@ -98,7 +101,8 @@ void InputListener::take(const Line& line) {
 Result<PlainMessage> InputListener::act(LineInput& input, const Line& line) {
     if (const auto* message = std::get_if<PlainMessage>(&input)) {
         auto answer = messages_.take(*message, nullptr, clips_);
-        if (answer.value.name == "status") answer.value.values.push_back({"unread", static_cast<double>(droppedLines(Standard::output))});
+        if (answer.value.name == "status")
+            answer.value.values.push_back({"unread", static_cast<double>(droppedLines(Standard::output))});
         return answer;
     }
     if (auto* silence = std::get_if<SilenceControl>(&input)) silence->number = line.asked;
@@ -113,7 +117,8 @@ void InputListener::complain(const std::string& reason) {
 }
 
 void InputListener::tellLeftOut() {
-    if (const std::uint64_t count = complaints_.takeLeftOut(); count > 0) tell("standard input: " + std::to_string(count) + " lines were refused as well");
+    if (const std::uint64_t count = complaints_.takeLeftOut(); count > 0)
+        tell("standard input: " + std::to_string(count) + " lines were refused as well");
 }
 
 std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines of standard input that act on a live session as they come; answers go to standard output, a line each.
+// Lines of standard input that act on a live session as they come; answers go to standard output, a line
+// each.
 #pragma once
-#include "Scene/Sessions/InputLine.h"
+#include "CommandLine/Play/LineCutter.h"
 #include "Host/Devices/AudioOutput.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Session/InputQueue.h"
 #include "Session/Messages/ComplaintLimit.h"
 #include "Session/Messages/MessageRouter.h"
 #include "Session/Session.h"
-#include "CommandLine/Play/LineCutter.h"
 #include <atomic>
 #include <string>
 #include <thread>

@@ -38,8 +38,8 @@ private:
         isTooLong_ = isTooLong_ || line_.size() > longest;
         if (!isTooLong_) return;
         namesSilence_ = namesSilence_ || namesSilence(line_);
-        line_.erase(0, line_.size() -
-                           std::min(line_.size(), word.size() - 1)); // its last part may be half of the word
+        line_.erase(0, line_.size() - std::min(line_.size(), word.size() - 1)); // its last part may be half
+                                                                                // of the word
     }
     template <class Take>
     void hand(Take&& take) {

@@ -11,7 +11,9 @@ namespace {
 constexpr std::chrono::milliseconds pause{1};
 constexpr std::int64_t nsPerSecond = 1'000'000'000;
 
-std::int64_t nsOf(std::int64_t frames, int rateHz) { return frames / rateHz * nsPerSecond + frames % rateHz * nsPerSecond / rateHz; }
+std::int64_t nsOf(std::int64_t frames, int rateHz) {
+    return frames / rateHz * nsPerSecond + frames % rateHz * nsPerSecond / rateHz;
+}
 
 } // namespace
 
@@ -38,14 +40,18 @@ void LiveBeats::run() {
 // Session time that does not go on from where it was: pieces were lost, or the device came back.
 void LiveBeats::take(const HeardPiece& piece) {
     const std::int64_t expectedNs = beginNs_ + (detector_ ? nsOf(heardFrames_, rateHz_) : 0);
-    if (!detector_ || piece.rateHz != rateHz_ || std::abs(piece.sessionNs - expectedNs) > nsPerSecond / piece.rateHz) begin(piece);
+    if (!detector_ || piece.rateHz != rateHz_ ||
+        std::abs(piece.sessionNs - expectedNs) > nsPerSecond / piece.rateHz)
+        begin(piece);
     heardFrames_ += piece.count;
     detector_->take(piece.sound(), [this](const BandOnset& onset) { strike(onset); });
 }
 
 void LiveBeats::begin(const HeardPiece& piece) {
-    if (!detector_ || piece.rateHz != rateHz_) detector_ = std::make_unique<BeatDetector>(piece.rateHz, sensitivity_);
-    else detector_->reset();
+    if (!detector_ || piece.rateHz != rateHz_)
+        detector_ = std::make_unique<BeatDetector>(piece.rateHz, sensitivity_);
+    else
+        detector_->reset();
     rateHz_ = piece.rateHz;
     beginNs_ = piece.sessionNs;
     heardFrames_ = 0;
@@ -54,7 +60,8 @@ void LiveBeats::begin(const HeardPiece& piece) {
 void LiveBeats::strike(const BandOnset& onset) {
     const PhantomPanner panner = session_.panner();
     std::vector<CollisionEvent> strikes;
-    strikeBeat(onset, beginNs_ + nsOf(onset.frame, rateHz_), voices_, panner.layout(), panner.fieldWidthMetres(), panner.fieldHeightMetres(),
+    strikeBeat(onset, beginNs_ + nsOf(onset.frame, rateHz_), voices_, panner.layout(),
+               panner.fieldWidthMetres(), panner.fieldHeightMetres(),
                [&](const CollisionEvent& e) { strikes.push_back(e); });
     if (session_.take({Strikes{strikes}, 0})) ++beats_;
 }

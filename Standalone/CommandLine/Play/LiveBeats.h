@@ -12,12 +12,12 @@
 
 namespace physvib {
 
-/// What is struck is struck at the session time at which it was heard, so it is felt L after it: an L that has no room for the detector
-/// is late every time. On a thread of its own.
+/// What is struck is struck at the session time at which it was heard, so it is felt L after it: an L that
+/// has no room for the detector is late every time. On a thread of its own.
 class LiveBeats {
 public:
-    /// What L has to cover beside a block and the limiter, so ClockLaw's longest gap and its two steps together: the detector's delay, and
-    /// what the thread may be late by.
+    /// What L has to cover beside a block and the limiter, so ClockLaw's longest gap and its two steps
+    /// together: the detector's delay, and what the thread may be late by.
     static constexpr double knownAfterSeconds = BeatDetector::mostDelaySeconds + 0.010;
 
     /// Both outlive this object. M.
@@ -38,7 +38,8 @@ private:
     const double sensitivity_;
     std::unique_ptr<BeatDetector> detector_;
     int rateHz_ = 0;
-    std::int64_t beginNs_ = 0, heardFrames_ = 0; // session time of the detector's sample 0; how many it has had
+    std::int64_t beginNs_ = 0, heardFrames_ = 0; // session time of the detector's sample 0; how many it has
+                                                 // had
     std::atomic<std::uint64_t> beats_{0};
     std::atomic<bool> stop_{false};
     std::thread thread_;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Session, driver, device, sinks, recorder, journal and listener for the length of a call.
 #include "CommandLine/Play/LivePlay.h"
-#include "System/ExitCode.h"
 #include "CommandLine/Play/InputListener.h"
-#include "System/Interrupt.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/OscReport.h"
 #include "CommandLine/Play/SoundPlay.h"
-#include "System/Process.h"
 #include "CommandLine/Render/MarkWords.h"
-#include "System/StandardStreams.h"
-#include "Io/Text/NumberText.h"
 #include "Host/Devices/NoDevice.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/PlayedRecorder.h"
+#include "Io/Text/NumberText.h"
 #include "Session/SessionJournal.h"
+#include "System/ExitCode.h"
+#include "System/Interrupt.h"
+#include "System/Process.h"
+#include "System/StandardStreams.h"
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -93,8 +93,9 @@ private:
                       "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  "
                       "%llu dropped%s   ",
                       static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
-                      static_cast<double>(session_.timeline().playOutFrames()) / rate, static_cast<double>(margin) / rate,
-                      status.render.liveModes, static_cast<unsigned long long>(status.render.late),
+                      static_cast<double>(session_.timeline().playOutFrames()) / rate,
+                      static_cast<double>(margin) / rate, status.render.liveModes,
+                      static_cast<unsigned long long>(status.render.late),
                       static_cast<unsigned long long>(session_.world().drops() + status.render.untold),
                       o.guardGain < 1.0f ? "  guard acts" : "");
         std::cerr << words << std::flush;
@@ -130,10 +131,10 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
     const AudioOutputStatus o = output.status();
     const double framesPerMs = output.sampleRateHz() / 1e3;
     std::cout << std::fixed << std::setprecision(1) << "felt "
-              << static_cast<double>(session.timeline().playOutFrames()) / framesPerMs << " ms after the contact; "
-              << played << " collisions played, " << r.late << " late, " << session.world().drops() + r.untold
-              << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.world().slippedNs()) * 1e-6
-              << " ms of stalls; ";
+              << static_cast<double>(session.timeline().playOutFrames()) / framesPerMs
+              << " ms after the contact; " << played << " collisions played, " << r.late << " late, "
+              << session.world().drops() + r.untold << " dropped, " << r.rejected << " refused; "
+              << static_cast<double>(session.world().slippedNs()) * 1e-6 << " ms of stalls; ";
     if (status.leastMarginFrames != noMargin)
         std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs
                   << " ms; ";
@@ -141,11 +142,13 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
               << (o.deviceXruns < 0 ? "xruns not counted by" : std::to_string(o.deviceXruns) + " xruns of")
               << " the device\n";
     if (session.timeline().toldAheadNs() > 0)
-        std::cout << "messages were felt " << 1e3 * session.timeline().directSeconds() << " ms after they came\n";
+        std::cout << "messages were felt " << 1e3 * session.timeline().directSeconds()
+                  << " ms after they came\n";
     if (session.rendered().marks()) std::cout << "marked: " << markWords(*session.rendered().marks()) << '\n';
     if (o.guarded > 0)
-        std::cerr << "physvib: warning: actuators were turned down, as they would have got nearly direct current: "
-                  << o.guarded << " times\n";
+        std::cerr
+            << "physvib: warning: actuators were turned down, as they would have got nearly direct current: "
+            << o.guarded << " times\n";
     if (o.losses > 0)
         std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
 }
@@ -176,7 +179,8 @@ std::string playLive(LivePlay wanted) {
     sayWithoutWaiting();
     Sinks sinks; // outlive the session
     const auto goesOn = [] { return !interrupted; };
-    if (auto error = openSinks(wanted.sinks, wanted.setup.panner, goesOn, sinks); !error.empty()) return error;
+    if (auto error = openSinks(wanted.sinks, wanted.setup.panner, goesOn, sinks); !error.empty())
+        return error;
     wanted.setup.log = wanted.savePath.empty() ? LogUse::none : LogUse::stream;
     Session session{wanted.setup};
     for (const auto& sink : sinks) session.sinks().attach(*sink);

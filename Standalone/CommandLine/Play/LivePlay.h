@@ -16,16 +16,16 @@ struct LivePlay {
     SessionSetup setup;
     AudioOutputSettings output;
     std::vector<SinkName> sinks; ///< to be felt together with the device
-    bool ownThread = false; ///< steps the world; else the message thread's timer
+    bool ownThread = false;      ///< steps the world; else the message thread's timer
     double seconds = 10.0;
-    std::string recordPath; ///< WAV; empty: none
-    std::string savePath;   ///< session as JSON; empty: none
-    bool listens = false;   ///< to standard input, line by line (see readInputLine)
+    std::string recordPath;          ///< WAV; empty: none
+    std::string savePath;            ///< session as JSON; empty: none
+    bool listens = false;            ///< to standard input, line by line (see readInputLine)
     std::optional<BeatVoices> beats; ///< what is heard at output.inputs is struck so
     double beatSensitivity = 0.0;
     OscSettings osc;
-    std::string clips = "."; ///< folder from which messages may have clips read
-    bool keepsPlaying = false; ///< when standard input has ended
+    std::string clips = ".";           ///< folder from which messages may have clips read
+    bool keepsPlaying = false;         ///< when standard input has ended
     std::optional<LoadedClip> sound{}; ///< played once, from the beginning
 };
 

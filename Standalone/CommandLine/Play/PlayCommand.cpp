@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib play`, from words to a session's setup.
+#include "Calls/JobSession.h"
+#include "Calls/RenderOptions.h"
+#include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/DeviceList.h"
-#include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Pads/DualSenseDevice.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
 #include "CommandLine/Play/SoundPlay.h"
-#include "Calls/JobSession.h"
-#include "Calls/RenderOptions.h"
 #include "CommandLine/Study/NumberList.h"
 #include "Core/Decibels.h"
-#include "Io/Disk/FileClash.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
+#include "Io/Disk/FileClash.h"
 #include "Pads/DualSense.h"
 #include "Scene/SceneEdits.h"
 #include "Session/SerialLine.h"
@@ -29,25 +29,26 @@ namespace {
 struct PlayOptions {
     RenderJob scene;
     std::string device;
-    std::string board;              ///< serial port of a four-channel board, alone or beside a device
-    std::vector<std::string> pads;  ///< game controllers: auto or a name, with a profile behind @; beside what there is, or alone
-    std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
-    std::string onOff;              ///< enchanters from 1 that are motors, on or off; empty: none
+    std::string board;             ///< serial port of a four-channel board, alone or beside a device
+    std::vector<std::string> pads; ///< game controllers: auto or a name, with a profile behind @; beside what
+                                   ///< there is, or alone
+    std::string map;               ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
+    std::string onOff;             ///< enchanters from 1 that are motors, on or off; empty: none
     double threshold = OnOffSteps::thesisThreshold; ///< of these, in full scale
-    std::string noise;              ///< as map: outputs that play pink noise; empty: none
-    double noiseDb = PinkNoise::safeDb;   ///< its root mean square, of full scale
-    std::string driver = "message"; ///< or "thread"
-    std::string recordPath;         ///< WAV of what was played; empty: not wanted
-    std::string savePath;           ///< the session as JSON; empty: not wanted
+    std::string noise;                              ///< as map: outputs that play pink noise; empty: none
+    double noiseDb = PinkNoise::safeDb;             ///< its root mean square, of full scale
+    std::string driver = "message";                 ///< or "thread"
+    std::string recordPath;                         ///< WAV of what was played; empty: not wanted
+    std::string savePath;                           ///< the session as JSON; empty: not wanted
     bool listens = false, keepsPlaying = false, hasHands = false, isDirect = false; ///< to standard input
-    std::string clips = ".";        ///< folder of its messages' clips, and of OSC's
-    std::string beatInputs;         ///< as map: of the device, whose beats are struck; empty: none
+    std::string clips = "."; ///< folder of its messages' clips, and of OSC's
+    std::string beatInputs;  ///< as map: of the device, whose beats are struck; empty: none
     BeatOptions beats;
     OscSettings osc;
-    double oscTurnDegrees = 0.0;    ///< by which a phone is held counter-clockwise of upright
+    double oscTurnDegrees = 0.0;        ///< by which a phone is held counter-clockwise of upright
     double levelDb = safeStartDecibels; ///< master level
-    std::string ceilings = "0";     ///< dB of full scale: one for all enchanters, or one each
-    int blockFrames = 0;            ///< 0: as the device stands
+    std::string ceilings = "0";         ///< dB of full scale: one for all enchanters, or one each
+    int blockFrames = 0;                ///< 0: as the device stands
 };
 
 /// "1,2,3" to {0, 1, 2}; empty means an empty map. False if it is anything else.
@@ -61,12 +62,15 @@ bool parseMap(const std::string& text, std::vector<int>& map) {
 float gainOf(double decibels) { return static_cast<float>(fromDecibels(decibels)); }
 
 /// "-6" for all channels, or "-6,-12,-6,-6", one each; false if it is anything else.
-bool parseCeilings(const std::string& text, int channels, std::array<float, limits::maxEnchanters>& ceilings) {
+bool parseCeilings(const std::string& text, int channels,
+                   std::array<float, limits::maxEnchanters>& ceilings) {
     std::vector<double> decibels;
     if (!parseNumbers(text, decibels)) return false;
     if (decibels.size() == 1) decibels.resize(static_cast<std::size_t>(channels), decibels[0]);
     const auto isCeiling = [](double dB) { return dB >= leastCeilingDb && dB <= 0.0; };
-    if (decibels.size() != static_cast<std::size_t>(channels) || !std::all_of(decibels.begin(), decibels.end(), isCeiling)) return false;
+    if (decibels.size() != static_cast<std::size_t>(channels) ||
+        !std::all_of(decibels.begin(), decibels.end(), isCeiling))
+        return false;
     std::transform(decibels.begin(), decibels.end(), ceilings.begin(), gainOf);
     return true;
 }
@@ -77,14 +81,18 @@ SessionSetup setupOf(const PlayOptions& o, const LoadedRender& job) {
     setup.marks = o.scene.marks();
     if (o.isDirect) setup.direct = Direct::told;
     setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
-    if (!o.beatInputs.empty()) setup.longestGapSeconds = std::max(setup.longestGapSeconds, LiveBeats::knownAfterSeconds - 2.0 / setup.stepsPerSecond);
+    if (!o.beatInputs.empty())
+        setup.longestGapSeconds =
+            std::max(setup.longestGapSeconds, LiveBeats::knownAfterSeconds - 2.0 / setup.stepsPerSecond);
     return setup;
 }
 
-/// The device's real name, its coils' outputs unless others were asked for, and the report that they need. An exit code.
+/// The device's real name, its coils' outputs unless others were asked for, and the report that they need. An
+/// exit code.
 int takeDualSense(AudioOutputSettings& settings, int channels) {
     if (settings.channelMap.empty() && channels != 2)
-        return leave(exitUsage, "--device " + settings.device + ": it has two coils, this layout " + std::to_string(channels) + "; try --layout dualsense, or --map");
+        return leave(exitUsage, "--device " + settings.device + ": it has two coils, this layout " +
+                                    std::to_string(channels) + "; try --layout dualsense, or --map");
     if (settings.device == dualSenseDeviceName) {
         const juce::ScopedJuceInitialiser_GUI juce;
         auto device = dualSenseDevice(listAudioDevices());
@@ -99,41 +107,96 @@ int takeDualSense(AudioOutputSettings& settings, int channels) {
 void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     declareSceneOptions(command, o.scene);
     command.add("--device", o.device, "output device (see physvib devices)");
-    command.add("--board", o.board, "four-channel board: serial port, or auto; alone, or together with a device").as("PORT");
-    command.add("--pad", o.pads, "game controller: its name or part of it, or auto, then, if wanted, @ and a profile; alone, or together with a device or a board; may be repeated (see physvib pads)").as("NAME").single();
+    command
+        .add("--board", o.board, "four-channel board: serial port, or auto; alone, or together with a device")
+        .as("PORT");
+    command
+        .add("--pad", o.pads,
+             "game controller: its name or part of it, or auto, then, if wanted, @ and a profile; alone, or "
+             "together with a device or a board; may be repeated (see physvib pads)")
+        .as("NAME")
+        .single();
     command.add("--map", o.map, "device outputs of the actuators, from 1").as("1,2,3,4");
     command.add("--driver", o.driver, "who steps the world: message or thread").oneOf({"message", "thread"});
     command.add("--level", o.levelDb, "master level in dB").in(-90.0, 0.0);
-    command.add("--ceiling", o.ceilings, "drive ceiling in dB of full scale, before the master level: one for all, or one per actuator").as("DB[,DB...]");
-    command.add("--on-off", o.onOff, "actuators, from 1, that are motors which are only on or off: full scale in each 10 ms after one in which a sample exceeds --threshold").as("1,2");
+    command
+        .add("--ceiling", o.ceilings,
+             "drive ceiling in dB of full scale, before the master level: one for all, or one per actuator")
+        .as("DB[,DB...]");
+    command
+        .add("--on-off", o.onOff,
+             "actuators, from 1, that are motors which are only on or off: full scale in each 10 ms after "
+             "one in which a sample exceeds --threshold")
+        .as("1,2");
     command.add("--threshold", o.threshold, "of --on-off, in full scale").in(0.0, 1.0);
-    command.add("--noise", o.noise, "other outputs of the device that play pink noise, from 1: masks what actuators sound like").as("5,6");
-    command.add("--noise-db", o.noiseDb, "its root mean square, in dB of full scale").in(PinkNoise::leastDb, PinkNoise::mostDb);
-    command.add("--contact-sound", o.scene.contactSound, "other outputs of the device on which each hit is heard, from 1").as("5,6");
-    command.add("--marker", o.scene.marker, "other outputs of the device with a pulse at the sample of each onset, from 1: for trigger boxes").as("8");
-    command.add("--block", o.blockFrames, "frames per block; 0: device default").in(0, limits::maxBlockFrames).unshown();
-    command.add("--record", o.recordPath, "WAV of what was played, before the master level").written("FILE.wav");
-    command.add("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv").writtenAs("FILE.json");
-    command.add("--beats", o.beatInputs, "inputs of the device, from 1, whose music is felt: its beats are struck (Docs/music.md)").as("1,2");
+    command
+        .add("--noise", o.noise,
+             "other outputs of the device that play pink noise, from 1: masks what actuators sound like")
+        .as("5,6");
+    command.add("--noise-db", o.noiseDb, "its root mean square, in dB of full scale")
+        .in(PinkNoise::leastDb, PinkNoise::mostDb);
+    command
+        .add("--contact-sound", o.scene.contactSound,
+             "other outputs of the device on which each hit is heard, from 1")
+        .as("5,6");
+    command
+        .add(
+            "--marker", o.scene.marker,
+            "other outputs of the device with a pulse at the sample of each onset, from 1: for trigger boxes")
+        .as("8");
+    command.add("--block", o.blockFrames, "frames per block; 0: device default")
+        .in(0, limits::maxBlockFrames)
+        .unshown();
+    command.add("--record", o.recordPath, "WAV of what was played, before the master level")
+        .written("FILE.wav");
+    command
+        .add("--save", o.savePath,
+             "the session, to render it again; what was played beside it as .events.csv")
+        .writtenAs("FILE.json");
+    command
+        .add("--beats", o.beatInputs,
+             "inputs of the device, from 1, whose music is felt: its beats are struck (Docs/music.md)")
+        .as("1,2");
     declareBeatOptions(command, o.beats);
-    command.add("--hands", o.hasHands, "disable the scene's scripted user input; take it from --listen instead");
-    command.add("--direct", o.isDirect, "low-latency mode for messages and controls: one block plus the limiter's look-ahead. Collisions keep the normal output latency");
-    command.add("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
+    command.add("--hands", o.hasHands,
+                "disable the scene's scripted user input; take it from --listen instead");
+    command.add("--direct", o.isDirect,
+                "low-latency mode for messages and controls: one block plus the limiter's look-ahead. "
+                "Collisions keep the normal output latency");
+    command.add("--listen", o.listens,
+                "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
     command.add("--keep-playing", o.keepsPlaying,
                 "play on when standard input has ended, until --seconds are over: for a file of lines. "
                 "Without it that is silence and the end: who controls may have died");
-    command.add("--clips", o.clips, "folder from which messages of --listen and --osc may have clips read").as("FOLDER").existingFolder();
-    command.add("--osc", o.osc.port, "take messages by OSC (Docs/osc.md) at this port of UDP, or the next free one; 0: any").as("PORT").in(0, 65'535);
-    command.add("--osc-interface", o.osc.address, "address of this computer at which they are taken; 0.0.0.0: any, for phones").as("ADDRESS");
-    command.add("--osc-turn", o.oscTurnDegrees, "by how much a phone that tilts the scene is held counter-clockwise of upright").as("DEGREES").in(-180.0, 180.0).unshown();
-    command.add("--osc-to", o.osc.receiver, "send each hit as it is felt, and the status once a second").as("HOST:PORT");
+    command.add("--clips", o.clips, "folder from which messages of --listen and --osc may have clips read")
+        .as("FOLDER")
+        .existingFolder();
+    command
+        .add("--osc", o.osc.port,
+             "take messages by OSC (Docs/osc.md) at this port of UDP, or the next free one; 0: any")
+        .as("PORT")
+        .in(0, 65'535);
+    command
+        .add("--osc-interface", o.osc.address,
+             "address of this computer at which they are taken; 0.0.0.0: any, for phones")
+        .as("ADDRESS");
+    command
+        .add("--osc-turn", o.oscTurnDegrees,
+             "by how much a phone that tilts the scene is held counter-clockwise of upright")
+        .as("DEGREES")
+        .in(-180.0, 180.0)
+        .unshown();
+    command.add("--osc-to", o.osc.receiver, "send each hit as it is felt, and the status once a second")
+        .as("HOST:PORT");
 }
 
 /// Nobody ends nowhere: what is there to play on, and a call that can be typed.
 int leaveWithoutDevice(const std::string& scene) {
     const auto devices = devicesOfThisMachine();
     printDevices(std::cout, devices);
-    std::cout << (devices.empty() ? "no audio device was found; for nobody, in time: " : "for example: ") << proposedCall(scene, devices) << '\n' << std::flush;
+    std::cout << (devices.empty() ? "no audio device was found; for nobody, in time: " : "for example: ")
+              << proposedCall(scene, devices) << '\n'
+              << std::flush;
     return leave(exitUsage, "play: expected --device, --board, or both");
 }
 
@@ -148,9 +211,14 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
     if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
-    const bool isPlain = o.scene.method.fixesNothing() && !o.scene.playsRecordings && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 && !o.scene.isWeighted;
-    if (hasBoard && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
-    if (o.isDirect && hasBoard) return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
+    const bool isPlain = o.scene.method.fixesNothing() && !o.scene.playsRecordings &&
+                         o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 &&
+                         !o.scene.isWeighted;
+    if (hasBoard && !isPlain)
+        return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and "
+                                "--actuator; render --events, then board PORT play, has them");
+    if (o.isDirect && hasBoard)
+        return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
     LoadedRender job{o.scene, {}, {}, {}, {}};
     std::optional<LoadedClip> sound;
     if (namesSound(o.scene.scene)) {
@@ -161,58 +229,88 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
         auto taken = takeSound(o.scene, job);
         if (!taken) return leave(exitFailed, taken.error);
         sound = std::move(taken.value);
-    } else if (const int code = takeScene(job); code != exitDone) return code;
+    } else if (const int code = takeScene(job); code != exitDone)
+        return code;
     if (o.hasHands) job.scene = sceneForHands(std::move(*job.scene));
-    if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");
+    if (o.driver == "thread" && o.scene.stepsPerSecond > 1000)
+        return leave(exitUsage, "--driver thread: at most 1000 steps per second");
     auto layout = layoutNamed(o.scene.layout);
     if (!layout) return leave(exitFailed, layout.error);
     auto calibrated = calibratedLayout(o.scene, std::move(layout.value));
     if (!calibrated) return leave(exitFailed, calibrated.error);
     job.layout = std::move(calibrated.value);
     if (!o.board.empty() && job.channels() > limits::board::channels)
-        return leave(exitUsage, "--board: the board has four channels, this layout " + std::to_string(job.channels()));
-    if (auto fault = channelFault(outputs.sinks, job.channels()); !fault.empty()) return leave(exitUsage, fault);
+        return leave(exitUsage,
+                     "--board: the board has four channels, this layout " + std::to_string(job.channels()));
+    if (auto fault = channelFault(outputs.sinks, job.channels()); !fault.empty())
+        return leave(exitUsage, fault);
     if (auto fault = fixedLevelFault(job); !fault.empty()) return leave(exitFailed, fault);
     if (auto fault = sound ? soundFault(*sound, job) : ""; !fault.empty()) return leave(exitUsage, fault);
     auto actuators = chooseActuators(o.scene, job.layout);
     if (!actuators) return leave(exitFailed, actuators.error);
     job.actuators = std::move(actuators.value);
-    for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) tell("warning: " + line);
-    if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty()) return leave(exitFailed, fault);
+    for (const std::string& line :
+         remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene))
+        tell("warning: " + line);
+    if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty())
+        return leave(exitFailed, fault);
     for (const std::string& note : notesOf(job.recordings)) tell(note);
     for (const std::string& line : calibrationWarnings(o.scene, job.layout)) tell("warning: " + line);
     for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
     if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty() && o.scene.marker.empty()))
         return leave(exitUsage, "--noise, --contact-sound, --marker: expected a --device that they leave by");
-    if (o.device.empty() && !o.beatInputs.empty()) return leave(exitUsage, "--beats: expected a --device that hears them");
-    if (o.device.empty() && (o.osc.port || !o.osc.receiver.empty())) return leave(exitUsage, "--osc, --osc-to: expected a --device, whose clock they follow");
+    if (o.device.empty() && !o.beatInputs.empty())
+        return leave(exitUsage, "--beats: expected a --device that hears them");
+    if (o.device.empty() && (o.osc.port || !o.osc.receiver.empty()))
+        return leave(exitUsage, "--osc, --osc-to: expected a --device, whose clock they follow");
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
-    const std::vector<std::string> written{o.recordPath, o.savePath, o.savePath.empty() ? "" : std::filesystem::path{o.savePath}.replace_extension(".events.csv").string()};
+    const std::vector<std::string> written{
+        o.recordPath, o.savePath,
+        o.savePath.empty() ? ""
+                           : std::filesystem::path{o.savePath}.replace_extension(".events.csv").string()};
     if (auto clash = fileClash(written, job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
-    if (!parseMap(o.map, settings.channelMap)) return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
+    if (!parseMap(o.map, settings.channelMap))
+        return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
     if (dualsense::isDevice(o.device)) {
         if (const int code = takeDualSense(settings, job.channels()); code != exitDone) return code;
     }
-    if (!parseMap(o.onOff, settings.onOff) || std::ranges::any_of(settings.onOff, [&](int j) { return j >= job.channels(); }))
-        return leave(exitUsage, "--on-off: expected actuators like 1,2, of " + std::to_string(job.channels()) + ", found \"" + o.onOff + "\"");
+    if (!parseMap(o.onOff, settings.onOff) ||
+        std::ranges::any_of(settings.onOff, [&](int j) { return j >= job.channels(); }))
+        return leave(exitUsage, "--on-off: expected actuators like 1,2, of " +
+                                    std::to_string(job.channels()) + ", found \"" + o.onOff + "\"");
     settings.onOffThreshold = o.threshold;
     settings.listening.noiseDb = o.noiseDb;
     settings.listening.contactDb = o.scene.contactSoundDb;
-    if (!parseMap(o.noise, settings.listening.noise)) return leave(exitUsage, "--noise: expected outputs like 5,6, found \"" + o.noise + "\"");
+    if (!parseMap(o.noise, settings.listening.noise))
+        return leave(exitUsage, "--noise: expected outputs like 5,6, found \"" + o.noise + "\"");
     if (!parseMap(o.scene.contactSound, settings.listening.contacts))
-        return leave(exitUsage, "--contact-sound: expected outputs like 5,6, found \"" + o.scene.contactSound + "\"");
-    if (!parseMap(o.scene.marker, settings.listening.marks)) return leave(exitUsage, "--marker: expected outputs like 8, found \"" + o.scene.marker + "\"");
-    if (!parseMap(o.beatInputs, settings.inputs)) return leave(exitUsage, "--beats: expected inputs like 1,2, found \"" + o.beatInputs + "\"");
+        return leave(exitUsage,
+                     "--contact-sound: expected outputs like 5,6, found \"" + o.scene.contactSound + "\"");
+    if (!parseMap(o.scene.marker, settings.listening.marks))
+        return leave(exitUsage, "--marker: expected outputs like 8, found \"" + o.scene.marker + "\"");
+    if (!parseMap(o.beatInputs, settings.inputs))
+        return leave(exitUsage, "--beats: expected inputs like 1,2, found \"" + o.beatInputs + "\"");
     const auto voices = beatVoicesOf(o.beats, job.channels());
     if (!voices) return leave(exitUsage, voices.error);
     SessionSetup setup = setupOf(o, job);
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
-        return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per actuator (" + std::to_string(setup.channels) + "), found \"" +
-                                    o.ceilings + "\"");
+        return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per actuator (" +
+                                    std::to_string(setup.channels) + "), found \"" + o.ceilings + "\"");
     OscSettings osc = o.osc;
     osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
-    LivePlay wanted{setup, settings, outputs.sinks, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens, {}, o.beats.sensitivity, osc, o.clips};
+    LivePlay wanted{setup,
+                    settings,
+                    outputs.sinks,
+                    o.driver == "thread",
+                    o.scene.seconds,
+                    o.recordPath,
+                    o.savePath,
+                    o.listens,
+                    {},
+                    o.beats.sensitivity,
+                    osc,
+                    o.clips};
     wanted.keepsPlaying = o.keepsPlaying;
     wanted.sound = std::move(sound);
     if (!settings.inputs.empty()) wanted.beats = voices.value;

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A channel with a place is felt there; channels without, if they are as many as the enchanters, one on each; a single one
-// in the middle of all.
+// A channel with a place is felt there; channels without, if they are as many as the enchanters, one on each;
+// a single one in the middle of all.
 #include "CommandLine/Render/ClipInput.h"
-#include "Scene/ActuatorFile.h"
 #include "Formats/ClipSound.h"
 #include "Host/Recordings/ReadRecording.h"
+#include "Scene/ActuatorFile.h"
 
 namespace physvib {
 namespace {
 
 bool hasPlaces(const Clip& clip) {
-    return std::ranges::all_of(clip.channels, [](const ClipChannel& channel) { return channel.place.has_value(); });
+    return std::ranges::all_of(clip.channels,
+                               [](const ClipChannel& channel) { return channel.place.has_value(); });
 }
 
 LayoutDescription layoutOf(const Clip& clip) {
-    EnchanterLayout geometry{clip.extentWidthMetres, clip.extentHeightMetres, static_cast<int>(clip.channels.size()), {}};
+    EnchanterLayout geometry{
+        clip.extentWidthMetres, clip.extentHeightMetres, static_cast<int>(clip.channels.size()), {}};
     for (std::size_t j = 0; j < clip.channels.size(); ++j) geometry.places[j] = *clip.channels[j].place;
     return describeLayout("clip", geometry);
 }
@@ -23,18 +25,25 @@ LayoutDescription layoutOf(const Clip& clip) {
 EnchanterPlace placeOf(const LoadedRender& job, std::size_t channel) {
     const Clip& clip = *job.clip;
     const EnchanterLayout& layout = job.layout.geometry;
-    const auto onField = [&](double x, double y) { return EnchanterPlace{x * job.fieldWidthMetres(), y * job.fieldHeightMetres()}; };
-    if (hasPlaces(clip)) return onField(clip.channels[channel].place->xMetres / clip.extentWidthMetres, clip.channels[channel].place->yMetres / clip.extentHeightMetres);
+    const auto onField = [&](double x, double y) {
+        return EnchanterPlace{x * job.fieldWidthMetres(), y * job.fieldHeightMetres()};
+    };
+    if (hasPlaces(clip))
+        return onField(clip.channels[channel].place->xMetres / clip.extentWidthMetres,
+                       clip.channels[channel].place->yMetres / clip.extentHeightMetres);
     if (static_cast<int>(clip.channels.size()) != layout.count) return onField(0.5, 0.5);
-    return onField(layout.places[channel].xMetres / layout.extentWidthMetres, layout.places[channel].yMetres / layout.extentHeightMetres);
+    return onField(layout.places[channel].xMetres / layout.extentWidthMetres,
+                   layout.places[channel].yMetres / layout.extentHeightMetres);
 }
 
 std::string faultOf(const LoadedRender& job) {
     const Clip& clip = *job.clip;
     const auto channels = clip.channels.size();
     if (!hasPlaces(clip) && channels != 1 && static_cast<int>(channels) != job.layout.geometry.count)
-        return "expected one channel, places, or as many channels as the layout has actuators, " + std::to_string(job.layout.geometry.count) + ", found " + std::to_string(channels);
-    return soundFault({job.options.sampleRateHz, static_cast<std::int64_t>(channels), static_cast<std::int64_t>(clip.seconds() * job.options.sampleRateHz)});
+        return "expected one channel, places, or as many channels as the layout has actuators, " +
+               std::to_string(job.layout.geometry.count) + ", found " + std::to_string(channels);
+    return soundFault({job.options.sampleRateHz, static_cast<std::int64_t>(channels),
+                       static_cast<std::int64_t>(clip.seconds() * job.options.sampleRateHz)});
 }
 
 } // namespace
@@ -54,13 +63,17 @@ Result<FrequencyScale> frequencyScaleOf(const RenderJob& options) {
     if (options.actuator == "none" || options.actuator == "layout") return FrequencyScale{};
     const auto profile = findActuator(options.actuator);
     if (!profile) return Failure{"--actuator: " + profile.error};
-    return profile.value.band ? FrequencyScale{profile.value.band->lowHz, profile.value.band->highHz} : FrequencyScale{};
+    return profile.value.band ? FrequencyScale{profile.value.band->lowHz, profile.value.band->highHz}
+                              : FrequencyScale{};
 }
 
 int takeClip(LoadedRender& job) {
     const RenderJob& o = job.options;
-    for (const char* other : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--method", "--sound", "--perceived-level", "--remap", "--contact-sound", "--marker", "--events", "--coupling"})
-        if (o.given.contains(other)) return leave(exitUsage, std::string{other} + ": a clip has no collisions");
+    for (const char* other :
+         {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--method", "--sound",
+          "--perceived-level", "--remap", "--contact-sound", "--marker", "--events", "--coupling"})
+        if (o.given.contains(other))
+            return leave(exitUsage, std::string{other} + ": a clip has no collisions");
     const auto scale = frequencyScaleOf(o);
     if (!scale) return leave(exitFailed, scale.error);
     auto clip = loadClip(o.scene, *clipFormatOf(o.scene), scale.value);

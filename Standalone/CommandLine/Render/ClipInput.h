@@ -8,10 +8,12 @@
 
 namespace physvib {
 
-/// A clip's channels at a rate, and one event for each: the renderer plays them as it plays recorded contacts.
+/// A clip's channels at a rate, and one event for each: the renderer plays them as it plays recorded
+/// contacts.
 class ClipVoices {
 public:
-    /// `job` has a clip; see ClipInput.cpp for where its channels are felt. What is taken away of them is told on stderr.
+    /// `job` has a clip; see ClipInput.cpp for where its channels are felt. What is taken away of them is
+    /// told on stderr.
     explicit ClipVoices(const LoadedRender& job);
 
     const std::vector<CollisionEvent>& events() const { return events_; }
@@ -23,12 +25,12 @@ private:
     std::vector<RecordedContact> contacts_;
 };
 
-/// What phones' frequencies are by the options: the band of a named --actuator, else what is usual. One line if there is no such
-/// actuator. M only.
+/// What phones' frequencies are by the options: the band of a named --actuator, else what is usual. One line
+/// if there is no such actuator. M only.
 Result<FrequencyScale> frequencyScaleOf(const RenderJob& options);
 
-/// Takes the clip that the options name, and its own layout if none is given, into `job`: exitDone, or the code to leave with
-/// after a line on stderr. M only.
+/// Takes the clip that the options name, and its own layout if none is given, into `job`: exitDone, or the
+/// code to leave with after a line on stderr. M only.
 int takeClip(LoadedRender& job);
 
 } // namespace physvib

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Events by the door of `render`, panned and drawn as curves, then as bytes.
+#include "Calls/RenderOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
-#include "Calls/RenderOptions.h"
+#include "Host/Recordings/HitExport.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/NameEnding.h"
-#include "Host/Recordings/HitExport.h"
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -16,7 +16,7 @@ namespace {
 
 struct ExportOptions {
     RenderJob input; ///< what is exported, and how it is spread
-    std::string to;      ///< path; its ending says the format
+    std::string to;  ///< path; its ending says the format
     double error = 0.004;
 };
 
@@ -24,8 +24,11 @@ constexpr double leastError = 1e-5, mostError = 0.1;
 
 /// The panner at an event's time: a session may have changed its layout.
 StrikeGains gainsOf(const LoadedRender& job) {
-    return [&job, panner = job.panner(), next = std::size_t{0}](const CollisionEvent& event, PhantomPanner::Gains& gains) mutable {
-        while (job.keepsLayouts() && next < job.session->log.panners.size() && job.session->log.panners[next].timeNs <= event.timeNs) panner = job.session->log.panners[next++].panner;
+    return [&job, panner = job.panner(), next = std::size_t{0}](const CollisionEvent& event,
+                                                                PhantomPanner::Gains& gains) mutable {
+        while (job.keepsLayouts() && next < job.session->log.panners.size() &&
+               job.session->log.panners[next].timeNs <= event.timeNs)
+            panner = job.session->log.panners[next++].panner;
         gains = {};
         panner.gainsAt(event.x, event.y, event.course.spread, gains);
     };
@@ -34,7 +37,9 @@ StrikeGains gainsOf(const LoadedRender& job) {
 HitExport hitsOf(const LoadedRender& job) {
     const std::string& actuator = job.options.actuator;
     const bool isOwn = actuator == "none" || actuator == "layout";
-    return {job.source(), std::filesystem::path{job.source()}.filename().string(), job.made.events, job.layout, job.options.layout, isOwn ? std::string{} : actuator};
+    return {job.source(),       std::filesystem::path{job.source()}.filename().string(),
+            job.made.events,    job.layout,
+            job.options.layout, isOwn ? std::string{} : actuator};
 }
 
 Result<Clip> clipOf(const LoadedRender& job, double error) {
@@ -42,36 +47,53 @@ Result<Clip> clipOf(const LoadedRender& job, double error) {
     return clipOfHits(hitsOf(job), {error, static_cast<std::size_t>(job.channels()), gainsOf(job)});
 }
 
-void tellLosses(const LoadedRender& job, const std::vector<ClipPart>& parts, ClipFormat format, const FrequencyScale& usual) {
+void tellLosses(const LoadedRender& job, const std::vector<ClipPart>& parts, ClipFormat format,
+                const FrequencyScale& usual) {
     for (const std::string& loss : lossesOf(parts, format, usual)) tell("warning: " + loss);
-    if (parts.size() > 1) tell("warning: a file for each actuator; for one file of all hits: --layout phone1");
-    if (job.session && !job.session->log.channels.empty()) tell("warning: gains, mutes and stops of the session are not carried: hits are as they were struck");
-    if (job.made.drops > 0) tell("warning: collisions lost because too many began in one physics step: " + std::to_string(job.made.drops));
+    if (parts.size() > 1)
+        tell("warning: a file for each actuator; for one file of all hits: --layout phone1");
+    if (job.session && !job.session->log.channels.empty())
+        tell("warning: gains, mutes and stops of the session are not carried: hits are as they were struck");
+    if (job.made.drops > 0)
+        tell("warning: collisions lost because too many began in one physics step: " +
+             std::to_string(job.made.drops));
 }
 
 /// Words of the call that say nothing here.
 std::string refusalOf(const RenderJob& o) {
     if (o.scene.empty()) return "export: give a scene, a saved session, EVENTS.csv or a clip";
-    for (const char* other : {"--sound", "--sound-match", "--coupling", "--contact-sound-db", "--limiter", "--equalise"})
-        if (o.given.contains(other)) return std::string{other} + ": says how something is played, not what it is: expected with render or play";
+    for (const char* other :
+         {"--sound", "--sound-match", "--coupling", "--contact-sound-db", "--limiter", "--equalise"})
+        if (o.given.contains(other))
+            return std::string{other} +
+                   ": says how something is played, not what it is: expected with render or play";
     return o.playsRecordings ? "--method SV: recordings are no waves to be exported" : "";
 }
 
 /// Of scene, session or list: what lies within --seconds, if that is given.
 std::string takeEvents(LoadedRender& job, std::vector<std::string>& warnings) {
-    if (!job.sessionRecordings.sets.empty()) return job.options.scene + ": the session plays recordings, which are no waves to be exported; expected --method AV-FV-DRV, for modes";
-    if (job.session && !job.session->log.clips.empty()) return job.options.scene + ": the session plays clips, which are exported by themselves";
+    if (!job.sessionRecordings.sets.empty())
+        return job.options.scene + ": the session plays recordings, which are no waves to be exported; "
+                                   "expected --method AV-FV-DRV, for modes";
+    if (job.session && !job.session->log.clips.empty())
+        return job.options.scene + ": the session plays clips, which are exported by themselves";
     auto made = makeEvents(job);
     if (!made) return made.error;
     warnings = std::move(made.value);
-    if (job.scene || job.options.given.contains("--seconds")) std::erase_if(job.made.events, [&](const CollisionEvent& e) { return e.timeNs >= job.endNs(); });
+    if (job.scene || job.options.given.contains("--seconds"))
+        std::erase_if(job.made.events, [&](const CollisionEvent& e) { return e.timeNs >= job.endNs(); });
     return {};
 }
 
 void declareExport(OptionTable& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
-    command.add("--to", o.to, "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)").required().written("FILE");
-    command.add("--error", o.error, "how far lines may be from each hit's exponential, of its strength").in(leastError, mostError);
+    command
+        .add("--to", o.to,
+             "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)")
+        .required()
+        .written("FILE");
+    command.add("--error", o.error, "how far lines may be from each hit's exponential, of its strength")
+        .in(leastError, mostError);
 }
 
 int runExport(const OptionTable& command, ExportOptions& options) {
@@ -79,7 +101,8 @@ int runExport(const OptionTable& command, ExportOptions& options) {
     noteGiven(command, o);
     if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);
     const auto format = clipFormatOf(options.to);
-    if (!format) return leave(exitUsage, "--to: " + endingFault(options.to, {".hjif", ".hmpg", ".haptic", ".ahap"}));
+    if (!format)
+        return leave(exitUsage, "--to: " + endingFault(options.to, {".hjif", ".hmpg", ".haptic", ".ahap"}));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
     o.isEqualised = false; // of the player's own actuators
     if (const std::string refusal = sceneFault(o); !refusal.empty()) return leave(exitUsage, refusal);
@@ -88,7 +111,8 @@ int runExport(const OptionTable& command, ExportOptions& options) {
     const auto usual = frequencyScaleOf(o);
     if (!usual) return leave(exitFailed, usual.error);
     std::vector<std::string> warnings;
-    if (const std::string error = job.clip ? std::string{} : takeEvents(job, warnings); !error.empty()) return leave(exitFailed, error);
+    if (const std::string error = job.clip ? std::string{} : takeEvents(job, warnings); !error.empty())
+        return leave(exitFailed, error);
     const Result<Clip> clip = clipOf(job, options.error);
     if (!clip) return leave(exitFailed, clip.error);
     const std::vector<ClipPart> parts = partsOf(clip.value, options.to, *format);
@@ -106,6 +130,9 @@ int runExport(const OptionTable& command, ExportOptions& options) {
 
 } // namespace
 
-Command exportCommand() { return commandOf("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others", declareExport, runExport); }
+Command exportCommand() {
+    return commandOf("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others",
+                     declareExport, runExport);
+}
 
 } // namespace physvib

@@ -10,7 +10,8 @@ namespace physvib {
 inline std::string markWords(const OnsetMarks& marks) {
     const std::string words = std::to_string(marks.made()) + (marks.made() == 1 ? " pulse" : " pulses");
     if (marks.shared() == 0) return words;
-    return words + " for " + std::to_string(marks.made() + marks.shared()) + " onsets: " + std::to_string(marks.shared()) + " came within 0.5 ms of another";
+    return words + " for " + std::to_string(marks.made() + marks.shared()) +
+           " onsets: " + std::to_string(marks.shared()) + " came within 0.5 ms of another";
 }
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The way of a render: inputs are read and checked, outputs opened, events made or taken, samples rendered, and only
-// when everything is written do the files take their places.
+// The way of a render: inputs are read and checked, outputs opened, events made or taken, samples rendered,
+// and only when everything is written do the files take their places.
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/ClipInput.h"
@@ -24,11 +24,13 @@ constexpr std::int64_t maxWavBytes = 4'000'000'000; // a little less than a RIFF
 // Sines above half the sample rate would come out as other sines.
 std::string tooHighFor(int rateHz, const std::vector<CollisionEvent>& events, const std::string& source) {
     const double limitHz = 0.5 * rateHz;
-    const auto high = std::find_if(events.begin(), events.end(), [=](const auto& e) { return e.frequencyHz >= limitHz; });
+    const auto high =
+        std::find_if(events.begin(), events.end(), [=](const auto& e) { return e.frequencyHz >= limitHz; });
     if (high == events.end()) return {};
     std::ostringstream text;
-    text << source << ": event " << high - events.begin() + 1 << ": column frequency_hz: expected less than half of --rate, "
-         << limitHz << " Hz, found " << high->frequencyHz;
+    text << source << ": event " << high - events.begin() + 1
+         << ": column frequency_hz: expected less than half of --rate, " << limitHz << " Hz, found "
+         << high->frequencyHz;
     return text.str();
 }
 
@@ -38,7 +40,8 @@ void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
         if (count > 0) std::cerr << "physvib: warning: " << what << ": " << count << '\n';
     };
     const auto& events = job.made.events;
-    const auto beyond = std::count_if(events.begin(), events.end(), [&](const auto& e) { return e.timeNs >= job.endNs(); });
+    const auto beyond =
+        std::count_if(events.begin(), events.end(), [&](const auto& e) { return e.timeNs >= job.endNs(); });
     say(job.made.drops, "collisions lost because too many began in one physics step");
     say(status.rejected, "events that could not be played");
     say(status.late, "events played late");
@@ -51,7 +54,8 @@ void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
     if (!outside.empty()) tell("warning: " + outside);
 }
 
-OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderControl>& controls, const RecordedContacts& contacts) {
+OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderControl>& controls,
+                           const RecordedContacts& contacts) {
     const RenderJob& o = job.options;
     const RendererSettings renderer{.sampleRateHz = o.sampleRateHz,
                                     .channels = job.channels(),
@@ -64,40 +68,60 @@ OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderCont
     return {renderer, job.frames(), o.blockFrames, controls, contacts};
 }
 
-/// The same events once more, in one channel; controls of the enchanters say nothing here, but that all shall stop.
-void renderContactSound(const LoadedRender& job, std::vector<RenderControl> controls, RenderOutputs& outputs) {
+/// The same events once more, in one channel; controls of the enchanters say nothing here, but that all shall
+/// stop.
+void renderContactSound(const LoadedRender& job, std::vector<RenderControl> controls,
+                        RenderOutputs& outputs) {
     const ContactSounds sounds{job.recordings, job.options.sampleRateHz};
-    std::erase_if(controls, [](const RenderControl& control) { return control.kind != RenderControl::Kind::stopAll; });
+    std::erase_if(controls,
+                  [](const RenderControl& control) { return control.kind != RenderControl::Kind::stopAll; });
     auto hits = job.made.events;
     std::erase_if(hits, [](const CollisionEvent& event) { return isClip(event.frequencyHz); });
-    renderOffline(hits, {HeardContacts::settingsAt(job.options.sampleRateHz), job.frames(), job.options.blockFrames, controls, {sounds.contacts(), true}},
-                  [&](const float* const* channels, int frames) { return outputs.takeContactSound(channels[0], frames); });
+    renderOffline(hits,
+                  {HeardContacts::settingsAt(job.options.sampleRateHz),
+                   job.frames(),
+                   job.options.blockFrames,
+                   controls,
+                   {sounds.contacts(), true}},
+                  [&](const float* const* channels, int frames) {
+                      return outputs.takeContactSound(channels[0], frames);
+                  });
 }
 
 /// The clip's own samples; no collisions, no controls.
 RenderStatus renderClip(const LoadedRender& job, RenderOutputs& outputs) {
     const ClipVoices voices{job};
-    return renderOffline(voices.events(), settingsOf(job, {}, {voices.contacts()}), [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
+    return renderOffline(
+        voices.events(), settingsOf(job, {}, {voices.contacts()}),
+        [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
 }
 
 /// Samples, and marks if they are wanted, beside each other.
 RenderStatus renderMarked(const LoadedRender& job, OfflineSettings settings, RenderOutputs& outputs) {
     const auto which = job.options.marks();
-    if (!which) return renderOffline(job.made.events, settings, [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
+    if (!which)
+        return renderOffline(job.made.events, settings, [&](const float* const* channels, int frames) {
+            return outputs.take(channels, frames);
+        });
     OnsetMarks marks{*which};
     settings.marks = &marks;
-    const auto status = renderOffline(job.made.events, settings, [&](const float* const* channels, int frames) {
-        return outputs.take(channels, frames) && outputs.takeMarks(channels[job.channels()], frames);
-    });
+    const auto status =
+        renderOffline(job.made.events, settings, [&](const float* const* channels, int frames) {
+            return outputs.take(channels, frames) && outputs.takeMarks(channels[job.channels()], frames);
+        });
     outputs.tellMarks(marks);
     return status;
 }
 
 RenderStatus renderEvents(const LoadedRender& job, RenderOutputs& outputs) {
-    SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings, job.options.sampleRateHz};
-    const auto controls = again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{});
+    SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings,
+                            job.options.sampleRateHz};
+    const auto controls =
+        again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels())
+                               : std::vector<RenderControl>{});
     outputs.takeMotors(controls);
-    const RenderStatus status = renderMarked(job, settingsOf(job, controls, again.beside(job.feltRecordings())), outputs);
+    const RenderStatus status =
+        renderMarked(job, settingsOf(job, controls, again.beside(job.feltRecordings())), outputs);
     if (outputs.wantsContactSound()) renderContactSound(job, controls, outputs);
     return status;
 }
@@ -107,7 +131,8 @@ std::string render(LoadedRender& job, RenderListener* listener) {
     if (auto error = outputs.open(); !error.empty()) return error;
     const auto warnings = makeEvents(job);
     if (!warnings) return warnings.error;
-    if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, job.source()); !error.empty()) return error;
+    if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, job.source()); !error.empty())
+        return error;
     if (auto error = takeRecordings(job, job.made.events, job.source()); !error.empty()) return error;
     for (const std::string& note : notesOf(job.recordings)) tell(note);
     outputs.begin();
@@ -128,8 +153,10 @@ std::string render(LoadedRender& job, RenderListener* listener) {
 int runRender(const RenderJob& options, RenderListener* listener) {
     LoadedRender job{options, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;
-    if (job.clip && !options.pad.empty()) return leave(exitUsage, "--pad: expected a scene, a session or events; a clip has samples alone");
-    if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
+    if (job.clip && !options.pad.empty())
+        return leave(exitUsage, "--pad: expected a scene, a session or events; a clip has samples alone");
+    if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty())
+        return leave(exitUsage, clash);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
     const std::string error = render(job, listener);
@@ -137,11 +164,12 @@ int runRender(const RenderJob& options, RenderListener* listener) {
 }
 
 Command renderCommand() {
-    return commandOf("render", "render a scene, an event list or a clip to files", declareRenderOptions, [](const OptionTable& command, RenderJob& options) {
-        noteGiven(command, options);
-        const std::string refusal = renderFault(options);
-        return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);
-    });
+    return commandOf("render", "render a scene, an event list or a clip to files", declareRenderOptions,
+                     [](const OptionTable& command, RenderJob& options) {
+                         noteGiven(command, options);
+                         const std::string refusal = renderFault(options);
+                         return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);
+                     });
 }
 
 } // namespace physvib

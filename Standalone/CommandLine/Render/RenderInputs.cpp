@@ -2,8 +2,8 @@
 // Files first, then simulation, then what the options make of each collision.
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/ClipInput.h"
-#include "Scene/FileKind.h"
 #include "Scene/EventsCsv.h"
+#include "Scene/FileKind.h"
 #include "Session/SessionRender.h"
 #include <functional>
 
@@ -26,7 +26,9 @@ std::string readInputs(LoadedRender& job) {
     if (!actuators) return actuators.error;
     job.actuators = std::move(actuators.value);
     if (!job.options.coupling.empty()) {
-        if (job.session) return "--coupling: expected a scene or events; a saved session may change its layout and play recordings";
+        if (job.session)
+            return "--coupling: expected a scene or events; a saved session may change its layout and play "
+                   "recordings";
         auto coupling = chooseCoupling(job.options.coupling, job.layout);
         if (!coupling) return coupling.error;
         job.coupling = std::move(coupling.value);
@@ -42,7 +44,8 @@ std::string readInputs(LoadedRender& job) {
 /// Of the scene or session; one line if it is simulated too slowly.
 Result<SceneEvents> eventsOf(const LoadedRender& job) {
     Patience patience{job.options.patienceSeconds};
-    auto made = job.session ? sessionEvents(*job.session, job.endNs(), std::ref(patience)) : runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
+    auto made = job.session ? sessionEvents(*job.session, job.endNs(), std::ref(patience))
+                            : runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
     if (auto fault = patience.fault(); !fault.empty()) return Failure{job.options.scene + ": " + fault};
     return made;
 }

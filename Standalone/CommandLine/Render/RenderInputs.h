@@ -5,12 +5,12 @@
 
 namespace physvib {
 
-/// Reads and checks what the options name: scene, session, clip or event list, layout, actuators, coupling. exitDone, or the code
-/// to leave with after a line on stderr. M only.
+/// Reads and checks what the options name: scene, session, clip or event list, layout, actuators, coupling.
+/// exitDone, or the code to leave with after a line on stderr. M only.
 int takeInputs(LoadedRender& job);
 
-/// The job's events, shaped as its options say: simulated, or those of the list. Warnings for people on what the shaping
-/// loses; or one line. M only.
+/// The job's events, shaped as its options say: simulated, or those of the list. Warnings for people on what
+/// the shaping loses; or one line. M only.
 Result<std::vector<std::string>> makeEvents(LoadedRender& job);
 
 } // namespace physvib

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writing beside, then renaming; progress on a terminal only.
 #include "CommandLine/Render/RenderOutputs.h"
-#include "Core/Decibels.h"
-#include "System/Process.h"
 #include "CommandLine/Render/LevelReport.h"
 #include "CommandLine/Render/MarkWords.h"
+#include "Core/Decibels.h"
 #include "Pictures/RenderPicture.h"
+#include "System/Process.h"
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -21,7 +21,8 @@ std::string open(std::optional<AtomicFile>& file, const std::string& path) {
     return file->error();
 }
 
-std::string open(std::unique_ptr<WavSink>& wav, const std::string& path, int channels, int sampleRateHz, const std::string& provenance) {
+std::string open(std::unique_ptr<WavSink>& wav, const std::string& path, int channels, int sampleRateHz,
+                 const std::string& provenance) {
     if (path.empty()) return {};
     wav = std::make_unique<WavSink>(path, channels, sampleRateHz, provenance);
     return wav->error();
@@ -38,10 +39,18 @@ RenderOutputs::RenderOutputs(const LoadedRender& job, RenderListener* listener)
 std::string RenderOutputs::open() {
     const RenderJob& o = job_.options;
     std::string error = o.pad.empty() ? std::string{} : openMotors();
-    if (error.empty()) error = physvib::open(wav_, o.pad.empty() ? o.wavPath : "", job_.channels(), o.sampleRateHz, provenanceText());
-    if (error.empty()) error = physvib::open(contactWav_, o.contactSound, 1, o.sampleRateHz, provenanceText() + " heard=contact_sound");
-    if (error.empty()) error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz, provenanceText() + " marked=" + std::string{nameOf(o.marked)});
-    for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}})
+    if (error.empty())
+        error = physvib::open(wav_, o.pad.empty() ? o.wavPath : "", job_.channels(), o.sampleRateHz,
+                              provenanceText());
+    if (error.empty())
+        error = physvib::open(contactWav_, o.contactSound, 1, o.sampleRateHz,
+                              provenanceText() + " heard=contact_sound");
+    if (error.empty())
+        error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz,
+                              provenanceText() + " marked=" + std::string{nameOf(o.marked)});
+    for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath},
+                                     {&pictureFile_, &o.picturePath},
+                                     {&patternFile_, &o.patternPath}})
         if (error.empty()) error = physvib::open(*file, *path);
     if (error.empty() && !o.moviePath.empty()) error = movie_.emplace(o.moviePath, o.sampleRateHz).error();
     return error;
@@ -68,8 +77,10 @@ bool RenderOutputs::take(const float* const* channels, int frames) {
     framesTaken_ += frames;
     whole_.add(channels, frames);
     zoom_->add(channels, frames);
-    if (listener_) listener_->take(channels, frames);
-    else showProgress();
+    if (listener_)
+        listener_->take(channels, frames);
+    else
+        showProgress();
     if (patternFile_) pattern_.convert(channels, frames);
     return !wav_ || writeWav(channels, frames);
 }
@@ -123,13 +134,17 @@ Provenance RenderOutputs::provenance() const {
     if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
     if (o.isWeighted) p.entries.emplace_back("perceived_level", "on");
     for (const auto& [hz, path] : o.sounds)
-        p.entries.emplace_back("sound", numberText(hz) + '=' + std::filesystem::path{path}.filename().string() + (o.matchesStrength ? ":rms" : ""));
-    if (o.actuator != "none") p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());
+        p.entries.emplace_back("sound", numberText(hz) + '=' +
+                                            std::filesystem::path{path}.filename().string() +
+                                            (o.matchesStrength ? ":rms" : ""));
+    if (o.actuator != "none")
+        p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());
     if (o.actuator != "none" && !o.isEqualised) p.entries.emplace_back("equalise", "off");
     if (!o.pad.empty()) p.entries.emplace_back("pad", pad_.name);
     if (o.interfaceVolts > 0.0) p.entries.emplace_back("interface_volts", numberText(o.interfaceVolts));
     if (o.isRemapped) p.entries.emplace_back("remap", "on");
-    if (!o.coupling.empty()) p.entries.emplace_back("coupling", std::filesystem::path{o.coupling}.filename().string());
+    if (!o.coupling.empty())
+        p.entries.emplace_back("coupling", std::filesystem::path{o.coupling}.filename().string());
     return p;
 }
 
@@ -137,12 +152,15 @@ Provenance RenderOutputs::inputProvenance() const {
     const RenderJob& o = job_.options;
     if (job_.clip) return {PHYSVIB_VERSION, {{"clip", std::filesystem::path{o.scene}.filename().string()}}};
     if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
-    Provenance p{PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(job_.session ? job_.session->log.takes.front().seed : o.seed)},
-                                   {"steps_per_second", std::to_string(job_.run().stepsPerSecond)}}};
+    Provenance p{PHYSVIB_VERSION,
+                 {{"scene", job_.scene->name},
+                  {"seed", std::to_string(job_.session ? job_.session->log.takes.front().seed : o.seed)},
+                  {"steps_per_second", std::to_string(job_.run().stepsPerSecond)}}};
     if (job_.session) p.entries.emplace_back("session", std::filesystem::path{o.scene}.filename().string());
     if (job_.run().timing != ImpactTiming::onset) p.entries.emplace_back("timing", "release");
     if (job_.run().location != ImpactLocation::contact) p.entries.emplace_back("location", "fixture");
-    for (const SceneVariable& variable : job_.scene->variables) p.entries.emplace_back(variable.name, variable.value);
+    for (const SceneVariable& variable : job_.scene->variables)
+        p.entries.emplace_back(variable.name, variable.value);
     return p;
 }
 
@@ -209,16 +227,25 @@ void RenderOutputs::summarise(std::ostream& out) const {
     const RenderJob& o = job_.options;
     out << std::fixed << std::setprecision(1);
     if (wav_) {
-        out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ") << job_.seconds() << " s at "
-            << o.sampleRateHz << " Hz, " << peakWords(job_, whole_) << '\n';
+        out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ")
+            << job_.seconds() << " s at " << o.sampleRateHz << " Hz, " << peakWords(job_, whole_) << '\n';
     }
-    if (motorsFile_) out << o.wavPath << "  what two motors of " << pad_.name << " would get: " << motors_.size() << " commands\n";
+    if (motorsFile_)
+        out << o.wavPath << "  what two motors of " << pad_.name << " would get: " << motors_.size()
+            << " commands\n";
     if (eventsFile_) out << o.eventsPath << "  " << collisionWords(job_) << '\n';
-    if (patternFile_) out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
-    if (contactWav_) out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale " << numberText(o.contactSoundDb) << " dBFS\n";
+    if (patternFile_)
+        out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
+    if (contactWav_)
+        out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale "
+            << numberText(o.contactSoundDb) << " dBFS\n";
     if (markerWav_) out << o.marker << "  a pulse at each onset: 1 channel, " << markWords_ << '\n';
-    if (movie_) out << o.moviePath << "  the world, its impacts and every channel in time, " << RenderMovie::picturesPerSecond << " pictures per second\n";
-    if (pictureFile_) out << o.picturePath << (job_.clip ? "  every channel\n" : "  the world, every channel and every hit\n");
+    if (movie_)
+        out << o.moviePath << "  the world, its impacts and every channel in time, "
+            << RenderMovie::picturesPerSecond << " pictures per second\n";
+    if (pictureFile_)
+        out << o.picturePath
+            << (job_.clip ? "  every channel\n" : "  the world, every channel and every hit\n");
 }
 
 } // namespace physvib

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files a render leaves: WAV, event list, picture, pattern. They appear together at the end, or not at all.
+// The files a render leaves: WAV, event list, picture, pattern. They appear together at the end, or not at
+// all.
 #pragma once
-#include "CommandLine/Render/OnOffPattern.h"
 #include "Calls/LoadedRender.h"
-#include "CommandLine/Render/RenderListener.h"
 #include "Calls/MovieOutput.h"
+#include "CommandLine/Render/OnOffPattern.h"
+#include "CommandLine/Render/RenderListener.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Io/Wav/WavSink.h"
+#include "Pictures/WaveformEnvelope.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/PadCommands.h"
 #include "Scene/PadFile.h"
-#include "Io/Wav/WavSink.h"
-#include "Pictures/WaveformEnvelope.h"
 #include <iosfwd>
 #include <memory>
 #include <optional>
@@ -20,8 +21,8 @@ namespace physvib {
 /// Errors are one line each; after one, nothing is left behind. M only.
 class RenderOutputs {
 public:
-    /// `job` outlives this object; its layout is known, its events need not be. A listener, if there is one, hears what is taken, and
-    /// tells people as much of it as it wants.
+    /// `job` outlives this object; its layout is known, its events need not be. A listener, if there is one,
+    /// hears what is taken, and tells people as much of it as it wants.
     explicit RenderOutputs(const LoadedRender& job, RenderListener* listener = nullptr);
 
     /// Makes sure that every wanted file can be written.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files in, a folder out: all of it, or nothing.
+#include "Calls/CallFiles.h"
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Command.h"
-#include "Calls/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Disk/FileClash.h"
 #include "Jobs/Report/ReportJob.h"
@@ -25,9 +25,13 @@ class MadeFolders {
 public:
     std::string make(const std::filesystem::path& folder) {
         std::error_code fault;
-        for (auto missing = std::filesystem::absolute(folder); !missing.empty() && !std::filesystem::exists(missing, fault); missing = missing.parent_path()) made_.insert(made_.begin(), missing);
+        for (auto missing = std::filesystem::absolute(folder);
+             !missing.empty() && !std::filesystem::exists(missing, fault); missing = missing.parent_path())
+            made_.insert(made_.begin(), missing);
         std::filesystem::create_directories(folder, fault);
-        return fault || !std::filesystem::is_directory(folder) ? folder.string() + ": expected a folder that can be written" : "";
+        return fault || !std::filesystem::is_directory(folder)
+                   ? folder.string() + ": expected a folder that can be written"
+                   : "";
     }
     void keep() { made_.clear(); }
     MadeFolders() = default;
@@ -43,7 +47,8 @@ private:
     std::vector<std::filesystem::path> made_;
 };
 
-int write(const std::filesystem::path& folder, const std::map<std::string, std::string>& files, const std::vector<std::string>& inputs) {
+int write(const std::filesystem::path& folder, const std::map<std::string, std::string>& files,
+          const std::vector<std::string>& inputs) {
     std::vector<StudyFile> outputs;
     std::vector<std::string> paths;
     for (const auto& [name, text] : files) {
@@ -52,7 +57,8 @@ int write(const std::filesystem::path& folder, const std::map<std::string, std::
     }
     MadeFolders folders;
     for (const std::string& path : paths)
-        if (auto fault = folders.make(std::filesystem::path{path}.parent_path()); !fault.empty()) return leave(exitFailed, fault);
+        if (auto fault = folders.make(std::filesystem::path{path}.parent_path()); !fault.empty())
+            return leave(exitFailed, fault);
     if (const std::string clash = fileClash(paths, inputs); !clash.empty()) return leave(exitUsage, clash);
     if (const int code = writeStudyFiles(outputs); code != exitDone) return code;
     folders.keep();
@@ -67,16 +73,27 @@ int reportThesis(const ReportOptions& o) {
     const auto files = thesisReport();
     if (const int code = write(o.job.folder, files, {}); code != exitDone) return code;
     tellIfSimulated(true);
-    std::cout << (std::filesystem::path{o.job.folder} / "index.html").string() << "  " << files.size() << " files; rehearsals are simulated\n";
+    std::cout << (std::filesystem::path{o.job.folder} / "index.html").string() << "  " << files.size()
+              << " files; rehearsals are simulated\n";
     return exitDone;
 }
 
 void declareReport(OptionTable& command, ReportOptions& o) {
-    command.add("files", o.job.files, "the trial files of one study; or `thesis`: what the thesis prints beside what follows from it, and its studies rehearsed").required().as("TRIALS.csv...|thesis");
+    command
+        .add("files", o.job.files,
+             "the trial files of one study; or `thesis`: what the thesis prints beside what follows from it, "
+             "and its studies rehearsed")
+        .required()
+        .as("TRIALS.csv...|thesis");
     command.add("--out", o.job.folder, "the folder: index.html, tables, report.R").required().as("FOLDER");
-    command.add("--protocol", o.protocol, "the study's protocol, if it is no built-in one").as("PROTOCOL.json");
+    command.add("--protocol", o.protocol, "the study's protocol, if it is no built-in one")
+        .as("PROTOCOL.json");
     command.add("--bids", o.job.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
-    command.add("--people", o.job.peoplePath, "who took part: participant and any of age, sex, handedness, excluded (why all trials of a participant are left out)").as("PEOPLE.csv");
+    command
+        .add("--people", o.job.peoplePath,
+             "who took part: participant and any of age, sex, handedness, excluded (why all trials of a "
+             "participant are left out)")
+        .as("PEOPLE.csv");
     command.add("--ethics", o.job.ethics, "sentence on the approval by an ethics board").as("WORDS");
     command.add("--consent", o.job.consent, "sentence on the participants' consent").as("WORDS");
     command
@@ -107,12 +124,16 @@ int runReport(ReportOptions& o) {
     if (const int code = write(o.job.folder, report.value.files, inputs); code != exitDone) return code;
     for (const std::string& note : report.value.notes) warn(note);
     tellIfSimulated(report.value.isSimulated);
-    std::cout << (std::filesystem::path{o.job.folder} / "index.html").string() << "  " << report.value.files.size() << " files, " << report.value.tests.size() << " tests\n";
+    std::cout << (std::filesystem::path{o.job.folder} / "index.html").string() << "  "
+              << report.value.files.size() << " files, " << report.value.tests.size() << " tests\n";
     return exitDone;
 }
 
 } // namespace
 
-Command reportCommand() { return commandOf("report", "trial files as a page with pictures, tests and tables", declareReport, runReport); }
+Command reportCommand() {
+    return commandOf("report", "trial files as a page with pictures, tests and tables", declareReport,
+                     runReport);
+}
 
 } // namespace physvib

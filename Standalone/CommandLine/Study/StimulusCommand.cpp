@@ -2,12 +2,12 @@
 // From a stimulus to a WAV file and a picture.
 #include "CommandLine/Study/StimulusCommand.h"
 #include "CommandLine/Command.h"
-#include "Jobs/LayoutNamed.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"
 #include "Core/SamplePeak.h"
-#include "Io/Wav/WavSink.h"
 #include "Host/Recordings/ReadRecording.h"
+#include "Io/Wav/WavSink.h"
+#include "Jobs/LayoutNamed.h"
 #include "Jobs/MakeStimulus.h"
 #include "Pictures/RenderPicture.h"
 #include "Session/StimulusRender.h"
@@ -35,14 +35,24 @@ std::string titleOf(const StimulusJob& job, const StimulusOptions& o) {
 Result<StimulusSound> placed(const PhantomJob& phantom, double levelG, const LayoutDescription& layout) {
     auto recording = readRecording(phantom.recording);
     if (!recording) return recording;
-    if (recording.value.channels.size() != 1) return Failure{phantom.recording + ": expected one channel, found " + std::to_string(recording.value.channels.size())};
-    if (const auto note = takeSlowPart(recording.value, phantom.recording, peakOf(recording.value.channels.front())); !note.empty()) tell(note);
+    if (recording.value.channels.size() != 1)
+        return Failure{phantom.recording + ": expected one channel, found " +
+                       std::to_string(recording.value.channels.size())};
+    if (const auto note =
+            takeSlowPart(recording.value, phantom.recording, peakOf(recording.value.channels.front()));
+        !note.empty())
+        tell(note);
     const EnchanterLayout& places = layout.geometry;
-    return placeRecording(recording.value, phantom.place(), levelG, {places, phantom.law, phantom.exponent, places.extentWidthMetres, places.extentHeightMetres}, layout);
+    return placeRecording(
+        recording.value, phantom.place(), levelG,
+        {places, phantom.law, phantom.exponent, places.extentWidthMetres, places.extentHeightMetres}, layout);
 }
 
-Result<StimulusSound> soundOf(const StimulusJob& job, const StimulusOptions& o, const LayoutDescription& layout, std::vector<CollisionEvent>& events) {
-    if (const auto* const phantom = std::get_if<PhantomJob>(&job.what); phantom != nullptr && !phantom->recording.empty()) return placed(*phantom, job.levelG, layout);
+Result<StimulusSound> soundOf(const StimulusJob& job, const StimulusOptions& o,
+                              const LayoutDescription& layout, std::vector<CollisionEvent>& events) {
+    if (const auto* const phantom = std::get_if<PhantomJob>(&job.what);
+        phantom != nullptr && !phantom->recording.empty())
+        return placed(*phantom, job.levelG, layout);
     auto stimulus = makeStimulus(job, layout);
     if (!stimulus) return Failure{stimulus.error};
     events = stimulus.value.events;
@@ -60,10 +70,12 @@ void writeWav(const StimulusSound& sound, WavSink& sink) {
     }
 }
 
-std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescription& layout, const std::string& provenance) {
+std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescription& layout,
+                      const std::string& provenance) {
     const auto frames = static_cast<std::int64_t>(made.sound.channels.front().size());
     const int channels = static_cast<int>(made.sound.channels.size());
-    WaveformEnvelope whole{channels, 0, frames}, start{channels, 0, std::min<std::int64_t>(frames, made.sound.sampleRateHz / 10)};
+    WaveformEnvelope whole{channels, 0, frames},
+        start{channels, 0, std::min<std::int64_t>(frames, made.sound.sampleRateHz / 10)};
     std::vector<const float*> at;
     for (const auto& channel : made.sound.channels) at.push_back(channel.data());
     whole.add(at.data(), static_cast<int>(frames));
@@ -86,16 +98,25 @@ std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const 
 }
 
 int write(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescription& layout) {
-    const std::string provenance = provenanceLine({PHYSVIB_VERSION, {{"stimulus", made.title}, {"layout", o.job.layout}, {"level_g", numberText(o.job.levelG)}}});
+    const std::string provenance = provenanceLine(
+        {PHYSVIB_VERSION,
+         {{"stimulus", made.title}, {"layout", o.job.layout}, {"level_g", numberText(o.job.levelG)}}});
     std::optional<WavSink> wav;
     if (!o.wavPath.empty()) {
-        writeWav(made.sound, wav.emplace(o.wavPath, static_cast<int>(made.sound.channels.size()), made.sound.sampleRateHz, provenance));
+        writeWav(made.sound, wav.emplace(o.wavPath, static_cast<int>(made.sound.channels.size()),
+                                         made.sound.sampleRateHz, provenance));
         if (const auto& error = wav->complete(); !error.empty()) return leave(exitFailed, error);
     }
-    if (const int code = writeStudyFiles({{o.picturePath, [&] { return pictureOf(made, o, layout, provenance); }}}); code != exitDone) return code;
+    if (const int code =
+            writeStudyFiles({{o.picturePath, [&] { return pictureOf(made, o, layout, provenance); }}});
+        code != exitDone)
+        return code;
     if (wav && !wav->finish().empty()) return leave(exitFailed, wav->error());
-    std::cout << printable(made.title) << "  " << made.sound.channels.size() << (made.sound.channels.size() == 1 ? " channel, " : " channels, ")
-              << fixedNumber(static_cast<double>(made.sound.channels.front().size()) / made.sound.sampleRateHz, 3) << " s\n";
+    std::cout << printable(made.title) << "  " << made.sound.channels.size()
+              << (made.sound.channels.size() == 1 ? " channel, " : " channels, ")
+              << fixedNumber(
+                     static_cast<double>(made.sound.channels.front().size()) / made.sound.sampleRateHz, 3)
+              << " s\n";
     return exitDone;
 }
 
@@ -112,8 +133,10 @@ int runStimulus(const OptionTable& command, const StimulusOptions& o) {
     if (!layout) return leave(exitFailed, layout.error);
     const auto job = readStimulus(command, o);
     if (!job) return leave(exitUsage, "stimulus: " + job.error);
-    if (const auto fault = layoutFault(job.value, layout.value); !fault.empty()) return leave(exitUsage, "stimulus: " + fault);
-    if (o.wavPath.empty() && o.picturePath.empty()) return leave(exitUsage, "stimulus: nothing to write; give --out or --picture");
+    if (const auto fault = layoutFault(job.value, layout.value); !fault.empty())
+        return leave(exitUsage, "stimulus: " + fault);
+    if (o.wavPath.empty() && o.picturePath.empty())
+        return leave(exitUsage, "stimulus: nothing to write; give --out or --picture");
     MadeStimulus made{titleOf(job.value, o), {}, {}};
     auto sound = soundOf(job.value, o, layout.value, made.events);
     if (!sound) return leave(exitFailed, sound.error);
@@ -121,6 +144,8 @@ int runStimulus(const OptionTable& command, const StimulusOptions& o) {
     return write(made, o, layout.value);
 }
 
-Command stimulusCommand() { return commandOf("stimulus", "a single stimulus of a study", declareStimulus, runStimulus); }
+Command stimulusCommand() {
+    return commandOf("stimulus", "a single stimulus of a study", declareStimulus, runStimulus);
+}
 
 } // namespace physvib

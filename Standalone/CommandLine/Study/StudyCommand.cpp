@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every participant, one after the other, answered by the observer.
 #include "CommandLine/Study/StudyCommand.h"
-#include "CommandLine/Command.h"
-#include "System/Process.h"
 #include "Calls/RenderWords.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "Study/Files/LevelsFile.h"
-#include "Study/Files/ProtocolFile.h"
-#include "Study/Files/StudyCsv.h"
 #include "Host/Recordings/LoadContact.h"
 #include "Jobs/StudyRun.h"
 #include "Studies/StudyCalls.h"
 #include "Studies/StudyCheck.h"
+#include "Study/Files/LevelsFile.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Study/Files/StudyCsv.h"
 #include "Study/SimulatedObserver.h"
+#include "System/Process.h"
 #include <chrono>
 #include <thread>
 
@@ -33,7 +33,8 @@ std::string codeOf(const StudyOptions& o, int number) {
 
 void showProgress(const Participant& participant, int trials) {
     static const bool isTerminal = isErrorTerminal();
-    if (isTerminal && trials % 50 == 0) std::cerr << '\r' << participant.code << " trial " << trials << "   \r";
+    if (isTerminal && trials % 50 == 0)
+        std::cerr << '\r' << participant.code << " trial " << trials << "   \r";
 }
 
 /// One participant from the first trial without an answer to the last; the reason if it fails.
@@ -49,28 +50,38 @@ std::string runParticipant(const StudyRun& run, const ObserverSettings& settings
         showProgress(run.participant, experiment.trialsTaken());
     }
     const int before = study.trialsBefore();
-    std::cout << study.path().string() << "  " << experiment.trialsTaken() << " trials" << (before > 0 ? ", " + std::to_string(before) + " of them there before" : std::string{}) << '\n';
+    std::cout << study.path().string() << "  " << experiment.trialsTaken() << " trials"
+              << (before > 0 ? ", " + std::to_string(before) + " of them there before" : std::string{})
+              << '\n';
     return {};
 }
 
 /// The protocol with the sounds of the call; one line if one of either is no recording.
 std::string takeSounds(const RecordedSounds& sounds, Protocol& protocol) {
     for (const auto& [hz, path] : sounds) {
-        std::erase_if(protocol.sounds, [hz = hz](const StudySoundFile& sound) { return sound.frequencyHz == hz; });
+        std::erase_if(protocol.sounds,
+                      [hz = hz](const StudySoundFile& sound) { return sound.frequencyHz == hz; });
         protocol.sounds.push_back({hz, path});
     }
     for (const StudySoundFile& sound : protocol.sounds)
-        if (auto contact = loadContact({sound.frequencyHz, besideProtocol(protocol.folder, sound.file)}); !contact) return contact.error;
-        else if (!contact.value.note.empty()) tell(contact.value.note);
+        if (auto contact = loadContact({sound.frequencyHz, besideProtocol(protocol.folder, sound.file)});
+            !contact)
+            return contact.error;
+        else if (!contact.value.note.empty())
+            tell(contact.value.note);
     return {};
 }
 
 /// A person reads and answers in the mixer's window: it opens with all that was given here.
 int runForPerson(const StudyOptions& o) {
-    if (o.participants > 1) return leave(exitUsage, "study run: --participants: expected one at a time where a person answers");
+    if (o.participants > 1)
+        return leave(exitUsage, "study run: --participants: expected one at a time where a person answers");
     if (!hasDisplay())
-        return leave(exitUsage, "study run: expected --observer, or a display where physvib-mixer shows a person what to answer; its tab Studies has the protocol " + inQuotes(o.protocol));
-    std::vector<std::string> words{"--study", o.protocol, "--participant", codeOf(o, o.number), "--number", std::to_string(o.number)};
+        return leave(exitUsage, "study run: expected --observer, or a display where physvib-mixer shows a "
+                                "person what to answer; its tab Studies has the protocol " +
+                                    inQuotes(o.protocol));
+    std::vector<std::string> words{"--study",           o.protocol, "--participant",
+                                   codeOf(o, o.number), "--number", std::to_string(o.number)};
     if (!o.folder.empty()) words.insert(words.end(), {"--out", o.folder});
     tell("opening physvib-mixer, where a person answers; --observer simulated is answered by the computer");
     const auto ran = runProgram(ownProgram("physvib-mixer"), std::move(words));
@@ -83,20 +94,28 @@ int run(const StudyOptions& o) {
     const bool isPerson = o.observer.empty() || o.observer == "person";
     const auto settings = isPerson ? std::optional<ObserverSettings>{} : observerNamed(o.observer);
     if (!isPerson && !settings) return leave(exitUsage, expected + ", found " + inQuotes(o.observer));
-    if (!isStudyCode(o.participant)) return leave(exitUsage, "study run: --participant: expected at most 32 letters, digits, - and _, found " + inQuotes(o.participant));
+    if (!isStudyCode(o.participant))
+        return leave(exitUsage,
+                     "study run: --participant: expected at most 32 letters, digits, - and _, found " +
+                         inQuotes(o.participant));
     if (isPerson) return runForPerson(o);
-    if (!o.participant.empty() && o.participants > 1) return leave(exitUsage, "study run: --participant: expected one participant with a code, found several");
+    if (!o.participant.empty() && o.participants > 1)
+        return leave(exitUsage,
+                     "study run: --participant: expected one participant with a code, found several");
     auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
     if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
-    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return leave(exitFailed, fault);
-    if (auto fault = limiterFault(protocol.value); !fault.empty()) return leave(exitFailed, o.protocol + ": " + fault);
+    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty())
+        return leave(exitFailed, fault);
+    if (auto fault = limiterFault(protocol.value); !fault.empty())
+        return leave(exitFailed, o.protocol + ": " + fault);
     std::error_code fault;
     std::filesystem::create_directories(o.folder, fault);
     if (fault) return leave(exitFailed, o.folder + ": cannot be made: " + fault.message());
     for (int number = o.number; number < o.number + o.participants; ++number) {
         const StudyRun one{protocol.value, {codeOf(o, number), number, o.observer}, o.folder};
-        if (auto error = runParticipant(one, *settings, o.paceSeconds); !error.empty()) return leave(exitFailed, error);
+        if (auto error = runParticipant(one, *settings, o.paceSeconds); !error.empty())
+            return leave(exitFailed, error);
     }
     tellIfSimulated(true);
     return exitDone;
@@ -106,9 +125,13 @@ int check(const StudyOptions& o) {
     auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
     if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
-    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return leave(exitFailed, fault);
+    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty())
+        return leave(exitFailed, fault);
     const StudyCheck found = checkStudy(protocol.value, o.participants);
-    if (const int code = writeStudyFiles({StudyFile{o.pagePath, [&] { return htmlOf(found, protocol.value); }}}); code != exitDone) return code;
+    if (const int code =
+            writeStudyFiles({StudyFile{o.pagePath, [&] { return htmlOf(found, protocol.value); }}});
+        code != exitDone)
+        return code;
     std::cout << textOf(found, protocol.value);
     return found.errors.empty() ? exitDone : exitFailed;
 }
@@ -116,16 +139,24 @@ int check(const StudyOptions& o) {
 int levels(const StudyOptions& o) {
     const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
-    const auto session = std::ranges::find_if(protocol.value.sessions, [](const SessionPlan& s) { return s.adjustment.has_value(); });
-    if (session == protocol.value.sessions.end()) return leave(exitFailed, o.protocol + ": expected a session of the task adjust, found none");
-    const auto data = readStudyFiles(StudySources{o.trials}, [](const std::vector<NamedText>& files) { return readLevels(files); });
+    const auto session = std::ranges::find_if(protocol.value.sessions,
+                                              [](const SessionPlan& s) { return s.adjustment.has_value(); });
+    if (session == protocol.value.sessions.end())
+        return leave(exitFailed, o.protocol + ": expected a session of the task adjust, found none");
+    const auto data = readStudyFiles(StudySources{o.trials},
+                                     [](const std::vector<NamedText>& files) { return readLevels(files); });
     if (!data) return leave(exitFailed, data.error);
-    const auto averages = averageLevels(data.value.conditions.front().trials, session->adjustment->alternative);
+    const auto averages =
+        averageLevels(data.value.conditions.front().trials, session->adjustment->alternative);
     if (averages.empty()) return leave(exitFailed, o.trials.front() + ": expected adjustments, found none");
-    Provenance provenance{PHYSVIB_VERSION, {{"protocol", protocol.value.name}, {"hash", protocolHash(protocol.value)}}};
+    Provenance provenance{PHYSVIB_VERSION,
+                          {{"protocol", protocol.value.name}, {"hash", protocolHash(protocol.value)}}};
     if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
-    if (const int code = writeStudyFiles({StudyFile{o.levelsPath, stimulusLevelsCsv(averages, provenance)}}); code != exitDone) return code;
-    std::cout << o.levelsPath << "  " << averages.size() << " levels of " << averages.front().participants << (averages.front().participants == 1 ? " participant\n" : " participants\n");
+    if (const int code = writeStudyFiles({StudyFile{o.levelsPath, stimulusLevelsCsv(averages, provenance)}});
+        code != exitDone)
+        return code;
+    std::cout << o.levelsPath << "  " << averages.size() << " levels of " << averages.front().participants
+              << (averages.front().participants == 1 ? " participant\n" : " participants\n");
     tellIfSimulated(data.value.isSimulated);
     return exitDone;
 }
@@ -136,18 +167,26 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
     command.addCommand("list", "the built-in protocols, one per line");
     OptionTable& show = command.addCommand("show", "a protocol as JSON, to start your own from");
     OptionTable& run = command.addCommand("run", "runs a study, or goes on with it where it was cut off");
-    OptionTable& check = command.addCommand("check", "how strong each stimulus is, what the limiter would alter, how long it takes, how orders balance; nobody feels anything");
-    OptionTable& levels = command.addCommand("levels", "averages what experts set in a protocol's adjustments, for the levels_file of another");
+    OptionTable& check =
+        command.addCommand("check", "how strong each stimulus is, what the limiter would alter, how long it "
+                                    "takes, how orders balance; nobody feels anything");
+    OptionTable& levels = command.addCommand(
+        "levels", "averages what experts set in a protocol's adjustments, for the levels_file of another");
     levels.add("--out", o.levelsPath, "a level per stimulus").written("FILE.csv").required();
-    for (OptionTable* const one : {&show, &run, &check, &levels}) one->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
+    for (OptionTable* const one : {&show, &run, &check, &levels})
+        one->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
     levels.add("trials", o.trials, "trial files of that protocol").as("TRIALS.csv").required();
     run.add("--observer", o.observer, "who answers: " + std::string(observerNames));
-    run.add("--participant", o.participant, "code of the participant; no other personal data is kept").as("CODE");
+    run.add("--participant", o.participant, "code of the participant; no other personal data is kept")
+        .as("CODE");
     run.add("--number", o.number, "number of the (first) participant: decides orders").in(1, 100000);
     run.add("--participants", o.participants, "how many, one after the other").in(1, 1000);
     check.add("--page", o.pagePath, "the check as a page of HTML").written("FILE.html");
     check.add("--participants", o.participants, "whose orders are looked at").in(1, 1000);
-    for (OptionTable* const one : {&run, &check}) addSounds(*one, o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated");
+    for (OptionTable* const one : {&run, &check})
+        addSounds(*one, o.sounds,
+                  "for a protocol that calls render --method SV: the recorded contact of the material of "
+                  "that frequency; may be repeated");
     run.add("--out", o.folder, "folder of the trial files, NAME-CODE.csv").as("FOLDER");
     run.add("--pace", o.paceSeconds, "seconds per trial of a simulated observer").in(0.0, 60.0);
 }
@@ -163,6 +202,8 @@ int runStudy(const OptionTable& command, const StudyOptions& o) {
     return exitDone;
 }
 
-Command studyCommand() { return commandOf("study", "whole studies, from a protocol", declareStudy, runStudy); }
+Command studyCommand() {
+    return commandOf("study", "whole studies, from a protocol", declareStudy, runStudy);
+}
 
 } // namespace physvib

@@ -17,11 +17,11 @@ struct StudyOptions {
     int number = 1;          ///< of the first participant: the row of the Latin squares
     int participants = 1;
     std::string folder = ".";
-    RecordedSounds sounds; ///< instead of the protocol's of that frequency
+    RecordedSounds sounds;           ///< instead of the protocol's of that frequency
     std::vector<std::string> trials; ///< levels: files of those who set them
     std::string levelsPath;          ///< levels: where they are written
     std::string pagePath;            ///< check: the page of HTML; empty: none
-    double paceSeconds = 0.0; ///< per trial, to watch it or to interrupt it
+    double paceSeconds = 0.0;        ///< per trial, to watch it or to interrupt it
 };
 
 /// Declares list, show, run and levels as subcommands of `command`.

@@ -10,7 +10,8 @@ int writeStudyFiles(const std::vector<StudyFile>& files) {
     for (const StudyFile& file : files) {
         if (file.path.empty()) continue;
         open.push_back(std::make_unique<AtomicFile>(file.path));
-        if (const auto& error = open.back()->write(file.bytes()); !error.empty()) return leave(exitFailed, error);
+        if (const auto& error = open.back()->write(file.bytes()); !error.empty())
+            return leave(exitFailed, error);
     }
     for (const auto& file : open)
         if (const auto& error = file->commit(); !error.empty()) return leave(exitFailed, error);

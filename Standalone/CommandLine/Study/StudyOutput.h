@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the study commands share: warnings, and files out.
 #pragma once
-#include "System/ExitCode.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
+#include "System/ExitCode.h"
 #include <functional>
 #include <iostream>
 #include <string>
@@ -23,9 +23,11 @@ struct StudyFile {
     std::string path; ///< empty: not wanted
     std::function<std::string()> bytes;
     StudyFile(std::string where, std::function<std::string()> make)
-        : path{std::move(where)}, bytes{std::move(make)} {}
+        : path{std::move(where)}
+        , bytes{std::move(make)} {}
     StudyFile(std::string where, std::string text)
-        : path{std::move(where)}, bytes{[text = std::move(text)] { return text; }} {}
+        : path{std::move(where)}
+        , bytes{[text = std::move(text)] { return text; }} {}
 };
 
 /// Writes all of them, or none; the code to leave with.

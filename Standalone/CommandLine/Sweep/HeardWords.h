@@ -38,7 +38,8 @@ private:
     void each(Take take) const {
         constexpr std::string_view name = "physvib: ";
         std::istringstream lines{words_.str()};
-        for (std::string line; std::getline(lines, line);) take(std::string_view{line}.substr(line.starts_with(name) ? name.size() : 0));
+        for (std::string line; std::getline(lines, line);)
+            take(std::string_view{line}.substr(line.starts_with(name) ? name.size() : 0));
     }
 
     std::ostringstream words_;

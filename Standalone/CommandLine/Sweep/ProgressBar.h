@@ -10,7 +10,8 @@
 
 namespace physvib {
 
-/// "[#########           ] 450 of 1000, 12 s left", rewritten in place on standard error; gone at the end. M only.
+/// "[#########           ] 450 of 1000, 12 s left", rewritten in place on standard error; gone at the end. M
+/// only.
 class ProgressBar {
 public:
     explicit ProgressBar(std::uint64_t whole)
@@ -29,17 +30,25 @@ public:
         if (!isTerminal_ || now - shown_ < std::chrono::milliseconds{100}) return;
         shown_ = now;
         isShown_ = true;
-        std::fprintf(stderr, "\r%s\x1b[K", words(std::chrono::duration<double>(now - begin_).count()).c_str());
+        std::fprintf(stderr, "\r%s\x1b[K",
+                     words(std::chrono::duration<double>(now - begin_).count()).c_str());
     }
 
     std::string words(double seconds) const {
         constexpr std::uint64_t width = 20;
         const std::uint64_t marks = done_ * width / whole_;
         std::string text = "[";
-        text.append(marks, '#').append(width - marks, ' ').append("] ").append(std::to_string(done_)).append(" of ").append(std::to_string(whole_));
+        text.append(marks, '#')
+            .append(width - marks, ' ')
+            .append("] ")
+            .append(std::to_string(done_))
+            .append(" of ")
+            .append(std::to_string(whole_));
         if (worked_ == 0) return text;
-        const auto left = static_cast<long long>(std::ceil(seconds * static_cast<double>(whole_ - done_) / static_cast<double>(worked_)));
-        return text + ", " + (left < 120 ? std::to_string(left) + " s left" : std::to_string(left / 60) + " min left");
+        const auto left = static_cast<long long>(
+            std::ceil(seconds * static_cast<double>(whole_ - done_) / static_cast<double>(worked_)));
+        return text + ", " +
+               (left < 120 ? std::to_string(left) + " s left" : std::to_string(left / 60) + " min left");
     }
 
 private:

@@ -5,9 +5,9 @@
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/Sweep/SweepSlurm.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Study/Files/StudyFileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
+#include "Study/Files/StudyFileLimits.h"
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -31,12 +31,16 @@ std::optional<SweepPart> partOf(const std::string& words) {
     if (words.empty()) return SweepPart{};
     const auto slash = words.find('/');
     if (slash == words.npos) return std::nullopt;
-    const auto number = parseNumber<std::uint64_t>(std::string_view{words}.substr(0, slash)), parts = parseNumber<std::uint64_t>(std::string_view{words}.substr(slash + 1));
+    const auto number = parseNumber<std::uint64_t>(std::string_view{words}.substr(0, slash)),
+               parts = parseNumber<std::uint64_t>(std::string_view{words}.substr(slash + 1));
     if (!number || !parts || *number < 1 || *number > *parts) return std::nullopt;
     return SweepPart{*number, *parts};
 }
 
-int jobsOf(const SweepOptions& o) { return o.job.jobs > 0 ? o.job.jobs : std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, mostJobs); }
+int jobsOf(const SweepOptions& o) {
+    return o.job.jobs > 0 ? o.job.jobs
+                          : std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, mostJobs);
+}
 
 std::string inTasks(std::uint64_t tasks) { return std::to_string(tasks) + (tasks == 1 ? " task" : " tasks"); }
 
@@ -55,7 +59,9 @@ int showPlan(const SweepPlan& plan, const SweepFolder& folder, bool hasFolder) {
 
 int gather(const SweepPlan& plan, const SweepFolder& folder, const std::string& afterwards) {
     const SweepGap gap = findGap(plan, folder);
-    if (gap.tasks > 0) return leave(exitFailed, inTasks(gap.tasks) + " of " + std::to_string(plan.size()) + " not done, the first: " + gap.first);
+    if (gap.tasks > 0)
+        return leave(exitFailed, inTasks(gap.tasks) + " of " + std::to_string(plan.size()) +
+                                     " not done, the first: " + gap.first);
     if (auto fault = writeIndex(plan, folder); !fault.empty()) return leave(exitFailed, fault);
     std::cout << folder.index().string() << "  " << inTasks(plan.size()) << afterwards << '\n';
     return exitDone;
@@ -64,19 +70,25 @@ int gather(const SweepPlan& plan, const SweepFolder& folder, const std::string& 
 int submit(const SweepPlan& plan, const SweepFolder& folder, const SweepOptions& o) {
     const auto absolute = std::filesystem::absolute(o.job.folder);
     for (const auto& path : {absolute, std::filesystem::current_path()})
-        if (!fitsSlurm(path.string())) return leave(exitFailed, path.string() + ": expected a path without quotes, $, %, ` and \\ for Slurm");
+        if (!fitsSlurm(path.string()))
+            return leave(exitFailed,
+                         path.string() + ": expected a path without quotes, $, %, ` and \\ for Slurm");
     const auto script = folder.slurm() / "sweep.sbatch";
     if (auto fault = folder.makeFolderOf(script); !fault.empty()) return leave(exitFailed, fault);
-    const SlurmSweep sweep{absolute, absolute / "design.json", plan.size(), o.job.keepsWavs, o.job.keepsEvents, o.slurmWords};
+    const SlurmSweep sweep{absolute,        absolute / "design.json", plan.size(),
+                           o.job.keepsWavs, o.job.keepsEvents,        o.slurmWords};
     if (auto fault = writeFile(script, slurmScript(sweep)); !fault.empty()) return leave(exitFailed, fault);
     if (auto fault = submitToSlurm(script); !fault.empty()) return leave(exitFailed, fault);
-    std::cout << script.string() << "  " << inTasks(plan.size()) << " in an array of " << slurmJobs(plan.size()) << "; when it is over, the same call with --gather instead of --slurm\n";
+    std::cout << script.string() << "  " << inTasks(plan.size()) << " in an array of "
+              << slurmJobs(plan.size())
+              << "; when it is over, the same call with --gather instead of --slurm\n";
     return exitDone;
 }
 
 int render(const SweepPlan& plan, const SweepFolder& folder, const SweepOptions& o) {
     const SweepTally tally = runSweepTasks(plan, folder, o.job.part, jobsOf(o));
-    if (tally.failed > 0) return leave(exitFailed, inTasks(tally.failed) + " failed, the first: " + tally.fault);
+    if (tally.failed > 0)
+        return leave(exitFailed, inTasks(tally.failed) + " failed, the first: " + tally.fault);
     if (!o.part.empty()) {
         std::cout << "part " << o.part << "  " << tally.rendered << " rendered\n";
         return exitDone;
@@ -85,25 +97,45 @@ int render(const SweepPlan& plan, const SweepFolder& folder, const SweepOptions&
 }
 
 void declareSweep(OptionTable& command, SweepOptions& o) {
-    command.add("design", o.job.design, "which renders: scenes, variables, seeds, layouts, laws, methods, options").required().as("DESIGN.json");
-    command.add("--out", o.job.folder, "the folder: index.csv, a row per task; tasks, a file for each that is done. The same call goes on where it was cut off").as("FOLDER");
+    command
+        .add("design", o.job.design,
+             "which renders: scenes, variables, seeds, layouts, laws, methods, options")
+        .required()
+        .as("DESIGN.json");
+    command
+        .add("--out", o.job.folder,
+             "the folder: index.csv, a row per task; tasks, a file for each that is done. The same call goes "
+             "on where it was cut off")
+        .as("FOLDER");
     command.add("--jobs", o.job.jobs, "renders at once; all processors unless told").in(1, mostJobs);
     command.add("--wav", o.job.keepsWavs, "keep each task's samples as well");
     command.add("--events", o.job.keepsEvents, "keep each task's event list as well");
-    command.add("--plan,--dry-run", o.plans, "only say how many tasks there are and how many are done, and the first of them");
+    command.add("--plan,--dry-run", o.plans,
+                "only say how many tasks there are and how many are done, and the first of them");
     command.add("--gather", o.gathers, "only write the index of what is done");
-    command.add("--part", o.part, "only every N-th task, from the K-th on, and no index: for several machines").as("K/N");
+    command
+        .add("--part", o.part, "only every N-th task, from the K-th on, and no index: for several machines")
+        .as("K/N");
     command.add("--slurm", o.submits, "write an array of jobs for Slurm and submit it with sbatch");
-    command.add("--sbatch", o.slurmWords, "of --slurm: an option of sbatch, as --sbatch=--time=10:00; may be repeated").as("WORD").single();
+    command
+        .add("--sbatch", o.slurmWords,
+             "of --slurm: an option of sbatch, as --sbatch=--time=10:00; may be repeated")
+        .as("WORD")
+        .single();
 }
 
 int runSweep(SweepOptions& o) {
     if (o.job.folder.empty() && !o.plans) return leave(exitUsage, "sweep: expected --out FOLDER, or --plan");
-    if (o.plans + o.gathers + o.submits + !o.part.empty() > 1) return leave(exitUsage, "sweep: expected one of --plan, --gather, --slurm and --part");
+    if (o.plans + o.gathers + o.submits + !o.part.empty() > 1)
+        return leave(exitUsage, "sweep: expected one of --plan, --gather, --slurm and --part");
     const auto part = partOf(o.part);
-    if (!part) return leave(exitUsage, "--part: expected K/N, the K-th of N parts, found " + inQuotes(o.part));
+    if (!part)
+        return leave(exitUsage, "--part: expected K/N, the K-th of N parts, found " + inQuotes(o.part));
     o.job.part = *part;
-    if (std::ranges::any_of(o.slurmWords, [](const std::string& word) { return !word.starts_with('-') || word.find('\n') != word.npos; })) return leave(exitUsage, "--sbatch: expected options of sbatch, as --sbatch=--time=10:00");
+    if (std::ranges::any_of(o.slurmWords, [](const std::string& word) {
+            return !word.starts_with('-') || word.find('\n') != word.npos;
+        }))
+        return leave(exitUsage, "--sbatch: expected options of sbatch, as --sbatch=--time=10:00");
     const auto text = readFile(o.job.design, limits::maxSweepFileBytes);
     if (!text) return leave(exitFailed, text.error);
     auto design = readSweep(text.value, o.job.design);
@@ -119,6 +151,10 @@ int runSweep(SweepOptions& o) {
 
 } // namespace
 
-Command sweepCommand() { return commandOf("sweep", "many renders of a design as a table of numbers, on all processors or a cluster", declareSweep, runSweep); }
+Command sweepCommand() {
+    return commandOf("sweep",
+                     "many renders of a design as a table of numbers, on all processors or a cluster",
+                     declareSweep, runSweep);
+}
 
 } // namespace physvib

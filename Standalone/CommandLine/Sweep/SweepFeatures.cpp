@@ -13,10 +13,13 @@ constexpr std::array<int, 5> bandEdgesHz{50, 100, 200, 400, 800};
 
 std::string bandName(std::size_t band) {
     const int from = band == 0 ? 0 : bandEdgesHz[band - 1];
-    return "band_" + std::to_string(from) + (band < bandEdgesHz.size() ? '_' + std::to_string(bandEdgesHz[band]) : "_up");
+    return "band_" + std::to_string(from) +
+           (band < bandEdgesHz.size() ? '_' + std::to_string(bandEdgesHz[band]) : "_up");
 }
 
-std::string channelName(const char* what, int channel) { return std::string(what) + '_' + std::to_string(channel + 1); }
+std::string channelName(const char* what, int channel) {
+    return std::string(what) + '_' + std::to_string(channel + 1);
+}
 
 /// Mean of a place, and how far around it, by weights.
 struct PlaceSum {
@@ -27,7 +30,9 @@ struct PlaceSum {
         y += w * atY;
         squares += w * (atX * atX + atY * atY);
     }
-    std::optional<double> of(double sum) const { return weight > 0.0 ? std::optional{sum / weight} : std::nullopt; }
+    std::optional<double> of(double sum) const {
+        return weight > 0.0 ? std::optional{sum / weight} : std::nullopt;
+    }
     std::optional<double> spread() const {
         if (!(weight > 0.0)) return std::nullopt;
         return std::sqrt(std::max(0.0, squares / weight - (x * x + y * y) / (weight * weight)));
@@ -80,14 +85,17 @@ void SweepFeatures::measureEvents(std::span<const CollisionEvent> events) {
         amplitude = std::max(amplitude, std::abs(e.amplitude));
         place.add(std::abs(e.amplitude), e.x, e.y);
     }
-    const auto perGap = [&](double of) { return hits > 1.0 ? std::optional{of / (hits - 1.0)} : std::nullopt; };
+    const auto perGap = [&](double of) {
+        return hits > 1.0 ? std::optional{of / (hits - 1.0)} : std::nullopt;
+    };
     const auto mean = perGap(gaps), square = perGap(squaredGaps);
     add("hits", hits);
     add("grains", static_cast<double>(events.size()) - hits);
     add("first_s", first);
     add("last_s", last);
     add("gap_mean_s", mean);
-    add("gap_deviation_s", mean ? std::optional{std::sqrt(std::max(0.0, *square - *mean * *mean))} : std::nullopt);
+    add("gap_deviation_s",
+        mean ? std::optional{std::sqrt(std::max(0.0, *square - *mean * *mean))} : std::nullopt);
     add("impulse_sum_ns", sum);
     add("impulse_max_ns", largest);
     add("amplitude_max", amplitude);
@@ -114,14 +122,17 @@ void SweepFeatures::measureLevels() {
     for (std::size_t j = 0; j < layout_.enchanters.size(); ++j) {
         const double fullScaleG = layout_.enchanters[j].fullScaleG;
         squareGSeconds += sums.weighted[j] * fullScaleG * fullScaleG;
-        felt.add(sums.plain[j] * fullScaleG * fullScaleG, layout_.geometry.places[j].xMetres, layout_.geometry.places[j].yMetres);
+        felt.add(sums.plain[j] * fullScaleG * fullScaleG, layout_.geometry.places[j].xMetres,
+                 layout_.geometry.places[j].yMetres);
     }
     add("felt_x_m", felt.of(felt.x));
     add("felt_y_m", felt.of(felt.y));
     add("a8_m_per_s2", dailyExposure(squareGSeconds));
     measureSpectrum();
-    for (int j = 0; j < layout_.geometry.count; ++j) add(channelName("peak", j), sums.peaks[static_cast<std::size_t>(j)]);
-    for (int j = 0; j < layout_.geometry.count; ++j) add(channelName("rms", j), std::sqrt(sums.plain[static_cast<std::size_t>(j)] / seconds_));
+    for (int j = 0; j < layout_.geometry.count; ++j)
+        add(channelName("peak", j), sums.peaks[static_cast<std::size_t>(j)]);
+    for (int j = 0; j < layout_.geometry.count; ++j)
+        add(channelName("rms", j), std::sqrt(sums.plain[static_cast<std::size_t>(j)] / seconds_));
 }
 
 void SweepFeatures::measureSpectrum() {
@@ -133,7 +144,8 @@ void SweepFeatures::measureSpectrum() {
         whole += shares[k];
         mean += hz * shares[k];
         square += hz * hz * shares[k];
-        bands[static_cast<std::size_t>(std::ranges::upper_bound(bandEdgesHz, hz) - bandEdgesHz.begin())] += shares[k];
+        bands[static_cast<std::size_t>(std::ranges::upper_bound(bandEdgesHz, hz) - bandEdgesHz.begin())] +=
+            shares[k];
     }
     const auto ofSound = [&](double value) { return whole > 0.0 ? std::optional{value} : std::nullopt; };
     add("centroid_hz", ofSound(mean));

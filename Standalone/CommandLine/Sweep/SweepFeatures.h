@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A render in numbers, for those who learn from thousands: what was struck, and what came of it in the samples.
+// A render in numbers, for those who learn from thousands: what was struck, and what came of it in the
+// samples.
 #pragma once
 #include "CommandLine/Render/RenderListener.h"
 #include "Core/Actuators/ExposureMeter.h"
 #include "Core/CollisionEvent.h"
-#include "Scene/LayoutFile.h"
 #include "Measure/PowerSpectrum.h"
+#include "Scene/LayoutFile.h"
 #include <memory>
 #include <optional>
 #include <span>

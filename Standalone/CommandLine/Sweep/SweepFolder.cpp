@@ -3,12 +3,12 @@
 #include "CommandLine/Sweep/SweepFolder.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
-#include "Scene/SceneFileLimits.h"
-#include "Study/Files/StudyFileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavFile.h"
+#include "Scene/SceneFileLimits.h"
+#include "Study/Files/StudyFileLimits.h"
 #include <algorithm>
 #include <limits>
 
@@ -17,14 +17,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string headOf(const PlannedTask& task) { return provenanceComment({PHYSVIB_VERSION, {{"task", task.hash}, {"call", task.task.call}, {"files", task.files}}}); }
+std::string headOf(const PlannedTask& task) {
+    return provenanceComment(
+        {PHYSVIB_VERSION, {{"task", task.hash}, {"call", task.task.call}, {"files", task.files}}});
+}
 
-/// Whether a file is as long as its head says: a machine that loses its power may leave the name, and nothing or a part behind it.
+/// Whether a file is as long as its head says: a machine that loses its power may leave the name, and nothing
+/// or a part behind it.
 bool isWavWhole(const std::string& path) {
     if (path.empty()) return true;
     std::string head(wavSizeBytes, '\0');
     const auto file = openRegular(path, std::numeric_limits<std::size_t>::max());
-    if (!file || std::fread(head.data(), 1, head.size(), file.value.stream.get()) != head.size()) return false;
+    if (!file || std::fread(head.data(), 1, head.size(), file.value.stream.get()) != head.size())
+        return false;
     return wavFileBytes(head) == static_cast<std::int64_t>(file.value.bytes);
 }
 
@@ -47,7 +52,9 @@ std::string SweepFolder::makeFolderOf(const fs::path& file) const {
 std::optional<CsvTable> SweepFolder::table(const PlannedTask& task) const {
     const auto text = readFile(result(task.hash), limits::maxSweepFileBytes);
     // a disk that was full
-    if (!text || !text.value.starts_with(headOf(task)) || std::ranges::count(text.value, '\n') != 3 || !text.value.ends_with('\n')) return std::nullopt;
+    if (!text || !text.value.starts_with(headOf(task)) || std::ranges::count(text.value, '\n') != 3 ||
+        !text.value.ends_with('\n'))
+        return std::nullopt;
     auto table = readCsvTable(text.value, result(task.hash).string());
     if (!table || table.value.rows.size() != 1 || !table.value.column("warnings")) return std::nullopt;
     if (!isWavWhole(wav(task.hash)) || !isEventListWhole(task, table.value)) return std::nullopt;
@@ -64,10 +71,12 @@ bool SweepFolder::isEventListWhole(const PlannedTask& task, const CsvTable& tabl
         const auto column = table.column(counted);
         lines += column ? parseNumber<double>(table.rows.front().cells[*column]).value_or(0.0) : 0.0;
     }
-    return text && text.value.ends_with('\n') && static_cast<double>(std::ranges::count(text.value, '\n')) >= lines;
+    return text && text.value.ends_with('\n') &&
+           static_cast<double>(std::ranges::count(text.value, '\n')) >= lines;
 }
 
-std::string SweepFolder::text(const PlannedTask& task, const std::vector<SweepFeature>& features, const std::string& warnings) {
+std::string SweepFolder::text(const PlannedTask& task, const std::vector<SweepFeature>& features,
+                              const std::string& warnings) {
     std::string text = headOf(task);
     for (const SweepFeature& feature : features) text += feature.name + ',';
     text += "warnings\n";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder of a sweep: a file for each task that is done, under its hash; a log per worker; at the end the index.
+// The folder of a sweep: a file for each task that is done, under its hash; a log per worker; at the end the
+// index.
 #pragma once
 #include "CommandLine/Sweep/SweepFeatures.h"
 #include "CommandLine/Sweep/SweepPlan.h"
@@ -26,10 +27,15 @@ public:
     std::filesystem::path slurm() const { return folder_ / "slurm"; }
     std::filesystem::path result(const std::string& hash) const { return ofTask(hash, ".csv"); }
     /// Empty: not wanted.
-    std::string wav(const std::string& hash) const { return keepsWavs_ ? ofTask(hash, ".wav").string() : std::string{}; }
-    std::string events(const std::string& hash) const { return keepsEvents_ ? ofTask(hash, ".events.csv").string() : std::string{}; }
+    std::string wav(const std::string& hash) const {
+        return keepsWavs_ ? ofTask(hash, ".wav").string() : std::string{};
+    }
+    std::string events(const std::string& hash) const {
+        return keepsEvents_ ? ofTask(hash, ".events.csv").string() : std::string{};
+    }
 
-    /// Makes the folder of a file in it, where it is missing; empty, or one line, also if a link leads out of the sweep's folder.
+    /// Makes the folder of a file in it, where it is missing; empty, or one line, also if a link leads out of
+    /// the sweep's folder.
     std::string makeFolderOf(const std::filesystem::path& file) const;
 
     /// Whether all that is wanted of a task is there and whole.
@@ -39,10 +45,13 @@ public:
     std::optional<CsvTable> table(const PlannedTask& task) const;
 
     /// What is kept of a task that is done.
-    static std::string text(const PlannedTask& task, const std::vector<SweepFeature>& features, const std::string& warnings);
+    static std::string text(const PlannedTask& task, const std::vector<SweepFeature>& features,
+                            const std::string& warnings);
 
 private:
-    std::filesystem::path ofTask(const std::string& hash, const char* ending) const { return folder_ / "tasks" / hash.substr(0, 2) / (hash + ending); }
+    std::filesystem::path ofTask(const std::string& hash, const char* ending) const {
+        return folder_ / "tasks" / hash.substr(0, 2) / (hash + ending);
+    }
     bool isEventListWhole(const PlannedTask& task, const CsvTable& row) const;
 
     std::filesystem::path folder_;

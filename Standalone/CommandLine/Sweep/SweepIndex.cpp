@@ -33,7 +33,9 @@ public:
         , features_{SweepFeatures::names(plan.channels())} {}
 
     std::string head(std::uint64_t tasks) const {
-        std::string text = provenanceComment({PHYSVIB_VERSION, {{"sweep", design_.name}, {"tasks", std::to_string(tasks)}}}) + "task,scene";
+        std::string text = provenanceComment({PHYSVIB_VERSION,
+                                              {{"sweep", design_.name}, {"tasks", std::to_string(tasks)}}}) +
+                           "task,scene";
         for (const std::string& name : variables_) appendCell(text += ',', "set_" + name);
         for (const SweepFactor& factor : design_.factors) appendCell(text += ',', columnOf(factor.name));
         text += ",seed";
@@ -41,7 +43,8 @@ public:
         return text + ",warnings,hash,files,call\n";
     }
 
-    void append(std::string& text, std::uint64_t number, const PlannedTask& planned, const CsvTable& table) const {
+    void append(std::string& text, std::uint64_t number, const PlannedTask& planned,
+                const CsvTable& table) const {
         appendNumber(text, number);
         appendCell(text += ',', planned.task.scene);
         appendVariables(text, planned.task);
@@ -52,7 +55,9 @@ public:
             const auto column = table.column(name);
             text.append(1, ',').append(column ? cells[*column] : "");
         }
-        for (const std::string& words : {cells[*table.column("warnings")], planned.hash, planned.files, planned.task.call}) appendCell(text += ',', words);
+        for (const std::string& words :
+             {cells[*table.column("warnings")], planned.hash, planned.files, planned.task.call})
+            appendCell(text += ',', words);
         text += '\n';
     }
 
@@ -61,7 +66,10 @@ private:
         const auto scene = std::ranges::find(design_.scenes, task.scene, &SweepScene::name);
         for (const std::string& name : variables_) {
             const auto own = std::ranges::find(scene->variables, name, &SweepFactor::name);
-            appendCell(text += ',', own == scene->variables.end() ? std::string{} : task.variables[static_cast<std::size_t>(own - scene->variables.begin())]);
+            appendCell(text += ',',
+                       own == scene->variables.end()
+                           ? std::string{}
+                           : task.variables[static_cast<std::size_t>(own - scene->variables.begin())]);
         }
     }
 
@@ -89,7 +97,9 @@ std::string writeIndex(const SweepPlan& plan, const SweepFolder& folder) {
     for (std::uint64_t i = 0; i < plan.size(); ++i) {
         const PlannedTask task = plan.at(i);
         const auto table = folder.table(task);
-        if (!table) return folder.result(task.hash).string() + ": expected the task " + task.task.call + ", found none";
+        if (!table)
+            return folder.result(task.hash).string() + ": expected the task " + task.task.call +
+                   ", found none";
         rows.append(text, i + 1, task, *table);
         if (text.size() < enough && i + 1 < plan.size()) continue;
         if (!file.writeAt(written, text)) break;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One task per word is looked at: a sweep of many seeds is checked as fast as one of few.
 #include "CommandLine/Sweep/SweepPlan.h"
-#include "CommandLine/Render/RenderInputs.h"
 #include "Calls/CallFiles.h"
+#include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Sweep/HeardWords.h"
 #include "Io/Disk/ContentHash.h"
-#include "Scene/SceneFileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Options/Parser.h"
+#include "Scene/SceneFileLimits.h"
 #include <filesystem>
 
 namespace physvib {
@@ -33,7 +33,8 @@ Result<RenderJob> renderOptionsOf(const std::string& call) {
     OptionTable& render = words.addCommand("render", {});
     declareRenderOptions(render, options);
     const ParsedWords parsed = parseText(words, call);
-    if (!parsed.help.empty()) return Failure{"expected words that say what is rendered, found a call for help"};
+    if (!parsed.help.empty())
+        return Failure{"expected words that say what is rendered, found a call for help"};
     if (!parsed.fault.empty()) return Failure{parsed.reason()};
     if (auto fault = linkOfCallFault(words, {}); !fault.empty()) return Failure{fault};
     noteGiven(render, options);
@@ -50,7 +51,8 @@ Result<SweepPlan> SweepPlan::of(SweepDesign design, const std::string& name) {
 
 std::string SweepPlan::tryWords(const std::string& name) {
     const SweepDesign all = design_;
-    if (const auto fault = tryTask(design_.task(0)); !fault.empty()) return name + ": " + placeOfFault() + ": " + fault;
+    if (const auto fault = tryTask(design_.task(0)); !fault.empty())
+        return name + ": " + placeOfFault() + ": " + fault;
     const auto tryOne = [&](const std::string& place) {
         const std::string fault = tryTask(design_.task(0));
         return fault.empty() ? fault : name + ": " + place + ": " + fault;
@@ -103,14 +105,17 @@ void SweepPlan::noteFile(const std::string& word, const std::string& path) {
     auto& files = files_[word];
     if (files.contains(path)) return;
     std::error_code none;
-    if (const EmbeddedFile* scene = embeddedScene(path)) files[path] = contentHash(scene->text);
-    else if (std::filesystem::is_regular_file(path, none)) files[path] = hashOfFile(path);
+    if (const EmbeddedFile* scene = embeddedScene(path))
+        files[path] = contentHash(scene->text);
+    else if (std::filesystem::is_regular_file(path, none))
+        files[path] = hashOfFile(path);
 }
 
 std::string SweepPlan::filesOf(const SweepTask& task) const {
     std::map<std::string, std::string> all;
     const auto add = [&](const std::string& word) {
-        if (const auto found = files_.find(word); found != files_.end()) all.insert(found->second.begin(), found->second.end());
+        if (const auto found = files_.find(word); found != files_.end())
+            all.insert(found->second.begin(), found->second.end());
     };
     add(task.scene);
     for (const std::string& option : task.options) add(option);
@@ -124,14 +129,17 @@ std::string SweepPlan::filesOf(const SweepTask& task) const {
 PlannedTask SweepPlan::at(std::uint64_t index) const {
     PlannedTask planned{design_.task(index), {}, {}};
     planned.files = filesOf(planned.task);
-    planned.hash = contentHash("physvib " PHYSVIB_VERSION " sweep " + std::to_string(sweepResultVersion) + '\n' + planned.task.call + '\n' + planned.files);
+    planned.hash = contentHash("physvib " PHYSVIB_VERSION " sweep " + std::to_string(sweepResultVersion) +
+                               '\n' + planned.task.call + '\n' + planned.files);
     return planned;
 }
 
 bool SweepPlan::isUnchanged(const PlannedTask& planned) const {
     for (const auto& [word, files] : files_)
         for (const auto& [path, hash] : files)
-            if (planned.files.find(path + '=') != std::string::npos && !embeddedScene(path) && hashOfFile(path) != hash) return false;
+            if (planned.files.find(path + '=') != std::string::npos && !embeddedScene(path) &&
+                hashOfFile(path) != hash)
+                return false;
     return true;
 }
 

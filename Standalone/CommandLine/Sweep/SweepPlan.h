@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A design whose files are there and whose words the program knows: tasks by their numbers, each with the hash that it is kept under.
+// A design whose files are there and whose words the program knows: tasks by their numbers, each with the
+// hash that it is kept under.
 #pragma once
 #include "Calls/RenderOptions.h"
 #include "Study/Files/SweepFile.h"
@@ -24,7 +25,8 @@ Result<RenderJob> renderOptionsOf(const std::string& call);
 
 class SweepPlan {
 public:
-    /// Tries every word of the design once, without a render, and reads every file; one line if one is not to be had. M only.
+    /// Tries every word of the design once, without a render, and reads every file; one line if one is not to
+    /// be had. M only.
     static Result<SweepPlan> of(SweepDesign design, const std::string& name);
 
     const SweepDesign& design() const noexcept { return design_; }

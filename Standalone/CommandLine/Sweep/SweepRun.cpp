@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The temporary file of a result is the claim to its task: who has it renders, who is killed loses it.
 #include "CommandLine/Sweep/SweepRun.h"
-#include "System/ExitCode.h"
-#include "System/Process.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Sweep/HeardWords.h"
 #include "CommandLine/Sweep/ProgressBar.h"
@@ -10,6 +8,8 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Session/GrowingFile.h"
+#include "System/ExitCode.h"
+#include "System/Process.h"
 #include <chrono>
 #include <juce_core/juce_core.h>
 #include <memory>
@@ -25,7 +25,8 @@ using Kind = WorkEnd::Kind;
 class WorkerLog {
 public:
     explicit WorkerLog(const SweepFolder& folder) {
-        const auto path = folder.log(juce::SystemStats::getComputerName().toStdString() + '-' + std::to_string(processNumber()));
+        const auto path = folder.log(juce::SystemStats::getComputerName().toStdString() + '-' +
+                                     std::to_string(processNumber()));
         // without one, the sweep is done all the same
         if (folder.makeFolderOf(path).empty()) file_.open(path);
     }
@@ -36,7 +37,8 @@ private:
 };
 
 /// Renders a task that nobody else is at; empty and `text`, or one line.
-std::string renderTask(const SweepPlan& plan, const SweepFolder& folder, const PlannedTask& task, std::string& text) {
+std::string renderTask(const SweepPlan& plan, const SweepFolder& folder, const PlannedTask& task,
+                       std::string& text) {
     auto options = renderOptionsOf(task.task.call);
     if (!options) return options.error;
     options.value.wavPath = folder.wav(task.hash);
@@ -44,15 +46,20 @@ std::string renderTask(const SweepPlan& plan, const SweepFolder& folder, const P
     SweepFeatures features;
     const HeardWords heard;
     if (runRender(options.value, &features) != exitDone) return heard.reason();
-    if (!plan.isUnchanged(task)) return "expected its files to stay as they are, found others than when the sweep began";
+    if (!plan.isUnchanged(task))
+        return "expected its files to stay as they are, found others than when the sweep began";
     text = SweepFolder::text(task, features.finish(), heard.warnings());
     return {};
 }
 
 /// A part, or of it what others were rendering when it was their turn.
 struct TaskNumbers {
-    std::uint64_t size() const { return isAll ? (sweep + part.parts - part.number) / part.parts : chosen.size(); }
-    std::uint64_t at(std::uint64_t index) const { return isAll ? part.number - 1 + index * part.parts : chosen[index]; }
+    std::uint64_t size() const {
+        return isAll ? (sweep + part.parts - part.number) / part.parts : chosen.size();
+    }
+    std::uint64_t at(std::uint64_t index) const {
+        return isAll ? part.number - 1 + index * part.parts : chosen[index];
+    }
     std::uint64_t sweep = 0;
     SweepPart part;
     bool isAll = true;
@@ -61,7 +68,8 @@ struct TaskNumbers {
 
 WorkEnd endOf(std::uint64_t index, Kind kind) { return {index, kind, {}}; }
 
-WorkEnd doTask(const SweepPlan& plan, const SweepFolder& folder, const TaskNumbers& numbers, std::uint64_t index, std::unique_ptr<WorkerLog>& log) {
+WorkEnd doTask(const SweepPlan& plan, const SweepFolder& folder, const TaskNumbers& numbers,
+               std::uint64_t index, std::unique_ptr<WorkerLog>& log) {
     const PlannedTask task = plan.at(numbers.at(index));
     if (folder.has(task)) return endOf(index, Kind::wasDone);
     const auto path = folder.result(task.hash);
@@ -74,10 +82,13 @@ WorkEnd doTask(const SweepPlan& plan, const SweepFolder& folder, const TaskNumbe
     log->add("begun " + task.hash);
     const auto begin = std::chrono::steady_clock::now();
     std::string text;
-    if (auto fault = renderTask(plan, folder, task, text); !fault.empty()) return WorkEnd::failedAt(index, fault);
+    if (auto fault = renderTask(plan, folder, task, text); !fault.empty())
+        return WorkEnd::failedAt(index, fault);
     claim.write(text);
     if (const auto& fault = claim.commit(); !fault.empty()) return WorkEnd::failedAt(index, fault);
-    log->add("finished " + task.hash + ' ' + fixedNumber(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 4) + " s");
+    log->add("finished " + task.hash + ' ' +
+             fixedNumber(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 4) +
+             " s");
     return endOf(index, Kind::done);
 }
 

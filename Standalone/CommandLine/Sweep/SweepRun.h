@@ -13,7 +13,8 @@ struct SweepTally {
     std::string fault; ///< of the first that failed: its call, and why
 };
 
-/// Renders what `folder` does not have yet, in so many processes, and waits for what others are rendering in it. M only.
+/// Renders what `folder` does not have yet, in so many processes, and waits for what others are rendering in
+/// it. M only.
 SweepTally runSweepTasks(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& part, int jobs);
 
 } // namespace physvib

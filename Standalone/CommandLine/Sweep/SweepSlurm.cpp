@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each job does every so many-th task, so that all take about as long; which are done already, the folder says.
+// Each job does every so many-th task, so that all take about as long; which are done already, the folder
+// says.
 #include "CommandLine/Sweep/SweepSlurm.h"
 #include "System/Process.h"
 #include <algorithm>
@@ -21,15 +22,25 @@ std::uint64_t slurmJobs(std::uint64_t tasks) noexcept {
 }
 
 // What a shell, a line "#SBATCH" and Slurm's own names of files leave as it is in quotes.
-bool fitsSlurm(const std::string& path) noexcept { return path.find_first_of("\"\\$`%\n'") == std::string::npos; }
+bool fitsSlurm(const std::string& path) noexcept {
+    return path.find_first_of("\"\\$`%\n'") == std::string::npos;
+}
 
 std::string slurmScript(const SlurmSweep& sweep) {
     const std::string jobs = std::to_string(slurmJobs(sweep.tasks));
-    std::string text = "#!/bin/sh\n# physvib " PHYSVIB_VERSION ": " + std::to_string(sweep.tasks) + " tasks. A job may be given up, repeated or submitted again: what is done is not done twice.\n";
-    text += "#SBATCH --job-name=physvib\n#SBATCH --array=1-" + jobs + "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n";
-    text += "#SBATCH --chdir=" + inShellQuotes(fs::current_path()) + "\n#SBATCH --output=" + inShellQuotes(sweep.folder / "slurm" / "%A_%a.txt") + '\n';
+    std::string text =
+        "#!/bin/sh\n# physvib " PHYSVIB_VERSION ": " + std::to_string(sweep.tasks) +
+        " tasks. A job may be given up, repeated or submitted again: what is done is not done twice.\n";
+    text += "#SBATCH --job-name=physvib\n#SBATCH --array=1-" + jobs +
+            "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n";
+    text += "#SBATCH --chdir=" + inShellQuotes(fs::current_path()) +
+            "\n#SBATCH --output=" + inShellQuotes(sweep.folder / "slurm" / "%A_%a.txt") + '\n';
     for (const std::string& word : sweep.words) text += "#SBATCH " + word + '\n';
-    text += "exec " + inShellQuotes(juce::File::getSpecialLocation(juce::File::hostApplicationPath).getFullPathName().toStdString()) + " sweep " + inShellQuotes(sweep.design) + " --out " + inShellQuotes(sweep.folder);
+    text +=
+        "exec " +
+        inShellQuotes(
+            juce::File::getSpecialLocation(juce::File::hostApplicationPath).getFullPathName().toStdString()) +
+        " sweep " + inShellQuotes(sweep.design) + " --out " + inShellQuotes(sweep.folder);
     text += " --jobs \"${SLURM_CPUS_PER_TASK:-1}\" --part \"$SLURM_ARRAY_TASK_ID/" + jobs + '"';
     return text + (sweep.keepsWavs ? " --wav" : "") + (sweep.keepsEvents ? " --events" : "") + '\n';
 }

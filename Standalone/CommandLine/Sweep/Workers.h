@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work shared among processes: Box2D counts in variables of its process, and a task that breaks its process breaks no other.
-// How, is another matter on each system: WorkersPosix.cpp, WorkersWindows.cpp.
+// Work shared among processes: Box2D counts in variables of its process, and a task that breaks its process
+// breaks no other. How, is another matter on each system: WorkersPosix.cpp, WorkersWindows.cpp.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -26,8 +26,10 @@ struct WorkEnd {
     std::string_view reason() const { return words.data(); }
 };
 
-/// Does `work` of 0 to `count` - 1, each once, in `jobs` processes that end with this one (on Windows in this one alone); `hear` is told
-/// here. Of work that ended its process, it is told as failed, and the others go on. M only, with no other thread and no file of ours open for writing.
-void shareWork(int jobs, std::uint64_t count, const Work& work, const std::function<void(const WorkEnd&)>& hear);
+/// Does `work` of 0 to `count` - 1, each once, in `jobs` processes that end with this one (on Windows in this
+/// one alone); `hear` is told here. Of work that ended its process, it is told as failed, and the others go
+/// on. M only, with no other thread and no file of ours open for writing.
+void shareWork(int jobs, std::uint64_t count, const Work& work,
+               const std::function<void(const WorkEnd&)>& hear);
 
 } // namespace physvib

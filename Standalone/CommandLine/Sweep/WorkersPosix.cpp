@@ -2,8 +2,8 @@
 // POSIX: one counter in shared memory says what comes next; one pipe, whose writes are whole, brings what
 // became of it.
 #if !defined(_WIN32)
-#include "System/Process.h"
 #include "CommandLine/Sweep/Workers.h"
+#include "System/Process.h"
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -33,9 +33,7 @@ struct Board {
     std::array<std::atomic<std::uint64_t>, maxWorkers> at{}; ///< what a worker is at, from 1; 0: nothing
 };
 
-[[noreturn]] void failAs(const char* what) {
-    throw std::system_error{errno, std::generic_category(), what};
-}
+[[noreturn]] void failAs(const char* what) { throw std::system_error{errno, std::generic_category(), what}; }
 
 class SharedBoard {
 public:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows, where a process cannot become two: one piece after the other, here. Several programs share a sweep by --part.
+// Windows, where a process cannot become two: one piece after the other, here. Several programs share a sweep
+// by --part.
 #if defined(_WIN32)
 #include "CommandLine/Sweep/Workers.h"
 

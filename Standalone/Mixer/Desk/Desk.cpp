@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mix, the session that plays it, and the output.
 #include "Mixer/Desk/Desk.h"
-#include "Scene/SceneCatalogue.h"
 #include "Mixer/Desk/DeskWords.h"
+#include "Scene/SceneCatalogue.h"
 #include <algorithm>
 #include <cmath>
 
@@ -36,9 +36,7 @@ SessionSetup setupOf(const Mix& mix) {
 
 } // namespace
 
-Mix Desk::firstMix() {
-    return shakeTheBox();
-}
+Mix Desk::firstMix() { return shakeTheBox(); }
 
 /// One thing to undo; edits of a held fader grow into one.
 class Desk::MixEdit final : public juce::UndoableAction {
@@ -68,7 +66,12 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     , undo_{1000, 30}
     , world_{session_, mix_, undo_, [this](bool isShown) { edited(isShown); }}
     , told_{mix_.panner()}
-    , strikes_{session_, output(), mix_, world_, [this] { edited(true); }, [this](const Result<std::string>& note) { takeFelt(note); }} {
+    , strikes_{session_,
+               output(),
+               mix_,
+               world_,
+               [this] { edited(true); },
+               [this](const Result<std::string>& note) { takeFelt(note); }} {
     saved_.run = setupOf(mix_).run();
     saved_.panner = mix_.panner();
     mostEnchanters_ = mix_.count();
@@ -96,7 +99,8 @@ Desk::~Desk() {
 void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
     if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
     // undone, it is as it was drawn
-    if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene) mix_.scene = std::make_shared<const Scene>(drawn);
+    if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene)
+        mix_.scene = std::make_shared<const Scene>(drawn);
     undo_.perform(new MixEdit{*this, mix_, next});
 }
 
@@ -109,7 +113,8 @@ void Desk::apply(const Mix& next) {
     exposure_.use(mix_.layout);
     told_.follow(session_, mix_);
     told_.tell(session_, mix_);
-    if (!mix_.strips.empty() && !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))
+    if (!mix_.strips.empty() &&
+        !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))
         if (const auto error = device_.assign(); !error.empty()) report(utf8(error));
     output().setLevel(masterGain(mix_));
     sendChangeMessage();
@@ -168,8 +173,9 @@ std::string Desk::open(const DeviceChoice& choice) {
 }
 
 std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
-    if (!std::ranges::all_of(outputs,
-                             [this](int output) { return output >= device_.outputs() || device_.listening().isFree(output); }))
+    if (!std::ranges::all_of(outputs, [this](int output) {
+            return output >= device_.outputs() || device_.listening().isFree(output);
+        }))
         change("Listen instead of feeling", [&](Mix& mix) {
             for (Strip& strip : mix.strips)
                 if (std::ranges::find(outputs, strip.output) != outputs.end()) strip.output = -1;
@@ -206,7 +212,8 @@ void Desk::edited(bool isShown) {
 
 void Desk::takeFelt(const Result<std::string>& note) {
     if (!note) return report(utf8(note.error));
-    juce::StringArray news{utf8(note.value), device_.board() ? "The board plays no clips: it is felt on the device alone" : ""};
+    juce::StringArray news{utf8(note.value),
+                           device_.board() ? "The board plays no clips: it is felt on the device alone" : ""};
     news.removeEmptyStrings();
     if (!news.isEmpty()) tell(news.joinIntoString("; "));
     edited();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mixer's window shows and changes: a live session on a device, the mix that is set on it, and the way back of every change.
+// What the mixer's window shows and changes: a live session on a device, the mix that is set on it, and the
+// way back of every change.
 #pragma once
-#include "Scene/Sessions/SessionFile.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Mixer/Desk/DeskDevice.h"
 #include "Mixer/Desk/DeskExposure.h"
@@ -14,6 +14,7 @@
 #include "Mixer/Desk/DeskWorld.h"
 #include "Mixer/Desk/RecentContacts.h"
 #include "Mixer/Desk/ToldMix.h"
+#include "Scene/Sessions/SessionFile.h"
 #include <juce_data_structures/juce_data_structures.h>
 #include <memory>
 #include <string>
@@ -24,17 +25,19 @@ namespace physvib {
 /// M only. Listeners are told when the mix, the device or the trouble changes.
 class Desk final : public juce::ChangeBroadcaster {
 public:
-    static constexpr int channels = limits::maxEnchanters; ///< of the session: whatever is attached while it plays finds one
-    static constexpr double gapSeconds = 0.005;            ///< the driver's thread shares the machine with painting
+    static constexpr int channels = limits::maxEnchanters; ///< of the session: whatever is attached while it
+                                                           ///< plays finds one
+    static constexpr double gapSeconds = 0.005; ///< the driver's thread shares the machine with painting
 
-    /// Plays `mix` on `device`, one of `types`; trouble() if it does not open. Its rate and block hold until another is opened.
+    /// Plays `mix` on `device`, one of `types`; trouble() if it does not open. Its rate and block hold until
+    /// another is opened.
     Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix = firstMix());
     static Mix firstMix(); ///< *Shake the box* on PHONE4, at a safe level
     ~Desk() override;
 
     const Mix& mix() const noexcept { return mix_; }
-    /// Takes up another mix, which can be undone. `name` is what the menu says; of edits that follow each other with
-    /// `goesOn`, as those of a fader that is held, only the first starts something to undo.
+    /// Takes up another mix, which can be undone. `name` is what the menu says; of edits that follow each
+    /// other with `goesOn`, as those of a fader that is held, only the first starts something to undo.
     void edit(const juce::String& name, const Mix& next, bool goesOn = false);
     template <class Change>
     void change(const juce::String& name, Change change, bool goesOn = false) {
@@ -44,7 +47,7 @@ public:
     }
     juce::UndoManager& undoManager() noexcept { return undo_; }
     bool attach(double shareX, double shareY); ///< at shares of the field, quietly; false: no room
-    void detach(int enchanter); ///< one always stays
+    void detach(int enchanter);                ///< one always stays
     /// grows with every edit and every input: what a document has to be saved for
     std::uint64_t edits() const noexcept { return edits_; }
     const SavedSession& saved(); ///< the session until now: rendered again it is what was played
@@ -71,7 +74,7 @@ public:
     std::string monitorInstead(std::vector<int> outputs, double db);
     void setSilent(bool silent);                         ///< as a person at the machine wishes
     bool isSilent() const noexcept { return isSilent_; } ///< as it is shown: what is pressed then means that
-    void stop();       ///< what Esc does first of all
+    void stop();                                         ///< what Esc does first of all
     void takeEscape(); ///< of an Esc that nothing else took: lifts what was silent before it
 
     void setDisplayWidth(double metres); ///< of what the world is seen on, for drags; 0: as the system says
@@ -114,7 +117,7 @@ private:
     DeskScript script_{*this};
     DeskLanes lanes_{*this};
     std::vector<CollisionEvent> hits_; // played since the last look
-    DeskStrikes strikes_; // these last: their threads use the others
+    DeskStrikes strikes_;              // these last: their threads use the others
     DeskInputs inputs_{*this};
 };
 

@@ -21,11 +21,15 @@ juce::String DeskBoard::trouble() {
     if (now.state == BoardLinkStatus::State::ready) {
         wasReady_ = true;
         if (now.playOutMs <= 1e3 * leadSeconds) return {};
-        return "The board needs its strikes more than " + juce::String{1e3 * leadSeconds, 0} + " ms before they are felt: some come late there";
+        return "The board needs its strikes more than " + juce::String{1e3 * leadSeconds, 0} +
+               " ms before they are felt: some come late there";
     }
     if (!wasReady_ && nowMs() - wantedAtMs_ < patienceMs) return {};
-    if (port_ == anyBoard) return wasReady_ ? "The board is gone; it is looked for on every serial port" : "No board answers on any serial port";
-    return "The board at " + utf8(port_) + (wasReady_ ? " is gone" : " does not answer") + "; it is looked for twice a second";
+    if (port_ == anyBoard)
+        return wasReady_ ? "The board is gone; it is looked for on every serial port"
+                         : "No board answers on any serial port";
+    return "The board at " + utf8(port_) + (wasReady_ ? " is gone" : " does not answer") +
+           "; it is looked for twice a second";
 }
 
 } // namespace physvib

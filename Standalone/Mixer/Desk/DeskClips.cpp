@@ -6,9 +6,12 @@
 
 namespace physvib {
 
-bool isClipDrag(const juce::StringArray& files) { return !files.isEmpty() && !files[0].endsWithIgnoreCase(".json"); }
+bool isClipDrag(const juce::StringArray& files) {
+    return !files.isEmpty() && !files[0].endsWithIgnoreCase(".json");
+}
 
-DeskClips::DeskClips(Session& session, const AudioOutput& output, std::function<void(const Result<std::string>&)> told)
+DeskClips::DeskClips(Session& session, const AudioOutput& output,
+                     std::function<void(const Result<std::string>&)> told)
     : output_{output}
     , told_{std::move(told)}
     , messages_{session} {}
@@ -30,7 +33,9 @@ void DeskClips::feel(const juce::File& file, const EnchanterPlace& atMetres, boo
 
 // On the reader's thread.
 Result<std::string> DeskClips::strike(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
-    PlainMessage clip{"clip", {{"file", file.getFullPathName().toStdString()}, {"place", std::vector{atMetres.xMetres, atMetres.yMetres}}}};
+    PlainMessage clip{"clip",
+                      {{"file", file.getFullPathName().toStdString()},
+                       {"place", std::vector{atMetres.xMetres, atMetres.yMetres}}}};
     if (isAlone) clip.values.push_back({"law", std::string{nameOf(Spread::alone)}});
     const auto unlessLent = [this](const std::string& path) { // it may have been lent while others were read
         return output_.isLent() ? Result<LoadedClip>{Failure{"a study is running"}} : loadWholeClip(path);
@@ -38,7 +43,8 @@ Result<std::string> DeskClips::strike(const juce::File& file, const EnchanterPla
     const auto result = messages_.take(clip, nullptr, unlessLent);
     if (!result) return Failure{result.error};
     // a note
-    return result.value.values.empty() ? std::string{} : std::get<std::string>(result.value.values.front().value);
+    return result.value.values.empty() ? std::string{}
+                                       : std::get<std::string>(result.value.values.front().value);
 }
 
 void DeskClips::handleAsyncUpdate() {

@@ -18,11 +18,14 @@ bool isClipDrag(const juce::StringArray& files);
 /// M only.
 class DeskClips final : private juce::AsyncUpdater {
 public:
-    /// All outlive it; `told` is called on M for each clip, when it has been struck (with a note or an empty line) or refused (why).
-    DeskClips(Session& session, const AudioOutput& output, std::function<void(const Result<std::string>&)> told);
+    /// All outlive it; `told` is called on M for each clip, when it has been struck (with a note or an empty
+    /// line) or refused (why).
+    DeskClips(Session& session, const AudioOutput& output,
+              std::function<void(const Result<std::string>&)> told);
     ~DeskClips() override;
 
-    /// As soon as it has been read: at that place of the field, or on the enchanter there alone. Several wait for one another.
+    /// As soon as it has been read: at that place of the field, or on the enchanter there alone. Several wait
+    /// for one another.
     void feel(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone);
 
 private:

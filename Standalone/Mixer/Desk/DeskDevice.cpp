@@ -13,7 +13,9 @@ constexpr double maintainMs = 1000.0, padPatienceMs = 3000.0; // by Bluetooth on
 } // namespace
 
 std::string DeskDevice::open(const DeviceChoice& choice) {
-    AudioOutputSettings settings{choice.name, outputMap(), choice.sampleRateHz, choice.blockFrames, masterGain(mix_), mix_.count(), true, listening_.least()};
+    AudioOutputSettings settings{
+        choice.name,  outputMap(), choice.sampleRateHz, choice.blockFrames, masterGain(mix_),
+        mix_.count(), true,        listening_.least()};
     const auto error = output_.open(settings);
     choice_ = choice;
     listening_.hearWanted();

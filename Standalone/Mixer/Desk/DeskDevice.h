@@ -32,14 +32,21 @@ public:
     DeskListening& listening() noexcept { return listening_; }
     const DeskListening& listening() const noexcept { return listening_; }
 
-    double playOutSeconds() const noexcept { return output_.sampleRateHz() > 0 ? static_cast<double>(session_.timeline().playOutFrames()) / output_.sampleRateHz() : 0.0; }
+    double playOutSeconds() const noexcept {
+        return output_.sampleRateHz() > 0
+                   ? static_cast<double>(session_.timeline().playOutFrames()) / output_.sampleRateHz()
+                   : 0.0;
+    }
 
     /// The mix has other enchanters, or other outputs for them. Empty, or why they cannot be.
     std::string assign();
 
     /// What the four-channel board says, if one is wanted.
-    std::optional<BoardLinkStatus> board() const { return board_ ? std::optional{board_->status()} : std::nullopt; }
-    /// The choice asks for a board or a controller, or for none: L is another then, so the session has to begin anew.
+    std::optional<BoardLinkStatus> board() const {
+        return board_ ? std::optional{board_->status()} : std::nullopt;
+    }
+    /// The choice asks for a board or a controller, or for none: L is another then, so the session has to
+    /// begin anew.
     std::function<void(const DeviceChoice&)> onBoardWanted;
     void connectBoard(const std::string& port); ///< before open(); empty: there is none
     void connectPad(const std::string& name);   ///< the same of a game controller

@@ -14,7 +14,8 @@ void DeskExposure::use(const LayoutDescription& layout) {
 
 void DeskExposure::update() {
     const ExposureSums& now = output_.exposure();
-    for (std::size_t j = 0; j < fullScaleG_.size(); ++j) squareGSeconds_ += (now.weighted[j] - sums_.weighted[j]) * fullScaleG_[j] * fullScaleG_[j];
+    for (std::size_t j = 0; j < fullScaleG_.size(); ++j)
+        squareGSeconds_ += (now.weighted[j] - sums_.weighted[j]) * fullScaleG_[j] * fullScaleG_[j];
     sums_ = now;
 }
 

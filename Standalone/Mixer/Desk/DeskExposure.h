@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What hands have taken of what the output played, in g: sums of full scales become sums of g by the layout that is felt.
+// What hands have taken of what the output played, in g: sums of full scales become sums of g by the layout
+// that is felt.
 #pragma once
-#include "Scene/LayoutFile.h"
 #include "Host/Devices/AudioOutput.h"
+#include "Scene/LayoutFile.h"
 #include "Study/Trial.h"
 
 namespace physvib {

@@ -10,7 +10,11 @@
 namespace physvib {
 namespace {
 
-double stripDb(float gain) { return gain == 0.0f ? leastStripDb : std::clamp(toDecibels(std::abs(static_cast<double>(gain))), leastStripDb, mostStripDb); }
+double stripDb(float gain) {
+    return gain == 0.0f
+               ? leastStripDb
+               : std::clamp(toDecibels(std::abs(static_cast<double>(gain))), leastStripDb, mostStripDb);
+}
 
 } // namespace
 
@@ -28,7 +32,9 @@ std::string DeskInputs::open() {
     osc_.reset();
     messages_ = 0;
     if (choice_.use == OscUse::off && choice_.receiver.empty()) return {};
-    osc_ = std::make_unique<DeskOsc>(choice_, desk_.session(), desk_.output(), [this](const LineInput& input) { return take(input); }, [this] { desk_.takePlayed(); });
+    osc_ = std::make_unique<DeskOsc>(
+        choice_, desk_.session(), desk_.output(), [this](const LineInput& input) { return take(input); },
+        [this] { desk_.takePlayed(); });
     std::string error = osc_->error();
     if (!error.empty()) osc_.reset();
     return error;
@@ -54,12 +60,21 @@ std::string DeskInputs::take(const LineInput& input) {
 std::string DeskInputs::take(const RenderControl& control) {
     using Kind = RenderControl::Kind;
     const auto strip = static_cast<std::size_t>(control.channel);
-    if (control.channel < 0 || control.channel >= desk_.mix().count()) return "expected a channel from 1 to " + std::to_string(desk_.mix().count()) + ", found " + std::to_string(control.channel + 1);
-    if (control.kind != Kind::gain && control.kind != Kind::mute) return "expected gain, mute or silence; the rest is set at the desk";
-    desk_.change("Strips by message", [&](Mix& mix) {
-        if (control.kind == Kind::mute) mix.strips[strip].isMuted = control.value != 0.0f;
-        else mix.strips[strip].gainDb = stripDb(control.value), mix.strips[strip].isInverted = control.value < 0.0f;
-    }, true);
+    if (control.channel < 0 || control.channel >= desk_.mix().count())
+        return "expected a channel from 1 to " + std::to_string(desk_.mix().count()) + ", found " +
+               std::to_string(control.channel + 1);
+    if (control.kind != Kind::gain && control.kind != Kind::mute)
+        return "expected gain, mute or silence; the rest is set at the desk";
+    desk_.change(
+        "Strips by message",
+        [&](Mix& mix) {
+            if (control.kind == Kind::mute)
+                mix.strips[strip].isMuted = control.value != 0.0f;
+            else
+                mix.strips[strip].gainDb = stripDb(control.value),
+                mix.strips[strip].isInverted = control.value < 0.0f;
+        },
+        true);
     return {};
 }
 

@@ -14,7 +14,8 @@ class Desk;
 class DeskInputs {
 public:
     /// `desk` outlives it.
-    explicit DeskInputs(Desk& desk) : desk_{desk} {}
+    explicit DeskInputs(Desk& desk)
+        : desk_{desk} {}
 
     /// Messages by OSC, from now on; empty, or why not, and then as before.
     std::string use(const OscChoice& choice);

@@ -17,9 +17,7 @@ void setPoint(GainLane& lane, double seconds, double db) {
         lane.push_back({seconds, db});
 }
 
-double highestDb(const GainLane& lane) {
-    return std::ranges::max(lane, {}, &GainPoint::db).db;
-}
+double highestDb(const GainLane& lane) { return std::ranges::max(lane, {}, &GainPoint::db).db; }
 
 /// The lane and the fader below it that are felt as the old lane below a fader that was moved. The fader goes
 /// back to where it was; if it was silent, or the lane cannot lift it so far, to less than where it has been.

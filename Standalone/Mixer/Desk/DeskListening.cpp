@@ -7,15 +7,20 @@
 namespace physvib {
 
 bool DeskListening::isFree(int output) const {
-    return output >= 0 && output < output_.deviceOutputs() && std::ranges::find(mix_.strips, output, &Strip::output) == mix_.strips.end();
+    return output >= 0 && output < output_.deviceOutputs() &&
+           std::ranges::find(mix_.strips, output, &Strip::output) == mix_.strips.end();
 }
 
 ListeningSettings DeskListening::wanted() const {
     ListeningSettings wanted = ofStudy_.value_or(ListeningSettings{});
-    if (!ofStudy_ && std::ranges::all_of(choice_.monitor, [this](int output) { return isFree(output); })) wanted.contacts = choice_.monitor;
+    if (!ofStudy_ && std::ranges::all_of(choice_.monitor, [this](int output) { return isFree(output); }))
+        wanted.contacts = choice_.monitor;
     wanted.contactDb = choice_.monitorDb;
-    const auto has = [&](const std::vector<int>& those) { return std::ranges::find(those, choice_.marker) != those.end(); };
-    if (isFree(choice_.marker) && !has(wanted.noise) && !has(wanted.contacts)) wanted.marks = {choice_.marker};
+    const auto has = [&](const std::vector<int>& those) {
+        return std::ranges::find(those, choice_.marker) != those.end();
+    };
+    if (isFree(choice_.marker) && !has(wanted.noise) && !has(wanted.contacts))
+        wanted.marks = {choice_.marker};
     return wanted;
 }
 

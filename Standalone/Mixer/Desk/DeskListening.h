@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the desk's device plays for ears and machines, on outputs where no enchanter is.
 #pragma once
-#include "Scene/Sessions/Mix.h"
 #include "Mixer/Desk/DeskMoment.h"
+#include "Scene/Sessions/Mix.h"
 #include <functional>
 #include <optional>
 #include <string>
@@ -22,12 +22,13 @@ public:
 
     const ListeningSettings& settings() const noexcept { return told_; } ///< what the output has been told
 
-    /// Left and right, contacts are heard as they are felt; and the output of marks. Where enchanters are, neither is. Empty, or why not, and all
-    /// is as before.
+    /// Left and right, contacts are heard as they are felt; and the output of marks. Where enchanters are,
+    /// neither is. Empty, or why not, and all is as before.
     std::string monitor(std::vector<int> outputs, double db);
     std::string mark(int output);
 
-    /// A study begins: noise on headphones, and no monitor, which would tell the ears what hands are asked. As monitor().
+    /// A study begins: noise on headphones, and no monitor, which would tell the ears what hands are asked.
+    /// As monitor().
     std::string hear(const ListeningSettings& ofStudy);
     void endStudy();
 

@@ -21,7 +21,8 @@ DeskMoment Desk::look() {
     now_.meters.limiterGain = now_.session.render.limiterGain;
     now_.meters.guardGain = now_.device.guardGain;
     now_.meters.enchanters = mix_.count();
-    for (std::size_t j = 0; j < static_cast<std::size_t>(mix_.count()); ++j) now_.meters.isConnected[j] = mix_.strips[j].output >= 0;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(mix_.count()); ++j)
+        now_.meters.isConnected[j] = mix_.strips[j].output >= 0;
     now_.masterPeak = isSilent_ ? 0.0f : loudest * masterGain(mix_);
     now_.sessionNs = session_.world().readPoses(now_.poses);
     now_.aheadNs = static_cast<std::int64_t>(1e9 * device_.playOutSeconds());

@@ -30,11 +30,11 @@ struct DeviceChoice {
     std::string name;     ///< type:name
     int sampleRateHz = 0; ///< 0: as it stands
     int blockFrames = 0;
-    std::string board{};  ///< serial port of a four-channel board beside it, anyBoard; empty: none
+    std::string board{};        ///< serial port of a four-channel board beside it, anyBoard; empty: none
     std::vector<int> monitor{}; ///< its outputs for the left and the right ear, from 0; empty: nobody listens
     double monitorDb = safeContactDb; ///< as ListeningSettings::contactDb
-    int marker = -1;            ///< its output for marks, from 0; -1: none
-    std::string pad{};          ///< game controller beside it: anyPad or part of its name; empty: none
+    int marker = -1;                  ///< its output for marks, from 0; -1: none
+    std::string pad{};                ///< game controller beside it: anyPad or part of its name; empty: none
 };
 
 } // namespace physvib

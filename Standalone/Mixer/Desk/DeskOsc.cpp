@@ -20,13 +20,16 @@ OscSettings settingsOf(const OscChoice& choice) {
 
 } // namespace
 
-DeskOsc::DeskOsc(const OscChoice& choice, Session& session, AudioOutput& output, std::function<std::string(const LineInput&)> act, std::function<void()> takePlayed)
+DeskOsc::DeskOsc(const OscChoice& choice, Session& session, AudioOutput& output,
+                 std::function<std::string(const LineInput&)> act, std::function<void()> takePlayed)
     : output_{output}
     , act_{std::move(act)}
     , takePlayed_{std::move(takePlayed)}
     , messages_{session}
-    , port_{std::make_unique<OscPort>(settingsOf(choice), session, messages_, output,
-                                      OscHooks{[this](const LineInput& input, const OscOrigin& origin) { return take(input, origin); }, [this] { return std::string{output_.isLent() ? "a study is running" : ""}; }})} {
+    , port_{std::make_unique<OscPort>(
+          settingsOf(choice), session, messages_, output,
+          OscHooks{[this](const LineInput& input, const OscOrigin& origin) { return take(input, origin); },
+                   [this] { return std::string{output_.isLent() ? "a study is running" : ""}; }})} {
     if (!choice.receiver.empty() && port_->error().empty()) startTimer(tellMilliseconds);
 }
 

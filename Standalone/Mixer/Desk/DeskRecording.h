@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the desk records: its enchanters as WAV, and the events beside it.
 #pragma once
-#include "Scene/Sessions/Mix.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Recordings/Recording.h"
+#include "Scene/Sessions/Mix.h"
 #include "Session/Session.h"
 #include <functional>
 #include <memory>

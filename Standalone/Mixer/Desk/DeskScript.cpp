@@ -52,8 +52,10 @@ void DeskScript::stop() {
     isRecording_ = false;
     applied_.clear();
     const auto& takes = desk_.saved().log.takes;
-    if (takes.size() > takesBefore_) hands_ = recordedHands(takes[takesBefore_]);
-    else hands_ = {};
+    if (takes.size() > takesBefore_)
+        hands_ = recordedHands(takes[takesBefore_]);
+    else
+        hands_ = {};
     if (hands_.inputs.empty()) return desk_.tell("Nothing was recorded: no hand did anything");
     apply({0.0, hands_.lengthSeconds, false}, true);
 }
@@ -68,7 +70,8 @@ void DeskScript::apply(const ScriptTrim& trim, bool goesOn) {
     auto next = std::make_shared<const Scene>(std::move(scene));
     std::erase_if(applied_, [](const auto& one) { return one.first.expired(); });
     applied_.emplace_back(next, trim);
-    desk_.change(editName, [&next](Mix& mix) { mix.scene = next; }, goesOn);
+    desk_.change(
+        editName, [&next](Mix& mix) { mix.scene = next; }, goesOn);
 }
 
 const HandScript* DeskScript::hands() const {

@@ -15,15 +15,16 @@ class Desk;
 class DeskScript {
 public:
     /// `desk` outlives it.
-    explicit DeskScript(Desk& desk) : desk_{desk} {}
+    explicit DeskScript(Desk& desk)
+        : desk_{desk} {}
 
     /// The world begins anew without what its script does of what hands do, and hands are recorded.
     void start();
     /// What hands did is the scene's script: an edit. The world begins anew with it.
     void stop();
     bool isRecording() const noexcept { return isRecording_; }
-    double seconds() const noexcept { return seconds_; }     ///< recorded so far, of the world
-    std::size_t inputs() const noexcept { return inputs_; }  ///< recorded so far
+    double seconds() const noexcept { return seconds_; }    ///< recorded so far, of the world
+    std::size_t inputs() const noexcept { return inputs_; } ///< recorded so far
 
     /// Often: ends a recording when the drawing is changed, the world begins anew, or the script is full.
     void look();

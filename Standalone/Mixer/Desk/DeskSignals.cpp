@@ -35,7 +35,8 @@ float DeskSignals::read(DeskMoment& moment, int enchanters) {
     float loudest = 0.0f;
     for (std::size_t j = 0; j < static_cast<std::size_t>(enchanters); ++j) {
         const float peak = moment.meters.peaks[j];
-        if (peak >= moment.holds[j] || now - heldAtMs_[j] > holdMs) moment.holds[j] = peak, heldAtMs_[j] = now;
+        if (peak >= moment.holds[j] || now - heldAtMs_[j] > holdMs)
+            moment.holds[j] = peak, heldAtMs_[j] = now;
         loudest = std::max(loudest, peak);
     }
     return loudest;

@@ -26,7 +26,8 @@ public:
     /// still).
     void follow(std::size_t take, double feltSeconds, int slowness);
 
-    /// Brings peaks and holds of `moment`, which is the same each time, up to now; the loudest peak of the first `enchanters`.
+    /// Brings peaks and holds of `moment`, which is the same each time, up to now; the loudest peak of the
+    /// first `enchanters`.
     float read(DeskMoment& moment, int enchanters);
 
 private:

@@ -13,7 +13,8 @@ constexpr double strikeAmplitude = 0.5; // of pulses and auditions, in front of 
 
 } // namespace
 
-DeskStrikes::DeskStrikes(Session& session, const AudioOutput& output, const Mix& mix, const DeskWorld& world, std::function<void()> onStrike,
+DeskStrikes::DeskStrikes(Session& session, const AudioOutput& output, const Mix& mix, const DeskWorld& world,
+                         std::function<void()> onStrike,
                          std::function<void(const Result<std::string>&)> onClip)
     : session_{session}
     , mix_{mix}
@@ -22,13 +23,16 @@ DeskStrikes::DeskStrikes(Session& session, const AudioOutput& output, const Mix&
     , onClip_{onClip}
     , clips_{session, output, std::move(onClip)} {}
 
-EnchanterPlace DeskStrikes::onField(double shareX, double shareY) const { return {shareX * world_.scene().fieldWidthMetres, shareY * world_.scene().fieldHeightMetres}; }
+EnchanterPlace DeskStrikes::onField(double shareX, double shareY) const {
+    return {shareX * world_.scene().fieldWidthMetres, shareY * world_.scene().fieldHeightMetres};
+}
 
 // In the field, where it is alone.
 EnchanterPlace DeskStrikes::placeOf(int enchanter) const {
     const auto& layout = mix_.layout.geometry;
     const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
-    return {place.xMetres / layout.extentWidthMetres * mix_.scene->fieldWidthMetres, place.yMetres / layout.extentHeightMetres * mix_.scene->fieldHeightMetres};
+    return {place.xMetres / layout.extentWidthMetres * mix_.scene->fieldWidthMetres,
+            place.yMetres / layout.extentHeightMetres * mix_.scene->fieldHeightMetres};
 }
 
 bool DeskStrikes::strike(std::vector<CollisionEvent> strikes, const EnchanterPlace& at) {
@@ -44,7 +48,8 @@ bool DeskStrikes::strike(std::vector<CollisionEvent> strikes, const EnchanterPla
 std::string DeskStrikes::audition(int material, double shareX, double shareY) {
     const auto index = static_cast<std::size_t>(material);
     const auto& materials = world_.scene().materials;
-    if (index >= materials.size() || materials[index].frequencyHz <= 0.0) return "expected a material that sounds";
+    if (index >= materials.size() || materials[index].frequencyHz <= 0.0)
+        return "expected a material that sounds";
     const Material& heard = materials[index];
     CollisionEvent hit;
     hit.frequencyHz = heard.frequencyHz;
@@ -78,12 +83,17 @@ void DeskStrikes::testSweep(int enchanter) {
     strike(std::move(tones), placeOf(enchanter));
 }
 
-void DeskStrikes::feelAt(const juce::StringArray& files, double shareX, double shareY) { feel(files, onField(shareX, shareY), false); }
+void DeskStrikes::feelAt(const juce::StringArray& files, double shareX, double shareY) {
+    feel(files, onField(shareX, shareY), false);
+}
 
-void DeskStrikes::feelOn(const juce::StringArray& files, int enchanter) { feel(files, placeOf(enchanter), true); }
+void DeskStrikes::feelOn(const juce::StringArray& files, int enchanter) {
+    feel(files, placeOf(enchanter), true);
+}
 
 void DeskStrikes::feel(const juce::StringArray& files, const EnchanterPlace& at, bool isAlone) {
-    if (files.size() != 1) return onClip_(Failure{"Expected one clip, found " + std::to_string(files.size()) + " files"});
+    if (files.size() != 1)
+        return onClip_(Failure{"Expected one clip, found " + std::to_string(files.size()) + " files"});
     clips_.feel(juce::File{files[0]}, at, isAlone);
 }
 

@@ -9,15 +9,17 @@ namespace physvib {
 /// M only.
 class DeskStrikes {
 public:
-    /// All outlive it. `onStrike` is called for each; `onClip` when a clip has been read, as DeskClips does, or that it cannot be.
-    DeskStrikes(Session& session, const AudioOutput& output, const Mix& mix, const DeskWorld& world, std::function<void()> onStrike,
-                std::function<void(const Result<std::string>&)> onClip);
+    /// All outlive it. `onStrike` is called for each; `onClip` when a clip has been read, as DeskClips does,
+    /// or that it cannot be.
+    DeskStrikes(Session& session, const AudioOutput& output, const Mix& mix, const DeskWorld& world,
+                std::function<void()> onStrike, std::function<void(const Result<std::string>&)> onClip);
 
     /// A pulse of one enchanter, or a sweep of its range.
     void testPulse(int enchanter);
     void testSweep(int enchanter);
 
-    /// A hit of that material of the world's scene at a place of the field, as strong as a test pulse. Empty, or why not.
+    /// A hit of that material of the world's scene at a place of the field, as strong as a test pulse. Empty,
+    /// or why not.
     std::string audition(int material, double shareX, double shareY);
 
     /// A clip that is dropped, at a place of the field or on one enchanter alone: felt when it has been read.

@@ -22,7 +22,8 @@ public:
     // a sound or a texture that is turned
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
         const auto* other = dynamic_cast<Edit*>(next);
-        if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other))) return nullptr;
+        if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other)))
+            return nullptr;
         return new Edit{world_, edit_.followedBy(other->edit_)};
     }
 
@@ -36,13 +37,16 @@ private:
     }
     bool run(bool isForth) {
         const auto now = [this](const std::string& body) { return world_.poseNow(body); };
-        return edit_.run(isForth, world_.drawing_, now, [this](const Action& action) { return world_.act(action); }).empty();
+        return edit_
+            .run(isForth, world_.drawing_, now, [this](const Action& action) { return world_.act(action); })
+            .empty();
     }
     DeskWorld& world_;
     SceneEdit edit_;
 };
 
-DeskWorld::DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo, std::function<void(bool isShown)> onInput)
+DeskWorld::DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo,
+                     std::function<void(bool isShown)> onInput)
     : session_{session}
     , mix_{mix}
     , undo_{undo}
@@ -63,7 +67,8 @@ std::optional<BodyPose> DeskWorld::poseNow(const std::string& body) const {
     std::vector<BodyPose> poses;
     session_.world().readPoses(poses);
     std::size_t last = cast.size(); // of that name
-    while (last-- > 0 && cast[last].name != body) {}
+    while (last-- > 0 && cast[last].name != body) {
+    }
     // none; or it waits for a step, and starts as drawn
     if (last >= poses.size() || !poses[last].isPresent) return std::nullopt;
     return poses[last];
@@ -85,7 +90,8 @@ PoseNow DeskWorld::posesNow() const {
 
 std::string DeskWorld::edit(const juce::String& name, std::vector<Action> actions, bool goesOn) {
     for (Action& action : actions)
-        if (auto* spawn = std::get_if<SpawnAction>(&action); spawn != nullptr && spawn->body.name.empty()) spawn->body.name = drawing_.freeName("added");
+        if (auto* spawn = std::get_if<SpawnAction>(&action); spawn != nullptr && spawn->body.name.empty())
+            spawn->body.name = drawing_.freeName("added");
     if (actions.empty()) return {};
     if (auto fault = drawing_.check(actions); !fault.empty()) return fault;
     if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
@@ -99,7 +105,8 @@ juce::String DeskWorld::tooMuch(std::int64_t sessionNs, std::int64_t posesNs,
         pace_.look(sessionNs, session_.world().slippedNs() + std::max<std::int64_t>(0, sessionNs - posesNs));
     if (!share) return {};
     const auto bodies = std::ranges::count_if(poses, &BodyPose::isPresent);
-    const bool wasTooMuch = std::exchange(isTooMuch_, *share < PaceWatch::leastShare && bodies >= PaceWatch::leastBodies);
+    const bool wasTooMuch =
+        std::exchange(isTooMuch_, *share < PaceWatch::leastShare && bodies >= PaceWatch::leastBodies);
     if (wasTooMuch || !isTooMuch_) return {};
     const int percent = juce::roundToInt(100.0 * *share);
     return utf8(readable::number(static_cast<double>(bodies), 0)) +

@@ -17,17 +17,20 @@ namespace physvib {
 class DeskWorld {
 public:
     /// All outlive it. `onInput` is called when something was done to the world, and told whether it shows.
-    DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo, std::function<void(bool isShown)> onInput);
+    DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo,
+              std::function<void(bool isShown)> onInput);
 
     /// with what was spawned since it began, under the numbers of events
     const Scene& scene() const noexcept { return drawing_.cast(); }
     const SceneDrawing& drawing() const noexcept { return drawing_; } ///< what stands there, at its start
-    std::uint64_t edits() const noexcept { return edits_; } ///< grows when scene() changes
-    std::string act(const Action& action); ///< empty, or what is wrong with it
+    std::uint64_t edits() const noexcept { return edits_; }           ///< grows when scene() changes
+    std::string act(const Action& action);                            ///< empty, or what is wrong with it
 
     /// An edit that can be undone: adds a body, takes one away, changes it, joins two, changes a
     /// sound. `goesOn` as of Desk::edit. Empty, or what is wrong with it. A body without a name is given one.
-    std::string edit(const juce::String& name, const Action& action, bool goesOn = false) { return edit(name, std::vector{action}, goesOn); }
+    std::string edit(const juce::String& name, const Action& action, bool goesOn = false) {
+        return edit(name, std::vector{action}, goesOn);
+    }
     std::string edit(const juce::String& name, std::vector<Action> actions, bool goesOn = false);
 
     /// Where a body is, as far as the world has been stepped; none: not there, or not yet.
@@ -40,7 +43,8 @@ public:
     /// empty. `poses` are the last ones, of session time `posesNs`.
     juce::String tooMuch(std::int64_t sessionNs, std::int64_t posesNs, const std::vector<BodyPose>& poses);
 
-    /// The mix's scene begins anew. What was measured, tuned or drawn stays, if it is the same scene. Empty, or what is wrong with it.
+    /// The mix's scene begins anew. What was measured, tuned or drawn stays, if it is the same scene. Empty,
+    /// or what is wrong with it.
     std::string begin(bool isSameScene);
 
 private:

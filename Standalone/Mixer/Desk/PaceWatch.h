@@ -12,7 +12,8 @@ class PaceWatch {
 public:
     static constexpr std::int64_t everyNs = 500'000'000;
     static constexpr double leastShare = 0.9; ///< below it a world is too much,
-    static constexpr int leastBodies = 300;   ///< if it is that large: a smaller one is kept waiting by the machine
+    static constexpr int leastBodies = 300;   ///< if it is that large: a smaller one is kept waiting by the
+                                              ///< machine
 
     /// The share of real time that the world has run at since the last answer, twice a second; none between.
     /// Both of the session: its time, and how far the world is behind it: what was given up after stalls, and

@@ -21,13 +21,16 @@ struct RecentContact {
 class RecentContacts {
 public:
     static constexpr std::size_t most = 100;
-    static constexpr std::size_t mostGrains = 20'000; ///< that are kept one by one: 3 MB, some minutes of a rough surface
+    static constexpr std::size_t mostGrains = 20'000; ///< that are kept one by one: 3 MB, some minutes of a
+                                                      ///< rough surface
     static constexpr std::int64_t pauseNs = 250'000'000; ///< what pauses for longer has begun anew
 
     void add(const CollisionEvent& event) {
         RecentContact* const known = find(event);
-        if (known == nullptr) begin(event);
-        else goOn(*known, event);
+        if (known == nullptr)
+            begin(event);
+        else
+            goOn(*known, event);
         if (event.source.kind == ContactKind::hit) return;
         grains_.push_back({known == nullptr ? contacts_.front().number : known->number, event});
         if (grains_.size() > mostGrains) grains_.pop_front();
@@ -55,13 +58,15 @@ private:
         known.lastNs = event.timeNs;
         known.event.x = event.x;
         known.event.y = event.y;
-        if (std::abs(event.amplitude) > std::abs(known.event.amplitude)) known.event.amplitude = event.amplitude;
+        if (std::abs(event.amplitude) > std::abs(known.event.amplitude))
+            known.event.amplitude = event.amplitude;
     }
     RecentContact* find(const CollisionEvent& event) {
         if (event.source.kind == ContactKind::hit) return nullptr;
         const auto goesOn = [&](const RecentContact& c) {
             const CollisionSource &a = c.event.source, &b = event.source;
-            return a.kind == b.kind && a.fixture == b.fixture && a.other == b.other && event.timeNs - c.lastNs < pauseNs;
+            return a.kind == b.kind && a.fixture == b.fixture && a.other == b.other &&
+                   event.timeNs - c.lastNs < pauseNs;
         };
         const auto found = std::ranges::find_if(contacts_, goesOn);
         return found == contacts_.end() ? nullptr : &*found;

@@ -10,7 +10,8 @@ namespace physvib {
 namespace {
 
 bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
-    return a.law() == b.law() && a.exponent() == b.exponent() && a.fieldWidthMetres() == b.fieldWidthMetres() && a.fieldHeightMetres() == b.fieldHeightMetres() &&
+    return a.law() == b.law() && a.exponent() == b.exponent() &&
+           a.fieldWidthMetres() == b.fieldWidthMetres() && a.fieldHeightMetres() == b.fieldHeightMetres() &&
            isSame(a.layout(), b.layout());
 }
 
@@ -18,7 +19,9 @@ bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
 
 void ToldMix::tell(Session& session, const Mix& mix) {
     using Kind = RenderControl::Kind;
-    const auto post = [&session](Kind kind, const PhantomPanner& panner) { return session.take({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty(); };
+    const auto post = [&session](Kind kind, const PhantomPanner& panner) {
+        return session.take({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty();
+    };
     if (const auto panner = mix.panner(); !isSame(panner_, panner)) {
         // a channel may be another enchanter's now
         if (panner.channels() < panner_.channels() && !post(Kind::stopAll, {})) return;

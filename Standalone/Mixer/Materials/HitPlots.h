@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A material as it sounds: the spectrum and the course of one hit, with the two numbers that are played drawn over a recording.
+// A material as it sounds: the spectrum and the course of one hit, with the two numbers that are played drawn
+// over a recording.
 #pragma once
 #include "Mixer/Materials/RecordedHit.h"
 #include <optional>

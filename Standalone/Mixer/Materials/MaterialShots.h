@@ -5,8 +5,8 @@
 
 namespace physvib {
 
-/// Writes a knock on wood: 352 Hz, 98 /s, two higher partials, and a little noise; the same samples each time. True if it was
-/// written.
+/// Writes a knock on wood: 352 Hz, 98 /s, two higher partials, and a little noise; the same samples each
+/// time. True if it was written.
 bool writeKnock(const juce::File& file);
 
 /// Opens the tab and measures such a knock; returns when it is done.

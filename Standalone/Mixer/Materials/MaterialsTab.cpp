@@ -40,7 +40,8 @@ private:
 
 bool MaterialsTab::RatioSlider::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
-    const bool isUp = key == KeyPress::upKey || key == KeyPress::rightKey, isDown = key == KeyPress::downKey || key == KeyPress::leftKey;
+    const bool isUp = key == KeyPress::upKey || key == KeyPress::rightKey,
+               isDown = key == KeyPress::downKey || key == KeyPress::leftKey;
     if (!isUp && !isDown) return juce::Slider::keyPressed(key);
     setValue(isUp ? getValue() * arrowRatio : getValue() / arrowRatio, juce::sendNotificationSync);
     return true;
@@ -56,13 +57,21 @@ MaterialsTab::MaterialsTab(Desk& desk, WorldView& world)
     caption(decayName_, "Decay");
     caption(spotXName_, "x");
     caption(spotYName_, "y");
-    prepareSlider(frequency_, "Frequency", sceneLimits::minSoundHz, FrequencyAxis::lowHz, FrequencyAxis::highHz, limits::maxFrequencyHz);
-    prepareSlider(decay_, "Decay", sceneLimits::minSoundDecayPerSecond, 1.0, 500.0, limits::maxDecayPerSecond);
-    frequency_.textFromValueFunction = [this](double hz) { return frequency_.isEnabled() ? frequencyText(hz) + " Hz" : juce::String{"silent"}; };
-    decay_.textFromValueFunction = [this](double perSecond) { return decay_.isEnabled() ? decayText(perSecond) + " /s" : juce::String{"silent"}; };
+    prepareSlider(frequency_, "Frequency", sceneLimits::minSoundHz, FrequencyAxis::lowHz,
+                  FrequencyAxis::highHz, limits::maxFrequencyHz);
+    prepareSlider(decay_, "Decay", sceneLimits::minSoundDecayPerSecond, 1.0, 500.0,
+                  limits::maxDecayPerSecond);
+    frequency_.textFromValueFunction = [this](double hz) {
+        return frequency_.isEnabled() ? frequencyText(hz) + " Hz" : juce::String{"silent"};
+    };
+    decay_.textFromValueFunction = [this](double perSecond) {
+        return decay_.isEnabled() ? decayText(perSecond) + " /s" : juce::String{"silent"};
+    };
     onSlide(frequency_, [this](bool goesOn) { setSound(true, goesOn); });
     onSlide(decay_, [this](bool goesOn) { setSound(false, goesOn); });
-    texture_.onChange = [this](const Texture& texture, const juce::String& what, bool goesOn) { setTexture(texture, what, goesOn); };
+    texture_.onChange = [this](const Texture& texture, const juce::String& what, bool goesOn) {
+        setTexture(texture, what, goesOn);
+    };
     for (auto* slider : {&spotX_, &spotY_}) {
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
         slider->setSliderStyle(juce::Slider::LinearHorizontal);
@@ -77,11 +86,16 @@ MaterialsTab::MaterialsTab(Desk& desk, WorldView& world)
     spotX_.setTitle("Spot from the left");
     spotY_.setTitle("Spot from below");
     feel_.setTitle("Feel the material at the spot");
-    feel_.setTooltip("Plays one hit of the material at the cross in the world; a click in the world plays it there");
+    feel_.setTooltip(
+        "Plays one hit of the material at the cross in the world; a click in the world plays it there");
     feel_.onClick = [this] { feelAt(spot_); };
-    browse_ = quietButton(juce::String::fromUTF8("Recording\xe2\x80\xa6"), "Measure frequency and decay from a recording of one hit; it can be dropped here as well");
+    browse_ = quietButton(
+        juce::String::fromUTF8("Recording\xe2\x80\xa6"),
+        "Measure frequency and decay from a recording of one hit; it can be dropped here as well");
     browse_->onClick = [this] { browse(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&list_, &frequencyName_, &frequency_, &decayName_, &decay_, &texture_, &feel_, &spotXName_, &spotX_, &spotYName_, &spotY_, browse_.get(), &spectrum_, &course_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{
+             &list_, &frequencyName_, &frequency_, &decayName_, &decay_, &texture_, &feel_, &spotXName_,
+             &spotX_, &spotYName_, &spotY_, browse_.get(), &spectrum_, &course_})
         addAndMakeVisible(c);
     showSpot();
     takeMix();
@@ -93,13 +107,16 @@ MaterialsTab::~MaterialsTab() {
     world_.onSpot = nullptr;
 }
 
-void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title, double least, double low, double high, double most) {
+void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title, double least, double low,
+                                 double high, double most) {
     slider.setTitle(title);
     slider.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
     slider.setSliderStyle(juce::Slider::LinearHorizontal);
     slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 74, 24);
     slider.setNormalisableRange(feltRange(least, low, high, most));
-    slider.valueFromTextFunction = [](const juce::String& words) { return words.trim().replaceCharacter(',', '.').getDoubleValue(); };
+    slider.valueFromTextFunction = [](const juce::String& words) {
+        return words.trim().replaceCharacter(',', '.').getDoubleValue();
+    };
 }
 
 const Material* MaterialsTab::chosen() const {
@@ -113,7 +130,8 @@ int MaterialsTab::chosenIndex() const {
 }
 
 void MaterialsTab::choose(int material) {
-    if (const auto at = std::ranges::find(order_, material); at != order_.end()) list_.selectRow(static_cast<int>(at - order_.begin()));
+    if (const auto at = std::ranges::find(order_, material); at != order_.end())
+        list_.selectRow(static_cast<int>(at - order_.begin()));
 }
 
 const RecordedHit* MaterialsTab::recordingOf(int material) const {
@@ -129,11 +147,14 @@ void MaterialsTab::takeMix() {
         shown_.reset();
         order_.resize(materials.size());
         for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<int>(i);
-        std::stable_partition(order_.begin(), order_.end(), [&](int i) { return materials[static_cast<std::size_t>(i)].frequencyHz > 0.0; });
+        std::stable_partition(order_.begin(), order_.end(), [&](int i) {
+            return materials[static_cast<std::size_t>(i)].frequencyHz > 0.0;
+        });
         list_.updateContent();
         list_.selectRow(0);
     }
-    for (auto* label : {&frequencyName_, &decayName_, &spotXName_, &spotYName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (auto* label : {&frequencyName_, &decayName_, &spotXName_, &spotYName_})
+        label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     list_.repaint();
     showChosen();
 }
@@ -141,18 +162,25 @@ void MaterialsTab::takeMix() {
 void MaterialsTab::showChosen() {
     const auto* material = chosen();
     const bool sounds = material != nullptr && material->frequencyHz > 0.0;
-    for (auto* control : std::initializer_list<juce::Component*>{&frequency_, &decay_, &feel_, browse_.get()}) control->setEnabled(sounds);
-    if (sounds && !frequency_.isMouseButtonDown()) frequency_.setValue(material->frequencyHz, juce::dontSendNotification);
-    if (sounds && !decay_.isMouseButtonDown()) decay_.setValue(material->decayPerSecond, juce::dontSendNotification);
+    for (auto* control : std::initializer_list<juce::Component*>{&frequency_, &decay_, &feel_, browse_.get()})
+        control->setEnabled(sounds);
+    if (sounds && !frequency_.isMouseButtonDown())
+        frequency_.setValue(material->frequencyHz, juce::dontSendNotification);
+    if (sounds && !decay_.isMouseButtonDown())
+        decay_.setValue(material->decayPerSecond, juce::dontSendNotification);
     frequency_.updateText();
     decay_.updateText();
     texture_.show(material != nullptr ? std::optional{material->texture()} : std::nullopt);
     ShownHit shown;
     const auto* recording = recordingOf(chosenIndex());
-    if (sounds) shown = {material->frequencyHz, material->decayPerSecond, palette::material(chosenIndex()), recording};
+    if (sounds)
+        shown = {material->frequencyHz, material->decayPerSecond, palette::material(chosenIndex()),
+                 recording};
     if (shown == shown_) return;
     shown_ = shown;
-    const auto course = recording ? recording->course : sounds ? courseOf(material->frequencyHz, material->decayPerSecond) : HitCourse{};
+    const auto course = recording ? recording->course
+                        : sounds  ? courseOf(material->frequencyHz, material->decayPerSecond)
+                                  : HitCourse{};
     spectrum_.show(shown, course);
     course_.show(shown, course);
 }
@@ -161,7 +189,8 @@ void MaterialsTab::setSound(bool isFrequency, bool goesOn) {
     const auto* material = chosen();
     if (material == nullptr || !(material->frequencyHz > 0.0)) return;
     SoundAction sound{chosenIndex(), material->frequencyHz, material->decayPerSecond};
-    (isFrequency ? sound.frequencyHz : sound.decayPerSecond) = isFrequency ? frequency_.getValue() : decay_.getValue();
+    (isFrequency ? sound.frequencyHz : sound.decayPerSecond) =
+        isFrequency ? frequency_.getValue() : decay_.getValue();
     const auto name = (isFrequency ? "Frequency of " : "Decay of ") + utf8(material->name);
     if (const auto fault = desk_.world().edit(name, sound, goesOn); !fault.empty()) desk_.report(utf8(fault));
 }
@@ -169,20 +198,25 @@ void MaterialsTab::setSound(bool isFrequency, bool goesOn) {
 void MaterialsTab::setTexture(const Texture& texture, const juce::String& what, bool goesOn) {
     const auto* material = chosen();
     if (material == nullptr) return;
-    const TextureAction surface{chosenIndex(), texture.grainMetres, texture.roughness, texture.pattern, texture.rolling};
-    if (const auto fault = desk_.world().edit(what + " of " + utf8(material->name), surface, goesOn); !fault.empty()) desk_.report(utf8(fault));
+    const TextureAction surface{chosenIndex(), texture.grainMetres, texture.roughness, texture.pattern,
+                                texture.rolling};
+    if (const auto fault = desk_.world().edit(what + " of " + utf8(material->name), surface, goesOn);
+        !fault.empty())
+        desk_.report(utf8(fault));
 }
 
 void MaterialsTab::typeFrequency() {
     for (auto* child : frequency_.getChildren())
-        if (auto* box = dynamic_cast<juce::Label*>(child); box != nullptr && frequency_.isEnabled()) box->showEditor();
+        if (auto* box = dynamic_cast<juce::Label*>(child); box != nullptr && frequency_.isEnabled())
+            box->showEditor();
 }
 
 void MaterialsTab::feelAt(FieldShare spot) {
     spot_ = spot;
     showSpot();
     if (chosenIndex() < 0) return;
-    if (const auto fault = desk_.strikes().audition(chosenIndex(), spot.x, spot.y); !fault.empty()) desk_.report(utf8(fault));
+    if (const auto fault = desk_.strikes().audition(chosenIndex(), spot.x, spot.y); !fault.empty())
+        desk_.report(utf8(fault));
 }
 
 void MaterialsTab::showSpot() {
@@ -193,20 +227,25 @@ void MaterialsTab::showSpot() {
 
 void MaterialsTab::visibilityChanged() {
     world_.showSpot(isVisible() ? std::optional{spot_} : std::nullopt);
-    if (isVisible()) world_.onSpot = [this](FieldShare at) { feelAt(at); };
-    else world_.onSpot = nullptr;
+    if (isVisible())
+        world_.onSpot = [this](FieldShare at) { feelAt(at); };
+    else
+        world_.onSpot = nullptr;
 }
 
 void MaterialsTab::browse() {
-    chooser_ = std::make_unique<juce::FileChooser>("A recording of one hit", juce::File::getCurrentWorkingDirectory(), "*.wav;*.flac;*.ogg", false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
-        if (const auto file = chooser.getResult(); file != juce::File{}) measure(file);
-    });
+    chooser_ = std::make_unique<juce::FileChooser>(
+        "A recording of one hit", juce::File::getCurrentWorkingDirectory(), "*.wav;*.flac;*.ogg", false);
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+                          [this](const juce::FileChooser& chooser) {
+                              if (const auto file = chooser.getResult(); file != juce::File{}) measure(file);
+                          });
 }
 
 void MaterialsTab::measure(const juce::File& file) {
     const auto* material = chosen();
-    if (material == nullptr || !(material->frequencyHz > 0.0)) return desk_.report("Choose a material that sounds, then drop the recording");
+    if (material == nullptr || !(material->frequencyHz > 0.0))
+        return desk_.report("Choose a material that sounds, then drop the recording");
     waiting_.push_back({file, chosenIndex(), scene_});
     if (!isMeasuring()) measureNext();
 }
@@ -233,10 +272,13 @@ void MaterialsTab::handleAsyncUpdate() {
 
 void MaterialsTab::take(const Job& job, const Result<RecordedHit>& hit) {
     if (!hit) return desk_.report(utf8(hit.error));
-    if (job.scene != desk_.mix().scene) return desk_.report(job.file.getFileName() + ": another scene is played now; drop it again");
+    if (job.scene != desk_.mix().scene)
+        return desk_.report(job.file.getFileName() + ": another scene is played now; drop it again");
     const auto& sound = hit.value.sound;
     const auto name = utf8(desk_.world().scene().materials[static_cast<std::size_t>(job.material)].name);
-    if (const auto fault = desk_.world().edit("Recording of " + name, SoundAction{job.material, sound.frequencyHz, sound.decayPerSecond}); !fault.empty())
+    if (const auto fault = desk_.world().edit(
+            "Recording of " + name, SoundAction{job.material, sound.frequencyHz, sound.decayPerSecond});
+        !fault.empty())
         return desk_.report(job.file.getFileName() + ": " + utf8(fault));
     recordings_.insert_or_assign(job.material, hit.value);
     shown_.reset();
@@ -249,7 +291,8 @@ void MaterialsTab::setDropping(bool isDropping) {
 }
 
 void MaterialsTab::fileDragMove(const juce::StringArray&, int x, int y) {
-    if (const auto at = list_.getLocalPoint(this, juce::Point<int>{x, y}); list_.getLocalBounds().contains(at))
+    if (const auto at = list_.getLocalPoint(this, juce::Point<int>{x, y});
+        list_.getLocalBounds().contains(at))
         if (const int row = list_.getRowContainingPosition(at.x, at.y); row >= 0) list_.selectRow(row);
     setDropping(true);
 }
@@ -257,7 +300,8 @@ void MaterialsTab::fileDragMove(const juce::StringArray&, int x, int y) {
 void MaterialsTab::filesDropped(const juce::StringArray& files, int x, int y) {
     fileDragMove(files, x, y);
     setDropping(false);
-    if (files.size() != 1) return desk_.report("Expected one recording, found " + juce::String{files.size()} + " files");
+    if (files.size() != 1)
+        return desk_.report("Expected one recording, found " + juce::String{files.size()} + " files");
     measure(juce::File{files[0]});
 }
 
@@ -267,8 +311,10 @@ void MaterialsTab::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::muted));
     g.drawText("Material", at.name, juce::Justification::centredLeft, false);
     g.drawText("f Hz", at.frequency, juce::Justification::centredRight, false);
-    g.drawText(juce::String::charToString(0x03c4) + " 1/s", at.decay, juce::Justification::centredRight, false);
-    g.drawText(juce::String::charToString(0x2212) + "60 dB in", at.length, juce::Justification::centredRight, false);
+    g.drawText(juce::String::charToString(0x03c4) + " 1/s", at.decay, juce::Justification::centredRight,
+               false);
+    g.drawText(juce::String::charToString(0x2212) + "60 dB in", at.length, juce::Justification::centredRight,
+               false);
 }
 
 void MaterialsTab::paintOverChildren(juce::Graphics& g) {
@@ -281,7 +327,9 @@ void MaterialsTab::paintOverChildren(juce::Graphics& g) {
     g.drawRoundedRectangle(plots.toFloat().reduced(1.0f), 5.0f, 2.0f);
     g.setFont(juce::Font{text::medium});
     const auto name = material ? utf8(material->name) : juce::String{};
-    g.drawText(isMeasuring() ? juce::String::fromUTF8("Measuring\xe2\x80\xa6") : "Drop it: the sound of " + name, plots, juce::Justification::centred, true);
+    g.drawText(isMeasuring() ? juce::String::fromUTF8("Measuring\xe2\x80\xa6")
+                             : "Drop it: the sound of " + name,
+               plots, juce::Justification::centred, true);
 }
 
 void MaterialsTab::resized() {
@@ -289,8 +337,10 @@ void MaterialsTab::resized() {
     headArea_ = area.removeFromTop(headPixels);
     const bool isTall = area.getHeight() >= tallPixels;
     const int line = isTall ? rowHeight : rowHeight - 4, between = isTall ? 6 : 4;
-    const int controls = 3 * line + 4 * between, least = isTall ? 3 * rowPixels : 5 * rowPixels / 2, plots = std::max(70, std::min(230, (area.getHeight() - controls) * 52 / 100));
-    const int rows = std::max(least, std::min(static_cast<int>(order_.size()) * rowPixels, area.getHeight() - controls - plots));
+    const int controls = 3 * line + 4 * between, least = isTall ? 3 * rowPixels : 5 * rowPixels / 2,
+              plots = std::max(70, std::min(230, (area.getHeight() - controls) * 52 / 100));
+    const int rows = std::max(
+        least, std::min(static_cast<int>(order_.size()) * rowPixels, area.getHeight() - controls - plots));
     list_.setBounds(area.removeFromTop(rows));
     area.removeFromTop(between);
     auto row = area.removeFromTop(line);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The materials of the scene: frequency and decay to be set, measured from a recording that is dropped here, and felt at a spot
-// of the field; the grains of their surfaces.
+// The materials of the scene: frequency and decay to be set, measured from a recording that is dropped here,
+// and felt at a spot of the field; the grains of their surfaces.
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Materials/HitPlots.h"
@@ -17,17 +17,20 @@ public:
     MaterialsTab(Desk& desk, WorldView& world);
     ~MaterialsTab() override;
 
-    /// Takes frequency and decay of the chosen material from a recording, a moment later. What is wrong with it is reported.
+    /// Takes frequency and decay of the chosen material from a recording, a moment later. What is wrong with
+    /// it is reported.
     void measure(const juce::File& file);
     bool isMeasuring() const noexcept { return measuring_ != nullptr; }
-    void finishMeasuring(); ///< waits for it
+    void finishMeasuring();    ///< waits for it
     void choose(int material); ///< index in the scene
     void feelAt(FieldShare spot);
     /// What was measured of a material; null: nothing.
     const RecordedHit* recordingOf(int material) const;
 
     // sessions are the window's
-    bool isInterestedInFileDrag(const juce::StringArray& files) override { return !files[0].endsWithIgnoreCase(".json"); }
+    bool isInterestedInFileDrag(const juce::StringArray& files) override {
+        return !files[0].endsWithIgnoreCase(".json");
+    }
     void fileDragEnter(const juce::StringArray&, int, int) override { setDropping(true); }
     void fileDragMove(const juce::StringArray&, int x, int y) override;
     void fileDragExit(const juce::StringArray&) override { setDropping(false); }
@@ -70,7 +73,8 @@ private:
 
     const Material* chosen() const;
     int chosenIndex() const;
-    void prepareSlider(RatioSlider& slider, const juce::String& title, double least, double low, double high, double most);
+    void prepareSlider(RatioSlider& slider, const juce::String& title, double least, double low, double high,
+                       double most);
     void setSound(bool isFrequency, bool goesOn);
     void setTexture(const Texture& texture, const juce::String& what, bool goesOn);
     void setDropping(bool isDropping);

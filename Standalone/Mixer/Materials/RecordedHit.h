@@ -25,7 +25,8 @@ struct RecordedHit {
     double amplitude = 0.0; ///< of what was found, at the onset of the course
 };
 
-/// Measures the strongest hit of a file, on any thread but R; or one line with the file's name. Takes up to a second or two.
+/// Measures the strongest hit of a file, on any thread but R; or one line with the file's name. Takes up to a
+/// second or two.
 Result<RecordedHit> measureHit(const std::filesystem::path& path);
 
 /// sin(2 pi f t) exp(-tau t) until it has fallen by 60 dB, at most a second.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The grains of a material's surface in one row: how far apart, how strong, in which pattern, how much of it when it rolls.
+// The grains of a material's surface in one row: how far apart, how strong, in which pattern, how much of it
+// when it rolls.
 #pragma once
 #include "Contacts/Texture.h"
 #include "Mixer/Window/TabPanel.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of enchanters and the settings of the panner.
 #include "Mixer/Output/EnchantersTab.h"
-#include "Scene/ActuatorFile.h"
 #include "Mixer/Window/Parts.h"
+#include "Scene/ActuatorFile.h"
 
 namespace physvib {
 namespace {
@@ -11,7 +11,9 @@ constexpr int rowPixels = 34;
 
 // Whoever named it what; -1: a layout of its own.
 int presetOf(const EnchanterLayout& layout) {
-    const auto isThat = [&layout](std::string_view name) { return isSame(presetLayout(name).geometry, layout); };
+    const auto isThat = [&layout](std::string_view name) {
+        return isSame(presetLayout(name).geometry, layout);
+    };
     const auto found = std::ranges::find_if(layoutPresetNames, isThat);
     return found == layoutPresetNames.end() ? -1 : static_cast<int>(found - layoutPresetNames.begin());
 }
@@ -35,7 +37,8 @@ void EnchantersTab::Module::paintButton(juce::Graphics& g, bool isOver, bool) {
     g.drawText("+", badge, juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::text));
     g.setFont(juce::Font{text::medium});
-    g.drawText("Drag onto the field to attach", area.withTrimmedLeft(46.0f), juce::Justification::centredLeft, true);
+    g.drawText("Drag onto the field to attach", area.withTrimmedLeft(46.0f), juce::Justification::centredLeft,
+               true);
 }
 
 void EnchantersTab::Module::mouseDrag(const juce::MouseEvent& e) {
@@ -46,10 +49,13 @@ void EnchantersTab::Module::mouseDrag(const juce::MouseEvent& e) {
 }
 
 juce::String EnchantersTab::Rows::getNameForRow(int row) {
-    return row < getNumRows() ? "Actuator " + utf8(tab_.desk_.mix().layout.enchanters[static_cast<std::size_t>(row)].label) : juce::String{};
+    return row < getNumRows()
+               ? "Actuator " + utf8(tab_.desk_.mix().layout.enchanters[static_cast<std::size_t>(row)].label)
+               : juce::String{};
 }
 
-void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
+void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height,
+                                           bool isSelected) {
     const auto& mix = tab_.desk_.mix();
     if (row >= mix.count()) return;
     const auto i = static_cast<std::size_t>(row);
@@ -64,7 +70,8 @@ void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width
     g.setColour(colour);
     g.fillEllipse(area.removeFromLeft(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
     area.removeFromLeft(12);
-    const auto cell = [&](const juce::String& words, int w, Shade which, juce::Justification where = juce::Justification::centredLeft) {
+    const auto cell = [&](const juce::String& words, int w, Shade which,
+                          juce::Justification where = juce::Justification::centredLeft) {
         g.setColour(shade(tab_, which));
         g.drawText(words, area.removeFromLeft(w), where, true);
     };
@@ -72,7 +79,8 @@ void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width
     cell(utf8(e.label), 44, Shade::text);
     g.setFont(juce::Font{text::medium});
     const int rest = area.getWidth();
-    cell(number(1e3 * place.xMetres, 0) + ", " + number(1e3 * place.yMetres, 0) + " mm", rest * 34 / 100, Shade::text);
+    cell(number(1e3 * place.xMetres, 0) + ", " + number(1e3 * place.yMetres, 0) + " mm", rest * 34 / 100,
+         Shade::text);
     cell(e.actuator == "none" ? juce::String{"no profile"} : utf8(e.actuator), rest * 36 / 100, Shade::muted);
     cell(number(e.fullScaleG, 2) + " g", area.getWidth(), Shade::muted, juce::Justification::centredRight);
 }
@@ -83,12 +91,17 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     setTitle("Actuators");
     module_.onClick = [this] { desk_.attach(0.5, 0.5); };
     preset_.setTitle("Preset");
-    for (int id = 1; const auto name : layoutPresetNames) preset_.addItem(juce::String{name.data()}.toUpperCase(), id++);
+    for (int id = 1; const auto name : layoutPresetNames)
+        preset_.addItem(juce::String{name.data()}.toUpperCase(), id++);
     preset_.setTextWhenNothingSelected("own");
     preset_.onChange = [this] { takePreset(); };
     law_.setTitle("Panning law");
     for (int id = 1; const auto name : panningLawNames) law_.addItem(juce::String{name.data()}, id++);
-    law_.onChange = [this] { desk_.change("Panning law", [this](Mix& mix) { mix.law = panningLaws[static_cast<std::size_t>(law_.getSelectedItemIndex())].law; }); };
+    law_.onChange = [this] {
+        desk_.change("Panning law", [this](Mix& mix) {
+            mix.law = panningLaws[static_cast<std::size_t>(law_.getSelectedItemIndex())].law;
+        });
+    };
     exponent_.setTitle("Exponent");
     // asked for when the box is made
     exponent_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
@@ -97,22 +110,34 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     exponent_.setRange(0.25, 4.0, 0.05);
     exponent_.setSkewFactorFromMidPoint(1.0);
     exponent_.setDoubleClickReturnValue(true, 1.0);
-    onSlide(exponent_, [this](bool goesOn) { desk_.change("Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, goesOn); });
+    onSlide(exponent_, [this](bool goesOn) {
+        desk_.change(
+            "Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, goesOn);
+    });
     list_.setTitle("List of actuators");
     list_.setRowHeight(rowPixels);
     maps_.setTitle("Map of the chosen actuator");
     maps_.onClick = [this] { visibilityChanged(); };
     detach_ = quietButton("Detach", "Detach the chosen actuator (Delete)");
-    detach_->onClick = [this] { if (chosen_ >= 0) desk_.detach(chosen_); };
-    edit_ = quietButton(juce::String::fromUTF8("Name, profile\xe2\x80\xa6"), "Name, profile and full scale of the chosen actuator (Return)");
-    edit_->onClick = [this] { if (chosen_ >= 0) editRow(chosen_); };
+    detach_->onClick = [this] {
+        if (chosen_ >= 0) desk_.detach(chosen_);
+    };
+    edit_ = quietButton(juce::String::fromUTF8("Name, profile\xe2\x80\xa6"),
+                        "Name, profile and full scale of the chosen actuator (Return)");
+    edit_->onClick = [this] {
+        if (chosen_ >= 0) editRow(chosen_);
+    };
     caption(presetName_, "Preset");
     caption(lawName_, "Law");
     caption(exponentName_, "Exponent");
     caption(hint_, "Drag a badge to move it; out of the field: detached.");
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&module_, &presetName_, &preset_, &lawName_, &law_, &exponentName_, &exponent_, &list_, edit_.get(), detach_.get(), &maps_, &hint_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{
+             &module_, &presetName_, &preset_, &lawName_, &law_, &exponentName_, &exponent_, &list_,
+             edit_.get(), detach_.get(), &maps_, &hint_})
         addAndMakeVisible(c);
-    world_.onSelect = [this](int enchanter) { if (enchanter >= 0) list_.selectRow(enchanter); };
+    world_.onSelect = [this](int enchanter) {
+        if (enchanter >= 0) list_.selectRow(enchanter);
+    };
     takeMix();
 }
 
@@ -127,7 +152,8 @@ void EnchantersTab::choose(int enchanter) {
 void EnchantersTab::editRow(int enchanter) {
     const auto i = static_cast<std::size_t>(enchanter);
     const auto& e = desk_.mix().layout.enchanters[i];
-    auto* window = new juce::AlertWindow{"Actuator " + utf8(e.label), {}, juce::MessageBoxIconType::NoIcon, this};
+    auto* window =
+        new juce::AlertWindow{"Actuator " + utf8(e.label), {}, juce::MessageBoxIconType::NoIcon, this};
     window->addTextEditor("label", utf8(e.label), "Label");
     juce::StringArray profiles{"none"};
     for (const auto& profile : builtInActuators()) profiles.add(utf8(profile.name));
@@ -136,26 +162,31 @@ void EnchantersTab::editRow(int enchanter) {
     actuator->setText(utf8(e.actuator), juce::dontSendNotification);
     actuator->onChange = [window, actuator] {
         const auto profile = findActuator(actuator->getText().toStdString());
-        if (profile && profile.value.fullScaleG) window->getTextEditor("g")->setText(juce::String{*profile.value.fullScaleG}, false);
+        if (profile && profile.value.fullScaleG)
+            window->getTextEditor("g")->setText(juce::String{*profile.value.fullScaleG}, false);
     };
     window->addTextEditor("g", juce::String{e.fullScaleG}, "Full scale in g");
     window->addButton("Take", 1, juce::KeyPress{juce::KeyPress::returnKey});
     window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    window->enterModalState(true, juce::ModalCallbackFunction::create([this, i, window](int answer) {
-        const auto label = window->getTextEditorContents("label").trim().toStdString();
-        const auto profile = window->getComboBoxComponent("actuator")->getText().toStdString();
-        const double g = window->getTextEditorContents("g").getDoubleValue();
-        const auto& all = desk_.mix().layout.enchanters;
-        if (answer == 0 || i >= all.size()) return;
-        for (std::size_t k = 0; k < all.size(); ++k)
-            if (label.empty() || (k != i && all[k].label == label)) return desk_.report("Label: expected one that no other actuator has");
-        if (!(g > 0.0 && g <= 100.0)) return desk_.report("Full scale: expected a number of g above 0, at most 100");
-        desk_.change("Actuator " + utf8(label), [&](Mix& mix) {
-            mix.layout.enchanters[i].label = label;
-            mix.layout.enchanters[i].actuator = profile;
-            mix.layout.enchanters[i].fullScaleG = g;
-        });
-    }), true);
+    window->enterModalState(
+        true, juce::ModalCallbackFunction::create([this, i, window](int answer) {
+            const auto label = window->getTextEditorContents("label").trim().toStdString();
+            const auto profile = window->getComboBoxComponent("actuator")->getText().toStdString();
+            const double g = window->getTextEditorContents("g").getDoubleValue();
+            const auto& all = desk_.mix().layout.enchanters;
+            if (answer == 0 || i >= all.size()) return;
+            for (std::size_t k = 0; k < all.size(); ++k)
+                if (label.empty() || (k != i && all[k].label == label))
+                    return desk_.report("Label: expected one that no other actuator has");
+            if (!(g > 0.0 && g <= 100.0))
+                return desk_.report("Full scale: expected a number of g above 0, at most 100");
+            desk_.change("Actuator " + utf8(label), [&](Mix& mix) {
+                mix.layout.enchanters[i].label = label;
+                mix.layout.enchanters[i].actuator = profile;
+                mix.layout.enchanters[i].fullScaleG = g;
+            });
+        }),
+        true);
 }
 
 void EnchantersTab::takePreset() {
@@ -177,7 +208,8 @@ void EnchantersTab::takeMix() {
     list_.repaint();
     if (chosen_ >= mix.count()) list_.deselectAllRows();
     choose(list_.getSelectedRow());
-    for (auto* label : {&presetName_, &lawName_, &exponentName_, &hint_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (auto* label : {&presetName_, &lawName_, &exponentName_, &hint_})
+        label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
 void EnchantersTab::paint(juce::Graphics&) {}

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the enchanters sit and how a hit is spread over them: presets, law, exponent, and a map of what each would play.
+// Where the enchanters sit and how a hit is spread over them: presets, law, exponent, and a map of what each
+// would play.
 #pragma once
-#include "Mixer/Window/TabPanel.h"
 #include "Host/Views/WorldView.h"
+#include "Mixer/Window/TabPanel.h"
 
 namespace physvib {
 
@@ -13,7 +14,9 @@ public:
     void takeMix() override;
     void paint(juce::Graphics& g) override;
     void resized() override;
-    void visibilityChanged() override { world_.showGainsOf(isVisible() && maps_.getToggleState() ? chosen_ : -1); }
+    void visibilityChanged() override {
+        world_.showGainsOf(isVisible() && maps_.getToggleState() ? chosen_ : -1);
+    }
 
 private:
     /// The module that is dragged onto the field.

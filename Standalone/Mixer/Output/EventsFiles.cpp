@@ -19,34 +19,45 @@ juce::String EventsTab::fileName() const {
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
     for (const RecentContact& contact : shown_)
         if (isChosen(contact)) first = std::min(first, contact.event.timeNs);
-    return juce::File::createLegalFileName(utf8(desk_.mix().scene->name) + "-" + juce::String{1e-9 * static_cast<double>(first), 3} + "s") + hitEndings()[files_->ending()];
+    return juce::File::createLegalFileName(utf8(desk_.mix().scene->name) + "-" +
+                                           juce::String{1e-9 * static_cast<double>(first), 3} + "s") +
+           hitEndings()[files_->ending()];
 }
 
 void EventsTab::saveAs() {
     if (chosen_.empty()) return;
     using B = juce::FileBrowserComponent;
-    chooser_ = std::make_unique<juce::FileChooser>("Save the chosen contacts as a clip", juce::File::getCurrentWorkingDirectory().getChildFile(fileName()), "*" + hitEndings().joinIntoString(";*"), false);
-    chooser_->launchAsync(B::saveMode | B::warnAboutOverwriting | B::canSelectFiles, [this](const juce::FileChooser& chooser) {
-        if (chooser.getResult() != juce::File{}) saveTo(chooser.getResult());
-    });
+    chooser_ =
+        std::make_unique<juce::FileChooser>("Save the chosen contacts as a clip",
+                                            juce::File::getCurrentWorkingDirectory().getChildFile(fileName()),
+                                            "*" + hitEndings().joinIntoString(";*"), false);
+    chooser_->launchAsync(B::saveMode | B::warnAboutOverwriting | B::canSelectFiles,
+                          [this](const juce::FileChooser& chooser) {
+                              if (chooser.getResult() != juce::File{}) saveTo(chooser.getResult());
+                          });
 }
 
 std::vector<juce::File> EventsTab::write(const juce::File& file, bool tellsHow) {
     std::vector<CollisionEvent> hits;
     for (const RecentContact& contact : shown_)
         if (isChosen(contact)) desk_.recent().appendEvents(contact, hits);
-    const auto written = writeHits(std::move(hits), desk_.mix(), std::max(8000, desk_.output().sampleRateHz()), file);
+    const auto written =
+        writeHits(std::move(hits), desk_.mix(), std::max(8000, desk_.output().sampleRateHz()), file);
     if (!written) return desk_.report(utf8(written.error)), std::vector<juce::File>{};
     std::vector<juce::File> files;
     for (const auto& path : written.value.paths) files.emplace_back(utf8(path));
-    juce::StringArray words{"Saved " + files.front().getFullPathName() + (files.size() > 1 ? " and " + juce::String{static_cast<int>(files.size()) - 1} + " more" : juce::String{})};
+    juce::StringArray words{"Saved " + files.front().getFullPathName() +
+                            (files.size() > 1
+                                 ? " and " + juce::String{static_cast<int>(files.size()) - 1} + " more"
+                                 : juce::String{})};
     for (const auto& loss : written.value.losses) words.add(utf8(loss));
     if (tellsHow) desk_.tell(words.joinIntoString("; "));
     return files;
 }
 
 void EventsTab::saveTo(const juce::File& file) {
-    write(file.getFileExtension().isEmpty() ? file.withFileExtension(hitEndings()[files_->ending()]) : file, true);
+    write(file.getFileExtension().isEmpty() ? file.withFileExtension(hitEndings()[files_->ending()]) : file,
+          true);
 }
 
 // Escaped, since they stand as addresses in what the other program is told.
@@ -55,7 +66,8 @@ juce::StringArray EventsTab::filesToDrag() {
     if (chosen_.empty()) return addresses;
     const auto folder = files_->makeFolder();
     if (!folder) return desk_.report(utf8(folder.error)), addresses;
-    for (const auto& file : write(folder.value.getChildFile(fileName()), false)) addresses.add(juce::URL{file}.toString(false));
+    for (const auto& file : write(folder.value.getChildFile(fileName()), false))
+        addresses.add(juce::URL{file}.toString(false));
     return addresses;
 }
 

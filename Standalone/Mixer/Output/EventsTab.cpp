@@ -37,10 +37,13 @@ juce::String nameOf(const Scene& scene, const RecentContact& contact) {
     const auto name = materialName(scene, contact.event);
     const auto kind = contact.event.source.kind;
     if (kind == ContactKind::hit) return name;
-    return name + (kind == ContactKind::roll ? ", rolls, " : ", slides, ") + juce::String{contact.grains} + (contact.grains == 1 ? " grain" : " grains");
+    return name + (kind == ContactKind::roll ? ", rolls, " : ", slides, ") + juce::String{contact.grains} +
+           (contact.grains == 1 ? " grain" : " grains");
 }
 
-juce::String placeNumbers(const CollisionEvent& hit) { return number(hit.x, 2) + ", " + number(hit.y, 2) + " m"; }
+juce::String placeNumbers(const CollisionEvent& hit) {
+    return number(hit.x, 2) + ", " + number(hit.y, 2) + " m";
+}
 
 } // namespace
 
@@ -53,12 +56,15 @@ EventsTab::EventsTab(Desk& desk)
     caption(choice_, {});
     for (int k = 0; k < hitEndings().size(); ++k) format_.addItem("as " + hitEndings()[k], k + 1);
     format_.setTitle("Dragged as");
-    format_.setTooltip(".wav: a channel for each actuator. .hjif, .hmpg: channels and places. .haptic, .ahap: a file for each actuator");
+    format_.setTooltip(".wav: a channel for each actuator. .hjif, .hmpg: channels and places. .haptic, "
+                       ".ahap: a file for each actuator");
     format_.setSelectedItemIndex(files_->ending(), juce::dontSendNotification);
     format_.onChange = [this] { files_->setEnding(format_.getSelectedItemIndex()); };
     save_ = quietButton("Save as clip" + dots(), "Save the chosen contacts as a clip (Return)");
     save_->onClick = [this] { saveAs(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&list_, &choice_, &format_, save_.get()}) addAndMakeVisible(c);
+    for (juce::Component* c :
+         std::initializer_list<juce::Component*>{&list_, &choice_, &format_, save_.get()})
+        addAndMakeVisible(c);
     tellChoice();
 }
 
@@ -67,18 +73,22 @@ void EventsTab::takeMix() { choice_.setColour(juce::Label::textColourId, shade(*
 // What is under a pressed mouse stays there.
 void EventsTab::refresh(const DeskMoment& moment) {
     const double now = nowMs();
-    if (moment.session.render.played == seen_ || now - shownAtMs_ < showMs || list_.isMouseButtonDown(true)) return;
+    if (moment.session.render.played == seen_ || now - shownAtMs_ < showMs || list_.isMouseButtonDown(true))
+        return;
     shownAtMs_ = now;
     seen_ = moment.session.render.played;
     listRecent();
 }
 
-// While something is chosen nothing leaves the list, but what comes to be far below; what is chosen never does.
+// While something is chosen nothing leaves the list, but what comes to be far below; what is chosen never
+// does.
 void EventsTab::listRecent() {
     const auto& recent = desk_.recent().newestFirst();
     std::vector<RecentContact> shown(recent.begin(), recent.end());
     const std::uint64_t oldest = recent.empty() ? 0 : recent.back().number;
-    std::ranges::copy_if(shown_, std::back_inserter(shown), [&](const RecentContact& c) { return c.number < oldest && (isChosen(c) || (!chosen_.empty() && shown.size() < mostListed)); });
+    std::ranges::copy_if(shown_, std::back_inserter(shown), [&](const RecentContact& c) {
+        return c.number < oldest && (isChosen(c) || (!chosen_.empty() && shown.size() < mostListed));
+    });
     const int before = rowOf(last_);
     shown_ = std::move(shown);
     {
@@ -87,7 +97,8 @@ void EventsTab::listRecent() {
         listChosen();
     }
     if (const int now = rowOf(last_); before >= 0 && now >= 0) // and where it is seen
-        list_.getViewport()->setViewPosition(0, list_.getViewport()->getViewPositionY() + (now - before) * rowPixels);
+        list_.getViewport()->setViewPosition(0, list_.getViewport()->getViewPositionY() +
+                                                    (now - before) * rowPixels);
     tellChoice();
     list_.repaint();
 }
@@ -95,7 +106,9 @@ void EventsTab::listRecent() {
 void EventsTab::listChosen() {
     juce::SparseSet<int> rows;
     for (int row = 0; row < rows_.getNumRows(); ++row)
-        if (const auto& contact = shown_[static_cast<std::size_t>(row)]; isChosen(contact) && contact.number != last_) rows.addRange({row, row + 1});
+        if (const auto& contact = shown_[static_cast<std::size_t>(row)];
+            isChosen(contact) && contact.number != last_)
+            rows.addRange({row, row + 1});
     list_.setSelectedRows(rows, juce::dontSendNotification);
     if (const int last = rowOf(last_); last >= 0) list_.selectRow(last, true, false); // from it Shift goes on
 }
@@ -116,12 +129,18 @@ void EventsTab::takeChoice(int row) {
 
 void EventsTab::tellChoice() {
     save_->setEnabled(!chosen_.empty());
-    if (chosen_.empty()) return choice_.setText("Choose contacts, then drag them into another program", juce::dontSendNotification);
+    if (chosen_.empty())
+        return choice_.setText("Choose contacts, then drag them into another program",
+                               juce::dontSendNotification);
     std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
     for (const RecentContact& contact : shown_)
-        if (isChosen(contact)) first = std::min(first, contact.event.timeNs), last = std::max(last, contact.lastNs);
-    const auto count = juce::String{static_cast<int>(chosen_.size())} + (chosen_.size() == 1 ? " contact" : " contacts");
-    choice_.setText(count + (last > first ? " within " + timeText(last - first) : juce::String{}) + ", to be dragged out", juce::dontSendNotification);
+        if (isChosen(contact))
+            first = std::min(first, contact.event.timeNs), last = std::max(last, contact.lastNs);
+    const auto count =
+        juce::String{static_cast<int>(chosen_.size())} + (chosen_.size() == 1 ? " contact" : " contacts");
+    choice_.setText(count + (last > first ? " within " + timeText(last - first) : juce::String{}) +
+                        ", to be dragged out",
+                    juce::dontSendNotification);
 }
 
 juce::String EventsTab::Rows::getNameForRow(int row) {
@@ -129,7 +148,8 @@ juce::String EventsTab::Rows::getNameForRow(int row) {
     const auto& contact = tab_.shown_[static_cast<std::size_t>(row)];
     const auto& hit = contact.event;
     const auto& scene = tab_.desk_.world().scene();
-    return nameOf(scene, contact) + " at " + timeText(hit.timeNs) + ", " + number(feltMost(tab_.desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
+    return nameOf(scene, contact) + " at " + timeText(hit.timeNs) + ", " +
+           number(feltMost(tab_.desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
 void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
@@ -148,7 +168,8 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     g.fillEllipse(at.dot.toFloat().withSizeKeepingCentre(10.0f, 10.0f).translated(-4.0f, 0.0f));
     const auto cell = [&](const juce::String& words, juce::Rectangle<int> area, Shade which, bool isNumber) {
         g.setColour(shade(tab_, which));
-        g.drawText(words, area, isNumber ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
+        g.drawText(words, area,
+                   isNumber ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
     };
     g.setFont(juce::Font{text::small});
     cell(timeText(hit.timeNs), at.time, Shade::muted, false);
@@ -160,14 +181,17 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     cell(placeNumbers(hit), at.place, Shade::muted, true);
     g.setFont(juce::Font{text::small, juce::Font::bold});
     g.setColour(enchanterColour(tab_, most.enchanter));
-    g.drawText(utf8(desk.mix().layout.enchanters[static_cast<std::size_t>(most.enchanter)].label), at.enchanter, juce::Justification::centred, true);
+    g.drawText(utf8(desk.mix().layout.enchanters[static_cast<std::size_t>(most.enchanter)].label),
+               at.enchanter, juce::Justification::centred, true);
 }
 
 void EventsTab::paint(juce::Graphics& g) {
     const Columns at{getLocalBounds().withHeight(headPixels).withWidth(list_.getVisibleRowWidth())};
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
-    const auto head = [&](const juce::String& words, juce::Rectangle<int> area, juce::Justification where) { g.drawText(words, area, where, true); };
+    const auto head = [&](const juce::String& words, juce::Rectangle<int> area, juce::Justification where) {
+        g.drawText(words, area, where, true);
+    };
     head("Contact", at.time, juce::Justification::centredLeft);
     head("Material", at.name, juce::Justification::centredLeft);
     head("f Hz", at.frequency, juce::Justification::centredRight);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was played, hit by hit, the newest first; what is chosen can be dragged into another program, or saved.
+// What was played, hit by hit, the newest first; what is chosen can be dragged into another program, or
+// saved.
 #pragma once
 #include "Mixer/Output/HitFiles.h"
 #include "Mixer/Window/TabPanel.h"
@@ -19,7 +20,8 @@ public:
 
     /// The chosen contacts as new files, as addresses; if there are none, the desk tells why.
     juce::StringArray filesToDrag();
-    /// The same in a file of that name, whose ending says how; none: as they would be dragged. The desk tells how it went.
+    /// The same in a file of that name, whose ending says how; none: as they would be dragged. The desk tells
+    /// how it went.
     void saveTo(const juce::File& file);
 
 private:
@@ -31,7 +33,9 @@ private:
         void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
         juce::String getNameForRow(int row) override;
         void selectedRowsChanged(int row) override { tab_.takeChoice(row); }
-        void listBoxItemClicked(int, const juce::MouseEvent& e) override { if (e.mods.isPopupMenu()) tab_.showMenu(); }
+        void listBoxItemClicked(int, const juce::MouseEvent& e) override {
+            if (e.mods.isPopupMenu()) tab_.showMenu();
+        }
         void backgroundClicked(const juce::MouseEvent&) override { tab_.list_.deselectAllRows(); }
         void returnKeyPressed(int) override { tab_.saveAs(); }
         juce::var getDragSourceDescription(const juce::SparseSet<int>&) override { return dragged; }

@@ -27,11 +27,13 @@ void FactList::set(std::vector<Fact> facts) {
 
 void FactList::paint(juce::Graphics& g) {
     if (facts_.empty()) return;
-    const int rows = (static_cast<int>(facts_.size()) + columns_ - 1) / columns_, height = juce::jlimit(lowestRow, highestRow, getHeight() / rows);
+    const int rows = (static_cast<int>(facts_.size()) + columns_ - 1) / columns_,
+              height = juce::jlimit(lowestRow, highestRow, getHeight() / rows);
     const int width = (getWidth() - (columns_ - 1) * gap) / columns_;
     const juce::Font font{text::medium};
     int nameWidth = 0;
-    for (const auto& fact : facts_) nameWidth = std::max(nameWidth, font.getStringWidth(fact.name) + afterName);
+    for (const auto& fact : facts_)
+        nameWidth = std::max(nameWidth, font.getStringWidth(fact.name) + afterName);
     g.setFont(font);
     for (int i = 0; i < static_cast<int>(facts_.size()); ++i) {
         const auto& fact = facts_[static_cast<std::size_t>(i)];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Chosen hits as files: what other programs take, and where it lies while they take it.
 #pragma once
-#include "Scene/Sessions/Mix.h"
-#include "Io/Result.h"
 #include "Formats/ClipFile.h"
+#include "Io/Result.h"
+#include "Scene/Sessions/Mix.h"
 #include <juce_core/juce_core.h>
 #include <string>
 #include <vector>
@@ -25,11 +25,13 @@ struct WrittenHits {
     std::vector<std::string> losses; ///< what the format does not carry
 };
 
-/// The hits (in any order), from the first of them on, as enchanters and law of `mix` spread them, by what `path` ends in; or one line. Several files
-/// replace none. M only.
-Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz, const juce::File& path);
+/// The hits (in any order), from the first of them on, as enchanters and law of `mix` spread them, by what
+/// `path` ends in; or one line. Several files replace none. M only.
+Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
+                              const juce::File& path);
 
-/// Files that were dragged out, of which some programs make their copies late: they are there until the mixer ends. M only.
+/// Files that were dragged out, of which some programs make their copies late: they are there until the mixer
+/// ends. M only.
 class DraggedFiles {
 public:
     ~DraggedFiles() { folder_.deleteRecursively(); }

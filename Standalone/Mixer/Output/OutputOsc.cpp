@@ -7,13 +7,15 @@ namespace physvib {
 namespace {
 
 // as OscUse
-constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer", "from any computer, and phones"};
+constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer",
+                                             "from any computer, and phones"};
 struct PhoneHold {
     const char* words;
     double turnDegrees;
 };
 // where its top points
-constexpr std::array<PhoneHold, 4> phoneHolds{{{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
+constexpr std::array<PhoneHold, 4> phoneHolds{
+    {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
 constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // of the list of who hears of hits
 
 } // namespace
@@ -21,15 +23,19 @@ constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // of the 
 void OutputTab::prepareOsc() {
     caption(oscName_, "Messages by OSC");
     osc_.setTitle("OSC");
-    osc_.setTooltip("Who may strike, tilt and set gains by messages over the network: phones, Pd, Max (Docs/osc.md)");
-    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use) osc_.addItem(oscUses[static_cast<std::size_t>(use)], use + 1);
+    osc_.setTooltip(
+        "Who may strike, tilt and set gains by messages over the network: phones, Pd, Max (Docs/osc.md)");
+    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use)
+        osc_.addItem(oscUses[static_cast<std::size_t>(use)], use + 1);
     caption(hitsName_, "Hits by OSC to");
     hits_.setTitle("Hits by OSC");
-    hits_.setTooltip("HOST:PORT of a program that hears of each hit as it is felt, and of the status once a second");
+    hits_.setTooltip(
+        "HOST:PORT of a program that hears of each hit as it is felt, and of the status once a second");
     caption(phoneName_, "A phone's top is");
     phone_.setTitle("Phone");
     phone_.setTooltip("How a phone is held that tilts the world by OSC: where its top points");
-    for (int k = 0; k < static_cast<int>(phoneHolds.size()); ++k) phone_.addItem(phoneHolds[static_cast<std::size_t>(k)].words, k + 1);
+    for (int k = 0; k < static_cast<int>(phoneHolds.size()); ++k)
+        phone_.addItem(phoneHolds[static_cast<std::size_t>(k)].words, k + 1);
     for (auto* box : {&osc_, &phone_}) box->onChange = [this] { listen(); };
     hits_.onChange = [this] { chooseReceiver(); };
 }
@@ -37,7 +43,8 @@ void OutputTab::prepareOsc() {
 void OutputTab::listen() {
     OscChoice choice = desk_.inputs().choice();
     choice.use = static_cast<OscUse>(osc_.getSelectedItemIndex());
-    if (const int hold = phone_.getSelectedItemIndex(); hold >= 0) choice.turnDegrees = phoneHolds[static_cast<std::size_t>(hold)].turnDegrees;
+    if (const int hold = phone_.getSelectedItemIndex(); hold >= 0)
+        choice.turnDegrees = phoneHolds[static_cast<std::size_t>(hold)].turnDegrees;
     useOsc(choice, "Messages by OSC: ");
 }
 
@@ -56,13 +63,15 @@ void OutputTab::chooseReceiver() {
     const int id = hits_.getSelectedId();
     if (id != otherReceiverId) return tellHits(id == knownReceiverId ? hits_.getText() : juce::String{});
     showOsc();
-    ask("Hits by OSC", "HOST:PORT of the program", hits_.getItemText(hits_.indexOfItemId(knownReceiverId)), [this](const juce::String& receiver) { tellHits(receiver); });
+    ask("Hits by OSC", "HOST:PORT of the program", hits_.getItemText(hits_.indexOfItemId(knownReceiverId)),
+        [this](const juce::String& receiver) { tellHits(receiver); });
 }
 
 // A receiver stays in the list, to be switched off and on.
 void OutputTab::showOsc() {
     const OscChoice& choice = desk_.inputs().choice();
-    const auto known = choice.receiver.empty() ? hits_.getItemText(hits_.indexOfItemId(knownReceiverId)) : utf8(choice.receiver);
+    const auto known = choice.receiver.empty() ? hits_.getItemText(hits_.indexOfItemId(knownReceiverId))
+                                               : utf8(choice.receiver);
     osc_.setSelectedItemIndex(static_cast<int>(choice.use), juce::dontSendNotification);
     hits_.clear(juce::dontSendNotification);
     hits_.addItem("nobody", nobodyId);
@@ -81,8 +90,13 @@ juce::String OutputTab::oscState(Shade& state) const {
     const auto count = [](std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; };
     if (c.wrong() + c.lost + c.late + osc->unsent > 0) state = Shade::now;
     juce::StringArray parts;
-    if (!osc->address.empty()) parts.add(utf8(osc->address) + ": " + count(c.messages - c.refused) + " good, " + count(c.wrong()) + " bad, " + count(c.late) + " late" + (c.lost > 0 ? ", " + count(c.lost) + " lost" : juce::String{}));
-    if (!desk_.inputs().choice().receiver.empty()) parts.add("to " + utf8(desk_.inputs().choice().receiver) + ": " + count(osc->sent) + " sent" + (osc->unsent > 0 ? ", " + count(osc->unsent) + " not taken" : juce::String{}));
+    if (!osc->address.empty())
+        parts.add(utf8(osc->address) + ": " + count(c.messages - c.refused) + " good, " + count(c.wrong()) +
+                  " bad, " + count(c.late) + " late" +
+                  (c.lost > 0 ? ", " + count(c.lost) + " lost" : juce::String{}));
+    if (!desk_.inputs().choice().receiver.empty())
+        parts.add("to " + utf8(desk_.inputs().choice().receiver) + ": " + count(osc->sent) + " sent" +
+                  (osc->unsent > 0 ? ", " + count(osc->unsent) + " not taken" : juce::String{}));
     const auto words = parts.joinIntoString("; ");
     return c.fault.empty() ? words : words + "; " + utf8(c.fault);
 }

@@ -2,9 +2,9 @@
 // Choices of a device, and what it says of itself.
 #include "Mixer/Output/OutputTab.h"
 #include "Host/Devices/NoDevice.h"
+#include "Mixer/Window/Parts.h"
 #include "Pads/GamePads.h"
 #include "Session/SerialLine.h"
-#include "Mixer/Window/Parts.h"
 
 namespace physvib {
 namespace {
@@ -12,7 +12,8 @@ namespace {
 constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevels{0, -5, -10, -15, -20, -25, -30, -40, -50};
-constexpr int noneId = 1, levelId = 100; // of the lists of outputs and levels: an output's, or a pair's, and a level in dB below it
+constexpr int noneId = 1, levelId = 100; // of the lists of outputs and levels: an output's, or a pair's, and
+                                         // a level in dB below it
 constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
 
 struct Cell {
@@ -49,11 +50,13 @@ OutputTab::OutputTab(Desk& desk)
     caption(monitorLevelName_, "Monitor level");
     caption(marksName_, "Trigger output");
     monitor_.setTitle("Monitor");
-    monitor_.setTooltip("Two outputs, left and right: each hit is heard where it is felt, also without actuators");
+    monitor_.setTooltip(
+        "Two outputs, left and right: each hit is heard where it is felt, also without actuators");
     monitorLevel_.setTitle("Level of the monitor");
     monitorLevel_.setTooltip("What a hit at full scale reaches; the master level leaves it alone. Start low");
     marks_.setTitle("Marks");
-    marks_.setTooltip("A pulse at the sample of each onset, for trigger boxes. No actuator and no ear belongs there");
+    marks_.setTooltip(
+        "A pulse at the sample of each onset, for trigger boxes. No actuator and no ear belongs there");
     for (const int db : monitorLevels) monitorLevel_.addItem(number(db, 0) + " dBFS", levelId - db);
     for (auto* box : {&monitor_, &monitorLevel_}) box->onChange = [this] { chooseMonitor(); };
     marks_.onChange = [this] { chooseMarks(); };
@@ -70,7 +73,12 @@ OutputTab::OutputTab(Desk& desk)
     scan_ = quietButton("Rescan", "Rescan devices");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &padName_, &pad_, &oscName_, &osc_, &hitsName_, &hits_, &phoneName_, &phone_, &monitorName_, &monitor_, &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{
+             &deviceName_, &device_,           scan_.get(),    &rateName_,  &rate_,  &blockName_,
+             &block_,      &boardName_,        &board_,        &padName_,   &pad_,   &oscName_,
+             &osc_,        &hitsName_,         &hits_,         &phoneName_, &phone_, &monitorName_,
+             &monitor_,    &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_})
+        addAndMakeVisible(c);
     takeMix();
 }
 
@@ -98,10 +106,14 @@ void OutputTab::listPorts() {
         ports_.push_back(path);
     };
     for (const auto& port : listSerialPorts()) add(port.path, port.description);
-    if (!wanted.empty() && wanted != anyBoard && std::ranges::find(ports_, wanted) == ports_.end()) add(wanted, "");
+    if (!wanted.empty() && wanted != anyBoard && std::ranges::find(ports_, wanted) == ports_.end())
+        add(wanted, "");
     board_.addItem("another port" + juce::String::charToString(0x2026), otherPortId);
     const auto at = std::ranges::find(ports_, wanted);
-    board_.setSelectedId(wanted.empty() ? noBoardId : wanted == anyBoard ? anyBoardId : firstPortId + static_cast<int>(at - ports_.begin()), juce::dontSendNotification);
+    board_.setSelectedId(wanted.empty()       ? noBoardId
+                         : wanted == anyBoard ? anyBoardId
+                                              : firstPortId + static_cast<int>(at - ports_.begin()),
+                         juce::dontSendNotification);
 }
 
 // The one that is wanted stands there even if it does not.
@@ -112,20 +124,28 @@ void OutputTab::listPads() {
         if (std::ranges::find(pads_, info.name) == pads_.end()) pads_.push_back(info.name);
     if (std::ranges::find(pads_, wanted) == pads_.end()) pads_.push_back(wanted);
     pad_.clear(juce::dontSendNotification);
-    for (int id = 1; const auto& name : pads_) pad_.addItem(name.empty() ? juce::String{"none"} : name == anyPad ? juce::String{"the first that is there"} : utf8(name), id++);
-    pad_.setSelectedId(1 + static_cast<int>(std::ranges::find(pads_, wanted) - pads_.begin()), juce::dontSendNotification);
+    for (int id = 1; const auto& name : pads_)
+        pad_.addItem(name.empty()     ? juce::String{"none"}
+                     : name == anyPad ? juce::String{"the first that is there"}
+                                      : utf8(name),
+                     id++);
+    pad_.setSelectedId(1 + static_cast<int>(std::ranges::find(pads_, wanted) - pads_.begin()),
+                       juce::dontSendNotification);
 }
 
 void OutputTab::usePad() {
     DeviceChoice choice = desk_.device().choice();
     choice.pad = pads_[static_cast<std::size_t>(std::max(0, pad_.getSelectedItemIndex()))];
-    if (choice.pad != desk_.device().choice().pad && desk_.device().onBoardWanted) desk_.device().onBoardWanted(choice);
+    if (choice.pad != desk_.device().choice().pad && desk_.device().onBoardWanted)
+        desk_.device().onBoardWanted(choice);
 }
 
 void OutputTab::open() {
     const int index = device_.getSelectedId() - 1;
     DeviceChoice choice = desk_.device().choice();
-    if (index >= 0 && index < static_cast<int>(found_.size())) choice.name = found_[static_cast<std::size_t>(index)].type + ":" + found_[static_cast<std::size_t>(index)].name;
+    if (index >= 0 && index < static_cast<int>(found_.size()))
+        choice.name =
+            found_[static_cast<std::size_t>(index)].type + ":" + found_[static_cast<std::size_t>(index)].name;
     choice.sampleRateHz = rate_.getSelectedId() > 1 ? rate_.getSelectedId() : 0;
     choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
     desk_.open(choice);
@@ -135,7 +155,9 @@ void OutputTab::open() {
 void OutputTab::connectBoard() {
     const int id = board_.getSelectedId();
     if (id == otherPortId) return askPort();
-    useBoard(id == anyBoardId ? std::string{anyBoard} : id >= firstPortId ? ports_[static_cast<std::size_t>(id - firstPortId)] : std::string{});
+    useBoard(id == anyBoardId    ? std::string{anyBoard}
+             : id >= firstPortId ? ports_[static_cast<std::size_t>(id - firstPortId)]
+                                 : std::string{});
 }
 
 // Pairs as headphones have them; where enchanters are, it says whose place would be taken.
@@ -156,65 +178,85 @@ void OutputTab::listHeard() {
         if (ownersOf(k).isEmpty()) marks_.addItem("output " + juce::String{k + 1}, noneId + 1 + k);
         if (k % 2 != 0 || k + 1 >= desk_.device().outputs()) continue;
         const auto owners = ownersOf(k) + ownersOf(k + 1);
-        monitor_.addItem("outputs " + juce::String{k + 1} + " and " + juce::String{k + 2} + (owners.isEmpty() ? juce::String{} : ", instead of" + owners), noneId + 1 + k);
+        monitor_.addItem("outputs " + juce::String{k + 1} + " and " + juce::String{k + 2} +
+                             (owners.isEmpty() ? juce::String{} : ", instead of" + owners),
+                         noneId + 1 + k);
     }
-    monitor_.setSelectedId(choice.monitor.empty() ? noneId : noneId + 1 + choice.monitor[0], juce::dontSendNotification);
+    monitor_.setSelectedId(choice.monitor.empty() ? noneId : noneId + 1 + choice.monitor[0],
+                           juce::dontSendNotification);
     monitorLevel_.setSelectedId(levelId - juce::roundToInt(choice.monitorDb), juce::dontSendNotification);
-    if (monitorLevel_.getSelectedId() == 0) monitorLevel_.setText(number(choice.monitorDb, 1) + " dBFS", juce::dontSendNotification);
+    if (monitorLevel_.getSelectedId() == 0)
+        monitorLevel_.setText(number(choice.monitorDb, 1) + " dBFS", juce::dontSendNotification);
     marks_.setSelectedId(noneId + 1 + choice.marker, juce::dontSendNotification);
 }
 
 void OutputTab::chooseMonitor() {
     const int left = monitor_.getSelectedId() - noneId - 1;
-    const double db = monitorLevel_.getSelectedId() > 0 ? levelId - monitorLevel_.getSelectedId() : desk_.device().choice().monitorDb;
-    const auto error = left < 0 ? desk_.device().listening().monitor({}, db) : desk_.monitorInstead({left, left + 1}, db);
+    const double db = monitorLevel_.getSelectedId() > 0 ? levelId - monitorLevel_.getSelectedId()
+                                                        : desk_.device().choice().monitorDb;
+    const auto error =
+        left < 0 ? desk_.device().listening().monitor({}, db) : desk_.monitorInstead({left, left + 1}, db);
     if (!error.empty()) desk_.report(utf8(error));
     listHeard();
 }
 
 void OutputTab::chooseMarks() {
-    if (const auto error = desk_.device().listening().mark(marks_.getSelectedId() - noneId - 1); !error.empty()) desk_.report(utf8(error));
+    if (const auto error = desk_.device().listening().mark(marks_.getSelectedId() - noneId - 1);
+        !error.empty())
+        desk_.report(utf8(error));
     listHeard();
 }
 
 juce::String OutputTab::heardWords() const {
     const auto& heard = desk_.device().listening().settings();
     juce::String words;
-    if (heard.contacts.size() == 2) words << "left on " << heard.contacts[0] + 1 << ", right on " << heard.contacts[1] + 1;
-    else if (!desk_.device().choice().monitor.empty()) words << "not there: an actuator, or no output";
-    else words << "by nobody";
+    if (heard.contacts.size() == 2)
+        words << "left on " << heard.contacts[0] + 1 << ", right on " << heard.contacts[1] + 1;
+    else if (!desk_.device().choice().monitor.empty())
+        words << "not there: an actuator, or no output";
+    else
+        words << "by nobody";
     if (!heard.marks.empty()) words << "; onsets marked on " << heard.marks[0] + 1;
     return words;
 }
 
 void OutputTab::askPort() {
     listPorts(); // shows what is still so
-    ask("Four-channel board", "Serial port", utf8(desk_.device().choice().board), [this](const juce::String& port) { useBoard(port.toStdString()); });
+    ask("Four-channel board", "Serial port", utf8(desk_.device().choice().board),
+        [this](const juce::String& port) { useBoard(port.toStdString()); });
 }
 
-void OutputTab::ask(const juce::String& title, const juce::String& what, const juce::String& now, std::function<void(const juce::String&)> use) {
+void OutputTab::ask(const juce::String& title, const juce::String& what, const juce::String& now,
+                    std::function<void(const juce::String&)> use) {
     auto* window = new juce::AlertWindow{title, {}, juce::MessageBoxIconType::NoIcon, this};
     window->addTextEditor("answer", now, what);
     window->addButton("Connect", 1, juce::KeyPress{juce::KeyPress::returnKey});
     window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    window->enterModalState(true, juce::ModalCallbackFunction::create([safe = juce::Component::SafePointer<OutputTab>{this}, window, use = std::move(use)](int answer) {
-        const auto words = window->getTextEditorContents("answer").trim();
-        if (answer == 1 && safe != nullptr && words.isNotEmpty()) use(words);
-    }), true);
+    window->enterModalState(
+        true,
+        juce::ModalCallbackFunction::create(
+            [safe = juce::Component::SafePointer<OutputTab>{this}, window, use = std::move(use)](int answer) {
+                const auto words = window->getTextEditorContents("answer").trim();
+                if (answer == 1 && safe != nullptr && words.isNotEmpty()) use(words);
+            }),
+        true);
 }
 
 void OutputTab::useBoard(const std::string& port) {
     DeviceChoice choice = desk_.device().choice();
     choice.board = port;
-    if (choice.board != desk_.device().choice().board && desk_.device().onBoardWanted) desk_.device().onBoardWanted(choice);
+    if (choice.board != desk_.device().choice().board && desk_.device().onBoardWanted)
+        desk_.device().onBoardWanted(choice);
 }
 
 std::vector<Fact> OutputTab::sinkFacts() const {
     std::vector<Fact> facts;
     for (const SinkState& sink : desk_.session().sinks().states()) {
         const bool isPart = sink.isReady && sink.channels > 0 && desk_.mix().count() > sink.channels;
-        const auto rest = isPart ? "; the first " + juce::String{sink.channels} + " actuators" : juce::String{};
-        facts.push_back({titleOf(sink.name), utf8(sink.where) + rest, sink.isReady ? Shade::text : Shade::now});
+        const auto rest =
+            isPart ? "; the first " + juce::String{sink.channels} + " actuators" : juce::String{};
+        facts.push_back(
+            {titleOf(sink.name), utf8(sink.where) + rest, sink.isReady ? Shade::text : Shade::now});
     }
     return facts.empty() ? std::vector<Fact>{{"Board", "none", Shade::muted}} : facts;
 }
@@ -225,7 +267,9 @@ void OutputTab::takeMix() {
     int chosen = 0;
     for (int id = 1; const auto& d : found_) {
         const bool isNone = d.type == noDeviceType;
-        device_.addItem(isNone ? juce::String{"No device: seen, not felt"} : utf8(d.type + ": " + d.name) + " (" + juce::String{d.channels} + " outputs)", id);
+        device_.addItem(isNone ? juce::String{"No device: seen, not felt"}
+                               : utf8(d.type + ": " + d.name) + " (" + juce::String{d.channels} + " outputs)",
+                        id);
         if (d.type + ":" + d.name == choice.name) chosen = id;
         ++id;
     }
@@ -235,7 +279,9 @@ void OutputTab::takeMix() {
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
     listHeard();
     showOsc();
-    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &padName_, &oscName_, &hitsName_, &phoneName_, &monitorName_, &monitorLevelName_, &marksName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &padName_, &oscName_, &hitsName_,
+                        &phoneName_, &monitorName_, &monitorLevelName_, &marksName_})
+        label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
 void OutputTab::refresh(const DeskMoment& moment) {
@@ -244,21 +290,39 @@ void OutputTab::refresh(const DeskMoment& moment) {
     const bool isNone = juce::String{utf8(output.device())}.startsWith(noDeviceType);
     const auto& r = moment.session.render;
     int connected = 0;
-    for (const Strip& strip : desk_.mix().strips) connected += strip.output >= 0 && strip.output < desk_.device().outputs() ? 1 : 0;
+    for (const Strip& strip : desk_.mix().strips)
+        connected += strip.output >= 0 && strip.output < desk_.device().outputs() ? 1 : 0;
     const int all = desk_.mix().count();
     Shade oscShade = Shade::muted;
     const auto osc = oscState(oscShade);
     const double slipped = 1e-6 * static_cast<double>(desk_.session().world().slippedNs());
-    std::vector<Fact> facts{{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
-               !moment.device.isRunning ? Shade::limit : isNone ? Shade::now : Shade::text},
-              {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" + number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
-              {"Felt", number(1e3 * desk_.device().playOutSeconds(), 1) + " ms after the contact, and the device's own " + number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
-              {"Heard", heardWords(), !desk_.device().choice().monitor.empty() && desk_.device().listening().settings().contacts.empty() ? Shade::now : Shade::text},
-              {"Actuators", juce::String{connected} + " of " + juce::String{all} + " have an output there", connected < all ? Shade::now : Shade::text},
-              {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " + number(100.0 * moment.device.worstLoad, 1) + " % at most"},
-              {"Late", juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls", r.late > 0 ? Shade::now : Shade::text},
-              {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}},
-              {"Opened again", juce::String{moment.device.losses} + " times"}};
+    std::vector<Fact> facts{
+        {"State",
+         !moment.device.isRunning ? juce::String{"not running"}
+         : isNone                 ? juce::String{"a clock without a device: nothing is felt"}
+                                  : juce::String{"running"},
+         !moment.device.isRunning ? Shade::limit
+         : isNone                 ? Shade::now
+                                  : Shade::text},
+        {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" +
+                        number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
+        {"Felt", number(1e3 * desk_.device().playOutSeconds(), 1) +
+                     " ms after the contact, and the device's own " +
+                     number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
+        {"Heard", heardWords(),
+         !desk_.device().choice().monitor.empty() && desk_.device().listening().settings().contacts.empty()
+             ? Shade::now
+             : Shade::text},
+        {"Actuators", juce::String{connected} + " of " + juce::String{all} + " have an output there",
+         connected < all ? Shade::now : Shade::text},
+        {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " +
+                     number(100.0 * moment.device.worstLoad, 1) + " % at most"},
+        {"Late",
+         juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls",
+         r.late > 0 ? Shade::now : Shade::text},
+        {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
+                                                : juce::String{moment.device.deviceXruns}},
+        {"Opened again", juce::String{moment.device.losses} + " times"}};
     std::ranges::move(sinkFacts(), std::back_inserter(facts));
     facts.push_back({"Messages", osc, oscShade});
     facts_.set(std::move(facts));
@@ -272,9 +336,16 @@ void OutputTab::resized() {
     row.removeFromRight(gap);
     device_.setBounds(row);
     const int all = area.getWidth() - 2 * gap, quarter = all / 4, fifth = all / 5;
-    placeRow(area, {{rateName_, rate_, quarter}, {blockName_, block_, quarter}, {boardName_, board_, quarter}, {padName_, pad_, quarter - gap}});
-    placeRow(area, {{oscName_, osc_, 2 * fifth}, {hitsName_, hits_, 2 * fifth - gap}, {phoneName_, phone_, fifth + gap}});
-    placeRow(area, {{monitorName_, monitor_, 2 * quarter}, {monitorLevelName_, monitorLevel_, quarter}, {marksName_, marks_, quarter}});
+    placeRow(area, {{rateName_, rate_, quarter},
+                    {blockName_, block_, quarter},
+                    {boardName_, board_, quarter},
+                    {padName_, pad_, quarter - gap}});
+    placeRow(area, {{oscName_, osc_, 2 * fifth},
+                    {hitsName_, hits_, 2 * fifth - gap},
+                    {phoneName_, phone_, fifth + gap}});
+    placeRow(area, {{monitorName_, monitor_, 2 * quarter},
+                    {monitorLevelName_, monitorLevel_, quarter},
+                    {marksName_, marks_, quarter}});
     area.removeFromTop(12);
     facts_.setBounds(area);
 }

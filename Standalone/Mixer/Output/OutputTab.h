@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the enchanters are fed from: device, rate, block and the delay that follows from them; the board, a game controller.
+// Where the enchanters are fed from: device, rate, block and the delay that follows from them; the board, a
+// game controller.
 #pragma once
 #include "Mixer/Output/FactList.h"
 #include "Mixer/Window/TabPanel.h"
@@ -32,7 +33,8 @@ private:
     void chooseReceiver();
     void useOsc(const OscChoice& choice, const juce::String& what);
     void showOsc();
-    void ask(const juce::String& title, const juce::String& what, const juce::String& now, std::function<void(const juce::String&)> use);
+    void ask(const juce::String& title, const juce::String& what, const juce::String& now,
+             std::function<void(const juce::String&)> use);
     std::vector<Fact> sinkFacts() const;
     juce::String oscState(Shade& shade) const;
     void listHeard();
@@ -41,7 +43,8 @@ private:
     juce::String heardWords() const;
 
     juce::ComboBox device_, rate_, block_, board_, pad_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
-    juce::Label deviceName_, rateName_, blockName_, boardName_, padName_, oscName_, hitsName_, phoneName_, monitorName_, monitorLevelName_, marksName_;
+    juce::Label deviceName_, rateName_, blockName_, boardName_, padName_, oscName_, hitsName_, phoneName_,
+        monitorName_, monitorLevelName_, marksName_;
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;

@@ -21,13 +21,16 @@ Fact clockFact(const Desk& desk, const DeskMoment& moment) {
     if (!moment.device.isRunning) return {"Clock", "none runs: the world waits", Shade::limit};
     const auto name = utf8(output.device());
     const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
-    return {"Clock", (isNone ? juce::String{"no device"} : name) + ", " + juce::String{output.sampleRateHz()} + " Hz", isNone ? Shade::now : Shade::text};
+    return {"Clock",
+            (isNone ? juce::String{"no device"} : name) + ", " + juce::String{output.sampleRateHz()} + " Hz",
+            isNone ? Shade::now : Shade::text};
 }
 
 Fact marginFact(const DeskMoment& moment, int rateHz) {
     const auto frames = moment.session.leastMarginFrames;
     if (frames == noMargin || rateHz == 0) return {"Margin", "no hit yet", Shade::muted};
-    return {"Margin", number(1e3 * static_cast<double>(frames) / rateHz, 1) + " ms at least", frames < 0 ? Shade::now : Shade::text};
+    return {"Margin", number(1e3 * static_cast<double>(frames) / rateHz, 1) + " ms at least",
+            frames < 0 ? Shade::now : Shade::text};
 }
 
 Fact guardFact(const AudioOutputStatus& device) {
@@ -37,8 +40,12 @@ Fact guardFact(const AudioOutputStatus& device) {
 }
 
 Fact exposureFact(double daily) {
-    const auto words = "A(8) " + number(daily, 2) + " m/s^2 (action value " + number(exposureActionValue, 1) + ", limit " + number(exposureLimitValue, 0) + ")";
-    return {"Exposure", words, daily >= exposureLimitValue ? Shade::limit : daily >= exposureActionValue ? Shade::now : Shade::text};
+    const auto words = "A(8) " + number(daily, 2) + " m/s^2 (action value " + number(exposureActionValue, 1) +
+                       ", limit " + number(exposureLimitValue, 0) + ")";
+    return {"Exposure", words,
+            daily >= exposureLimitValue    ? Shade::limit
+            : daily >= exposureActionValue ? Shade::now
+                                           : Shade::text};
 }
 
 } // namespace
@@ -53,23 +60,31 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
         {"Played", count(r.played) + " hits, " + juce::String{r.pending} + " waiting"},
         {"Late", count(r.late) + " hits", noneIsGood(r.late)},
         {"Dropped", count(session.world().drops()) + " hits in a step", noneIsGood(session.world().drops())},
-        {"Refused", count(moment.session.refused) + " without room, " + count(r.rejected) + " unplayable", noneIsGood(refused)},
+        {"Refused", count(moment.session.refused) + " without room, " + count(r.rejected) + " unplayable",
+         noneIsGood(refused)},
         marginFact(moment, output.sampleRateHz()),
         {"Stalls", number(1e-6 * static_cast<double>(session.world().slippedNs()), 0) + " ms of the world"},
-        {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early", noneIsGood(r.stolen)},
+        {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early",
+         noneIsGood(r.stolen)},
         {"Limiter", number(reduction, 1) + " dB", reduction < -0.05 ? Shade::limit : Shade::text},
         guardFact(moment.device),
         exposureFact(moment.dailyExposure),
         clockFact(desk, moment),
-        {"Render call", "median " + percent(medianLoad) + ", worst " + percent(moment.device.worstLoad), moment.device.worstLoad > 1.0f ? Shade::now : Shade::text},
+        {"Render call", "median " + percent(medianLoad) + ", worst " + percent(moment.device.worstLoad),
+         moment.device.worstLoad > 1.0f ? Shade::now : Shade::text},
         {"Blocks", count(moment.device.blocks) + " of " + juce::String{output.blockFrames()} + " frames"},
-        {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}, moment.device.deviceXruns > 0 ? Shade::now : Shade::text},
-        {"Not told", count(r.untold) + " hits, " + count(desk.signals().framesLost()) + " frames", noneIsGood(r.untold)},
+        {"Xruns",
+         moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
+                                       : juce::String{moment.device.deviceXruns},
+         moment.device.deviceXruns > 0 ? Shade::now : Shade::text},
+        {"Not told", count(r.untold) + " hits, " + count(desk.signals().framesLost()) + " frames",
+         noneIsGood(r.untold)},
         {"Not finite", count(r.nonFinite) + " samples", noneIsGood(r.nonFinite)}};
     const auto sinks = desk.session().sinks().states();
     if (sinks.empty()) facts.push_back({"Board", "none", Shade::muted});
     for (const SinkState& sink : sinks)
-        for (const auto& [name, value, isWrong] : sink.facts) facts.push_back({utf8(name), utf8(value), isWrong ? Shade::now : Shade::text});
+        for (const auto& [name, value, isWrong] : sink.facts)
+            facts.push_back({utf8(name), utf8(value), isWrong ? Shade::now : Shade::text});
     return facts;
 }
 

@@ -37,10 +37,11 @@ GroupView::GroupView(Desk& desk, int group)
     remove_ = quietButton("Ungroup", "Ungroup " + label);
     remove_->setTooltip("The strips take over what the group does to them");
     remove_->onClick = [this] {
-        juce::MessageManager::callAsync(
-            [safe = juce::Component::SafePointer<GroupView>{this}] { // it goes with its group
-                if (safe != nullptr) safe->remove();
-            });
+        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<GroupView>{this}] { // it goes
+                                                                                                 // with its
+                                                                                                 // group
+            if (safe != nullptr) safe->remove();
+        });
     };
     for (juce::Component* c :
          std::initializer_list<juce::Component*>{&name_, &level_, &fader_, &mute_, remove_.get()})

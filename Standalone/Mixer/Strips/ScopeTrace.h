@@ -37,7 +37,9 @@ public:
             for (int j = 0; j < heard; ++j) {
                 const auto [low, high] = std::minmax_element(channels[j] + done, channels[j] + done + part);
                 SampleRange& column = lanes_[static_cast<std::size_t>(j)][static_cast<std::size_t>(newest_)];
-                column = filled_ == 0 ? SampleRange{*low, *high} : SampleRange{std::min(column.lowest, *low), std::max(column.highest, *high)};
+                column = filled_ == 0
+                             ? SampleRange{*low, *high}
+                             : SampleRange{std::min(column.lowest, *low), std::max(column.highest, *high)};
             }
             done += part;
             filled_ += part;
@@ -49,7 +51,10 @@ public:
     }
 
     /// Column `index` of a lane, 0 the oldest.
-    SampleRange at(int channel, int index) const { return lanes_[static_cast<std::size_t>(channel)][static_cast<std::size_t>((newest_ + 1 + index) % columns)]; }
+    SampleRange at(int channel, int index) const {
+        return lanes_[static_cast<std::size_t>(channel)]
+                     [static_cast<std::size_t>((newest_ + 1 + index) % columns)];
+    }
 
     /// Grows with every column that was begun.
     std::int64_t columnsBegun() const noexcept { return begun_; }

@@ -43,14 +43,19 @@ void ScopeView::refresh(const DeskMoment&) {
 void ScopeView::drawLane(juce::Graphics& g, juce::Rectangle<int> lane, int channel) const {
     g.setColour(shade(*this, Shade::well));
     g.fillRoundedRectangle(lane.toFloat(), 3.0f);
-    const auto middle = static_cast<float>(lane.getCentreY()), reach = 0.5f * static_cast<float>(lane.getHeight()) - 2.0f;
-    g.setColour(enchanterColour(*this, channel).withMultipliedAlpha(desk_.mix().isSilent(channel) ? 0.35f : 1.0f));
+    const auto middle = static_cast<float>(lane.getCentreY()),
+               reach = 0.5f * static_cast<float>(lane.getHeight()) - 2.0f;
+    g.setColour(
+        enchanterColour(*this, channel).withMultipliedAlpha(desk_.mix().isSilent(channel) ? 0.35f : 1.0f));
     juce::RectangleList<float> columns;
     const int width = lane.getWidth() - 4;
     for (int x = 0; x < width; ++x) {
-        const auto range = desk_.signals().scope().at(channel, x * (ScopeTrace::columns - 1) / std::max(1, width));
-        const float top = middle - reach * shownLevel(range.highest), bottom = middle - reach * shownLevel(range.lowest);
-        columns.addWithoutMerging({static_cast<float>(lane.getX() + 2 + x), top - 0.5f, 1.0f, std::max(1.2f, bottom - top + 1.0f)});
+        const auto range =
+            desk_.signals().scope().at(channel, x * (ScopeTrace::columns - 1) / std::max(1, width));
+        const float top = middle - reach * shownLevel(range.highest),
+                    bottom = middle - reach * shownLevel(range.lowest);
+        columns.addWithoutMerging(
+            {static_cast<float>(lane.getX() + 2 + x), top - 0.5f, 1.0f, std::max(1.2f, bottom - top + 1.0f)});
     }
     g.fillRectList(columns);
 }
@@ -62,7 +67,10 @@ void ScopeView::paint(juce::Graphics& g) {
     const auto foot = area.removeFromBottom(footHeight).withTrimmedLeft(labelWidth);
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
-    g.drawText(mix.count() > lanes ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()} : juce::String{juce::CharPointer_UTF8{"\xe2\x88\x92" "1 s"}}, foot, juce::Justification::centredLeft, false);
+    g.drawText(mix.count() > lanes ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()}
+                                   : juce::String{juce::CharPointer_UTF8{"\xe2\x88\x92"
+                                                                         "1 s"}},
+               foot, juce::Justification::centredLeft, false);
     g.drawText("now", foot, juce::Justification::centredRight, false);
     area.removeFromBottom(2);
     const int height = (area.getHeight() + between) / lanes;
@@ -70,7 +78,8 @@ void ScopeView::paint(juce::Graphics& g) {
         auto lane = area.removeFromTop(height).withTrimmedBottom(j + 1 < lanes ? between : 0);
         g.setColour(enchanterColour(*this, j));
         g.setFont(juce::Font{text::medium, juce::Font::bold});
-        g.drawText(utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label), lane.removeFromLeft(labelWidth), juce::Justification::centredLeft, false);
+        g.drawText(utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label),
+                   lane.removeFromLeft(labelWidth), juce::Justification::centredLeft, false);
         drawLane(g, lane, j);
     }
 }

@@ -14,7 +14,9 @@ namespace {
 const std::vector<double>& hann() {
     static const std::vector<double> weights = [] {
         std::vector<double> w(SpectrumTrace::window);
-        for (std::size_t i = 0; i < w.size(); ++i) w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(w.size()));
+        for (std::size_t i = 0; i < w.size(); ++i)
+            w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
+                                        static_cast<double>(w.size()));
         return w;
     }();
     return weights;
@@ -36,7 +38,9 @@ void SpectrumTrace::add(const float* const* channels, int heard, int frames) {
         for (std::size_t j = 0; j < static_cast<std::size_t>(heard); ++j) {
             Lane& lane = lanes_[j];
             for (int k = done; k < done + part; ++k) lane.sum += channels[j][k];
-            if (isFull) lane.kept[static_cast<std::size_t>(newest_)] = std::exchange(lane.sum, 0.0f) / static_cast<float>(framesPerSample_);
+            if (isFull)
+                lane.kept[static_cast<std::size_t>(newest_)] =
+                    std::exchange(lane.sum, 0.0f) / static_cast<float>(framesPerSample_);
         }
         done += part;
         summed_ = isFull ? 0 : summed_ + part;
@@ -50,10 +54,14 @@ SpectrumLevels SpectrumTrace::levels(int channel) const {
     none.fill(FrequencyAxis::floorDb);
     if (std::ranges::all_of(kept, [](float x) { return std::abs(x) < 1e-4f; })) return none;
     std::vector<double> x(window);
-    for (int i = 0; i < window; ++i) x[static_cast<std::size_t>(i)] = hann()[static_cast<std::size_t>(i)] * static_cast<double>(kept[static_cast<std::size_t>((newest_ + i) % window)]);
+    for (int i = 0; i < window; ++i)
+        x[static_cast<std::size_t>(i)] =
+            hann()[static_cast<std::size_t>(i)] *
+            static_cast<double>(kept[static_cast<std::size_t>((newest_ + i) % window)]);
     const auto heights = magnitudes(x);
     // half of the weights' sum
-    return spectrumLevels(heights, 0.5 * keptRateHz_ / static_cast<double>(heights.size() - 1), 0.25 * window);
+    return spectrumLevels(heights, 0.5 * keptRateHz_ / static_cast<double>(heights.size() - 1),
+                          0.25 * window);
 }
 
 } // namespace physvib

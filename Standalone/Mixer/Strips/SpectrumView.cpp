@@ -22,7 +22,8 @@ SpectrumView::SpectrumView(Desk& desk)
 
 void SpectrumView::refresh() {
     const double now = juce::Time::getMillisecondCounterHiRes();
-    if (now - lookedAtMs_ < 1000.0 / looksPerSecond || desk_.signals().scope().columnsBegun() == seen_) return;
+    if (now - lookedAtMs_ < 1000.0 / looksPerSecond || desk_.signals().scope().columnsBegun() == seen_)
+        return;
     const auto fall = static_cast<float>(meterFallDbPerSecond * std::min(1.0, 1e-3 * (now - lookedAtMs_)));
     lookedAtMs_ = now;
     seen_ = desk_.signals().scope().columnsBegun();
@@ -47,18 +48,24 @@ void SpectrumView::paint(juce::Graphics& g) {
     area = drawFrequencyAxis(g, *this, area).withTrimmedBottom(2);
     g.setFont(juce::Font{text::small});
     for (const int db : {0, -20, -40, -60, -80}) {
-        const int y = area.getY() + juce::roundToInt(static_cast<float>(area.getHeight() - 1) * static_cast<float>(db) / FrequencyAxis::floorDb);
+        const int y = area.getY() + juce::roundToInt(static_cast<float>(area.getHeight() - 1) *
+                                                     static_cast<float>(db) / FrequencyAxis::floorDb);
         g.setColour(shade(*this, Shade::line).withMultipliedAlpha(0.7f));
         g.drawHorizontalLine(y, static_cast<float>(area.getX()), static_cast<float>(area.getRight()));
         g.setColour(shade(*this, Shade::muted));
-        g.drawText(db == 0 ? juce::String{"dB"} : number(db, 0), juce::Rectangle<int>{levelsWidth - 5, 14}.withCentre({levels.getCentreX() - 2, y}).constrainedWithin(getLocalBounds()), juce::Justification::centredRight, false);
+        g.drawText(db == 0 ? juce::String{"dB"} : number(db, 0),
+                   juce::Rectangle<int>{levelsWidth - 5, 14}
+                       .withCentre({levels.getCentreX() - 2, y})
+                       .constrainedWithin(getLocalBounds()),
+                   juce::Justification::centredRight, false);
     }
     g.reduceClipRegion(area.withTrimmedBottom(2)); // what is on the floor is not drawn
     for (int j = std::min(desk_.mix().count(), mostCurves) - 1; j >= 0; --j) {
         auto heights = shown(j);
         if (std::ranges::all_of(heights, [](float db) { return db <= FrequencyAxis::floorDb; })) continue;
         for (float& level : heights) level = 1.0f - level / FrequencyAxis::floorDb;
-        drawSpectrum(g, heights, area.toFloat(), enchanterColour(*this, j).withMultipliedAlpha(desk_.mix().isSilent(j) ? 0.35f : 1.0f));
+        drawSpectrum(g, heights, area.toFloat(),
+                     enchanterColour(*this, j).withMultipliedAlpha(desk_.mix().isSilent(j) ? 0.35f : 1.0f));
     }
 }
 

@@ -12,9 +12,13 @@ namespace {
 constexpr int metersTop = 56;
 
 /// What that peak of a strip is felt as, behind the master.
-double gOf(const Desk& desk, std::size_t strip, float peak) { return peak * masterGain(desk.mix()) * desk.mix().layout.enchanters[strip].fullScaleG; }
+double gOf(const Desk& desk, std::size_t strip, float peak) {
+    return peak * masterGain(desk.mix()) * desk.mix().layout.enchanters[strip].fullScaleG;
+}
 
-double mostG(const Desk& desk, std::size_t strip) { return gOf(desk, strip, ceilingOf(desk.mix().strips[strip])); }
+double mostG(const Desk& desk, std::size_t strip) {
+    return gOf(desk, strip, ceilingOf(desk.mix().strips[strip]));
+}
 juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
 
 } // namespace
@@ -28,12 +32,20 @@ StripView::StripView(Desk& desk, int strip)
     const auto label = utf8(desk.mix().layout.enchanters[index_].label);
     setTitle("Strip " + label);
     setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
-    onSlide(fader_, [this](bool goesOn) { change("Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn); });
+    onSlide(fader_, [this](bool goesOn) {
+        change(
+            "Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn);
+    });
     ceiling_.textFromValueFunction = [this](double db) {
-        return "at most " + number(db, 1) + " dB, " + inG(gOf(desk_, index_, static_cast<float>(fromDecibels(db)))) + " g";
+        return "at most " + number(db, 1) + " dB, " +
+               inG(gOf(desk_, index_, static_cast<float>(fromDecibels(db)))) + " g";
     };
-    onSlide(ceiling_, [this](bool goesOn) { change("Ceiling", [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }, goesOn); });
-    const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint, bool Strip::*what) {
+    onSlide(ceiling_, [this](bool goesOn) {
+        change(
+            "Ceiling", [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }, goesOn);
+    });
+    const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint,
+                            bool Strip::*what) {
         button.setTitle(name + " " + label);
         button.setTooltip(name);
         button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB()));
@@ -54,7 +66,9 @@ StripView::StripView(Desk& desk, int strip)
     most_.setBorderSize({0, 4, 0, 0});
     output_.setTitle("Output of " + label);
     output_.setJustificationType(juce::Justification::centred);
-    output_.onChange = [this] { change("Output", [this](Strip& s) { s.output = output_.getSelectedId() - 2; }); };
+    output_.onChange = [this] {
+        change("Output", [this](Strip& s) { s.output = output_.getSelectedId() - 2; });
+    };
     group_ = quietButton("group", "Group of " + label);
     group_->onClick = [this] { showGroupMenu(desk_, index_, *group_); };
     test_ = quietButton(juce::String::fromUTF8("Test \xe2\x96\xb8"), "Test pulse on " + label);
@@ -73,14 +87,16 @@ StripView::StripView(Desk& desk, int strip)
 template <class Change>
 void StripView::change(const juce::String& name, Change change, bool goesOn) {
     const auto label = utf8(desk_.mix().layout.enchanters[index_].label);
-    desk_.change(name + " of " + label, [&](Mix& mix) { change(mix.strips[index_]); }, goesOn);
+    desk_.change(
+        name + " of " + label, [&](Mix& mix) { change(mix.strips[index_]); }, goesOn);
 }
 
 void StripView::fillOutputs() {
     output_.clear(juce::dontSendNotification);
     output_.addItem("none", 1);
     for (int k = 0; k < desk_.device().outputs(); ++k) output_.addItem("out " + juce::String{k + 1}, k + 2);
-    if (strip().output >= desk_.device().outputs()) output_.addItem("out " + juce::String{strip().output + 1} + " (not there)", strip().output + 2);
+    if (strip().output >= desk_.device().outputs())
+        output_.addItem("out " + juce::String{strip().output + 1} + " (not there)", strip().output + 2);
 }
 
 void StripView::takeMix() {
@@ -110,20 +126,23 @@ void StripView::askDelay() {
     juce::PopupMenu menu;
     menu.addSectionHeader("Delay");
     for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
-        menu.addItem(number(ms, ms < 1.0 && ms > 0.0 ? 1 : 0) + " ms", true, strip().delayMs == ms, [this, ms] { change("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
+        menu.addItem(number(ms, ms < 1.0 && ms > 0.0 ? 1 : 0) + " ms", true, strip().delayMs == ms,
+                     [this, ms] { change("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_));
 }
 
 void StripView::refresh(const DeskMoment& moment) {
     if (!isThere()) return;
     meter_.set(moment.meters.peaks[index_], moment.holds[index_]);
-    level_.setText(inG(desk_.isSilent() ? 0.0 : gOf(desk_, index_, moment.holds[index_])), juce::dontSendNotification);
+    level_.setText(inG(desk_.isSilent() ? 0.0 : gOf(desk_, index_, moment.holds[index_])),
+                   juce::dontSendNotification);
 }
 
 bool StripView::keyPressed(const juce::KeyPress& key) {
     if (!isThere()) return false;
     if (key == juce::KeyPress{'t'}) return desk_.strikes().testPulse(static_cast<int>(index_)), true;
-    if (key == juce::KeyPress{'t', juce::ModifierKeys::shiftModifier, 0}) return desk_.strikes().testSweep(static_cast<int>(index_)), true;
+    if (key == juce::KeyPress{'t', juce::ModifierKeys::shiftModifier, 0})
+        return desk_.strikes().testSweep(static_cast<int>(index_)), true;
     if (key == juce::KeyPress{'g'}) return showGroupMenu(desk_, index_, *group_), true;
     return false;
 }
@@ -137,7 +156,8 @@ void StripView::paint(juce::Graphics& g) {
     auto area = getLocalBounds();
     const auto& enchanter = desk_.mix().layout.enchanters[index_];
     const bool isSilent = desk_.mix().isSilent(static_cast<int>(index_));
-    g.setColour(enchanterColour(*this, static_cast<int>(index_)).withMultipliedAlpha(isSilent ? 0.35f : 1.0f));
+    g.setColour(
+        enchanterColour(*this, static_cast<int>(index_)).withMultipliedAlpha(isSilent ? 0.35f : 1.0f));
     g.fillRoundedRectangle(area.removeFromTop(4).toFloat(), 2.0f);
     area.removeFromTop(4);
     g.setColour(shade(*this, isSilent ? Shade::muted : Shade::text));
@@ -146,8 +166,11 @@ void StripView::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::muted));
     g.setFont(juce::Font{11.0f});
     for (const int db : {0, -20, -40, -60}) { // the meter's scale, right of the fader
-        const auto y = static_cast<float>(meter_.getY()) + static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
-        g.drawText(number(db, 0), juce::Rectangle<float>{static_cast<float>(getWidth()) - 25.0f, y - 7.0f, 24.0f, 14.0f}, juce::Justification::centredRight, false);
+        const auto y = static_cast<float>(meter_.getY()) +
+                       static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
+        g.drawText(number(db, 0),
+                   juce::Rectangle<float>{static_cast<float>(getWidth()) - 25.0f, y - 7.0f, 24.0f, 14.0f},
+                   juce::Justification::centredRight, false);
     }
 }
 
@@ -182,7 +205,8 @@ void StripView::resized() {
     most_.setBounds(row);
     row = area.removeFromBottom(24);
     const int each = row.getWidth() / 4;
-    for (auto* button : {&mute_, &solo_, &polarity_, &delay_}) button->setBounds(row.removeFromLeft(each).reduced(1, 0));
+    for (auto* button : {&mute_, &solo_, &polarity_, &delay_})
+        button->setBounds(row.removeFromLeft(each).reduced(1, 0));
     area.removeFromBottom(8);
     meter_.setBounds(area.withWidth(12).withX(10));
     ceiling_.placeOver(meter_.getBounds());
@@ -194,7 +218,10 @@ MasterStrip::MasterStrip(Desk& desk)
     setTitle("Master");
     setUpFader(fader_, leastStripDb, 0.0, "Master gain");
     fader_.setDoubleClickReturnValue(true, -12.0);
-    onSlide(fader_, [this](bool goesOn) { desk_.change("Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, goesOn); });
+    onSlide(fader_, [this](bool goesOn) {
+        desk_.change(
+            "Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, goesOn);
+    });
     addAndMakeVisible(meter_);
     addAndMakeVisible(fader_);
     takeMix();
@@ -219,17 +246,23 @@ void MasterStrip::refresh(const DeskMoment& moment) {
 void MasterStrip::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::text));
     g.setFont(juce::Font{text::medium, juce::Font::bold});
-    g.drawText("Master", getLocalBounds().withTrimmedTop(8).removeFromTop(20), juce::Justification::centred, false);
+    g.drawText("Master", getLocalBounds().withTrimmedTop(8).removeFromTop(20), juce::Justification::centred,
+               false);
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
-    g.drawText(number(desk_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18), juce::Justification::centred, false);
+    g.drawText(number(desk_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18),
+               juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::well));
     g.fillRoundedRectangle(limiterBar_.toFloat(), 3.0f);
     const float reduction = juce::jlimit(0.0f, 1.0f, -limiterDb_ / 20.0f);
     g.setColour(shade(*this, Shade::limit));
-    if (reduction > 0.004f) g.fillRoundedRectangle(limiterBar_.toFloat().withHeight(std::max(3.0f, reduction * static_cast<float>(limiterBar_.getHeight()))), 3.0f);
+    if (reduction > 0.004f)
+        g.fillRoundedRectangle(limiterBar_.toFloat().withHeight(
+                                   std::max(3.0f, reduction * static_cast<float>(limiterBar_.getHeight()))),
+                               3.0f);
     g.setColour(shade(*this, limiterDb_ < -0.05f ? Shade::limit : Shade::muted));
-    g.drawText((isGuard_ ? "guard " : "limiter ") + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1), limiterText_, juce::Justification::centred, false);
+    g.drawText((isGuard_ ? "guard " : "limiter ") + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1),
+               limiterText_, juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::muted));
     g.drawText("at most", ceilingName_, juce::Justification::centred, false);
     double most = 0.0;

@@ -2,9 +2,9 @@
 // A channel strip: group, meter with held peak and ceiling, fader, mute, solo, polarity, delay, the level in
 // g, output, tests.
 #pragma once
+#include "Host/Views/StripParts.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
-#include "Host/Views/StripParts.h"
 
 namespace physvib {
 

@@ -94,7 +94,8 @@ void StripsPanel::focusOfChildComponentChanged(FocusChangeType) {
     auto* focused = getCurrentlyFocusedComponent();
     if (focused == nullptr || !row_.isParentOf(focused)) return;
     const auto at = row_.getLocalArea(focused, focused->getLocalBounds());
-    if (!viewport_.getViewArea().contains(at)) viewport_.setViewPosition(std::max(0, at.getCentreX() - viewport_.getViewWidth() / 2), 0);
+    if (!viewport_.getViewArea().contains(at))
+        viewport_.setViewPosition(std::max(0, at.getCentreX() - viewport_.getViewWidth() / 2), 0);
 }
 
 void StripsPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
@@ -108,7 +109,8 @@ void StripsPanel::resized() {
                        static_cast<int>(groups_.size()) * (GroupView::width + 6);
     row_.setSize(std::max(needed, area.getWidth()), area.getHeight() - (needed > area.getWidth() ? 10 : 0));
     auto places = row_.getLocalBounds();
-    for (auto& strip : strips_) strip->setBounds(places.removeFromLeft(StripView::width)), places.removeFromLeft(6);
+    for (auto& strip : strips_)
+        strip->setBounds(places.removeFromLeft(StripView::width)), places.removeFromLeft(6);
     for (auto& group : groups_)
         group->setBounds(places.removeFromLeft(GroupView::width)), places.removeFromLeft(6);
     attach_.setBounds(places.removeFromLeft(StripView::width).withTrimmedTop(2).withTrimmedBottom(2));

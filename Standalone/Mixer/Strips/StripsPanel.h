@@ -16,7 +16,8 @@ public:
     void focusOfChildComponentChanged(FocusChangeType) override; ///< what has the focus is seen
 
 private:
-    /// The place where the next strip would be; pressed, it attaches an enchanter in the middle, dragged, where it is dropped.
+    /// The place where the next strip would be; pressed, it attaches an enchanter in the middle, dragged,
+    /// where it is dropped.
     class AttachPlace final : public juce::Button {
     public:
         AttachPlace();

@@ -24,8 +24,10 @@ Result<std::vector<std::string>> fitting(const std::vector<juce::File>& files) {
         const auto these = analysesFor(table.value);
         if (isFirst) names = these;
         isFirst = false;
-        std::erase_if(names, [&](const std::string& name) { return std::ranges::find(these, name) == these.end(); });
-        if (names.empty()) return Failure{path + ": expected trials of a study, or a table that physvib analyse takes"};
+        std::erase_if(names,
+                      [&](const std::string& name) { return std::ranges::find(these, name) == these.end(); });
+        if (names.empty())
+            return Failure{path + ": expected trials of a study, or a table that physvib analyse takes"};
     }
     return names;
 }
@@ -57,7 +59,9 @@ AnalysisScreen::AnalysisScreen(Desk& desk, const std::vector<juce::File>& files)
     words_.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
     words_.setEscapeAndReturnKeysConsumed(false);
     words_.setFont(juce::Font{text::medium});
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&kind_, choose_.get(), close_.get(), &silence_, &words_}) addAndMakeVisible(c);
+    for (juce::Component* c :
+         std::initializer_list<juce::Component*>{&kind_, choose_.get(), close_.get(), &silence_, &words_})
+        addAndMakeVisible(c);
     prepareControls(*this);
     analyse(files);
     refresh();
@@ -83,9 +87,11 @@ bool AnalysisScreen::keyPressed(const juce::KeyPress& key) {
 }
 
 void AnalysisScreen::browse() {
-    const auto folder = files_.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory) : files_.front().getParentDirectory();
+    const auto folder = files_.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
+                                       : files_.front().getParentDirectory();
     chooser_ = std::make_unique<juce::FileChooser>("Trials of a study", folder, "*.csv", false);
-    constexpr int which = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles | juce::FileBrowserComponent::canSelectMultipleItems;
+    constexpr int which = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles |
+                          juce::FileBrowserComponent::canSelectMultipleItems;
     chooser_->launchAsync(which, [this](const juce::FileChooser& chooser) {
         const auto chosen = chooser.getResults();
         if (!chosen.isEmpty()) analyse({chosen.begin(), chosen.end()});
@@ -141,7 +147,9 @@ void AnalysisScreen::paint(juce::Graphics& g) {
     g.drawText(title, titleArea_, juce::Justification::centredLeft, true);
     if (picture_.isNull()) return;
     g.setImageResamplingQuality(juce::Graphics::highResamplingQuality);
-    g.drawImage(picture_, pictureArea_.toFloat(), juce::RectanglePlacement::centred | juce::RectanglePlacement::yTop | juce::RectanglePlacement::onlyReduceInSize);
+    g.drawImage(picture_, pictureArea_.toFloat(),
+                juce::RectanglePlacement::centred | juce::RectanglePlacement::yTop |
+                    juce::RectanglePlacement::onlyReduceInSize);
 }
 
 void AnalysisScreen::resized() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the trials of a study say, over the whole window: the figures of `physvib analyse`, its warnings and its picture.
+// What the trials of a study say, over the whole window: the figures of `physvib analyse`, its warnings and
+// its picture.
 #pragma once
 #include "Jobs/Analyse/Analysis.h"
 #include "Mixer/Window/TabPanel.h"
@@ -14,7 +15,8 @@ public:
 
     std::function<void()> onClose;
 
-    /// Trial files of one study, or any table that `physvib analyse` takes: the first analysis that fits is shown.
+    /// Trial files of one study, or any table that `physvib analyse` takes: the first analysis that fits is
+    /// shown.
     void analyse(const std::vector<juce::File>& files);
     const AnalysisReport& report() const noexcept { return report_; }
     const juce::Image& picture() const noexcept { return picture_; }

@@ -20,12 +20,15 @@ constexpr int answersHereId = 1, answersElsewhereId = 2;
 constexpr std::array<int, 8> noiseLevels{-70, -60, -50, -45, -40, -35, -30, -25};
 
 std::filesystem::path pathOf(const juce::String& words) {
-    return std::filesystem::path{juce::File::getCurrentWorkingDirectory().getChildFile(words).getFullPathName().toStdString()};
+    return std::filesystem::path{
+        juce::File::getCurrentWorkingDirectory().getChildFile(words).getFullPathName().toStdString()};
 }
 
 juce::String exposureWords(const std::vector<TrialRecord>& records) {
     if (records.empty() || !records.back().answer.exposure) return {};
-    return ". Exposure of that day: A(8) " + number(*records.back().answer.exposure, 2) + " m/s^2 (action value " + number(exposureActionValue, 1) + ", limit " + number(exposureLimitValue, 0) + ")";
+    return ". Exposure of that day: A(8) " + number(*records.back().answer.exposure, 2) +
+           " m/s^2 (action value " + number(exposureActionValue, 1) + ", limit " +
+           number(exposureLimitValue, 0) + ")";
 }
 
 juce::String aboutText(const Protocol& protocol) {
@@ -33,7 +36,9 @@ juce::String aboutText(const Protocol& protocol) {
     for (const auto& condition : protocol.conditions) conditions.add(utf8(condition.name));
     for (const auto& session : protocol.sessions) sessions.add(utf8(session.name));
     const auto title = utf8(protocol.title);
-    return title.substring(0, 1).toUpperCase() + title.substring(1) + ".\nConditions: " + conditions.joinIntoString(", ") + ".\nIn each: " + sessions.joinIntoString(", ") + ".";
+    return title.substring(0, 1).toUpperCase() + title.substring(1) +
+           ".\nConditions: " + conditions.joinIntoString(", ") +
+           ".\nIn each: " + sessions.joinIntoString(", ") + ".";
 }
 
 } // namespace
@@ -64,7 +69,9 @@ StudiesTab::StudiesTab(Desk& desk)
     wordsChoice_.setTitle("Language of the participant");
     wordsChoice_.addItem("what the protocol says", protocolWordsId);
     wordsChoice_.addItem("English", englishId);
-    for (int id = firstWordsId; const Words& words : builtInWords()) wordsChoice_.addItem(hasLetters({}, utf8(words.language)) ? utf8(words.language) : utf8(words.name), id++);
+    for (int id = firstWordsId; const Words& words : builtInWords())
+        wordsChoice_.addItem(hasLetters({}, utf8(words.language)) ? utf8(words.language) : utf8(words.name),
+                             id++);
     wordsChoice_.addItem("Words file" + dots(), fileId);
     wordsChoice_.setSelectedId(protocolWordsId, juce::dontSendNotification);
     wordsChoice_.onChange = [this] { pickWords(); };
@@ -91,7 +98,10 @@ StudiesTab::StudiesTab(Desk& desk)
         editor->setEscapeAndReturnKeysConsumed(false); // Esc silences, also from here
         editor->onTextChange = [this] { look(); };
     }
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_, browse_.get(), &noiseName_, &noise_, &noiseLevelName_, &noiseLevel_, &wordsName_, &wordsChoice_, &answersName_, &answersChoice_, &begin_, analyse_.get()})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{
+             &choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_,
+             browse_.get(), &noiseName_, &noise_, &noiseLevelName_, &noiseLevel_, &wordsName_, &wordsChoice_,
+             &answersName_, &answersChoice_, &begin_, analyse_.get()})
         addAndMakeVisible(c);
     setFolder(juce::File::getSpecialLocation(juce::File::userDocumentsDirectory));
     setParticipant("P01", 1);
@@ -107,11 +117,14 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
     protocol_ = std::move(protocol.value);
     const auto& all = knownProtocols();
     const auto known = std::ranges::find(all, nameOrPath, &Protocol::name);
-    if (known != all.end()) choice_.setSelectedId(1 + static_cast<int>(known - all.begin()), juce::dontSendNotification);
-    else choice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
+    if (known != all.end())
+        choice_.setSelectedId(1 + static_cast<int>(known - all.begin()), juce::dontSendNotification);
+    else
+        choice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
     about_ = aboutText(*protocol_);
     noiseLevel_.setSelectedId(-juce::roundToInt(protocol_->pinkNoiseDb), juce::dontSendNotification);
-    if (noiseLevel_.getSelectedId() == 0) noiseLevel_.setText(number(protocol_->pinkNoiseDb, 1) + " dBFS", juce::dontSendNotification);
+    if (noiseLevel_.getSelectedId() == 0)
+        noiseLevel_.setText(number(protocol_->pinkNoiseDb, 1) + " dBFS", juce::dontSendNotification);
     look();
     repaint();
     return {};
@@ -119,24 +132,32 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
 
 void StudiesTab::pickProtocol() {
     const int id = choice_.getSelectedId();
-    if (id == fileId) browseProtocol();
+    if (id == fileId)
+        browseProtocol();
     else if (id > 0)
         chooseProtocol(knownProtocols()[static_cast<std::size_t>(id - 1)].name);
 }
 
 void StudiesTab::browseProtocol() {
     chooser_ = std::make_unique<juce::FileChooser>("A protocol", juce::File{}, "*.json", false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
-        if (const auto file = chooser.getResult(); file != juce::File{}) chooseProtocol(file.getFullPathName().toStdString());
-        else if (protocol_) choice_.setText(titleOf(protocol_->name), juce::dontSendNotification);
-    });
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+                          [this](const juce::FileChooser& chooser) {
+                              if (const auto file = chooser.getResult(); file != juce::File{})
+                                  chooseProtocol(file.getFullPathName().toStdString());
+                              else if (protocol_)
+                                  choice_.setText(titleOf(protocol_->name), juce::dontSendNotification);
+                          });
 }
 
 void StudiesTab::browseFolder() {
-    chooser_ = std::make_unique<juce::FileChooser>("The folder of the trial files", juce::File{folder_.getText()}, "*", false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectDirectories, [this](const juce::FileChooser& chooser) {
-        if (const auto file = chooser.getResult(); file != juce::File{}) setFolder(file);
-    });
+    chooser_ = std::make_unique<juce::FileChooser>("The folder of the trial files",
+                                                   juce::File{folder_.getText()}, "*", false);
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode |
+                              juce::FileBrowserComponent::canSelectDirectories,
+                          [this](const juce::FileChooser& chooser) {
+                              if (const auto file = chooser.getResult(); file != juce::File{})
+                                  setFolder(file);
+                          });
 }
 
 std::string StudiesTab::chooseWords(const std::string& nameOrPath) {
@@ -145,27 +166,42 @@ std::string StudiesTab::chooseWords(const std::string& nameOrPath) {
     wordsPath_ = nameOrPath;
     const auto& all = builtInWords();
     const auto known = std::ranges::find(all, nameOrPath, &Words::name);
-    if (known != all.end()) wordsChoice_.setSelectedId(firstWordsId + static_cast<int>(known - all.begin()), juce::dontSendNotification);
-    else if (words.value.name.empty()) wordsChoice_.setSelectedId(nameOrPath.empty() ? protocolWordsId : englishId, juce::dontSendNotification);
-    else wordsChoice_.setText(utf8(words.value.language), juce::dontSendNotification);
+    if (known != all.end())
+        wordsChoice_.setSelectedId(firstWordsId + static_cast<int>(known - all.begin()),
+                                   juce::dontSendNotification);
+    else if (words.value.name.empty())
+        wordsChoice_.setSelectedId(nameOrPath.empty() ? protocolWordsId : englishId,
+                                   juce::dontSendNotification);
+    else
+        wordsChoice_.setText(utf8(words.value.language), juce::dontSendNotification);
     return {};
 }
 
 void StudiesTab::pickWords() {
     const int id = wordsChoice_.getSelectedId();
-    if (id == fileId) browseWords();
-    else if (id == protocolWordsId || id == englishId) chooseWords(id == englishId ? "en" : "");
-    else if (id >= firstWordsId) chooseWords(builtInWords()[static_cast<std::size_t>(id - firstWordsId)].name);
+    if (id == fileId)
+        browseWords();
+    else if (id == protocolWordsId || id == englishId)
+        chooseWords(id == englishId ? "en" : "");
+    else if (id >= firstWordsId)
+        chooseWords(builtInWords()[static_cast<std::size_t>(id - firstWordsId)].name);
 }
 
 void StudiesTab::browseWords() {
     chooser_ = std::make_unique<juce::FileChooser>("Words of a language", juce::File{}, "*.json", false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
-        if (const auto file = chooser.getResult(); file == juce::File{} || !chooseWords(file.getFullPathName().toStdString()).empty()) chooseWords(wordsPath_);
-    });
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+                          [this](const juce::FileChooser& chooser) {
+                              if (const auto file = chooser.getResult();
+                                  file == juce::File{} ||
+                                  !chooseWords(file.getFullPathName().toStdString()).empty())
+                                  chooseWords(wordsPath_);
+                          });
 }
 
-void StudiesTab::setAnswersElsewhere(bool areElsewhere) { answersChoice_.setSelectedId(areElsewhere ? answersElsewhereId : answersHereId, juce::dontSendNotification); }
+void StudiesTab::setAnswersElsewhere(bool areElsewhere) {
+    answersChoice_.setSelectedId(areElsewhere ? answersElsewhereId : answersHereId,
+                                 juce::dontSendNotification);
+}
 
 void StudiesTab::setParticipant(const juce::String& code, int number) {
     code_.setText(code, false);
@@ -197,27 +233,40 @@ void StudiesTab::listNoise() {
     noise_.addItem("no output", noNoiseId);
     int id = noNoiseId;
     for (const auto& outputs : noiseOutputs_)
-        noise_.addItem(outputs.size() > 1 ? "outputs " + juce::String{outputs[0] + 1} + " and " + juce::String{outputs[1] + 1} : "output " + juce::String{outputs[0] + 1}, ++id);
+        noise_.addItem(outputs.size() > 1 ? "outputs " + juce::String{outputs[0] + 1} + " and " +
+                                                juce::String{outputs[1] + 1}
+                                          : "output " + juce::String{outputs[0] + 1},
+                       ++id);
     const auto at = std::ranges::find(noiseOutputs_, chosen);
-    noise_.setSelectedId(at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1, juce::dontSendNotification);
+    noise_.setSelectedId(
+        at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1,
+        juce::dontSendNotification);
 }
 
 void StudiesTab::setNoise(const std::vector<int>& outputs, double db) {
     const auto at = std::ranges::find(noiseOutputs_, outputs);
-    noise_.setSelectedId(at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1, juce::dontSendNotification);
+    noise_.setSelectedId(
+        at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1,
+        juce::dontSendNotification);
     noiseLevel_.setSelectedId(-juce::roundToInt(db), juce::dontSendNotification);
     repaint();
 }
 
 ListeningSettings StudiesTab::listening() const {
     ListeningSettings l;
-    if (const int index = noise_.getSelectedId() - noNoiseId - 1; index >= 0 && index < static_cast<int>(noiseOutputs_.size())) l.noise = noiseOutputs_[static_cast<std::size_t>(index)];
-    l.noiseDb = noiseLevel_.getSelectedId() > 0 ? -noiseLevel_.getSelectedId() : protocol_ ? protocol_->pinkNoiseDb : PinkNoise::safeDb;
+    if (const int index = noise_.getSelectedId() - noNoiseId - 1;
+        index >= 0 && index < static_cast<int>(noiseOutputs_.size()))
+        l.noise = noiseOutputs_[static_cast<std::size_t>(index)];
+    l.noiseDb = noiseLevel_.getSelectedId() > 0 ? -noiseLevel_.getSelectedId()
+                : protocol_                     ? protocol_->pinkNoiseDb
+                                                : PinkNoise::safeDb;
     return l;
 }
 
 StudyRun StudiesTab::run() const {
-    return {*protocol_, {code_.getText().toStdString(), std::clamp(number_.getText().getIntValue(), 1, 100000), "person"}, pathOf(folder_.getText())};
+    return {*protocol_,
+            {code_.getText().toStdString(), std::clamp(number_.getText().getIntValue(), 1, 100000), "person"},
+            pathOf(folder_.getText())};
 }
 
 /// Whether there is something to go on with.
@@ -228,12 +277,20 @@ void StudiesTab::look() {
     std::error_code none;
     begin_.setEnabled(!code_.isEmpty());
     if (code_.isEmpty()) return begin_.setButtonText("Begin"), say("Expected a code", Shade::muted);
-    if (!std::filesystem::exists(path, none)) return begin_.setButtonText("Begin"), say("The rows will be in " + utf8(path.filename().string()), Shade::muted);
+    if (!std::filesystem::exists(path, none))
+        return begin_.setButtonText("Begin"),
+               say("The rows will be in " + utf8(path.filename().string()), Shade::muted);
     const auto text = readFile(path, limits::maxTableBytes);
-    const auto log = text ? readTrialLog(text.value, path.string(), chosen.protocol, chosen.participant) : Result<TrialLog>{Failure{text.error}};
+    const auto log = text ? readTrialLog(text.value, path.string(), chosen.protocol, chosen.participant)
+                          : Result<TrialLog>{Failure{text.error}};
     begin_.setButtonText("Go on");
-    if (log) say(utf8(path.filename().string()) + " has " + juce::String{static_cast<int>(log.value.records.size())} + " trials: it goes on behind them" + exposureWords(log.value.records), Shade::text);
-    else say(utf8(log.error), Shade::limit);
+    if (log)
+        say(utf8(path.filename().string()) + " has " +
+                juce::String{static_cast<int>(log.value.records.size())} + " trials: it goes on behind them" +
+                exposureWords(log.value.records),
+            Shade::text);
+    else
+        say(utf8(log.error), Shade::limit);
 }
 
 void StudiesTab::say(const juce::String& words, Shade shade) {
@@ -250,10 +307,13 @@ std::string StudiesTab::begin() {
     if (auto fault = faultOf(run()); !fault.empty()) return refuse(fault);
     if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
     if (auto fault = limiterFault(*protocol_); !fault.empty()) return refuse(protocol_->name + ": " + fault);
-    auto words = findWords(wordsPath_.empty() ? besideProtocol(protocol_->folder, protocol_->words) : wordsPath_);
+    auto words =
+        findWords(wordsPath_.empty() ? besideProtocol(protocol_->folder, protocol_->words) : wordsPath_);
     if (!words) return refuse(words.error);
     const auto typeface = typefaceFor(words.value);
-    if (!typeface) return refuse("expected a font with the letters of " + words.value.name + ", found none; on Debian, fonts-nanum has Korean ones");
+    if (!typeface)
+        return refuse("expected a font with the letters of " + words.value.name +
+                      ", found none; on Debian, fonts-nanum has Korean ones");
     if (auto fault = displayScaleFault(*protocol_, desk_.displayWidthMetres()); !fault.empty())
         return refuse(fault);
     auto pictures = materialPictures(*protocol_, run().participant.code);
@@ -261,7 +321,8 @@ std::string StudiesTab::begin() {
     auto study = std::make_unique<StudyInProgress>(run());
     if (!study->error().empty()) return refuse(study->error());
     if (auto fault = desk_.device().listening().hear(listening()); !fault.empty()) return refuse(fault);
-    if (auto fault = study->apparatusFault(apparatusOf(desk_)); !fault.empty()) return desk_.device().listening().endStudy(), refuse(fault);
+    if (auto fault = study->apparatusFault(apparatusOf(desk_)); !fault.empty())
+        return desk_.device().listening().endStudy(), refuse(fault);
     screen_ = std::make_unique<StudyScreen>(desk_, std::move(study), std::move(words.value),
                                             answersChoice_.getSelectedId() == answersElsewhereId,
                                             std::move(pictures.value));
@@ -303,11 +364,16 @@ void StudiesTab::end() {
 }
 
 void StudiesTab::takeMix() {
-    for (auto* label : {&choiceName_, &codeName_, &numberName_, &folderName_, &noiseName_, &noiseLevelName_, &wordsName_, &answersName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (auto* label : {&choiceName_, &codeName_, &numberName_, &folderName_, &noiseName_, &noiseLevelName_,
+                        &wordsName_, &answersName_})
+        label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
     const auto& mix = desk_.mix();
     const bool isFelt = !utf8(desk_.output().device()).startsWith(noDeviceType);
-    level_ = mix.levelDb < 0.0 ? "Felt " + number(-mix.levelDb, 1) + " dB below the protocol's g: set the master level to 0 dB if those are meant." : juce::String{};
+    level_ = mix.levelDb < 0.0
+                 ? "Felt " + number(-mix.levelDb, 1) +
+                       " dB below the protocol's g: set the master level to 0 dB if those are meant."
+                 : juce::String{};
     if (!isFelt) level_ = "There is no device: the study can be seen, and is felt by nobody.";
     repaint();
 }
@@ -340,16 +406,20 @@ void StudiesTab::paint(juce::Graphics& g) {
 }
 
 void StudiesTab::resized() {
-    constexpr int controlsHeight = 326; // in a small window they stay: the words go, and in the smallest what is written above them
+    constexpr int controlsHeight = 326; // in a small window they stay: the words go, and in the smallest what
+                                        // is written above them
     const bool isSmall = getHeight() < controlsHeight;
     const int captionHeight = isSmall ? 0 : 18, space = isSmall ? 5 : 8;
     auto area = getLocalBounds();
-    const auto caption = [&area, captionHeight](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
+    const auto caption = [&area, captionHeight](juce::Label& label) {
+        label.setBounds(area.removeFromTop(captionHeight));
+    };
     caption(choiceName_);
     choice_.setBounds(area.removeFromTop(rowHeight));
     area.removeFromTop(space);
     aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - 42, 0, 98));
-    const auto pair = [&area, captionHeight](juce::Label& leftName, juce::Component& left, juce::Label& rightName, juce::Component& right) {
+    const auto pair = [&area, captionHeight](juce::Label& leftName, juce::Component& left,
+                                             juce::Label& rightName, juce::Component& right) {
         auto names = area.removeFromTop(captionHeight), row = area.removeFromTop(rowHeight);
         const int wide = row.getWidth() * 3 / 5;
         leftName.setBounds(names.removeFromLeft(wide));
@@ -380,7 +450,8 @@ void chooseStudy(MixerView& view, const StudyCall& call) {
     view.setHint(false);
     view.tabs().choose("Studies");
     auto& tab = static_cast<StudiesTab&>(*view.tabs().find("Studies"));
-    if (call.folder.isNotEmpty()) tab.setFolder(juce::File::getCurrentWorkingDirectory().getChildFile(call.folder));
+    if (call.folder.isNotEmpty())
+        tab.setFolder(juce::File::getCurrentWorkingDirectory().getChildFile(call.folder));
     if (call.participant.isNotEmpty()) tab.setParticipant(call.participant, std::max(1, call.number));
     tab.chooseProtocol(call.protocol.toStdString());
 }

@@ -31,7 +31,8 @@ public:
     /// Pink noise while the study goes on; no outputs: none.
     void setNoise(const std::vector<int>& outputs, double db);
 
-    /// What the participant reads: built-in words, a file, or "" for the protocol's. Empty, or what is wrong with them.
+    /// What the participant reads: built-in words, a file, or "" for the protocol's. Empty, or what is wrong
+    /// with them.
     std::string chooseWords(const std::string& nameOrPath);
     /// Answers in a window of their own, on another display if there is one.
     void setAnswersElsewhere(bool areElsewhere);
@@ -76,7 +77,8 @@ private:
     Shade wordsShade_ = Shade::muted;
     std::string wordsPath_; // chosen here; empty: the protocol's
     juce::ComboBox choice_, noise_, noiseLevel_, wordsChoice_, answersChoice_;
-    juce::Label choiceName_, codeName_, numberName_, folderName_, noiseName_, noiseLevelName_, wordsName_, answersName_;
+    juce::Label choiceName_, codeName_, numberName_, folderName_, noiseName_, noiseLevelName_, wordsName_,
+        answersName_;
     std::vector<std::vector<int>> noiseOutputs_; // as the box lists them
     juce::TextEditor code_, number_, folder_;
     std::unique_ptr<juce::TextButton> browse_, analyse_;

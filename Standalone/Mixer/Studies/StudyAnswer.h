@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a participant answers with: one component for each kind of task.
 #pragma once
-#include "Scene/LayoutFile.h"
 #include "Mixer/Studies/StudyWords.h"
+#include "Scene/LayoutFile.h"
 #include "Study/Experiment.h"
 #include <functional>
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -26,15 +26,18 @@ public:
     /// As it stands; what it does not ask for keeps its default.
     virtual Answer answer() const = 0;
     virtual bool isComplete() const = 0;
-    virtual bool isOpen() const { return false; }             ///< may be used before everything was felt
+    virtual bool isOpen() const { return false; }                 ///< may be used before everything was felt
     virtual bool takeKey(const juce::KeyPress&) { return false; } ///< keys that no part has wanted
-    virtual void mark(const std::set<std::string>&) {}        ///< the labels that were felt already
-    virtual std::string keys() const = 0;                     ///< how the keyboard answers, in English
+    virtual void mark(const std::set<std::string>&) {}            ///< the labels that were felt already
+    virtual std::string keys() const = 0;                         ///< how the keyboard answers, in English
 
-    /// It may be used: the focus goes to where it was left, as when another window took it for a moment, and to the first place in the first moment.
+    /// It may be used: the focus goes to where it was left, as when another window took it for a moment, and
+    /// to the first place in the first moment.
     void begin() {
-        if (left_ != nullptr && left_->isEnabled()) left_->grabKeyboardFocus();
-        else beginAnew();
+        if (left_ != nullptr && left_->isEnabled())
+            left_->grabKeyboardFocus();
+        else
+            beginAnew();
     }
 
 protected:
@@ -51,7 +54,8 @@ private:
     juce::Component::SafePointer<juce::Component> left_;
 };
 
-/// One of several: a click marks it, and asks for it while exploring; until it is confirmed another one may be marked.
+/// One of several: a click marks it, and asks for it while exploring; until it is confirmed another one may
+/// be marked.
 class ChosenAnswer : public StudyAnswer {
 public:
     Answer answer() const override {
@@ -75,10 +79,12 @@ private:
 };
 
 /// For the trial at hand; all outlive it. M.
-std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout, const StudyWords& words);
+std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout,
+                                             const StudyWords& words);
 
 // Those of files of their own.
-std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout, const StudyWords& words);
+std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition,
+                                               const LayoutDescription& layout, const StudyWords& words);
 std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDescription& layout);
 std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout);
 

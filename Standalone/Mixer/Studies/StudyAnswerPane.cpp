@@ -33,7 +33,9 @@ public:
 
 } // namespace
 
-std::unique_ptr<juce::Component> makeAnswerWindow(StudyAnswerPane& pane, const juce::Component& beside) { return std::make_unique<AnswerWindow>(pane, beside); }
+std::unique_ptr<juce::Component> makeAnswerWindow(StudyAnswerPane& pane, const juce::Component& beside) {
+    return std::make_unique<AnswerWindow>(pane, beside);
+}
 
 StudyAnswerPane::StudyAnswerPane(const StudyWords& words)
     : say_{words} {

@@ -19,8 +19,8 @@ public:
     StudyAnswer* operator->() const noexcept { return answer_.get(); }
     explicit operator bool() const noexcept { return answer_ != nullptr; }
     void setConfirm(bool isSeen, bool isEnabled, const juce::String& words);
-    bool confirm(); ///< as its button; false if that may not be pressed
-    void focusConfirm(); ///< Enter goes on from here
+    bool confirm();                                 ///< as its button; false if that may not be pressed
+    void focusConfirm();                            ///< Enter goes on from here
     void setQuestion(const juce::String& question); ///< where nothing else says it
     void setStandsAlone(bool standsAlone) { standsAlone_ = standsAlone; }
     bool standsAlone() const noexcept { return standsAlone_; }

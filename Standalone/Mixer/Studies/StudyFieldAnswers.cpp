@@ -23,12 +23,14 @@ public:
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override {
         const auto disc = getLocalBounds().toFloat().reduced(2.0f);
         drawTarget(g, *this, isOver, isDown, disc.getWidth() / 2.0f);
-        g.setColour(shade(*this, isFelt || getToggleState() ? Shade::accent : Shade::muted).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
+        g.setColour(shade(*this, isFelt || getToggleState() ? Shade::accent : Shade::muted)
+                        .withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
         g.fillEllipse(juce::Rectangle<float>{14.0f, 14.0f}.withCentre(disc.getCentre()));
     }
 };
 
-/// All grids on one layout have their corners at the same pixels: the outer points of `corners` lie on the enchanters.
+/// All grids on one layout have their corners at the same pixels: the outer points of `corners` lie on the
+/// enchanters.
 class CellAnswer final : public ChosenAnswer {
 public:
     CellAnswer(const GridSet& grid, const LayoutDescription& layout)
@@ -55,16 +57,25 @@ public:
     }
     void resized() override {
         const auto f = field();
-        const auto between = [](float length, int lines) { return lines > 1 ? length / static_cast<float>(lines - 1) : length; };
-        const int size = juce::roundToInt(std::clamp(0.8f * std::min(between(f.getWidth(), grid_.columns), between(f.getHeight(), grid_.rows)), 22.0f, 60.0f));
-        for (auto& cell : cells_) cell->setBounds(juce::Rectangle<int>{size, size}.withCentre(pointOn(f, grid_.place(cell->cell)).roundToInt()));
+        const auto between = [](float length, int lines) {
+            return lines > 1 ? length / static_cast<float>(lines - 1) : length;
+        };
+        const int size = juce::roundToInt(std::clamp(
+            0.8f * std::min(between(f.getWidth(), grid_.columns), between(f.getHeight(), grid_.rows)), 22.0f,
+            60.0f));
+        for (auto& cell : cells_)
+            cell->setBounds(juce::Rectangle<int>{size, size}.withCentre(
+                pointOn(f, grid_.place(cell->cell)).roundToInt()));
     }
 
 private:
     static constexpr float cellMargin = 62.0f; // for the points and the labels of those at the edge
-    juce::Rectangle<float> field() const { return fieldIn(getLocalBounds().toFloat().reduced(cellMargin), layout_.geometry); }
+    juce::Rectangle<float> field() const {
+        return fieldIn(getLocalBounds().toFloat().reduced(cellMargin), layout_.geometry);
+    }
     void showChosen(const std::string& response) override {
-        for (auto& cell : cells_) cell->setToggleState(gridLabel(cell->cell) == response, juce::dontSendNotification);
+        for (auto& cell : cells_)
+            cell->setToggleState(gridLabel(cell->cell) == response, juce::dontSendNotification);
     }
     PhantomGrid grid_;
     const LayoutDescription layout_;
@@ -102,7 +113,8 @@ public:
         return false;
     }
     bool keyPressed(const juce::KeyPress& key) override { return takeKey(key); }
-    void mouseMove(const juce::MouseEvent& e) override { // JUCE also tells of a mouse that lies still, when what is under it changes: no hand moved the mark
+    void mouseMove(const juce::MouseEvent& e) override { // JUCE also tells of a mouse that lies still, when
+                                                         // what is under it changes: no hand moved the mark
         if (std::exchange(seenAt_, e.position).value_or(e.position) != e.position) follow(e);
     }
     void mouseDrag(const juce::MouseEvent& e) override { follow(e); }
@@ -129,7 +141,9 @@ public:
     void enablementChanged() override { repaint(); }
 
 private:
-    juce::Rectangle<float> field() const { return fieldIn(getLocalBounds().toFloat().reduced(margin), layout_.geometry); }
+    juce::Rectangle<float> field() const {
+        return fieldIn(getLocalBounds().toFloat().reduced(margin), layout_.geometry);
+    }
     void follow(const juce::MouseEvent& e) {
         const auto f = field();
         moveMark({(e.position.x - f.getX()) / f.getWidth(), (e.position.y - f.getY()) / f.getHeight()});
@@ -137,7 +151,8 @@ private:
     void moveMark(const FieldPlace& to) {
         const auto rounded = [](double share) { return std::round(1e4 * std::clamp(share, 0.0, 1.0)) / 1e4; };
         mark_ = {rounded(to.x), rounded(to.y)};
-        setDescription("Mark at " + juce::String{100.0 * mark_.x, 0} + " % to the right, " + juce::String{100.0 * mark_.y, 0} + " % down");
+        setDescription("Mark at " + juce::String{100.0 * mark_.x, 0} + " % to the right, " +
+                       juce::String{100.0 * mark_.y, 0} + " % down");
         repaint();
     }
     void take() {
@@ -155,7 +170,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDescription& layout) { return std::make_unique<CellAnswer>(grid, layout); }
-std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout) { return std::make_unique<PlaceAnswer>(layout); }
+std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDescription& layout) {
+    return std::make_unique<CellAnswer>(grid, layout);
+}
+std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout) {
+    return std::make_unique<PlaceAnswer>(layout);
+}
 
 } // namespace physvib

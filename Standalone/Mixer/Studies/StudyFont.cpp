@@ -8,7 +8,8 @@ namespace physvib {
 namespace {
 
 constexpr juce::juce_wchar nobodys = 0xfffe; // no letter, by Unicode's promise
-constexpr std::array preferred{"NanumGothic", "Noto Sans CJK KR", "Noto Sans CJK SC", "UnDotum"}; // of those that are known to read well
+constexpr std::array preferred{"NanumGothic", "Noto Sans CJK KR", "Noto Sans CJK SC",
+                               "UnDotum"}; // of those that are known to read well
 
 juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
     juce::Array<int> glyphs;
@@ -38,7 +39,8 @@ juce::String lettersOf(const Words& words) {
 } // namespace
 
 bool hasLetters(const juce::String& typeface, const juce::String& letters) {
-    const juce::Font font = typeface.isEmpty() ? juce::Font{20.0f} : juce::Font{typeface, 20.0f, juce::Font::plain};
+    const juce::Font font =
+        typeface.isEmpty() ? juce::Font{20.0f} : juce::Font{typeface, 20.0f, juce::Font::plain};
     const auto face = font.getTypefacePtr();
     if (face == nullptr) return false;
     const auto box = outlineOf(*face, nobodys);

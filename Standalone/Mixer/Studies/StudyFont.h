@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A typeface with the letters of a language: JUCE draws boxes for those that a typeface lacks, and looks for no other one.
+// A typeface with the letters of a language: JUCE draws boxes for those that a typeface lacks, and looks for
+// no other one.
 #pragma once
 #include "Study/Files/Words.h"
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -10,7 +11,8 @@ namespace physvib {
 /// Whether the typeface of that name (empty: the usual one) draws each of the letters as itself. M.
 bool hasLetters(const juce::String& typeface, const juce::String& letters);
 
-/// A typeface for all that the words say: the usual one if it can, else one that is installed; none: no installed one can. M.
+/// A typeface for all that the words say: the usual one if it can, else one that is installed; none: no
+/// installed one can. M.
 std::optional<juce::String> typefaceFor(const Words& words);
 std::optional<juce::String> typefaceFor(const juce::String& letters); ///< the same of letters
 

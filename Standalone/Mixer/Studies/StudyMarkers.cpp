@@ -13,7 +13,8 @@ constexpr std::int32_t keptSeconds = 360;
 
 /// Where a system has it; PHYSVIB_LSL names another one.
 juce::StringArray libraryNames() {
-    if (const auto own = juce::SystemStats::getEnvironmentVariable("PHYSVIB_LSL", {}); own.isNotEmpty()) return {own};
+    if (const auto own = juce::SystemStats::getEnvironmentVariable("PHYSVIB_LSL", {}); own.isNotEmpty())
+        return {own};
     return {"liblsl.so.2", "liblsl.so", "liblsl.2.dylib", "liblsl.dylib", "lsl.dll"};
 }
 
@@ -21,7 +22,8 @@ juce::StringArray libraryNames() {
 
 struct StudyMarkers::Outlet {
     juce::DynamicLibrary library;
-    void* (*createInfo)(const char* name, const char* type, std::int32_t channels, double rateHz, std::int32_t format, const char* source) = nullptr;
+    void* (*createInfo)(const char* name, const char* type, std::int32_t channels, double rateHz,
+                        std::int32_t format, const char* source) = nullptr;
     void* (*createOutlet)(void* info, std::int32_t chunk, std::int32_t mostSeconds) = nullptr;
     std::int32_t (*pushText)(void* outlet, const char** text, double timestamp) = nullptr;
     double (*clock)() = nullptr;
@@ -38,7 +40,8 @@ struct StudyMarkers::Outlet {
     bool load() {
         for (const auto& name : libraryNames())
             if (library.open(name)) break;
-        return find(createInfo, "lsl_create_streaminfo") && find(createOutlet, "lsl_create_outlet") && find(pushText, "lsl_push_sample_strt") && find(clock, "lsl_local_clock") &&
+        return find(createInfo, "lsl_create_streaminfo") && find(createOutlet, "lsl_create_outlet") &&
+               find(pushText, "lsl_push_sample_strt") && find(clock, "lsl_local_clock") &&
                find(destroyOutlet, "lsl_destroy_outlet") && find(destroyInfo, "lsl_destroy_streaminfo");
     }
     ~Outlet() {

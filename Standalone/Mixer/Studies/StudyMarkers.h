@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What happens in a study as markers of the Lab Streaming Layer, for whoever records EEG, force or gaze beside it. liblsl is looked for when a study
-// begins and never needed: without it there are no markers, and everything else is as it is.
+// What happens in a study as markers of the Lab Streaming Layer, for whoever records EEG, force or gaze
+// beside it. liblsl is looked for when a study begins and never needed: without it there are no markers, and
+// everything else is as it is.
 #pragma once
 #include <juce_core/juce_core.h>
 #include <memory>

@@ -41,9 +41,14 @@ void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
     const float light = isEnabled() || getToggleState() ? 1.0f : 0.4f;
     auto ink = shade(*this, Shade::text);
     if (isMain_) {
-        g.setColour(shade(*this, Shade::accent).withMultipliedAlpha(isEnabled() ? 1.0f : 0.25f).brighter(isOver && isEnabled() ? 0.1f : 0.0f));
+        g.setColour(shade(*this, Shade::accent)
+                        .withMultipliedAlpha(isEnabled() ? 1.0f : 0.25f)
+                        .brighter(isOver && isEnabled() ? 0.1f : 0.0f));
         g.fillRoundedRectangle(getLocalBounds().toFloat().reduced(1.0f), 8.0f);
-        if (isEnabled()) ink = shade(*this, Shade::accent).getPerceivedBrightness() > 0.55f ? juce::Colour{palette::Argb{0xff101218}} : juce::Colours::white;
+        if (isEnabled())
+            ink = shade(*this, Shade::accent).getPerceivedBrightness() > 0.55f
+                      ? juce::Colour{palette::Argb{0xff101218}}
+                      : juce::Colours::white;
     } else {
         drawTarget(g, *this, isOver, isDown);
     }
@@ -54,7 +59,8 @@ void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
         g.setColour(shade(*this, Shade::line));
         g.fillRoundedRectangle(bar, 2.5f);
         g.setColour(shade(*this, Shade::accent));
-        g.fillRoundedRectangle(bar.withWidth(bar.getWidth() * static_cast<float>(std::min(1.0, share_))), 2.5f);
+        g.fillRoundedRectangle(bar.withWidth(bar.getWidth() * static_cast<float>(std::min(1.0, share_))),
+                               2.5f);
     }
     const int line = 24, lines = remark_.isEmpty() ? line : line + 20;
     area = area.withSizeKeepingCentre(area.getWidth(), std::min(lines, area.getHeight()));
@@ -66,12 +72,14 @@ void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
     g.drawText(remark_, area, juce::Justification::centred, true);
     if (!isMarked_) return;
     g.setColour(shade(*this, Shade::accent));
-    g.fillEllipse(juce::Rectangle<float>{8.0f, 8.0f}.withCentre({static_cast<float>(getWidth()) - 11.0f, 11.0f}));
+    g.fillEllipse(
+        juce::Rectangle<float>{8.0f, 8.0f}.withCentre({static_cast<float>(getWidth()) - 11.0f, 11.0f}));
 }
 
 void drawTarget(juce::Graphics& g, const juce::Button& button, bool isOver, bool isDown, float corner) {
     const auto area = button.getLocalBounds().toFloat().reduced(1.0f);
-    auto colour = button.getToggleState() ? shade(button, Shade::accent).withMultipliedAlpha(0.35f) : shade(button, Shade::raised);
+    auto colour = button.getToggleState() ? shade(button, Shade::accent).withMultipliedAlpha(0.35f)
+                                          : shade(button, Shade::raised);
     if (isOver && button.isEnabled()) colour = colour.brighter(0.1f);
     if (isDown) colour = colour.darker(0.15f);
     g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.5f));
@@ -92,38 +100,46 @@ FieldPlace placeOf(const EnchanterLayout& layout, int enchanter) {
 }
 
 juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace& place) {
-    return {field.getX() + field.getWidth() * static_cast<float>(place.x), field.getY() + field.getHeight() * static_cast<float>(place.y)};
+    return {field.getX() + field.getWidth() * static_cast<float>(place.x),
+            field.getY() + field.getHeight() * static_cast<float>(place.y)};
 }
 
 namespace {
 
-void drawRing(juce::Graphics& g, const juce::Component& component, juce::Point<float> at, const LayoutDescription& layout, int enchanter) {
+void drawRing(juce::Graphics& g, const juce::Component& component, juce::Point<float> at,
+              const LayoutDescription& layout, int enchanter) {
     const auto ring = juce::Rectangle<float>{26.0f, 26.0f}.withCentre(at);
     g.setColour(shade(component, Shade::panel));
     g.fillEllipse(ring);
     g.setColour(enchanterColour(component, enchanter));
     g.drawEllipse(ring, 2.0f);
     g.setFont(juce::Font{text::small, juce::Font::bold});
-    g.drawText(utf8(layout.enchanters[static_cast<std::size_t>(enchanter)].label), ring, juce::Justification::centred, false);
+    g.drawText(utf8(layout.enchanters[static_cast<std::size_t>(enchanter)].label), ring,
+               juce::Justification::centred, false);
 }
 
 } // namespace
 
-void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field, const LayoutDescription& layout) {
+void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field,
+               const LayoutDescription& layout) {
     g.setColour(shade(component, Shade::well));
     g.fillRoundedRectangle(field, 10.0f);
     g.setColour(shade(component, Shade::line));
     g.drawRoundedRectangle(field, 10.0f, 1.5f);
-    for (int j = 0; j < layout.geometry.count; ++j) drawRing(g, component, pointOn(field, placeOf(layout.geometry, j)), layout, j);
+    for (int j = 0; j < layout.geometry.count; ++j)
+        drawRing(g, component, pointOn(field, placeOf(layout.geometry, j)), layout, j);
 }
 
-void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field, const LayoutDescription& layout, int enchanter) {
+void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component,
+                         const juce::Rectangle<float>& field, const LayoutDescription& layout,
+                         int enchanter) {
     constexpr float way = 46.0f;
     const auto place = placeOf(layout.geometry, enchanter);
     const auto outwards = [](double share) { return share < 0.34 ? -1.0f : share > 0.66 ? 1.0f : 0.0f; };
     juce::Point<float> out{outwards(place.x), outwards(place.y)};
     if (out.isOrigin()) out.y = -1.0f;
-    drawRing(g, component, pointOn(field, place) + out * (way / out.getDistanceFromOrigin()), layout, enchanter);
+    drawRing(g, component, pointOn(field, place) + out * (way / out.getDistanceFromOrigin()), layout,
+             enchanter);
 }
 
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
@@ -137,13 +153,18 @@ bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
     for (auto* child : parent.getChildren())
         if (child->hasKeyboardFocus(true)) from = child;
     for (auto* child : parent.getChildren()) // the focus is elsewhere: from what was chosen
-        if (auto* button = dynamic_cast<juce::Button*>(child); from == nullptr && button != nullptr && button->getToggleState()) from = child;
+        if (auto* button = dynamic_cast<juce::Button*>(child);
+            from == nullptr && button != nullptr && button->getToggleState())
+            from = child;
     juce::Component* best = nullptr;
     double least = 1e9;
     for (auto* child : parent.getChildren()) {
-        if (child == from || !child->isVisible() || !child->isEnabled() || !child->getWantsKeyboardFocus()) continue;
-        const auto step = from != nullptr ? child->getBounds().getCentre() - from->getBounds().getCentre() : juce::Point<int>{way};
-        const int along = step.x * way.x + step.y * way.y, aside = std::abs(step.x * way.y) + std::abs(step.y * way.x);
+        if (child == from || !child->isVisible() || !child->isEnabled() || !child->getWantsKeyboardFocus())
+            continue;
+        const auto step = from != nullptr ? child->getBounds().getCentre() - from->getBounds().getCentre()
+                                          : juce::Point<int>{way};
+        const int along = step.x * way.x + step.y * way.y,
+                  aside = std::abs(step.x * way.y) + std::abs(step.y * way.x);
         if (along <= 0 || along < aside / 2) continue;
         if (const double far = along + 2.0 * aside; far < least) {
             least = far;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the screens for participants: large buttons, a field with its enchanters, arrow keys.
 #pragma once
-#include "Scene/LayoutFile.h"
 #include "Mixer/Window/Parts.h"
+#include "Scene/LayoutFile.h"
 #include "Study/PhantomGrid.h"
 
 namespace physvib {
@@ -13,8 +13,8 @@ public:
     /// `name` is what a screen reader says.
     BigButton(const juce::String& words, const juce::String& name);
     void setWords(const juce::String& words, const juce::String& remark = {});
-    void setShare(double share); ///< of the bar, 0 to 1; less than 0: no bar
-    void setMain(bool isMain);   ///< the one that goes on
+    void setShare(double share);   ///< of the bar, 0 to 1; less than 0: no bar
+    void setMain(bool isMain);     ///< the one that goes on
     void setMarked(bool isMarked); ///< a dot: was felt
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
 
@@ -33,12 +33,15 @@ juce::Rectangle<float> fieldIn(juce::Rectangle<float> area, const EnchanterLayou
 FieldPlace placeOf(const EnchanterLayout& layout, int enchanter);
 juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace& place);
 /// The field, and its enchanters as rings with their labels.
-void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field, const LayoutDescription& layout);
+void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field,
+               const LayoutDescription& layout);
 
 /// An enchanter of the field with its label, pushed outwards where a point lies on it.
-void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field, const LayoutDescription& layout, int enchanter);
+void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component,
+                         const juce::Rectangle<float>& field, const LayoutDescription& layout, int enchanter);
 
-/// An arrow key moves the focus to the nearest child of `parent` in that direction; false if it is another key.
+/// An arrow key moves the focus to the nearest child of `parent` in that direction; false if it is another
+/// key.
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key);
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which pattern it was, by two clicks: the first pulse's enchanter, then an icon of the whole (thesis 3.2.2). Icons say the
-// order by colour and number, the enchanter by place.
+// Which pattern it was, by two clicks: the first pulse's enchanter, then an icon of the whole (thesis 3.2.2).
+// Icons say the order by colour and number, the enchanter by place.
 #include "Mixer/Studies/StudyAnswer.h"
 #include "Mixer/Studies/StudyParts.h"
 #include "Study/PulsePattern.h"
@@ -28,8 +28,12 @@ public:
         , pattern{p}
         , layout_{layout} {
         juce::StringArray words;
-        for (int k = 0; k < p.count; ++k) words.add(utf8(layout.enchanters[static_cast<std::size_t>(p.enchanters[static_cast<std::size_t>(k)])].label));
-        setTitle(words.joinIntoString(" then ") + ", " + juce::String{juce::roundToInt(1e3 * p.pulseSeconds)} + " ms");
+        for (int k = 0; k < p.count; ++k)
+            words.add(
+                utf8(layout.enchanters[static_cast<std::size_t>(p.enchanters[static_cast<std::size_t>(k)])]
+                         .label));
+        setTitle(words.joinIntoString(" then ") + ", " +
+                 juce::String{juce::roundToInt(1e3 * p.pulseSeconds)} + " ms");
     }
     const PulsePattern pattern;
     bool isFelt = false;
@@ -43,13 +47,16 @@ public:
         for (int j = 0; j < layout_.geometry.count; ++j) {
             const auto at = pointOn(inner, placeOf(layout_.geometry, j));
             int here = 0;
-            for (int k = 0; k < pattern.count; ++k) here += pattern.enchanters[static_cast<std::size_t>(k)] == j ? 1 : 0;
+            for (int k = 0; k < pattern.count; ++k)
+                here += pattern.enchanters[static_cast<std::size_t>(k)] == j ? 1 : 0;
             if (here == 0) {
                 g.setColour(shade(*this, Shade::muted).withMultipliedAlpha(0.55f * light));
                 g.drawEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(at), 1.5f);
             }
             // Pulses of one enchanter stand side by side, towards the middle of the icon.
-            float x = std::clamp(at.x - 0.5f * static_cast<float>(here - 1) * 2.0f * radius, 4.0f + radius, static_cast<float>(getWidth()) - 4.0f - radius - static_cast<float>(here - 1) * 2.0f * radius);
+            float x = std::clamp(at.x - 0.5f * static_cast<float>(here - 1) * 2.0f * radius, 4.0f + radius,
+                                 static_cast<float>(getWidth()) - 4.0f - radius -
+                                     static_cast<float>(here - 1) * 2.0f * radius);
             for (int k = 0; k < pattern.count; ++k) {
                 if (pattern.enchanters[static_cast<std::size_t>(k)] != j) continue;
                 drawPulse(g, {x, at.y}, radius, k, light);
@@ -83,9 +90,11 @@ public:
     }
     std::string keys() const override { return "Letter: first pulse.  Arrows and Enter: pattern."; }
     bool takeKey(const juce::KeyPress& key) override {
-        const auto typed = juce::String::charToString(juce::CharacterFunctions::toUpperCase(key.getTextCharacter()));
+        const auto typed =
+            juce::String::charToString(juce::CharacterFunctions::toUpperCase(key.getTextCharacter()));
         for (int j = 0; j < layout_.geometry.count; ++j)
-            if (isEnabled() && typed == utf8(layout_.enchanters[static_cast<std::size_t>(j)].label)) return chooseFirst(j), focusIcons(), true;
+            if (isEnabled() && typed == utf8(layout_.enchanters[static_cast<std::size_t>(j)].label))
+                return chooseFirst(j), focusIcons(), true;
         return moveFocus(*this, key);
     }
     void beginAnew() override { firsts_.front()->grabKeyboardFocus(); }
@@ -111,12 +120,17 @@ public:
             drawPulse(g, part.removeFromLeft(20).toFloat().getCentre(), 8.5f, k, 1.0f);
             g.setColour(shade(*this, Shade::muted));
             g.setFont(juce::Font{text::small});
-            g.drawText(say_(names[static_cast<std::size_t>(k)]), part.withTrimmedLeft(6), juce::Justification::centredLeft, true);
+            g.drawText(say_(names[static_cast<std::size_t>(k)]), part.withTrimmedLeft(6),
+                       juce::Justification::centredLeft, true);
         }
         g.setColour(shade(*this, Shade::muted));
         g.setFont(juce::Font{text::medium});
-        if (first_ < 0) g.drawText(say_("Choose the first pulse's place."), iconsArea_, juce::Justification::centred, true);
-        for (const auto& [ms, row] : rows_) g.drawText(say_("Pulses of {n} ms", {{"n", juce::String{ms}}}), row, juce::Justification::centredLeft, true);
+        if (first_ < 0)
+            g.drawText(say_("Choose the first pulse's place."), iconsArea_, juce::Justification::centred,
+                       true);
+        for (const auto& [ms, row] : rows_)
+            g.drawText(say_("Pulses of {n} ms", {{"n", juce::String{ms}}}), row,
+                       juce::Justification::centredLeft, true);
     }
 
     void resized() override {
@@ -125,9 +139,11 @@ public:
         area.removeFromLeft(32);
         firstHeading_ = left.removeFromTop(32);
         iconHeading_ = area.removeFromTop(32);
-        field_ = fieldIn(left.removeFromTop(std::min(left.getHeight(), 300)).toFloat().reduced(50.0f, 44.0f), layout_.geometry);
+        field_ = fieldIn(left.removeFromTop(std::min(left.getHeight(), 300)).toFloat().reduced(50.0f, 44.0f),
+                         layout_.geometry);
         for (int j = 0; j < layout_.geometry.count; ++j)
-            firsts_[static_cast<std::size_t>(j)]->setBounds(juce::Rectangle<int>{72, 64}.withCentre(pointOn(field_, placeOf(layout_.geometry, j)).toInt()));
+            firsts_[static_cast<std::size_t>(j)]->setBounds(juce::Rectangle<int>{72, 64}.withCentre(
+                pointOn(field_, placeOf(layout_.geometry, j)).toInt()));
         iconsArea_ = area;
         placeIcons();
     }
@@ -142,7 +158,8 @@ private:
 
     void chooseFirst(int enchanter) {
         first_ = enchanter;
-        for (std::size_t j = 0; j < firsts_.size(); ++j) firsts_[j]->setToggleState(static_cast<int>(j) == enchanter, juce::dontSendNotification);
+        for (std::size_t j = 0; j < firsts_.size(); ++j)
+            firsts_[j]->setToggleState(static_cast<int>(j) == enchanter, juce::dontSendNotification);
         for (auto& icon : icons_) icon->setVisible(icon->pattern.enchanters[0] == enchanter);
         placeIcons();
         repaint();
@@ -157,7 +174,8 @@ private:
     void placeIcons() {
         std::map<int, std::vector<PatternIcon*>> shown;
         for (auto& icon : icons_)
-            if (icon->isVisible()) shown[juce::roundToInt(1e3 * icon->pattern.pulseSeconds)].push_back(icon.get());
+            if (icon->isVisible())
+                shown[juce::roundToInt(1e3 * icon->pattern.pulseSeconds)].push_back(icon.get());
         rows_.clear();
         if (shown.empty()) return;
         constexpr int across = 7, captionHeight = 26, space = 6;
@@ -172,13 +190,15 @@ private:
             juce::Rectangle<int> row;
             for (std::size_t i = 0; i < some.size(); ++i) {
                 if (i % across == 0) row = area.removeFromTop(height + space);
-                some[i]->setBounds(row.removeFromLeft(width + space).withTrimmedRight(space).withTrimmedBottom(space));
+                some[i]->setBounds(
+                    row.removeFromLeft(width + space).withTrimmedRight(space).withTrimmedBottom(space));
             }
         }
     }
 
     void showChosen(const std::string& response) override {
-        for (auto& icon : icons_) icon->setToggleState(patternLabel(icon->pattern) == response, juce::dontSendNotification);
+        for (auto& icon : icons_)
+            icon->setToggleState(patternLabel(icon->pattern) == response, juce::dontSendNotification);
     }
 
     const LayoutDescription layout_;
@@ -193,7 +213,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout, const StudyWords& words) {
+std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition,
+                                               const LayoutDescription& layout, const StudyWords& words) {
     return std::make_unique<PatternAnswer>(condition, layout, words);
 }
 

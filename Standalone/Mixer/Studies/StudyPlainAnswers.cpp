@@ -13,7 +13,9 @@ constexpr int space = 16;
 /// In the upper part of `area`, near what is felt.
 juce::Rectangle<int> column(juce::Rectangle<int> area, int width, int height) {
     const int high = std::min(height, area.getHeight());
-    return area.withTrimmedTop((area.getHeight() - high) / 4).withHeight(high).withSizeKeepingCentre(std::min(width, area.getWidth()), high);
+    return area.withTrimmedTop((area.getHeight() - high) / 4)
+        .withHeight(high)
+        .withSizeKeepingCentre(std::min(width, area.getWidth()), high);
 }
 
 /// A button for each label.
@@ -22,7 +24,8 @@ public:
     LabelAnswer(const ConditionPlan& condition, const StudyWords& say) {
         setTitle("Stimuli");
         for (const StimulusItem& item : stimuliOf(condition)) {
-            auto& button = buttons_.emplace_back(std::make_unique<BigButton>(say(item.label), utf8(item.label)));
+            auto& button =
+                buttons_.emplace_back(std::make_unique<BigButton>(say(item.label), utf8(item.label)));
             labels_.push_back(item.label);
             button->onClick = [this, label = item.label] { choose(label); };
             addAndMakeVisible(*button);
@@ -35,17 +38,21 @@ public:
     }
     void resized() override {
         const int count = static_cast<int>(buttons_.size());
-        const int across = std::max(1, static_cast<int>(std::ceil(std::sqrt(0.6 * count)))), down = (count + across - 1) / across;
+        const int across = std::max(1, static_cast<int>(std::ceil(std::sqrt(0.6 * count)))),
+                  down = (count + across - 1) / across;
         auto area = column(getLocalBounds(), 260 * across, 84 * down);
         for (int i = 0; i < count; ++i)
-            buttons_[static_cast<std::size_t>(i)]->setBounds(juce::Rectangle<int>{area.getX() + i % across * area.getWidth() / across, area.getY() + i / across * area.getHeight() / down,
-                                                                                  area.getWidth() / across, area.getHeight() / down}
-                                                                 .reduced(5));
+            buttons_[static_cast<std::size_t>(i)]->setBounds(
+                juce::Rectangle<int>{area.getX() + i % across * area.getWidth() / across,
+                                     area.getY() + i / across * area.getHeight() / down,
+                                     area.getWidth() / across, area.getHeight() / down}
+                    .reduced(5));
     }
 
 private:
     void showChosen(const std::string& response) override {
-        for (std::size_t i = 0; i < buttons_.size(); ++i) buttons_[i]->setToggleState(labels_[i] == response, juce::dontSendNotification);
+        for (std::size_t i = 0; i < buttons_.size(); ++i)
+            buttons_[i]->setToggleState(labels_[i] == response, juce::dontSendNotification);
     }
     std::vector<std::unique_ptr<BigButton>> buttons_;
     std::vector<std::string> labels_;
@@ -58,7 +65,8 @@ public:
         : parts_{trial.parts} {
         setTitle("Choice");
         for (int i = 0; i < static_cast<int>(parts_.size()); ++i) {
-            auto& button = buttons_.emplace_back(std::make_unique<BigButton>(say.ordinal(i), "Answer: number " + juce::String{i + 1}));
+            auto& button = buttons_.emplace_back(
+                std::make_unique<BigButton>(say.ordinal(i), "Answer: number " + juce::String{i + 1}));
             button->setWords(say.ordinal(i), say("key {n}", {{"n", juce::String{i + 1}}}));
             button->onClick = [this, i] { choosePart(i); };
             addAndMakeVisible(*button);
@@ -79,15 +87,16 @@ public:
 
 private:
     void showChosen(const std::string& response) override {
-        for (std::size_t i = 0; i < buttons_.size(); ++i) buttons_[i]->setToggleState(parts_[i] == response, juce::dontSendNotification);
+        for (std::size_t i = 0; i < buttons_.size(); ++i)
+            buttons_[i]->setToggleState(parts_[i] == response, juce::dontSendNotification);
     }
     void choosePart(int i) { choose(parts_[static_cast<std::size_t>(i)]); }
     const std::vector<std::string> parts_;
     std::vector<std::unique_ptr<BigButton>> buttons_;
 };
 
-/// A slider for each scale, with what it means; one that was not moved has not answered. How many points it is stays unsaid unless the
-/// session wants it told: who reads a number rates the number.
+/// A slider for each scale, with what it means; one that was not moved has not answered. How many points it
+/// is stays unsaid unless the session wants it told: who reads a number rates the number.
 class RatingAnswer final : public StudyAnswer {
 public:
     RatingAnswer(const SessionPlan& session, const StudyWords& say)
@@ -109,7 +118,8 @@ public:
             scale->slider.setRange(0.0, 100.0, 1.0);
             scale->slider.setValue(50.0, juce::dontSendNotification);
             scale->slider.setWantsKeyboardFocus(true);
-            scale->slider.getProperties().set(tintProperty, static_cast<juce::int64>(palette::muted.getARGB()));
+            scale->slider.getProperties().set(tintProperty,
+                                              static_cast<juce::int64>(palette::muted.getARGB()));
             scale->slider.onValueChange = [this, s = scale.get()] { touched(*s); };
             scale->slider.onDragEnd = [this, s = scale.get()] { touched(*s); };
             addAndMakeVisible(scale->slider);
@@ -137,7 +147,10 @@ public:
             const auto ends = row.withTrimmedTop(30).removeFromTop(22);
             g.drawText(say_(anchors_[0]), ends, juce::Justification::centredLeft, true);
             g.drawText(say_(anchors_[1]), ends, juce::Justification::centredRight, true);
-            const auto told = showsNumbers_ && scale->isMoved ? juce::String{juce::roundToInt(scale->slider.getValue())} : scale->isMoved ? juce::String{} : say_("not set");
+            const auto told = showsNumbers_ && scale->isMoved
+                                  ? juce::String{juce::roundToInt(scale->slider.getValue())}
+                              : scale->isMoved ? juce::String{}
+                                               : say_("not set");
             g.drawText(told, ends, juce::Justification::centred, true);
         }
     }
@@ -203,7 +216,8 @@ public:
         g.fillRoundedRectangle(bar_, 8.0f);
         const double share = (db_ - adjustment_.leastDb) / (adjustment_.mostDb - adjustment_.leastDb);
         g.setColour(shade(*this, Shade::accent).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
-        g.fillRoundedRectangle(bar_.withWidth(std::max(16.0f, bar_.getWidth() * static_cast<float>(share))), 8.0f);
+        g.fillRoundedRectangle(bar_.withWidth(std::max(16.0f, bar_.getWidth() * static_cast<float>(share))),
+                               8.0f);
     }
     void resized() override {
         auto area = column(getLocalBounds(), 760, 170);
@@ -235,13 +249,16 @@ public:
         number_.setInputRestrictions(9, "0123456789.,");
         number_.setJustification(juce::Justification::centred);
         number_.setFont(juce::Font{text::large});
-        number_.onTextChange = [this] { if (onChange) onChange(); };
+        number_.onTextChange = [this] {
+            if (onChange) onChange();
+        };
         number_.setEscapeAndReturnKeysConsumed(false); // they silence, and go on
         addAndMakeVisible(number_);
     }
     Answer answer() const override {
         Answer answer;
-        answer.value = parseNumber<double>(number_.getText().replaceCharacter(',', '.').toStdString()).value_or(0.0);
+        answer.value =
+            parseNumber<double>(number_.getText().replaceCharacter(',', '.').toStdString()).value_or(0.0);
         return answer;
     }
     bool isComplete() const override { return answer().value > 0.0; }
@@ -258,27 +275,35 @@ public:
 private:
     struct Editor final : juce::TextEditor {
         // it feels again
-        bool keyPressed(const juce::KeyPress& key) override { return !key.isKeyCode(juce::KeyPress::spaceKey) && juce::TextEditor::keyPressed(key); }
+        bool keyPressed(const juce::KeyPress& key) override {
+            return !key.isKeyCode(juce::KeyPress::spaceKey) && juce::TextEditor::keyPressed(key);
+        }
     } number_;
 };
 
-std::unique_ptr<StudyAnswer> labelled(const ConditionPlan& condition, const LayoutDescription& layout, const StudyWords& words) {
-    if (std::holds_alternative<PatternSet>(condition.stimuli)) return makePatternAnswer(condition, layout, words);
+std::unique_ptr<StudyAnswer> labelled(const ConditionPlan& condition, const LayoutDescription& layout,
+                                      const StudyWords& words) {
+    if (std::holds_alternative<PatternSet>(condition.stimuli))
+        return makePatternAnswer(condition, layout, words);
     if (const auto* grid = std::get_if<GridSet>(&condition.stimuli)) return makeCellAnswer(*grid, layout);
     return std::make_unique<LabelAnswer>(condition, words);
 }
 
 } // namespace
 
-std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout, const StudyWords& words) {
+std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout,
+                                             const StudyWords& words) {
     const SessionPlan& session = experiment.session();
     switch (session.task) {
-    case StudyTask::explore: return session.fewestTouches > 0 ? makePlaceAnswer(layout) : labelled(experiment.condition(), layout, words);
+    case StudyTask::explore:
+        return session.fewestTouches > 0 ? makePlaceAnswer(layout)
+                                         : labelled(experiment.condition(), layout, words);
     case StudyTask::identify: return labelled(experiment.condition(), layout, words);
     case StudyTask::locate: return makePlaceAnswer(layout);
     case StudyTask::choose: return std::make_unique<ChoiceAnswer>(experiment.trial(), words);
     case StudyTask::rate: return std::make_unique<RatingAnswer>(session, words);
-    case StudyTask::adjust: return std::make_unique<AdjustAnswer>(*session.adjustment, experiment.trial().levelDb, words);
+    case StudyTask::adjust:
+        return std::make_unique<AdjustAnswer>(*session.adjustment, experiment.trial().levelDb, words);
     case StudyTask::estimate: return std::make_unique<NumberAnswer>();
     }
     return nullptr;

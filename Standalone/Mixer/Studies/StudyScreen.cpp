@@ -2,9 +2,9 @@
 // From page to page; what keys do.
 #include "Mixer/Studies/StudyScreen.h"
 #include "Jobs/LayoutNamed.h"
+#include "Mixer/Window/Parts.h"
 #include "Scene/SceneEdits.h"
 #include "Study/Files/ProtocolFile.h"
-#include "Mixer/Window/Parts.h"
 
 namespace physvib {
 namespace {
@@ -24,8 +24,10 @@ TrialRecord firstRecord(const Protocol& protocol, std::size_t condition, std::si
     return record;
 }
 
-std::string jobFault(Desk& desk, const Protocol& protocol, const ConditionPlan& condition, const TrialJob& job) {
-    if (!std::holds_alternative<WorldSet>(condition.stimuli)) return StudySound::make(desk, job, protocol.folder).error;
+std::string jobFault(Desk& desk, const Protocol& protocol, const ConditionPlan& condition,
+                     const TrialJob& job) {
+    if (!std::holds_alternative<WorldSet>(condition.stimuli))
+        return StudySound::make(desk, job, protocol.folder).error;
     const auto world = feltWorld(std::get<WrittenCall>(job), protocol.folder);
     return world ? StudyWorld::refusal(desk, world.value) : world.error;
 }
@@ -43,7 +45,8 @@ std::string feltFault(const Protocol& protocol, Desk& desk) {
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
             for (const TrialJob& job : jobsOf(protocol, firstRecord(protocol, c, s)))
-                if (auto fault = jobFault(desk, protocol, protocol.conditions[c], job); !fault.empty()) return fault;
+                if (auto fault = jobFault(desk, protocol, protocol.conditions[c], job); !fault.empty())
+                    return fault;
     return {};
 }
 
@@ -79,8 +82,10 @@ StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Wor
     answers_.onConfirm = [this] { confirm(); };
     answers_.onKey = [this](const juce::KeyPress& key) { return keyPressed(key); };
     answers_.setStandsAlone(answersElsewhere);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&next_, &silence_, leave_.get()}) addAndMakeVisible(c);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&pane_, &pause_, &comment_}) addChildComponent(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&next_, &silence_, leave_.get()})
+        addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&pane_, &pause_, &comment_})
+        addChildComponent(c);
     if (!answersElsewhere) addChildComponent(answers_);
     prepareControls(*this);
     showNext();
@@ -110,13 +115,16 @@ void StudyScreen::showPage(Page page) {
     answers_.show(nullptr);
     parts_.clear();
     progress_.reset();
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&pane_, &pause_, &answers_}) c->setVisible(c == &answers_ && answers_.standsAlone());
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&pane_, &pause_, &answers_})
+        c->setVisible(c == &answers_ && answers_.standsAlone());
     comment_.setVisible(page == Page::comment);
     next_.setVisible(true);
     resized();
     refresh();
-    if (isShowing() && page == Page::comment) comment_.grabKeyboardFocus();
-    else if (isShowing() && next_.isEnabled()) next_.grabKeyboardFocus();
+    if (isShowing() && page == Page::comment)
+        comment_.grabKeyboardFocus();
+    else if (isShowing() && next_.isEnabled())
+        next_.grabKeyboardFocus();
     repaint();
 }
 
@@ -164,7 +172,9 @@ void StudyScreen::showParts() {
     if (isExploring()) return;
     const auto count = std::max<std::size_t>(1, experiment().trial().parts.size());
     for (std::size_t i = 0; i < count; ++i) {
-        auto& button = parts_.emplace_back(std::make_unique<BigButton>("Feel it", count == 1 ? juce::String{"Feel it"} : "Feel number " + juce::String{static_cast<int>(i) + 1}));
+        auto& button = parts_.emplace_back(std::make_unique<BigButton>(
+            "Feel it",
+            count == 1 ? juce::String{"Feel it"} : "Feel number " + juce::String{static_cast<int>(i) + 1}));
         button->onClick = [this, i] { play(i); };
         addAndMakeVisible(*button);
     }
@@ -185,7 +195,9 @@ void StudyScreen::leave() {
 
 void StudyScreen::goOn() {
     switch (page_) {
-    case Page::pause: if (restLeft() <= 0.0) showTrial(); return;
+    case Page::pause:
+        if (restLeft() <= 0.0) showTrial();
+        return;
     case Page::trial: return;
     case Page::comment: return takeComment();
     case Page::done:
@@ -206,15 +218,23 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (key.isKeyCode(KeyPress::tabKey)) return false; // moves the focus
     const int digit = static_cast<int>(key.getTextCharacter() - '1');
-    if (key.isKeyCode(KeyPress::escapeKey)) desk_.takeEscape(), refresh();
-    else if (page_ == Page::comment) return false;
-    else if (page_ == Page::trial && pane_.takeKey(key)) {}
-    else if (page_ == Page::trial && hasHands() && digit >= 0 && digit < static_cast<int>(parts_.size())) play(static_cast<std::size_t>(digit));
-    else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && pause_.isShowing() && pause_.isEnabled()) pause();
-    else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && !parts_.empty()) play(nextPart());
-    else if (page_ == Page::trial && isAnswerSeen() && answers_->takeKey(key)) {}
-    else if (key.isKeyCode(KeyPress::returnKey) && page_ == Page::trial) answers_.confirm();
-    else if (key.isKeyCode(KeyPress::returnKey) && next_.isVisible() && next_.isEnabled()) goOn();
+    if (key.isKeyCode(KeyPress::escapeKey))
+        desk_.takeEscape(), refresh();
+    else if (page_ == Page::comment)
+        return false;
+    else if (page_ == Page::trial && pane_.takeKey(key)) {
+    } else if (page_ == Page::trial && hasHands() && digit >= 0 && digit < static_cast<int>(parts_.size()))
+        play(static_cast<std::size_t>(digit));
+    else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && pause_.isShowing() &&
+             pause_.isEnabled())
+        pause();
+    else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && !parts_.empty())
+        play(nextPart());
+    else if (page_ == Page::trial && isAnswerSeen() && answers_->takeKey(key)) {
+    } else if (key.isKeyCode(KeyPress::returnKey) && page_ == Page::trial)
+        answers_.confirm();
+    else if (key.isKeyCode(KeyPress::returnKey) && next_.isVisible() && next_.isEnabled())
+        goOn();
     return true; // nothing reaches the mixer below
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window as a participant sees it: breaks, stimuli to be felt, the answer, the end. What is asked and what is kept is
-// StudyInProgress' business: this is only somebody who answers.
+// The window as a participant sees it: breaks, stimuli to be felt, the answer, the end. What is asked and
+// what is kept is StudyInProgress' business: this is only somebody who answers.
 #pragma once
 #include "Host/Views/MaterialTexture.h"
 #include "Jobs/StudyRun.h"
+#include "Mixer/Studies/StudyAnswerPane.h"
 #include "Mixer/Studies/StudyMarkers.h"
 #include "Mixer/Studies/StudySound.h"
 #include "Mixer/Studies/StudyWorldPane.h"
-#include "Mixer/Studies/StudyAnswerPane.h"
 
 namespace physvib {
 
@@ -63,11 +63,15 @@ private:
     bool isExposed() const { return exposure() >= study_->protocol().exposureLimit; }
     bool isExploring() const;
     bool canAnswer() const;
-    const WorldSet* worldSet() const { return page_ == Page::trial ? std::get_if<WorldSet>(&experiment().condition().stimuli) : nullptr; }
+    const WorldSet* worldSet() const {
+        return page_ == Page::trial ? std::get_if<WorldSet>(&experiment().condition().stimuli) : nullptr;
+    }
     bool hasHands() const { return worldSet() != nullptr && worldSet()->hasHands; }
     bool isAnswerSeen() const;
     /// of the part at hand, or the last
-    double feltSeconds() const { return worldSet() != nullptr ? pane_.world().feltSeconds() : sound_.feltSeconds(); }
+    double feltSeconds() const {
+        return worldSet() != nullptr ? pane_.world().feltSeconds() : sound_.feltSeconds();
+    }
     double restLeft() const;
     std::size_t nextPart() const;
     void updateTrial();
@@ -86,10 +90,11 @@ private:
     const std::vector<MaterialPicture> pictures_;
     StudySound sound_;
     StudyWorldPane pane_;
-    const double squaresBefore_; // of the participant's day, in g^2 s, without what the desk sums up from now on
+    const double squaresBefore_; // of the participant's day, in g^2 s, without what the desk sums up from now
+                                 // on
     StudyAnswerPane answers_;
     StudyMarkers markers_;
-    bool isToBeMarked_ = false; ///< a part was begun, and its marker is not out yet
+    bool isToBeMarked_ = false;                  ///< a part was begun, and its marker is not out yet
     std::unique_ptr<juce::Component> elsewhere_; // the answers' own window
     Page page_ = Page::pause;
     std::string fault_;
@@ -101,9 +106,10 @@ private:
     std::vector<std::unique_ptr<BigButton>> parts_;
     std::optional<std::size_t> wanted_; // a world that begins when the one before has faded
     std::vector<std::string> sessions_; // that were felt
-    std::vector<FeltLevel> felt_; // per part
+    std::vector<FeltLevel> felt_;       // per part
     std::size_t part_ = 0;
-    double limiterDb_ = 0.0; // by how much it lowered what was felt of the trial at hand, as far as it was looked at
+    double limiterDb_ = 0.0; // by how much it lowered what was felt of the trial at hand, as far as it was
+                             // looked at
     double counted_ = 0.0, firstFeltMs_ = 0.0, restEndsMs_ = 0.0;
 
     BigButton next_{"Next", "Next"}, pause_{"Pause", "Pause"};

@@ -18,7 +18,9 @@ bool StudyScreen::isAnswerSeen() const { return answers_.standsAlone() || !hasHa
 double StudyScreen::restLeft() const { return std::max(0.0, 1e-3 * (restEndsMs_ - nowMs())); }
 
 /// The one after the last that was felt, and the first to begin with.
-std::size_t StudyScreen::nextPart() const { return progress_->plays() == 0 ? 0 : (part_ + 1) % parts_.size(); }
+std::size_t StudyScreen::nextPart() const {
+    return progress_->plays() == 0 ? 0 : (part_ + 1) % parts_.size();
+}
 
 void StudyScreen::play(std::size_t part) {
     if (page_ != Page::trial || desk_.isSilent() || !progress_->canPlay(part)) return;
@@ -49,7 +51,8 @@ std::string StudyScreen::begin(std::size_t part) {
     auto world = feltWorld(std::get<WrittenCall>(job), study_->protocol().folder);
     if (!world) return world.error;
     const auto number = std::to_string(experiment().trialsTaken() + 1);
-    const auto name = "trial-" + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + "-" + std::to_string(sessions_.size() + 1) + ".json";
+    const auto name = "trial-" + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + "-" +
+                      std::to_string(sessions_.size() + 1) + ".json";
     const auto folder = study_->feltFolder();
     sessions_.push_back((folder.filename() / name).string());
     return pane_.begin(std::move(world.value), worldSet()->hasHands, folder / name);
@@ -90,7 +93,9 @@ void StudyScreen::confirm() {
 /// "felt;condition=PHONE;session=main;trial=3;stimulus=2,2;part=1": of the trial at hand.
 std::string StudyScreen::markerWords(const char* what) const {
     const Trial& trial = experiment().trial();
-    return std::string{what} + ";condition=" + experiment().condition().name + ";session=" + experiment().session().name + ";trial=" + std::to_string(trial.number) + ";stimulus=" + trial.stimulus;
+    return std::string{what} + ";condition=" + experiment().condition().name +
+           ";session=" + experiment().session().name + ";trial=" + std::to_string(trial.number) +
+           ";stimulus=" + trial.stimulus;
 }
 
 // A stimulus' time is known when it is handed over, a world's when it is first felt.
@@ -98,7 +103,10 @@ void StudyScreen::markFelt() {
     if (!isToBeMarked_ || (worldSet() != nullptr && pane_.world().feltSeconds() <= 0.0)) return;
     isToBeMarked_ = false;
     const double fromNow = worldSet() != nullptr ? -pane_.world().feltSeconds() : sound_.startsInSeconds();
-    markers_.push(markerWords("felt") + ";part=" + (experiment().trial().parts.empty() ? std::string{"1"} : experiment().trial().parts[part_]), fromNow);
+    markers_.push(
+        markerWords("felt") + ";part=" +
+            (experiment().trial().parts.empty() ? std::string{"1"} : experiment().trial().parts[part_]),
+        fromNow);
 }
 
 /// Of the part that was felt last, before another is.
@@ -108,7 +116,9 @@ void StudyScreen::noteFelt() {
 }
 
 /// A(8) of what this study's trials of today have cost the participant.
-double StudyScreen::exposure() const { return dailyExposure(std::max(0.0, squaresBefore_ + desk_.exposure().squareGSeconds())); }
+double StudyScreen::exposure() const {
+    return dailyExposure(std::max(0.0, squaresBefore_ + desk_.exposure().squareGSeconds()));
+}
 
 void StudyScreen::take(Answer answer) {
     noteFelt();
@@ -122,7 +132,9 @@ void StudyScreen::take(Answer answer) {
     const auto session = experiment().sessionNumber();
     markers_.push(markerWords("answer") + ";response=" + answer.response);
     if (!study_->take(std::move(answer))) return fail(study_->error());
-    const bool staysOpen = !experiment().isDone() && isExploring() && experiment().sessionNumber() == session && experiment().trial().restSeconds <= 0.0 && !isExposed();
+    const bool staysOpen = !experiment().isDone() && isExploring() &&
+                           experiment().sessionNumber() == session &&
+                           experiment().trial().restSeconds <= 0.0 && !isExposed();
     if (!staysOpen) return showNext();
     exploring_.reset(); // the same screen, with what was felt marked
     progress_.emplace(experiment().session(), experiment().trial());
@@ -138,18 +150,24 @@ void StudyScreen::updateTrial() {
         counted_ = felt;
     }
     const bool wasFeeling = isFeeling();
-    if (wasFeeling) limiterDb_ = std::max(limiterDb_, -toDecibels(std::max(1e-6, static_cast<double>(desk_.session().status().render.limiterGain))));
+    if (wasFeeling)
+        limiterDb_ = std::max(
+            limiterDb_,
+            -toDecibels(std::max(1e-6, static_cast<double>(desk_.session().status().render.limiterGain))));
     pane_.refresh();
     markFelt();
     if (wasFeeling && !isFeeling()) resized();
     if (!pane_.world().fault().empty()) return fail(pane_.world().fault());
     playWanted();
     if (exploring_ && !isFeeling() && progress_->plays() > 0) return take(*exploring_);
-    const bool isOpen = !isFeeling() && !desk_.isSilent() && (progress_->canAnswer() || answers_->isOpen() || isExploring());
+    const bool isOpen =
+        !isFeeling() && !desk_.isSilent() && (progress_->canAnswer() || answers_->isOpen() || isExploring());
     answers_.setVisible(isAnswerSeen());
     if (isOpen != answers_->isEnabled()) answers_->setEnabled(isOpen);
-    if (isOpen && (answers_.standsAlone() ? answers_.hasKeyboardFocus(false) : hasKeyboardFocus(false))) answers_->begin();
-    const bool mayConfirm = isExploring() ? experiment().mayEnd() && !isFeeling() : canAnswer() && answers_->isComplete();
+    if (isOpen && (answers_.standsAlone() ? answers_.hasKeyboardFocus(false) : hasKeyboardFocus(false)))
+        answers_->begin();
+    const bool mayConfirm =
+        isExploring() ? experiment().mayEnd() && !isFeeling() : canAnswer() && answers_->isComplete();
     answers_.setConfirm(true, mayConfirm, say_(worldSet() != nullptr ? "OK" : "Next"));
     answers_.setQuestion(headline());
     updateParts();
@@ -158,7 +176,8 @@ void StudyScreen::updateTrial() {
 
 void StudyScreen::updatePause() {
     pause_.setEnabled(hasHands() && pane_.world().isMoving() && progress_->canAnswer());
-    pause_.setWords(say_("PAUSE"), say_(pause_.isEnabled() ? "space bar: answer" : "when each was felt for long enough"));
+    pause_.setWords(say_("PAUSE"),
+                    say_(pause_.isEnabled() ? "space bar: answer" : "when each was felt for long enough"));
 }
 
 } // namespace physvib

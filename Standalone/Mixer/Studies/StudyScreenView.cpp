@@ -23,8 +23,10 @@ void StudyScreen::refresh() {
         next_.setWords(say_(experiment().trial().number == 1 ? "Begin" : "Go on"), say_("Enter"));
     }
     if (page_ == Page::comment) next_.setEnabled(true), next_.setWords(say_("Next"));
-    if (page_ == Page::done || page_ == Page::exposed || page_ == Page::fault) next_.setEnabled(true), next_.setWords(say_("Close"), say_("Enter"));
-    if (page_ != Page::trial) answers_.setConfirm(false, false, {}), answers_.setQuestion(say_("Look at the other screen."));
+    if (page_ == Page::done || page_ == Page::exposed || page_ == Page::fault)
+        next_.setEnabled(true), next_.setWords(say_("Close"), say_("Enter"));
+    if (page_ != Page::trial)
+        answers_.setConfirm(false, false, {}), answers_.setQuestion(say_("Look at the other screen."));
     if (auto words = headline() + "\n" + body() + "\n" + progressWords(); words != shown_) {
         shown_ = words;
         setDescription(words);
@@ -38,15 +40,26 @@ void StudyScreen::updateParts() {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         auto& button = *parts_[i];
         const bool isPlaying = isFeeling() && part_ == i, wasFelt = progress_->plays(i) > 0;
-        juce::String words = parts_.size() == 1 ? say_(wasFelt ? "Feel it again" : "Feel it") : juce::String{static_cast<int>(i) + 1};
+        juce::String words = parts_.size() == 1 ? say_(wasFelt ? "Feel it again" : "Feel it")
+                                                : juce::String{static_cast<int>(i) + 1};
         if (!session.objects.empty() && worldSet() == nullptr) words += "   " + say_(trial.parts[i]);
-        if (session.adjustment && session.adjustment->alternative == trial.parts[i]) words += "   " + say_("to be matched");
+        if (session.adjustment && session.adjustment->alternative == trial.parts[i])
+            words += "   " + say_("to be matched");
         juce::StringArray remarks;
-        if (isPlaying) remarks.add(say_("feel it now"));
-        else if (hasHands()) remarks.add(say_("key {n}", {{"n", juce::String{static_cast<int>(i) + 1}}}));
-        else if (i == nextPart()) remarks.add(say_("space bar"));
-        if (session.mostPlays > 0) remarks.add(say_("{n} of {most} left", {{"n", juce::String{session.mostPlays - progress_->plays(i)}}, {"most", juce::String{session.mostPlays}}}));
-        else if (wasFelt && !isPlaying) remarks.add(progress_->plays(i) == 1 ? say_("felt once") : say_("felt {n} times", {{"n", juce::String{progress_->plays(i)}}}));
+        if (isPlaying)
+            remarks.add(say_("feel it now"));
+        else if (hasHands())
+            remarks.add(say_("key {n}", {{"n", juce::String{static_cast<int>(i) + 1}}}));
+        else if (i == nextPart())
+            remarks.add(say_("space bar"));
+        if (session.mostPlays > 0)
+            remarks.add(
+                say_("{n} of {most} left", {{"n", juce::String{session.mostPlays - progress_->plays(i)}},
+                                            {"most", juce::String{session.mostPlays}}}));
+        else if (wasFelt && !isPlaying)
+            remarks.add(progress_->plays(i) == 1
+                            ? say_("felt once")
+                            : say_("felt {n} times", {{"n", juce::String{progress_->plays(i)}}}));
         button.setWords(words, remarks.joinIntoString(",  "));
         button.setToggleState(isPlaying, juce::dontSendNotification);
         button.setEnabled((!isFeeling() || hasHands()) && !desk_.isSilent() && progress_->canPlay(i));
@@ -75,13 +88,18 @@ juce::String StudyScreen::body() const {
     switch (page_) {
     case Page::trial:
         if (desk_.isSilent()) return say_("Everything is silent. Esc: feel again.");
-        return desk_.trouble().isNotEmpty() ? juce::String{desk_.trouble()} : say_.instruction(experiment().session(), experiment().condition()).replace("\n", " ");
+        return desk_.trouble().isNotEmpty()
+                   ? juce::String{desk_.trouble()}
+                   : say_.instruction(experiment().session(), experiment().condition()).replace("\n", " ");
     case Page::comment: return say_("In your own words, if you like.");
     case Page::done: return say_("Your answers are in") + "\n" + utf8(study_->path().string());
     case Page::exposed:
-        return say_("Your hands have taken A(8) = {n} m/s^2 (ISO 5349-1); this study's limit is {most} m/s^2.", {{"n", number(exposure(), 2)}, {"most", number(study_->protocol().exposureLimit, 2)}}) + "\n" +
-               say_("What you answered is kept, and the study goes on there another day.");
-    case Page::fault: return utf8(fault_) + "\n" + say_("What was answered so far is kept, and the study goes on there.");
+        return say_(
+                   "Your hands have taken A(8) = {n} m/s^2 (ISO 5349-1); this study's limit is {most} m/s^2.",
+                   {{"n", number(exposure(), 2)}, {"most", number(study_->protocol().exposureLimit, 2)}}) +
+               "\n" + say_("What you answered is kept, and the study goes on there another day.");
+    case Page::fault:
+        return utf8(fault_) + "\n" + say_("What was answered so far is kept, and the study goes on there.");
     case Page::pause: return say_.instruction(experiment().session(), experiment().condition());
     }
     return {};
@@ -90,12 +108,18 @@ juce::String StudyScreen::body() const {
 juce::String StudyScreen::progressWords() const {
     if (experiment().isDone()) return say_("{n} trials", {{"n", juce::String{experiment().trialsTaken()}}});
     const auto& session = experiment().session();
-    const int sessions = static_cast<int>(study_->protocol().conditions.size() * study_->protocol().sessions.size());
+    const int sessions =
+        static_cast<int>(study_->protocol().conditions.size() * study_->protocol().sessions.size());
     juce::StringArray words{say_(session.isTraining ? "Training" : "The study")};
-    if (sessions > 1) words.add(say_("part {n} of {most}", {{"n", juce::String{experiment().sessionNumber()}}, {"most", juce::String{sessions}}}));
+    if (sessions > 1)
+        words.add(say_("part {n} of {most}", {{"n", juce::String{experiment().sessionNumber()}},
+                                              {"most", juce::String{sessions}}}));
     const juce::String trial{experiment().trial().number};
-    if (experiment().sessionTrials() > 0) words.add(say_("trial {n} of {most}", {{"n", trial}, {"most", juce::String{experiment().sessionTrials()}}}));
-    else if (!isExploring()) words.add(say_("trial {n}", {{"n", trial}}));
+    if (experiment().sessionTrials() > 0)
+        words.add(say_("trial {n} of {most}",
+                       {{"n", trial}, {"most", juce::String{experiment().sessionTrials()}}}));
+    else if (!isExploring())
+        words.add(say_("trial {n}", {{"n", trial}}));
     return words.joinIntoString(juce::String::fromUTF8("   \xc2\xb7   "));
 }
 
@@ -111,7 +135,10 @@ void StudyScreen::paint(juce::Graphics& g) {
         g.setColour(shade(*this, Shade::line));
         g.fillRoundedRectangle(bar, 2.0f);
         g.setColour(shade(*this, Shade::accent));
-        g.fillRoundedRectangle(bar.withWidth(bar.getWidth() * static_cast<float>(experiment().trial().number - 1) / static_cast<float>(experiment().sessionTrials())), 2.0f);
+        g.fillRoundedRectangle(
+            bar.withWidth(bar.getWidth() * static_cast<float>(experiment().trial().number - 1) /
+                          static_cast<float>(experiment().sessionTrials())),
+            2.0f);
     }
     g.setColour(shade(*this, Shade::text));
     g.setFont(juce::Font{page_ == Page::trial ? text::large : 30.0f, juce::Font::bold});
@@ -129,7 +156,8 @@ void StudyScreen::drawMaterials(juce::Graphics& g) const {
     if (legends.empty()) return;
     constexpr int swatch = 48, height = 76;
     const int width = std::min(190, (getWidth() - 2 * inset) / static_cast<int>(legends.size()));
-    auto row = juce::Rectangle<int>{inset, next_.getBottom() + 24, getWidth() - 2 * inset, height}.withSizeKeepingCentre(width * static_cast<int>(legends.size()), height);
+    auto row = juce::Rectangle<int>{inset, next_.getBottom() + 24, getWidth() - 2 * inset, height}
+                   .withSizeKeepingCentre(width * static_cast<int>(legends.size()), height);
     if (row.getBottom() > getHeight()) return;
     g.setFont(juce::Font{text::medium});
     for (const MaterialLegend& legend : legends) {
@@ -148,7 +176,8 @@ void StudyScreen::drawMaterials(juce::Graphics& g) const {
 }
 
 std::vector<MaterialLegend> StudyScreen::materialsSeen() const {
-    if (experiment().isDone() || !std::holds_alternative<WorldSet>(experiment().condition().stimuli)) return {};
+    if (experiment().isDone() || !std::holds_alternative<WorldSet>(experiment().condition().stimuli))
+        return {};
     std::string names;
     for (const StimulusItem& item : stimuliOf(experiment().condition())) names += item.label + " ";
     for (const std::string& object : experiment().session().objects) names += object + " ";
@@ -166,7 +195,8 @@ void StudyScreen::resized() {
     headArea_ = head;
     area.removeFromTop(20);
     if (page_ == Page::trial) return placeTrial(area);
-    auto middle = area.withSizeKeepingCentre(std::min(900, area.getWidth()), std::min(area.getHeight(), page_ == Page::comment ? 520 : 320));
+    auto middle = area.withSizeKeepingCentre(std::min(900, area.getWidth()),
+                                             std::min(area.getHeight(), page_ == Page::comment ? 520 : 320));
     questionArea_ = middle.removeFromTop(60);
     bodyArea_ = middle.removeFromTop(page_ == Page::comment ? 44 : 150);
     if (page_ == Page::comment) comment_.setBounds(middle.removeFromTop(middle.getHeight() - 110));
@@ -178,13 +208,15 @@ void StudyScreen::placeTrial(juce::Rectangle<int> area) {
     bodyArea_ = area.removeFromTop(40);
     if (!parts_.empty()) {
         auto row = area.removeFromTop(partHeight);
-        const int count = static_cast<int>(parts_.size()) + (hasHands() ? 1 : 0), width = std::min(partWidth, row.getWidth() / count);
+        const int count = static_cast<int>(parts_.size()) + (hasHands() ? 1 : 0),
+                  width = std::min(partWidth, row.getWidth() / count);
         row = row.withSizeKeepingCentre(width * count, partHeight);
         for (auto& part : parts_) part->setBounds(row.removeFromLeft(width).reduced(8, 4));
         if (hasHands()) pause_.setBounds(row.reduced(8, 4));
         area.removeFromTop(16);
     }
-    if (!answers_.standsAlone()) answers_.setBounds(worldSet() != nullptr && !hasHands() ? area.removeFromBottom(choiceHeight) : area);
+    if (!answers_.standsAlone())
+        answers_.setBounds(worldSet() != nullptr && !hasHands() ? area.removeFromBottom(choiceHeight) : area);
     pane_.setBounds(area.withTrimmedBottom(12));
     pane_.setVisible(worldSet() != nullptr && (!hasHands() || answers_.standsAlone() || !isAnswerSeen()));
 }

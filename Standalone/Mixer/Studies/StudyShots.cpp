@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A study is brought to a screen by answers of the simulated observer, and felt there as by a person.
 #include "Mixer/Studies/StudyShots.h"
-#include "Study/Files/ProtocolFile.h"
 #include "Mixer/Studies/StudiesTab.h"
+#include "Study/Files/ProtocolFile.h"
 #include "Study/SimulatedObserver.h"
 
 namespace physvib {
@@ -11,18 +11,23 @@ namespace {
 
 template <class Wanted>
 Wanted* find(juce::Component& root, const juce::String& title) {
-    if (auto* wanted = dynamic_cast<Wanted*>(&root); wanted != nullptr && root.getTitle() == title) return wanted;
+    if (auto* wanted = dynamic_cast<Wanted*>(&root); wanted != nullptr && root.getTitle() == title)
+        return wanted;
     for (auto* child : root.getChildren())
         if (auto* wanted = find<Wanted>(*child, title)) return wanted;
     return nullptr;
 }
 
 void press(juce::Component& root, const juce::String& title) {
-    if (auto* button = find<juce::Button>(root, title); button != nullptr && button->isEnabled() && button->onClick) button->onClick();
+    if (auto* button = find<juce::Button>(root, title);
+        button != nullptr && button->isEnabled() && button->onClick)
+        button->onClick();
 }
 
 void wait(MixerView& view, double seconds) {
-    for (const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds; juce::Time::getMillisecondCounterHiRes() < end; juce::Thread::sleep(30)) view.refresh();
+    for (const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds;
+         juce::Time::getMillisecondCounterHiRes() < end; juce::Thread::sleep(30))
+        view.refresh();
 }
 
 /// Removed when the program ends.
@@ -41,10 +46,15 @@ void answerUntil(const Protocol& protocol, StudyTask task, int trial) {
     const Participant participant{"P01", 1, "person"};
     StudyInProgress study{{protocol, participant, folder().getFullPathName().toStdString()}};
     const SimulatedObserver observer{{}, protocol, participant};
-    const auto isThere = [&] { return study.experiment().isDone() || (study.experiment().trial().task == task && study.experiment().trial().number == trial); };
+    const auto isThere = [&] {
+        return study.experiment().isDone() ||
+               (study.experiment().trial().task == task && study.experiment().trial().number == trial);
+    };
     while (!isThere()) {
-        if (study.experiment().mayEnd()) study.endSession();
-        else if (!study.take(observer.answer(study.experiment()))) return;
+        if (study.experiment().mayEnd())
+            study.endSession();
+        else if (!study.take(observer.answer(study.experiment())))
+            return;
     }
 }
 
@@ -54,7 +64,8 @@ StudiesTab& studies(MixerView& view) {
 }
 
 /// The screen of that trial, behind its pause.
-StudyScreen* show(MixerView& view, const std::string& protocol, StudyTask task, int trial, bool isPauseSeen = false) {
+StudyScreen* show(MixerView& view, const std::string& protocol, StudyTask task, int trial,
+                  bool isPauseSeen = false) {
     auto& tab = studies(view);
     tab.setFolder(folder());
     if (!tab.chooseProtocol(protocol).empty()) return nullptr;
@@ -73,7 +84,8 @@ std::vector<juce::File> simulatedTrials(const std::string& name, int participant
         const Participant participant{"S0" + std::to_string(number), number, "simulated-RING"};
         StudyInProgress study{{protocol, participant, folder().getFullPathName().toStdString()}};
         const SimulatedObserver observer{*observerNamed(participant.observer), protocol, participant};
-        while (!study.experiment().isDone() && study.take(observer.answer(study.experiment()))) {}
+        while (!study.experiment().isDone() && study.take(observer.answer(study.experiment()))) {
+        }
         files.emplace_back(study.path().string());
     }
     return files;
@@ -86,7 +98,8 @@ void feel(MixerView& view, StudyScreen* screen, double seconds) {
 }
 
 void type(StudyScreen* screen, char key) {
-    if (screen != nullptr) screen->keyPressed(juce::KeyPress{key, juce::ModifierKeys{}, static_cast<juce::juce_wchar>(key)});
+    if (screen != nullptr)
+        screen->keyPressed(juce::KeyPress{key, juce::ModifierKeys{}, static_cast<juce::juce_wchar>(key)});
 }
 
 /// The box of `eight-methods` with a second for each pair.
@@ -102,7 +115,8 @@ std::string shortBox() {
 void shake(MixerView& view, StudyScreen* screen, char pair) {
     type(screen, pair);
     wait(view, 0.4);
-    for (int k = 0; k < 7 && screen != nullptr; ++k) screen->keyPressed(juce::KeyPress{juce::KeyPress::leftKey});
+    for (int k = 0; k < 7 && screen != nullptr; ++k)
+        screen->keyPressed(juce::KeyPress{juce::KeyPress::leftKey});
     wait(view, 0.9);
 }
 

@@ -9,7 +9,8 @@ namespace physvib {
 namespace {
 
 using Kind = RenderControl::Kind;
-constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may come behind a strike; gains are ramped
+constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may come behind a strike;
+                                            // gains are ramped
 
 constexpr const char* noControls = "The session took no more controls: expected a device that plays";
 
@@ -51,7 +52,8 @@ void StudySound::useRecordings(const std::vector<ContactRecording>& recordings) 
 }
 
 Result<FeltStimulus> StudySound::make(Desk& desk, const TrialJob& job, const std::string& folder) {
-    auto stimulus = feltStimulus(job, desk.output().sampleRateHz() > 0 ? desk.output().sampleRateHz() : 48000, folder);
+    auto stimulus =
+        feltStimulus(job, desk.output().sampleRateHz() > 0 ? desk.output().sampleRateHz() : 48000, folder);
     if (!stimulus) return stimulus;
     if (auto fault = refusal(desk, stimulus.value); !fault.empty()) return Failure{fault};
     return stimulus;
@@ -59,9 +61,11 @@ Result<FeltStimulus> StudySound::make(Desk& desk, const TrialJob& job, const std
 
 std::string StudySound::refusal(const Desk& desk, const FeltStimulus& stimulus) {
     const int wanted = stimulus.layout.geometry.count, there = desk.mix().count();
-    if (!stimulus.recordings.empty() && desk.device().board()) return "--method SV: expected a mixer without the board, which plays no recordings";
+    if (!stimulus.recordings.empty() && desk.device().board())
+        return "--method SV: expected a mixer without the board, which plays no recordings";
     if (wanted <= there) return {};
-    return stimulus.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " + std::to_string(there);
+    return stimulus.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " +
+           std::to_string(there);
 }
 
 std::string StudySound::play(const FeltStimulus& stimulus) {

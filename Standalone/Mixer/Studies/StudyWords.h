@@ -15,7 +15,8 @@ public:
         : words_{std::move(words)} {}
 
     /// "trial {n}" with what stands for {n}. One that the words do not have is told in English, and noted.
-    juce::String operator()(const std::string& english, std::initializer_list<std::pair<const char*, juce::String>> values = {}) const;
+    juce::String operator()(const std::string& english,
+                            std::initializer_list<std::pair<const char*, juce::String>> values = {}) const;
     const std::set<std::string>& missed() const noexcept { return missed_; }
 
     /// The question of a trial: the protocol's, or that of the task.

@@ -9,15 +9,18 @@
 namespace physvib {
 namespace {
 
-constexpr std::int64_t fadeNs = 100'000'000; // longer than whatever rings takes to fade, by limits::stealFadePerSecond
+constexpr std::int64_t fadeNs = 100'000'000; // longer than whatever rings takes to fade, by
+                                             // limits::stealFadePerSecond
 
 } // namespace
 
 std::string StudyWorld::refusal(const Desk& desk, const FeltWorld& world) {
     const int wanted = world.layout.geometry.count, there = desk.mix().count();
-    if (desk.device().board()) return "a world: expected a mixer without the board, which follows one session only";
+    if (desk.device().board())
+        return "a world: expected a mixer without the board, which follows one session only";
     if (wanted <= there) return {};
-    return world.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " + std::to_string(there);
+    return world.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " +
+           std::to_string(there);
 }
 
 std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesystem::path& file) {
@@ -41,7 +44,9 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
     desk_.exposure().use(world.layout);
     desk_.exposure().restartLevels();
     tellStrips();
-    journal_ = std::make_unique<SessionJournal>(file, *session_, setup_, Provenance{PHYSVIB_VERSION, {{"scene", setup_.scene.name}, {"seed", std::to_string(setup_.seed)}}});
+    journal_ = std::make_unique<SessionJournal>(
+        file, *session_, setup_,
+        Provenance{PHYSVIB_VERSION, {{"scene", setup_.scene.name}, {"seed", std::to_string(setup_.seed)}}});
     if (auto fault = journal_->error(); !fault.empty()) return finish(), fault;
     driver_ = std::make_unique<ThreadDriver>(*session_, setup_.stepsPerSecond); // from now on time goes on
     return {};
@@ -52,7 +57,9 @@ void StudyWorld::tellStrips() {
     strips.resize(static_cast<std::size_t>(setup_.channels));
     for (Strip& strip : strips) strip.gainDb = 0.0, strip.isMuted = strip.isSolo = false;
     std::array<ToldStrip, limits::maxEnchanters> told{};
-    physvib::tellStrips(told, strips, [this](const RenderControl& control) { return session_->take({control}).error.empty(); });
+    physvib::tellStrips(told, strips, [this](const RenderControl& control) {
+        return session_->take({control}).error.empty();
+    });
 }
 
 void StudyWorld::end() {
@@ -64,18 +71,23 @@ void StudyWorld::end() {
     if (const auto stopped = session_->take({stop})) stoppedNs_ = stopped.value;
 }
 
-std::string StudyWorld::act(const Action& action) { return isMoving() ? session_->take({action}).error : std::string{}; }
+std::string StudyWorld::act(const Action& action) {
+    return isMoving() ? session_->take({action}).error : std::string{};
+}
 
 WorldMoment StudyWorld::look() {
     WorldMoment moment;
     if (!session_) return moment;
-    for (PlayedEvent played; session_->played().pop(played);) journal_->played(played, session_->timeline().sampleRateHz());
+    for (PlayedEvent played; session_->played().pop(played);)
+        journal_->played(played, session_->timeline().sampleRateHz());
     moment.sessionNs = session_->world().readPoses(moment.poses);
-    moment.aheadNs = session_->timeline().playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
+    moment.aheadNs =
+        session_->timeline().playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
     const std::int64_t now = session_->status().sessionNs;
     if (isMoving()) {
         session_->world().setSlowness(desk_.isSilent() ? 0 : 1); // what is not felt is not shown either
-        if (!desk_.isSilent()) feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
+        if (!desk_.isSilent())
+            feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
     } else if (session_->timeline().nextFeltNs() >= stoppedNs_ + fadeNs) { // L may have grown meanwhile
         finish();
@@ -89,10 +101,12 @@ void StudyWorld::finish() {
     desk_.output().lend(nullptr);
     driver_.reset();
     session_->advance(); // the world is told as far as time went: a render would let it go on from there
-    // A hit of the last step is known a step later, and there is none: a render that ended where the stand-still does would feel it.
+    // A hit of the last step is known a step later, and there is none: a render that ended where the
+    // stand-still does would feel it.
     const std::int64_t endNs = stoppedNs_ < 0 ? session_->status().sessionNs : stoppedNs_ + fadeNs;
     if (journal_ && journal_->error().empty()) {
-        for (PlayedEvent played; session_->played().pop(played);) journal_->played(played, session_->timeline().sampleRateHz());
+        for (PlayedEvent played; session_->played().pop(played);)
+            journal_->played(played, session_->timeline().sampleRateHz());
         journal_->end(endNs);
         fault_ = journal_->finish(SessionJournal::quickBytes); // the window waits
     }

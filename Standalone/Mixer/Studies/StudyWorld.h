@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A world that a participant watches, feels and may play with: a session of its own on the desk's output, which becomes a file that
-// renders what was felt, to the bit.
+// A world that a participant watches, feels and may play with: a session of its own on the desk's output,
+// which becomes a file that renders what was felt, to the bit.
 #pragma once
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/Views/WorldView.h"
@@ -14,7 +14,8 @@
 
 namespace physvib {
 
-/// One after the other, while nobody edits the desk's mix. Strips give polarity, delay and ceiling; their levels are the study's business. M only.
+/// One after the other, while nobody edits the desk's mix. Strips give polarity, delay and ceiling; their
+/// levels are the study's business. M only.
 class StudyWorld {
 public:
     explicit StudyWorld(Desk& desk)
@@ -26,8 +27,8 @@ public:
     /// Why it cannot be felt on that desk; empty if it can.
     static std::string refusal(const Desk& desk, const FeltWorld& world);
 
-    /// The world begins to move. With hands, what its script does of what hands do is left out, and it goes on until end(); else it
-    /// ends after the call's seconds. `file` (.json) keeps it. Empty, or the reason.
+    /// The world begins to move. With hands, what its script does of what hands do is left out, and it goes
+    /// on until end(); else it ends after the call's seconds. `file` (.json) keeps it. Empty, or the reason.
     std::string begin(FeltWorld world, bool hasHands, const std::filesystem::path& file);
 
     bool isPlaying() const noexcept { return session_ != nullptr; } ///< it moves, or fades out
@@ -56,7 +57,7 @@ private:
     std::unique_ptr<SessionJournal> journal_;
     std::unique_ptr<SimulationDriver> driver_;
     std::string fault_;
-    double seconds_ = 0.0; // of a world without hands
+    double seconds_ = 0.0;                                  // of a world without hands
     std::int64_t feltNs_ = 0, seenNs_ = 0, stoppedNs_ = -1; // the latter: session time of what stops it
 };
 

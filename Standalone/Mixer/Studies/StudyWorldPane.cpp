@@ -11,7 +11,8 @@ StudyWorldPane::StudyWorldPane(Desk& desk)
     , world_{desk} {
     setTitle("World of the trial");
     view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) {
-        if (hasHands_) act(ImpulseAction{body, {thesisDrag * screenMetres.x, thesisDrag * screenMetres.y}, point});
+        if (hasHands_)
+            act(ImpulseAction{body, {thesisDrag * screenMetres.x, thesisDrag * screenMetres.y}, point});
     };
     tilt_.onValueChange = [this] { act(TiltAction{tilt_.angleRadians()}); };
     view_.setMargin(8);        // no badges here

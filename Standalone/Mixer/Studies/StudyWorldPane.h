@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world of a trial as it is felt now, with what hands do in it. No enchanters and no light of hits: what is to be felt is not shown.
+// The world of a trial as it is felt now, with what hands do in it. No enchanters and no light of hits: what
+// is to be felt is not shown.
 #pragma once
 #include "Mixer/Studies/StudyWorld.h"
 #include "Mixer/World/TiltKnob.h"

@@ -12,11 +12,13 @@ namespace physvib {
 namespace {
 
 constexpr int mostRows = 6;
-constexpr int
-    lookMs = 100,
-    mostLooks = 50; // for a board or controller to come: greeting and clock take half a second, Bluetooth one
+constexpr int lookMs = 100,
+              mostLooks = 50; // for a board or controller to come: greeting and clock take half a second,
+                              // Bluetooth one
 
-juce::String outputsText(int outputs) { return juce::String{outputs} + (outputs == 1 ? " output" : " outputs"); }
+juce::String outputsText(int outputs) {
+    return juce::String{outputs} + (outputs == 1 ? " output" : " outputs");
+}
 
 } // namespace
 
@@ -33,7 +35,10 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
     for (const auto& device : devices) {
         if (device.type == noDeviceType) continue;
         const int outputs = ownOutputs(device);
-        FeltChoice choice{utf8(device.type + ": " + device.name) + ", " + outputsText(outputs) + (outputs == 2 ? ": two actuators" : ""), {device.type + ":" + device.name}, outputs};
+        FeltChoice choice{utf8(device.type + ": " + device.name) + ", " + outputsText(outputs) +
+                              (outputs == 2 ? ": two actuators" : ""),
+                          {device.type + ":" + device.name},
+                          outputs};
         (outputs > 2 ? many : few).push_back(std::move(choice));
     }
     std::optional<FeltChoice> ears; // of sound devices alone
@@ -49,7 +54,8 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
     }
     for (const std::string& pad : pads) {
         // nothing but the controller plays
-        FeltChoice choice{"Game controller: " + utf8(pad), {std::string{noDeviceType} + ":" + noDeviceName}, 2, true};
+        FeltChoice choice{
+            "Game controller: " + utf8(pad), {std::string{noDeviceType} + ":" + noDeviceName}, 2, true};
         choice.device.pad = pad;
         many.push_back(std::move(choice));
     }
@@ -74,7 +80,9 @@ FirstStart::FirstStart(Desk& desk, std::vector<FeltChoice> choices)
     words_.setJustificationType(juce::Justification::topLeft);
     words_.setMinimumHorizontalScale(1.0f); // it has room for two lines
     for (int i = 0; i < std::min(mostRows, static_cast<int>(choices_.size())); ++i) {
-        auto& row = *rows_.emplace_back(std::make_unique<juce::TextButton>(choices_[static_cast<std::size_t>(i)].title + (i == 0 && choices_.size() > 1 ? "  (likely)" : "")));
+        auto& row = *rows_.emplace_back(
+            std::make_unique<juce::TextButton>(choices_[static_cast<std::size_t>(i)].title +
+                                               (i == 0 && choices_.size() > 1 ? "  (likely)" : "")));
         row.setTitle(row.getButtonText());
         row.onClick = [this, i] { choose(i); };
         addChildComponent(row);
@@ -85,7 +93,8 @@ FirstStart::FirstStart(Desk& desk, std::vector<FeltChoice> choices)
     louder_.onClick = [this] { louder(); };
     notFelt_.onClick = [this] { notFelt(); };
     done_.onClick = [this] { end(true); };
-    for (auto* button : {&play_, &without_, &felt_, &louder_, &notFelt_, &done_}) button->setTitle(button->getButtonText()), addChildComponent(button);
+    for (auto* button : {&play_, &without_, &felt_, &louder_, &notFelt_, &done_})
+        button->setTitle(button->getButtonText()), addChildComponent(button);
     // what Return does
     for (auto* button : {&play_, &felt_}) button->setToggleState(true, juce::dontSendNotification);
     for (auto* label : {&title_, &words_}) addAndMakeVisible(label);
@@ -165,7 +174,9 @@ void FirstStart::feltAt(double shareX, double shareY) {
     if (isGone()) return next();
     desk_.change("Place of an actuator", [&](Mix& mix) {
         auto& layout = mix.layout.geometry;
-        layout.places[static_cast<std::size_t>(tested_)] = {juce::jlimit(0.0, 1.0, shareX) * layout.extentWidthMetres, juce::jlimit(0.0, 1.0, shareY) * layout.extentHeightMetres};
+        layout.places[static_cast<std::size_t>(tested_)] = {
+            juce::jlimit(0.0, 1.0, shareX) * layout.extentWidthMetres,
+            juce::jlimit(0.0, 1.0, shareY) * layout.extentHeightMetres};
         mix.layout.name = "own";
     });
     next();
@@ -179,7 +190,8 @@ void FirstStart::notFelt() {
 
 void FirstStart::louder() {
     if (isGone()) return next();
-    desk_.change("Louder", [](Mix& mix) { mix.levelDb = std::min(mostDb, mix.levelDb + louderDb); }, true);
+    desk_.change(
+        "Louder", [](Mix& mix) { mix.levelDb = std::min(mostDb, mix.levelDb + louderDb); }, true);
     pulse();
     show();
 }
@@ -215,12 +227,14 @@ void FirstStart::show() {
     for (auto* button : {&felt_, &louder_, &notFelt_, &done_}) button->setVisible(isTest);
     if (!isTest) {
         title_.setText("Where are your actuators?", juce::dontSendNotification);
-        words_.setText("Play here tests each of them in turn, quietly at first. Nothing plays before.", juce::dontSendNotification);
+        words_.setText("Play here tests each of them in turn, quietly at first. Nothing plays before.",
+                       juce::dontSendNotification);
     } else {
         const auto& label = desk_.mix().layout.enchanters[static_cast<std::size_t>(tested_)].label;
         const int output = desk_.mix().strips[static_cast<std::size_t>(tested_)].output;
         title_.setText("Did you feel it? Where?", juce::dontSendNotification);
-        if (isTimerRunning()) words_.setText("It is looked for" + dots(), juce::dontSendNotification);
+        if (isTimerRunning())
+            words_.setText("It is looked for" + dots(), juce::dontSendNotification);
         else
             words_.setText("Actuator " + utf8(label) +
                                (output >= 0 ? ", output " + juce::String{output + 1} : juce::String{}) +
@@ -233,12 +247,15 @@ void FirstStart::show() {
     repaint();
 }
 
-juce::Rectangle<int> FirstStart::field() const { return getLocalBounds().reduced(24, 0).withTop(108).withBottom(high - 74).withSizeKeepingCentre(360, 200); }
+juce::Rectangle<int> FirstStart::field() const {
+    return getLocalBounds().reduced(24, 0).withTop(108).withBottom(high - 74).withSizeKeepingCentre(360, 200);
+}
 
 void FirstStart::mouseDown(const juce::MouseEvent& e) {
     const auto at = field();
     if (tested_ < 0 || !at.contains(e.getPosition())) return;
-    feltAt(static_cast<double>(e.x - at.getX()) / at.getWidth(), 1.0 - static_cast<double>(e.y - at.getY()) / at.getHeight());
+    feltAt(static_cast<double>(e.x - at.getX()) / at.getWidth(),
+           1.0 - static_cast<double>(e.y - at.getY()) / at.getHeight());
 }
 
 void FirstStart::paint(juce::Graphics& g) {
@@ -250,13 +267,18 @@ void FirstStart::paint(juce::Graphics& g) {
     const auto& layout = desk_.mix().layout.geometry;
     for (int j = 0; j < layout.count; ++j) {
         const auto& place = layout.places[static_cast<std::size_t>(j)];
-        const auto centre = juce::Point<double>{at.getX() + place.xMetres / layout.extentWidthMetres * at.getWidth(), at.getBottom() - place.yMetres / layout.extentHeightMetres * at.getHeight()}.toFloat();
-        const auto badge = juce::Rectangle<float>{28.0f, 28.0f}.withCentre(centre).constrainedWithin(at.toFloat());
+        const auto centre =
+            juce::Point<double>{at.getX() + place.xMetres / layout.extentWidthMetres * at.getWidth(),
+                                at.getBottom() - place.yMetres / layout.extentHeightMetres * at.getHeight()}
+                .toFloat();
+        const auto badge =
+            juce::Rectangle<float>{28.0f, 28.0f}.withCentre(centre).constrainedWithin(at.toFloat());
         g.setColour(enchanterColour(*this, j).withAlpha(j == tested_ ? 1.0f : 0.35f));
         j == tested_ ? g.fillRoundedRectangle(badge, 7.0f) : g.drawRoundedRectangle(badge, 7.0f, 2.0f);
         g.setColour(shade(*this, j == tested_ ? Shade::well : Shade::muted));
         g.setFont(juce::Font{text::medium, juce::Font::bold});
-        g.drawText(utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(j)].label), badge, juce::Justification::centred, false);
+        g.drawText(utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(j)].label), badge,
+                   juce::Justification::centred, false);
     }
 }
 
@@ -267,7 +289,8 @@ void FirstStart::resized() {
     auto row = area.removeFromBottom(34);
     play_.setBounds(row.withWidth(130));
     without_.setBounds(row.withTrimmedLeft(142).withWidth(170));
-    for (auto* button : {&felt_, &louder_, &notFelt_}) button->setBounds(row.removeFromLeft(110)), row.removeFromLeft(gap);
+    for (auto* button : {&felt_, &louder_, &notFelt_})
+        button->setBounds(row.removeFromLeft(110)), row.removeFromLeft(gap);
     done_.setBounds(row.removeFromRight(110));
     for (auto& choice : rows_) choice->setBounds(area.removeFromTop(34)), area.removeFromTop(5);
 }

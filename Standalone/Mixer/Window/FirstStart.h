@@ -27,7 +27,8 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
 /// No more actuators than there are outputs: those of a preset. M.
 void keepTo(int outputs, Mix& mix);
 
-/// A card over the window. All is done by keys as well: up, down and Return; then Return (felt), L (louder), N (not felt). M only.
+/// A card over the window. All is done by keys as well: up, down and Return; then Return (felt), L (louder),
+/// N (not felt). M only.
 class FirstStart final : public juce::Component, private juce::Timer {
 public:
     static constexpr int wide = 600, high = 400;
@@ -36,19 +37,19 @@ public:
     FirstStart(Desk& desk, std::vector<FeltChoice> choices);
 
     std::function<void(bool hasChosen)> onEnd;
-    std::function<void(const DeviceChoice&)>
-        onBeside; ///< the window plays a board or a controller beside a device, and goes on with test()
+    std::function<void(const DeviceChoice&)> onBeside; ///< the window plays a board or a controller beside a
+                                                       ///< device, and goes on with test()
 
     void choose(int index);
     int chosen() const noexcept { return chosen_; }
-    void playHere();          ///< what is chosen: opens it, and the test begins
+    void playHere();        ///< what is chosen: opens it, and the test begins
     void listen();          ///< what is felt is heard on what is open
     void test(int outputs); ///< of as many actuators as there are outputs, four at most, from a low level; a
                             ///< board or controller is waited for
-    void pulse();             ///< of the one that is tested, again
-    void felt();              ///< where it is drawn; the next one
+    void pulse();           ///< of the one that is tested, again
+    void felt();            ///< where it is drawn; the next one
     void feltAt(double shareX, double shareY); ///< there: it moves, and the next one
-    void notFelt();           ///< takes its output away; the next one
+    void notFelt();                            ///< takes its output away; the next one
     void louder();
     int tested() const noexcept { return tested_; } ///< -1: none
     void end(bool hasChosen);
@@ -70,7 +71,8 @@ private:
     std::vector<FeltChoice> choices_;
     std::vector<std::unique_ptr<juce::TextButton>> rows_;
     juce::Label title_, words_;
-    juce::TextButton play_{"Play here"}, without_{"Without a device"}, felt_{"Felt"}, louder_{"Louder"}, notFelt_{"Not felt"}, done_{"Done"};
+    juce::TextButton play_{"Play here"}, without_{"Without a device"}, felt_{"Felt"}, louder_{"Louder"},
+        notFelt_{"Not felt"}, done_{"Done"};
     int chosen_ = 0, tested_ = -1, slowness_ = 1, looks_ = 0;
 };
 

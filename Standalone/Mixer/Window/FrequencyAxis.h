@@ -22,13 +22,16 @@ struct FrequencyAxis {
 /// A level per point of the axis, in dB, not below the floor.
 using SpectrumLevels = std::array<float, FrequencyAxis::points>;
 
-/// From magnitudes of bins of `binHz`, the first at 0 Hz: the highest bin of those that a point stands for; `fullScale` is 0 dB.
+/// From magnitudes of bins of `binHz`, the first at 0 Hz: the highest bin of those that a point stands for;
+/// `fullScale` is 0 dB.
 SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, double fullScale);
 
 /// Lines and figures of the axis at the foot of `area`; what is left of it is for the curves.
-juce::Rectangle<int> drawFrequencyAxis(juce::Graphics& g, const juce::Component& component, juce::Rectangle<int> area);
+juce::Rectangle<int> drawFrequencyAxis(juce::Graphics& g, const juce::Component& component,
+                                       juce::Rectangle<int> area);
 
 /// Heights of 0 to 1 per point, on a ground of the same colour.
-void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::points> heights, juce::Rectangle<float> area, juce::Colour colour);
+void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::points> heights,
+                  juce::Rectangle<float> area, juce::Colour colour);
 
 } // namespace physvib

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sessions, scenes and layouts from files and into them; recordings and renders; what is asked before anything is lost.
-#include "Mixer/Window/MixerWindow.h"
+// Sessions, scenes and layouts from files and into them; recordings and renders; what is asked before
+// anything is lost.
 #include "Calls/SessionMovie.h"
 #include "Host/Recordings/SessionWav.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Mixer/Window/MixerWindow.h"
+#include "Mixer/Window/Parts.h"
 #include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
-#include "Mixer/Window/Parts.h"
 
 namespace physvib {
 namespace {
@@ -29,7 +30,8 @@ Result<Mix> mixWith(Mix mix, const juce::File& file) {
         if (!layout) return Failure{layout.error};
         mix.layout = layout.value;
         mix.resizeStrips();
-    } else return Failure{pathOf(file) + ": expected a session, a scene or a layout"};
+    } else
+        return Failure{pathOf(file) + ": expected a session, a scene or a layout"};
     return mix;
 }
 
@@ -84,7 +86,8 @@ juce::String MixerWindow::documentName() const {
 }
 
 juce::File MixerWindow::folderOfDocuments() const {
-    return document_ != juce::File{} ? document_.getParentDirectory() : juce::File::getCurrentWorkingDirectory();
+    return document_ != juce::File{} ? document_.getParentDirectory()
+                                     : juce::File::getCurrentWorkingDirectory();
 }
 
 void MixerWindow::chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving,
@@ -94,19 +97,23 @@ void MixerWindow::chooseFile(const juce::String& title, const juce::String& patt
     const auto first =
         suggested.isEmpty() ? folder : folder.getNonexistentChildFile(suggested, pattern.substring(1), false);
     chooser_ = std::make_unique<juce::FileChooser>(title, first, pattern, false);
-    chooser_->launchAsync((isSaving ? B::saveMode | B::warnAboutOverwriting : B::openMode) | B::canSelectFiles, [use = std::move(use)](const juce::FileChooser& c) {
-        if (c.getResult() != juce::File{}) use(c.getResult());
-    });
+    chooser_->launchAsync((isSaving ? B::saveMode | B::warnAboutOverwriting : B::openMode) |
+                              B::canSelectFiles,
+                          [use = std::move(use)](const juce::FileChooser& c) {
+                              if (c.getResult() != juce::File{}) use(c.getResult());
+                          });
 }
 
 void MixerWindow::askThen(std::function<void()> goOn) {
     if (!isChanged()) return goOn();
-    juce::AlertWindow::showYesNoCancelBox(juce::MessageBoxIconType::QuestionIcon, "Save the session?", "What was changed since it was saved would be lost.", "Save", "Do not save",
-                                          "Cancel", view_.get(), juce::ModalCallbackFunction::create([this, goOn = std::move(goOn)](int answer) {
-                                              if (answer == 0) return;
-                                              if (answer == 1) save();
-                                              if (answer == 2 || !isChanged()) goOn();
-                                          }));
+    juce::AlertWindow::showYesNoCancelBox(
+        juce::MessageBoxIconType::QuestionIcon, "Save the session?",
+        "What was changed since it was saved would be lost.", "Save", "Do not save", "Cancel", view_.get(),
+        juce::ModalCallbackFunction::create([this, goOn = std::move(goOn)](int answer) {
+            if (answer == 0) return;
+            if (answer == 1) save();
+            if (answer == 2 || !isChanged()) goOn();
+        }));
 }
 
 void MixerWindow::newDocument() {
@@ -117,7 +124,8 @@ void MixerWindow::newDocument() {
 }
 
 void MixerWindow::openDocument() {
-    chooseFile("Open a session, a scene or a layout", sessionPattern, false, [this](const juce::File& file) { openFile(file); });
+    chooseFile("Open a session, a scene or a layout", sessionPattern, false,
+               [this](const juce::File& file) { openFile(file); });
 }
 
 void MixerWindow::openDocument(const juce::File& file) {
@@ -139,8 +147,10 @@ void MixerWindow::openFile(const juce::File& file) {
 }
 
 void MixerWindow::save() {
-    if (document_ == juce::File{}) saveAs();
-    else saveTo(document_);
+    if (document_ == juce::File{})
+        saveAs();
+    else
+        saveTo(document_);
 }
 
 void MixerWindow::saveAs() {
@@ -151,7 +161,10 @@ void MixerWindow::saveAs() {
 
 void MixerWindow::saveTo(const juce::File& file) {
     const auto edits = desk_->edits();
-    if (const auto error = writeFile(pathOf(file), sessionJson(desk_->saved(), std::filesystem::path{pathOf(file)}.parent_path())); !error.empty()) return say(utf8(error));
+    if (const auto error = writeFile(
+            pathOf(file), sessionJson(desk_->saved(), std::filesystem::path{pathOf(file)}.parent_path()));
+        !error.empty())
+        return say(utf8(error));
     document_ = file;
     savedEdits_ = edits;
     files_.copies().forget();
@@ -169,26 +182,33 @@ void MixerWindow::record() {
 
 void MixerWindow::renderOffline() {
     const double played = 1e-9 * static_cast<double>(desk_->saved().lengthNs);
-    auto* window = new juce::AlertWindow{"Render the session", "It was played for " + number(played, 1) + " s. Beyond that its last scene goes on by itself.", juce::MessageBoxIconType::NoIcon, view_.get()};
+    auto* window = new juce::AlertWindow{"Render the session",
+                                         "It was played for " + number(played, 1) +
+                                             " s. Beyond that its last scene goes on by itself.",
+                                         juce::MessageBoxIconType::NoIcon, view_.get()};
     // without what parts thousands
     window->addTextEditor("seconds", juce::String{std::ceil(10.0 * played) / 10.0, 1}, "Seconds");
     window->getTextEditor("seconds")->setInputRestrictions(8, "0123456789.");
     window->addButton("Choose a file" + dots(), 1, juce::KeyPress{juce::KeyPress::returnKey});
     window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    window->enterModalState(true, juce::ModalCallbackFunction::create([this, window](int answer) {
-        const double seconds = window->getTextEditorContents("seconds").getDoubleValue();
-        if (answer == 0) return;
-        if (!(seconds >= 0.1 && seconds <= longestRender)) return say("Seconds to render: expected 0.1 to " + number(longestRender, 0));
-        chooseFile(
-            "Render the session to", "*.wav", true,
-            [this, seconds](const juce::File& file) { renderTo(file.withFileExtension("wav"), seconds); },
-            documentName());
-    }), true);
+    window->enterModalState(
+        true, juce::ModalCallbackFunction::create([this, window](int answer) {
+            const double seconds = window->getTextEditorContents("seconds").getDoubleValue();
+            if (answer == 0) return;
+            if (!(seconds >= 0.1 && seconds <= longestRender))
+                return say("Seconds to render: expected 0.1 to " + number(longestRender, 0));
+            chooseFile(
+                "Render the session to", "*.wav", true,
+                [this, seconds](const juce::File& file) { renderTo(file.withFileExtension("wav"), seconds); },
+                documentName());
+        }),
+        true);
 }
 
 void MixerWindow::make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work) {
-    rendering_ = std::make_unique<RenderTask>(file, doneWords, std::move(work),
-                                              [this](const juce::String& words, bool isGood) { isGood ? desk_->tell(words) : say(words); }, *view_);
+    rendering_ = std::make_unique<RenderTask>(
+        file, doneWords, std::move(work),
+        [this](const juce::String& words, bool isGood) { isGood ? desk_->tell(words) : say(words); }, *view_);
 }
 
 void MixerWindow::renderTo(const juce::File& file, double seconds) {
@@ -215,9 +235,15 @@ void MixerWindow::saveMovieTo(const juce::File& file, double seconds) {
 }
 
 void MixerWindow::exportLayout() {
-    chooseFile("Save the layout to", sessionPattern, true, [this](const juce::File& file) {
-        if (const auto error = writeFile(pathOf(file.withFileExtension("json")), layoutJson(desk_->mix().layout)); !error.empty()) say(utf8(error));
-    }, "layout");
+    chooseFile(
+        "Save the layout to", sessionPattern, true,
+        [this](const juce::File& file) {
+            if (const auto error =
+                    writeFile(pathOf(file.withFileExtension("json")), layoutJson(desk_->mix().layout));
+                !error.empty())
+                say(utf8(error));
+        },
+        "layout");
 }
 
 void MixerWindow::import(const juce::String& title) {

@@ -21,9 +21,9 @@ juce::PropertiesFile::Options options() {
     return o;
 }
 
-constexpr std::size_t mostSettingsBytes =
-    1u << 18; // eight recent documents of the longest paths, each letter escaped
-constexpr std::ptrdiff_t mostSettingsTags = 1'000; // there are about thirty
+constexpr std::size_t mostSettingsBytes = 1u << 18; // eight recent documents of the longest paths, each
+                                                    // letter escaped
+constexpr std::ptrdiff_t mostSettingsTags = 1'000;  // there are about thirty
 
 /// Empty, or why the settings there are not read. JUCE's reader calls itself for each tag within a tag,
 /// follows what a document's type says, and waits at a pipe.
@@ -59,7 +59,9 @@ juce::String today() { return juce::Time::getCurrentTime().formatted("%Y-%m-%d")
 
 juce::File mixerFolder() {
     const char* configured = std::getenv("XDG_CONFIG_HOME");
-    const juce::File base = configured != nullptr && *configured == '/' ? juce::File{configured} : juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory);
+    const juce::File base = configured != nullptr && *configured == '/'
+                                ? juce::File{configured}
+                                : juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory);
     return base.getChildFile("physvib");
 }
 
@@ -68,8 +70,9 @@ MixerFiles::MixerFiles(const juce::File& folder)
     , copies_{folder.getFullPathName().toStdString()}
     , settings_{readableSettings(folder.getChildFile("mixer.settings"), fault_), options()} {
     folder_.createDirectory();
-    for (const auto& key :
-         juce::StringArray{settings_.getAllProperties().getAllKeys()}) // JUCE would read these as tags again
+    for (const auto& key : juce::StringArray{settings_.getAllProperties().getAllKeys()}) // JUCE would read
+                                                                                         // these as tags
+                                                                                         // again
         if (settings_.getValue(key).trimStart().startsWithChar('<')) settings_.removeValue(key);
     recent_.setMaxNumberOfItems(8);
     recent_.restoreFromString(settings_.getValue("recent"));
@@ -84,7 +87,10 @@ void MixerFiles::addRecent(const juce::File& file) {
     settings_.saveIfNeeded();
 }
 
-DeskLimits MixerFiles::limits() const { return readDeskLimits(settings_.getValue(limitsSetting).toStdString()).value_or(DeskLimits::of(Desk::firstMix())); }
+DeskLimits MixerFiles::limits() const {
+    return readDeskLimits(settings_.getValue(limitsSetting).toStdString())
+        .value_or(DeskLimits::of(Desk::firstMix()));
+}
 
 double MixerFiles::exposureToday() const {
     const auto words = juce::StringArray::fromTokens(settings_.getValue(exposureSetting), " ", {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mixer keeps between its runs: settings, recent documents, and a copy of the session in case it ends badly.
+// What the mixer keeps between its runs: settings, recent documents, and a copy of the session in case it
+// ends badly.
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/RecoveryCopies.h"
@@ -22,9 +23,12 @@ public:
     juce::RecentlyOpenedFilesList& recent() noexcept { return recent_; }
     void addRecent(const juce::File& file);
 
-    /// What files may ask of the desk when there is none yet: as it was left, else nothing above firstMix(). Kept between runs.
+    /// What files may ask of the desk when there is none yet: as it was left, else nothing above firstMix().
+    /// Kept between runs.
     DeskLimits limits() const;
-    void setLimits(const DeskLimits& limits) { settings_.setValue(limitsSetting, juce::String::fromUTF8(deskLimitsText(limits).c_str())); }
+    void setLimits(const DeskLimits& limits) {
+        settings_.setValue(limitsSetting, juce::String::fromUTF8(deskLimitsText(limits).c_str()));
+    }
 
     /// What hands have taken of this mixer today, in g^2 s, weighted; kept between runs, however they end.
     double exposureToday() const;
@@ -35,7 +39,8 @@ public:
     juce::Array<juce::File> ownScenes() const;
 
     RecoveryCopies& copies() noexcept { return copies_; }
-    /// Writes the copy of this run if there is something new, as often as it is worth. Empty, or why it cannot be written.
+    /// Writes the copy of this run if there is something new, as often as it is worth. Empty, or why it
+    /// cannot be written.
     std::string keep(Desk& desk, bool isChanged);
     std::string keepNow(Desk& desk);
 

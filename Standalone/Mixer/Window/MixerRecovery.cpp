@@ -9,9 +9,7 @@ namespace {
 
 constexpr std::size_t mostOffered = 20; // a person looks through so many; each is read when it is shown
 
-juce::String nameOf(const std::filesystem::path& copy) {
-    return utf8(copy.filename().string());
-}
+juce::String nameOf(const std::filesystem::path& copy) { return utf8(copy.filename().string()); }
 
 /// When a copy was kept and what is in it, or why that cannot be read.
 juce::String describe(const std::filesystem::path& copy, const Result<SavedSession>& session) {

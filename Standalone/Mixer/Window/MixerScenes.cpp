@@ -12,13 +12,16 @@ namespace physvib {
 void MixerWindow::saveScene(bool isNow) {
     files_.scenesFolder().createDirectory();
     using B = juce::FileBrowserComponent;
-    chooser_ = std::make_unique<juce::FileChooser>("Save as scene", files_.scenesFolder().getChildFile("scene.json"), "*.json", false);
-    chooser_->launchAsync(B::saveMode | B::warnAboutOverwriting | B::canSelectFiles, [this, isNow](const juce::FileChooser& c) {
-        if (c.getResult() == juce::File{}) return;
-        const auto file = c.getResult().withFileExtension("json");
-        if (const auto error = saveSceneTo(file, isNow); !error.empty()) return say(utf8(error));
-        desk_->tell("Saved " + file.getFullPathName());
-    });
+    chooser_ = std::make_unique<juce::FileChooser>(
+        "Save as scene", files_.scenesFolder().getChildFile("scene.json"), "*.json", false);
+    chooser_->launchAsync(B::saveMode | B::warnAboutOverwriting | B::canSelectFiles,
+                          [this, isNow](const juce::FileChooser& c) {
+                              if (c.getResult() == juce::File{}) return;
+                              const auto file = c.getResult().withFileExtension("json");
+                              if (const auto error = saveSceneTo(file, isNow); !error.empty())
+                                  return say(utf8(error));
+                              desk_->tell("Saved " + file.getFullPathName());
+                          });
 }
 
 std::string MixerWindow::saveSceneTo(const juce::File& file, bool isNow) {
@@ -40,7 +43,10 @@ void MixerWindow::recordScript() {
 }
 
 void MixerWindow::newScene(SceneGround ground) {
-    desk_->change("New scene", [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(physvib::newScene(desk_->world().drawing().drawn(), ground)); });
+    desk_->change("New scene", [&](Mix& mix) {
+        mix.scene =
+            std::make_shared<const Scene>(physvib::newScene(desk_->world().drawing().drawn(), ground));
+    });
     view_->world().drawing().use(DrawTool::ball);
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Places of the panels, keys, and 30 pictures a second.
 #include "Mixer/Window/MixerView.h"
+#include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Output/EnchantersTab.h"
 #include "Mixer/Output/EventsTab.h"
-#include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Output/OutputTab.h"
+#include "Mixer/Output/TelemetryTab.h"
 #include "Mixer/Strips/LanesTab.h"
 #include "Mixer/Strips/ScopeView.h"
 #include "Mixer/Studies/StudiesTab.h"
-#include "Mixer/Output/TelemetryTab.h"
 #include <utility>
 
 namespace physvib {
@@ -41,7 +41,9 @@ MixerView::MixerView(Desk& desk)
     trouble_.setFont(juce::Font{text::medium});
     dismiss_ = quietButton("Dismiss", "Dismiss the message");
     dismiss_->onClick = [this] { desk_.report({}); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&bar_, &world_, &tabs_, &scope_, &strips_}) addAndMakeVisible(c);
+    for (juce::Component* c :
+         std::initializer_list<juce::Component*>{&bar_, &world_, &tabs_, &scope_, &strips_})
+        addAndMakeVisible(c);
     addChildComponent(trouble_);
     addChildComponent(*dismiss_);
     prepareControls(*this);
@@ -76,7 +78,8 @@ void MixerView::takeMix() {
     const bool isTrouble = desk_.trouble().isNotEmpty();
     trouble_.setText(desk_.trouble(), juce::dontSendNotification);
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
-    if (isTrouble == trouble_.isVisible()) return repaint(trouble_.getBounds().getUnion(dismiss_->getBounds()));
+    if (isTrouble == trouble_.isVisible())
+        return repaint(trouble_.getBounds().getUnion(dismiss_->getBounds()));
     trouble_.setVisible(isTrouble);
     dismiss_->setVisible(isTrouble);
     resized();
@@ -111,7 +114,8 @@ void MixerView::refresh() {
 // Where the world stands still and nothing is felt, there is little to look at.
 void MixerView::keepPace() {
     const auto& peaks = latest_.meters.peaks;
-    const bool isAtRest = desk_.session().world().slowness() == 0 && latest_.hits.empty() && std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
+    const bool isAtRest = desk_.session().world().slowness() == 0 && latest_.hits.empty() &&
+                          std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
     restedLooks_ = isAtRest ? restedLooks_ + 1 : 0;
     const int wanted = 1000 / (restedLooks_ > 2 * framesPerSecond ? restFramesPerSecond : framesPerSecond);
     if (isTimerRunning() && getTimerInterval() != wanted) startTimer(wanted);
@@ -144,7 +148,8 @@ void MixerView::setDropShown(bool isShown) {
     repaint();
 }
 
-bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details, juce::StringArray& files, bool& canMoveFiles) {
+bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
+                                                     juce::StringArray& files, bool& canMoveFiles) {
     auto* events = dynamic_cast<EventsTab*>(scope_.find("Events"));
     if (events == nullptr || details.description != EventsTab::dragged) return false;
     canMoveFiles = false;
@@ -152,9 +157,12 @@ bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarg
     return !files.isEmpty();
 }
 
-// A screen lies over everything: keys that come while nothing has the focus are its own before they are the world's below.
+// A screen lies over everything: keys that come while nothing has the focus are its own before they are the
+// world's below.
 bool MixerView::covered(const juce::KeyPress& key) {
-    const auto screen = std::ranges::find_if(getChildren(), [](const auto* child) { return child->isVisible() && child->getWantsKeyboardFocus(); });
+    const auto screen = std::ranges::find_if(getChildren(), [](const auto* child) {
+        return child->isVisible() && child->getWantsKeyboardFocus();
+    });
     return screen != getChildren().end() && (*screen)->keyPressed(key);
 }
 
@@ -168,7 +176,8 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
     if (key == KeyPress{'.'}) return desk_.session().world().stepOnce(), true;
     if (key == KeyPress{'z', juce::ModifierKeys::commandModifier, 0}) return desk_.undoManager().undo(), true;
-    if (key == KeyPress{'z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier, 0} || key == KeyPress{'y', juce::ModifierKeys::commandModifier, 0})
+    if (key == KeyPress{'z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier, 0} ||
+        key == KeyPress{'y', juce::ModifierKeys::commandModifier, 0})
         return desk_.undoManager().redo(), true;
     return world_.keyPressed(key);
 }
@@ -186,8 +195,10 @@ void MixerView::paintOverChildren(juce::Graphics& g) {
         g.drawRect(getLocalBounds(), 3);
     }
     if (!isHintShown_) return;
-    static const juce::StringArray lines{"Hold the actuators: they start quietly, a quarter of full scale.", "Drag a ball to throw it. The bar at the left draws balls, walls and joints.",
-                                         "Esc silences everything. More is in the menu, at the top left."};
+    static const juce::StringArray lines{
+        "Hold the actuators: they start quietly, a quarter of full scale.",
+        "Drag a ball to throw it. The bar at the left draws balls, walls and joints.",
+        "Esc silences everything. More is in the menu, at the top left."};
     const juce::Font font{text::medium};
     const auto at = world_.getBounds().withSizeKeepingCentre(590, 34 + 26 * lines.size());
     g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));

@@ -12,7 +12,10 @@
 
 namespace physvib {
 
-class MixerView final : public juce::Component, public juce::DragAndDropContainer, private juce::ChangeListener, private juce::Timer {
+class MixerView final : public juce::Component,
+                        public juce::DragAndDropContainer,
+                        private juce::ChangeListener,
+                        private juce::Timer {
 public:
     static constexpr int framesPerSecond = 30, restFramesPerSecond = 5, leastWidth = 1040, leastHeight = 640;
 
@@ -40,7 +43,8 @@ public:
     /// A file that is dragged over the window may be dropped here.
     void setDropShown(bool isShown);
     /// What leaves the window by a drag: files, if it is what was played.
-    bool shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details, juce::StringArray& files, bool& canMoveFiles) override;
+    bool shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
+                                              juce::StringArray& files, bool& canMoveFiles) override;
 
     void mouseDown(const juce::MouseEvent&) override { setHint(false); }
     bool keyPressed(const juce::KeyPress& key) override;

@@ -19,7 +19,7 @@ OscUse oscUseNamed(const juce::String& name) {
     return found == oscUseNames.end() ? OscUse::off : static_cast<OscUse>(found - oscUseNames.begin());
 }
 
-constexpr const char* chosenSetting = "device-chosen"; // a person has said where, or that nowhere
+constexpr const char* chosenSetting = "device-chosen";          // a person has said where, or that nowhere
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system says
 /// Of borders and a title bar: the window manager says how wide they are when the window is there.
 constexpr juce::Point<int> frameRoom{8, 40};
@@ -27,14 +27,21 @@ constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::Modi
 
 } // namespace
 
-MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file, const juce::File& folder)
+MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file,
+                         const juce::File& folder)
     : juce::DocumentWindow{"PhysVib mixer", palette::ground, allButtons, false}
     , types_{std::move(types)}
     , files_{folder} {
     auto& settings = files_.settings();
-    device_ = {device.isNotEmpty() ? device.toStdString() : settings.getValue("device", juce::String{noDeviceType} + ":" + noDeviceName).toStdString(),
-               settings.getIntValue("rate"), settings.getIntValue("block"), settings.getValue("board").toStdString()};
-    if (const int left = settings.getIntValue("monitor-left"), right = settings.getIntValue("monitor-right"); left > 0 && right > 0) device_.monitor = {left - 1, right - 1};
+    device_ = {
+        device.isNotEmpty()
+            ? device.toStdString()
+            : settings.getValue("device", juce::String{noDeviceType} + ":" + noDeviceName).toStdString(),
+        settings.getIntValue("rate"), settings.getIntValue("block"),
+        settings.getValue("board").toStdString()};
+    if (const int left = settings.getIntValue("monitor-left"), right = settings.getIntValue("monitor-right");
+        left > 0 && right > 0)
+        device_.monitor = {left - 1, right - 1};
     device_.monitorDb = settings.getDoubleValue("monitor-db", safeContactDb);
     device_.marker = settings.getIntValue("marker") - 1;
     device_.pad = settings.getValue("controller").toStdString();
@@ -47,13 +54,15 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     setResizeLimits(MixerView::leastWidth, MixerView::leastHeight, 7680, 4320);
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
         const auto room = display->userArea;
-        centreWithSize(std::min(1440, room.getWidth() - frameRoom.x), std::min(900, room.getHeight() - frameRoom.y));
+        centreWithSize(std::min(1440, room.getWidth() - frameRoom.x),
+                       std::min(900, room.getHeight() - frameRoom.y));
     }
     addToDesktop();
     setVisible(true);
     view_->grabKeyboardFocus();
     const auto& chosen = settings.getValue("device");
-    const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) && (chosen.isEmpty() || chosen.startsWith(juce::String{noDeviceType} + ":"));
+    const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) &&
+                         (chosen.isEmpty() || chosen.startsWith(juce::String{noDeviceType} + ":"));
     if (isFirst && !endedBadly)
         juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
             if (safe != nullptr) safe->showFirstStart();
@@ -94,21 +103,26 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
     savedEdits_ = desk_->edits();
     view_->topBar().onMenu = [this](juce::Component& from) { showMenu(from); };
     view_->topBar().onRecord = [this] { record(); };
-    desk_->device().onBoardWanted = [safe = juce::Component::SafePointer<MixerWindow>{this}](const DeviceChoice& choice) {
-        juce::MessageManager::callAsync([safe, choice] { // the tab that asked goes with its desk
-            if (safe != nullptr) safe->useBoard(choice);
-        });
-    };
+    desk_->device().onBoardWanted =
+        [safe = juce::Component::SafePointer<MixerWindow>{this}](const DeviceChoice& choice) {
+            juce::MessageManager::callAsync([safe, choice] { // the tab that asked goes with its desk
+                if (safe != nullptr) safe->useBoard(choice);
+            });
+        };
     view_->topBar().onOpenScene = [this] { import("Scene"); };
     view_->topBar().setOwnScenes(files_.ownScenes());
     view_->topBar().onOwnScene = [this](const juce::File& own) { openFile(own); };
     desk_->recording().onEnd = [this](const juce::File& file, const juce::String& error) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
-        if (error.isEmpty()) desk_->tell("Recorded " + file.getFullPathName() + ", and its events beside it");
-        else say(file.getFileName() + ": " + error);
+        if (error.isEmpty())
+            desk_->tell("Recorded " + file.getFullPathName() + ", and its events beside it");
+        else
+            say(file.getFileName() + ": " + error);
     };
-    OscChoice osc{oscUseNamed(files_.settings().getValue("osc")), files_.settings().getValue("osc-to").toStdString(), files_.settings().getDoubleValue("osc-turn")};
+    OscChoice osc{oscUseNamed(files_.settings().getValue("osc")),
+                  files_.settings().getValue("osc-to").toStdString(),
+                  files_.settings().getDoubleValue("osc-turn")};
     if (const auto error = desk_->inputs().use(osc); !error.empty()) {
         osc.receiver.clear(); // a name that is not known today
         desk_->inputs().use(osc);
@@ -167,14 +181,16 @@ void MixerWindow::tellInstead() {
     if (desk_->trouble().isEmpty() || wanted.starts_with(std::string{noDeviceType} + ":")) return;
     for (const auto& there : byLikelihood(listAudioDevices(types_)))
         if (there.type != noDeviceType && there.type + ":" + there.name != wanted)
-            return desk_->report(desk_->trouble() + "; there is " + utf8(there.type + ": " + there.name) + " (" + juce::String{there.channels} + " outputs) instead, under Output");
+            return desk_->report(desk_->trouble() + "; there is " + utf8(there.type + ": " + there.name) +
+                                 " (" + juce::String{there.channels} + " outputs) instead, under Output");
 }
 
 void MixerWindow::nameWindow() {
-    const auto name = document_ == juce::File{} ? juce::String{"new session"} : document_.getFileNameWithoutExtension();
-    const auto title =
-        name + (isChanged() ? " *" : "") + " - PhysVib mixer"; // a dash of ASCII: on X11, JUCE gives other
-                                                               // letters to the window manager as Latin-1
+    const auto name =
+        document_ == juce::File{} ? juce::String{"new session"} : document_.getFileNameWithoutExtension();
+    const auto title = name + (isChanged() ? " *" : "") + " - PhysVib mixer"; // a dash of ASCII: on X11, JUCE
+                                                                              // gives other letters to the
+                                                                              // window manager as Latin-1
     if (title != getName()) setName(title);
 }
 
@@ -192,7 +208,9 @@ void MixerWindow::timerCallback() {
     settings.setValue("osc", oscUseNames[static_cast<std::size_t>(desk_->inputs().choice().use)]);
     settings.setValue("osc-to", utf8(desk_->inputs().choice().receiver));
     settings.setValue("osc-turn", desk_->inputs().choice().turnDegrees);
-    for (const std::size_t ear : {0u, 1u}) settings.setValue(ear == 0 ? "monitor-left" : "monitor-right", device_.monitor.size() > ear ? device_.monitor[ear] + 1 : 0);
+    for (const std::size_t ear : {0u, 1u})
+        settings.setValue(ear == 0 ? "monitor-left" : "monitor-right",
+                          device_.monitor.size() > ear ? device_.monitor[ear] + 1 : 0);
     settings.setValue("monitor-db", device_.monitorDb);
     settings.setValue("marker", device_.marker + 1);
     settings.setValue("clip-ending", hitEndings()[dragged_->ending()]);
@@ -217,9 +235,12 @@ Mix MixerWindow::firstMix() {
 // Once, to whoever may have headphones where others have actuators.
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
-    if (settings.getBoolValue("monitor-offered") || desk_->device().outputs() != 2 || !device_.board.empty() || !device_.monitor.empty()) return;
+    if (settings.getBoolValue("monitor-offered") || desk_->device().outputs() != 2 ||
+        !device_.board.empty() || !device_.monitor.empty())
+        return;
     settings.setValue("monitor-offered", true);
-    desk_->tell("This device has two outputs. With headphones there, what is felt can be heard: choose Monitor under Output");
+    desk_->tell("This device has two outputs. With headphones there, what is felt can be heard: choose "
+                "Monitor under Output");
 }
 
 // Not while a study covers the desk: its stimuli are felt through it.
@@ -251,19 +272,29 @@ void MixerWindow::setDisplayWidth(double mm) {
 
 // What the system says of a display is often made up.
 void MixerWindow::askDisplayWidth() {
-    const double now = 1e3 * displayOf(*view_).getWidth() / screenPixelsPerMetre(*view_, desk_->displayWidthMetres());
-    auto* window = new juce::AlertWindow{"Width of the display", "Drags in the world are measured in metres of the screen. Measure its picture from left to right, in mm; empty: as the system says.",
+    const double now =
+        1e3 * displayOf(*view_).getWidth() / screenPixelsPerMetre(*view_, desk_->displayWidthMetres());
+    auto* window = new juce::AlertWindow{"Width of the display",
+                                         "Drags in the world are measured in metres of the screen. Measure "
+                                         "its picture from left to right, in mm; empty: as the system says.",
                                          juce::MessageBoxIconType::NoIcon, this};
     window->addTextEditor("mm", number(now, 0), "mm");
     window->addButton("Set", 1, juce::KeyPress{juce::KeyPress::returnKey});
     window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    window->enterModalState(true, juce::ModalCallbackFunction::create([safe = juce::Component::SafePointer<MixerWindow>{this}, window](int answer) {
-        if (answer == 0 || safe == nullptr) return;
-        const auto words = window->getTextEditorContents("mm").trim();
-        const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
-        if (words.isEmpty() || isDisplayWidth(1e-3 * mm)) safe->setDisplayWidth(mm);
-        else safe->say("Width of the display: expected " + number(1e3 * leastDisplayMetres, 0) + " to " + number(1e3 * mostDisplayMetres, 0) + " mm, found " + words);
-    }), true);
+    window->enterModalState(
+        true,
+        juce::ModalCallbackFunction::create(
+            [safe = juce::Component::SafePointer<MixerWindow>{this}, window](int answer) {
+                if (answer == 0 || safe == nullptr) return;
+                const auto words = window->getTextEditorContents("mm").trim();
+                const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
+                if (words.isEmpty() || isDisplayWidth(1e-3 * mm))
+                    safe->setDisplayWidth(mm);
+                else
+                    safe->say("Width of the display: expected " + number(1e3 * leastDisplayMetres, 0) +
+                              " to " + number(1e3 * mostDisplayMetres, 0) + " mm, found " + words);
+            }),
+        true);
 }
 
 bool MixerWindow::keyPressed(const juce::KeyPress& key) {
@@ -283,7 +314,8 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
 void MixerWindow::showMenu(juce::Component& from) {
     auto& undo = desk_->undoManager();
     juce::PopupMenu menu, look, recent;
-    const auto item = [&menu](const juce::String& name, const juce::String& keys, std::function<void()> act, bool isEnabled = true) {
+    const auto item = [&menu](const juce::String& name, const juce::String& keys, std::function<void()> act,
+                              bool isEnabled = true) {
         juce::PopupMenu::Item i{name};
         i.shortcutKeyDescription = keys;
         i.action = std::move(act);
@@ -303,8 +335,12 @@ void MixerWindow::showMenu(juce::Component& from) {
         "Sessions left behind" + dots(), {}, [this] { offerRecovery(); },
         !files_.copies().leftBehind().empty());
     menu.addSeparator();
-    item(undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z", [&undo] { undo.undo(); }, undo.canUndo());
-    item(undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z", [&undo] { undo.redo(); }, undo.canRedo());
+    item(
+        undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z",
+        [&undo] { undo.undo(); }, undo.canUndo());
+    item(
+        undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z",
+        [&undo] { undo.redo(); }, undo.canRedo());
     menu.addSeparator();
     juce::PopupMenu fresh;
     fresh.addItem("Empty", [this] { newScene(SceneGround::empty); });

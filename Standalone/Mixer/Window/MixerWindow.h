@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window on the screen with its document: open, save, record, render, and what is asked before anything is lost.
+// The window on the screen with its document: open, save, record, render, and what is asked before anything
+// is lost.
 #pragma once
 #include "Mixer/Output/HitFiles.h"
 #include "Mixer/Window/MixerFiles.h"
@@ -9,11 +10,14 @@
 
 namespace physvib {
 
-class MixerWindow final : public juce::DocumentWindow, public juce::FileDragAndDropTarget, private juce::Timer {
+class MixerWindow final : public juce::DocumentWindow,
+                          public juce::FileDragAndDropTarget,
+                          private juce::Timer {
 public:
-    /// `file` is opened (see openFile), or will be made when it is saved; none: a new session. A device that is named replaces the one
-    /// of the settings.
-    MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file, const juce::File& folder = mixerFolder());
+    /// `file` is opened (see openFile), or will be made when it is saved; none: a new session. A device that
+    /// is named replaces the one of the settings.
+    MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file,
+                const juce::File& folder = mixerFolder());
     ~MixerWindow() override;
 
     // What the menu does. M.
@@ -24,17 +28,17 @@ public:
     void openFile(const juce::File& file);
     void save();
     void saveAs();
-    void record(); ///< starts or ends
-    void renderOffline();            ///< asks for the length and the file
+    void record();        ///< starts or ends
+    void renderOffline(); ///< asks for the length and the file
     void renderTo(const juce::File& file, double seconds);
     void saveMovie(); ///< of the last minute; asks for the file
     void saveMovieTo(const juce::File& file, double seconds);
     void import(const juce::String& title); ///< a scene or a layout
     void exportLayout();
-    void saveScene(bool isNow);         ///< asks for the file; as drawn, or with bodies where they are now
+    void saveScene(bool isNow); ///< asks for the file; as drawn, or with bodies where they are now
     std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or what is wrong
-    void recordScript(); ///< of what hands do in the world: starts or ends
-    void newScene(SceneGround ground);  ///< in the field, with the materials of the present one
+    void recordScript();               ///< of what hands do in the world: starts or ends
+    void newScene(SceneGround ground); ///< in the field, with the materials of the present one
     /// Asks if something would be lost, then quits.
     void requestQuit();
 
@@ -97,8 +101,8 @@ private:
     std::unique_ptr<Desk> desk_;
     std::unique_ptr<MixerView> view_;
     juce::File document_, lastRecording_;
-    std::optional<Mix> asked_; // of the last file, if it was lowered
-    std::optional<DeskLimits> before_; // the desk of a run that ended badly
+    std::optional<Mix> asked_;                              // of the last file, if it was lowered
+    std::optional<DeskLimits> before_;                      // the desk of a run that ended badly
     static constexpr std::uint64_t neverSaved = UINT64_MAX; // as no count of edits
     std::uint64_t savedEdits_ = 0;
     std::unique_ptr<juce::FileChooser> chooser_;

@@ -34,7 +34,8 @@ juce::Path pathOf(Sign sign) {
         wave.startNewSubPath(-9.0f, 0.0f);
         for (int k = 1; k <= 54; ++k) {
             const float t = static_cast<float>(k) / 54.0f;
-            wave.lineTo(-9.0f + 18.0f * t, -4.5f * std::sin(juce::MathConstants<float>::twoPi * (0.7f * t + 2.0f * t * t)));
+            wave.lineTo(-9.0f + 18.0f * t,
+                        -4.5f * std::sin(juce::MathConstants<float>::twoPi * (0.7f * t + 2.0f * t * t)));
         }
         juce::PathStrokeType{1.6f}.createStrokedPath(p, wave);
     }
@@ -112,7 +113,9 @@ std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const j
 void onSlide(juce::Slider& slider, std::function<void(bool)> use) {
     const auto isFirst = std::make_shared<bool>(true);
     slider.onDragStart = [isFirst] { *isFirst = true; };
-    slider.onValueChange = [&slider, isFirst, use = std::move(use)] { use(slider.isMouseButtonDown() && !std::exchange(*isFirst, false)); };
+    slider.onValueChange = [&slider, isFirst, use = std::move(use)] {
+        use(slider.isMouseButtonDown() && !std::exchange(*isFirst, false));
+    };
 }
 
 void prepareControls(juce::Component& root) {
@@ -120,7 +123,8 @@ void prepareControls(juce::Component& root) {
     if (slider != nullptr) slider->setWantsKeyboardFocus(true);
     // also one that is disabled now, and wants no focus
     const bool isBox = dynamic_cast<juce::ComboBox*>(&root) != nullptr;
-    const bool isControl = slider != nullptr || isBox || root.getWantsKeyboardFocus() || dynamic_cast<juce::Button*>(&root) != nullptr;
+    const bool isControl = slider != nullptr || isBox || root.getWantsKeyboardFocus() ||
+                           dynamic_cast<juce::Button*>(&root) != nullptr;
     if (isControl && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
     if (slider == nullptr && !isBox) // their parts are theirs
         for (auto* child : root.getChildren()) prepareControls(*child);

@@ -17,9 +17,7 @@ using Lock = SystemFile::Lock;
 
 constexpr std::string_view prefix = "recovery-";
 
-fs::path lockOf(fs::path copy) {
-    return copy.replace_extension(".lock");
-}
+fs::path lockOf(fs::path copy) { return copy.replace_extension(".lock"); }
 
 std::vector<fs::path> filesOf(const fs::path& folder, std::string_view ending) {
     std::vector<fs::path> found;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // States are reached as a person would reach them, with a clock instead of a device.
 #include "Mixer/Window/Shots.h"
+#include "Host/Devices/NoDevice.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Scene/SceneCatalogue.h"
-#include "Scene/Sessions/StripGroups.h"
 #include "Mixer/Materials/MaterialShots.h"
 #include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/Studies/StudyShots.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
-#include "Mixer/Studies/StudyShots.h"
-#include "Host/Devices/NoDevice.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/Sessions/StripGroups.h"
 #include <functional>
 
 namespace physvib {
@@ -40,7 +40,9 @@ juce::Component* find(juce::Component& root, const juce::String& title) {
 }
 
 void showScene(Desk& desk, const char* name) {
-    desk.change("Scene", [name](Mix& m) { m.scene = std::make_shared<const Scene>(*findBuiltInScene(name)), m.levelDb = -3.0; });
+    desk.change("Scene", [name](Mix& m) {
+        m.scene = std::make_shared<const Scene>(*findBuiltInScene(name)), m.levelDb = -3.0;
+    });
 }
 
 void showSurface(Desk& desk, MixerView& view, const std::string& material) {
@@ -48,17 +50,20 @@ void showSurface(Desk& desk, MixerView& view, const std::string& material) {
     view.tabs().choose("Materials");
     const auto& materials = desk.world().scene().materials;
     if (auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials")))
-        tab->choose(static_cast<int>(std::ranges::find(materials, material, &Material::name) - materials.begin()));
+        tab->choose(
+            static_cast<int>(std::ranges::find(materials, material, &Material::name) - materials.begin()));
 }
 
 // For so long, and then until something has been struck: a picture without a hit says little.
 void runFor(double seconds, MixerView& view) {
     const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds;
     bool isStruck = false;
-    while (juce::Time::getMillisecondCounterHiRes() < end || (!isStruck && juce::Time::getMillisecondCounterHiRes() < end + 10e3)) {
+    while (juce::Time::getMillisecondCounterHiRes() < end ||
+           (!isStruck && juce::Time::getMillisecondCounterHiRes() < end + 10e3)) {
         juce::Thread::sleep(33);
         view.refresh();
-        isStruck = std::ranges::any_of(view.latest().hits, [](const CollisionEvent& e) { return std::abs(e.amplitude) > 0.15; });
+        isStruck = std::ranges::any_of(view.latest().hits,
+                                       [](const CollisionEvent& e) { return std::abs(e.amplitude) > 0.15; });
     }
     for (int k = 0; k < 2; ++k) juce::Thread::sleep(33), view.refresh();
 }
@@ -73,7 +78,12 @@ void chooseContacts(MixerView& view) {
 
 void showFirstStart(Desk& desk, MixerView& view) {
     const DeviceChoice none{std::string{noDeviceType} + ":" + noDeviceName};
-    view.setFirstStart(std::make_unique<FirstStart>(desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8}, {"Game controller: DualSense", none, 2, true}, {"Headphones: ALSA:Built-in Audio", none, 2, false, true}, {"ALSA: Built-in Audio, 2 outputs: two actuators", none, 2}, {"No device: seen, not felt", none, 0}}));
+    view.setFirstStart(std::make_unique<FirstStart>(
+        desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8},
+                                      {"Game controller: DualSense", none, 2, true},
+                                      {"Headphones: ALSA:Built-in Audio", none, 2, false, true},
+                                      {"ALSA: Built-in Audio, 2 outputs: two actuators", none, 2},
+                                      {"No device: seen, not felt", none, 0}}));
 }
 
 // Two hands; one of them and a strip rise and fall.
@@ -95,27 +105,46 @@ void showLanes(Desk& desk, MixerView& view) {
 std::vector<State> mixerStates() {
     return {
         {"first-start", 1440, 900, 2.0, [](Desk& d, MixerView& v) { showFirstStart(d, v); }},
-        {"first-test", 1440, 900, 0.2, [](Desk& d, MixerView& v) { showFirstStart(d, v), v.firstStart()->test(4), v.firstStart()->felt(); }},
-        {"four-enchanters", 1440, 900, 4.0, [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
+        {"first-test", 1440, 900, 0.2,
+         [](Desk& d, MixerView& v) {
+             showFirstStart(d, v), v.firstStart()->test(4), v.firstStart()->felt();
+         }},
+        {"four-enchanters", 1440, 900, 4.0,
+         [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
         {"materials", 1440, 900, 0.2, showMaterials},
-        {"materials-small", MixerView::leastWidth, MixerView::leastHeight, 0.2, [](Desk& d, MixerView& v) { v.setGround(Ground::light), showMaterials(d, v); }},
+        {"materials-small", MixerView::leastWidth, MixerView::leastHeight, 0.2,
+         [](Desk& d, MixerView& v) { v.setGround(Ground::light), showMaterials(d, v); }},
         {"events", 1440, 900, 0.5, [](Desk&, MixerView& v) { chooseContacts(v); }},
-        {"marbles", 1440, 900, 4.0, [](Desk& d, MixerView& v) { showScene(d, "marbles"), v.scope().choose("Events"); }},
-        {"drawing", 1440, 900, 7.2, [](Desk& d, MixerView& v) { showScene(d, "drawing"), showSurface(d, v, "cloth"); }},
+        {"marbles", 1440, 900, 4.0,
+         [](Desk& d, MixerView& v) { showScene(d, "marbles"), v.scope().choose("Events"); }},
+        {"drawing", 1440, 900, 7.2,
+         [](Desk& d, MixerView& v) { showScene(d, "drawing"), showSurface(d, v, "cloth"); }},
         {"telemetry", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Telemetry"); }},
-        {"output", 1440, 900, 3.0, [](Desk& d, MixerView& v) { d.device().listening().monitor({4, 5}, safeContactDb), d.device().listening().mark(7), v.tabs().choose("Output"); }},
+        {"output", 1440, 900, 3.0,
+         [](Desk& d, MixerView& v) {
+             d.device().listening().monitor({4, 5}, safeContactDb), d.device().listening().mark(7),
+                 v.tabs().choose("Output");
+         }},
         {"board", 1440, 900, 4.5, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }, "/dev/ttyACM0"},
         {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
         {"lanes", 1440, 900, 6.0, showLanes},
         {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},
-        {"error", 1440, 900, 2.0, [](Desk& d, MixerView&) { d.report("session.json: takes[0].scene.bodies[4].fixtures[0].radius_m: expected 0.01 to 100, found 0"); }},
-        {"six-enchanters", 1440, 900, 3.0, [](Desk& d, MixerView& v) {
+        {"error", 1440, 900, 2.0,
+         [](Desk& d, MixerView&) {
+             d.report("session.json: takes[0].scene.bodies[4].fixtures[0].radius_m: expected 0.01 to 100, "
+                      "found 0");
+         }},
+        {"six-enchanters", 1440, 900, 3.0,
+         [](Desk& d, MixerView& v) {
              d.attach(0.5, 0.5);
              d.attach(0.5, 1.0);
-             d.change("Mute", [](Mix& m) { m.strips[2].isMuted = true, m.strips[3].isInverted = true, m.strips[1].delayMs = 5.0; });
+             d.change("Mute", [](Mix& m) {
+                 m.strips[2].isMuted = true, m.strips[3].isInverted = true, m.strips[1].delayMs = 5.0;
+             });
              d.dispatchPendingMessages();
              if (auto* list = dynamic_cast<juce::ListBox*>(find(v, "List of actuators"))) list->selectRow(4);
-             if (auto* maps = dynamic_cast<juce::Button*>(find(v, "Map of the chosen actuator"))) maps->setToggleState(true, juce::sendNotificationSync);
+             if (auto* maps = dynamic_cast<juce::Button*>(find(v, "Map of the chosen actuator")))
+                 maps->setToggleState(true, juce::sendNotificationSync);
          }},
     };
 }
@@ -146,7 +175,8 @@ juce::String takeShot(const juce::File& file, const juce::String& name, const ju
         return "--size: expected WIDTHxHEIGHT of at least " + juce::String{MixerView::leastWidth} + "x" +
                juce::String{MixerView::leastHeight} + ", found \"" + size + "\"";
     const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
-    if (state == states().end()) return "--state: expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
+    if (state == states().end())
+        return "--state: expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
     Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->board}};
     MixerView view{desk};
     view.setSize(size.isEmpty() ? state->width : wide, size.isEmpty() ? state->height : high);
@@ -157,7 +187,8 @@ juce::String takeShot(const juce::File& file, const juce::String& name, const ju
     const auto image = view.createComponentSnapshot(view.getLocalBounds(), true, 1.0f);
     juce::MemoryOutputStream png;
     juce::PNGImageFormat{}.writeImageToStream(image, png);
-    return utf8(writeFile(file.getFullPathName().toStdString(), {static_cast<const char*>(png.getData()), png.getDataSize()}));
+    return utf8(writeFile(file.getFullPathName().toStdString(),
+                          {static_cast<const char*>(png.getData()), png.getDataSize()}));
 }
 
 } // namespace physvib

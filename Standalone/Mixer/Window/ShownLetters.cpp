@@ -13,7 +13,7 @@ bool ShownLetters::show(const juce::String& words) {
     if (hasLetters({}, fresh)) return false;
     const auto typeface = typefaceFor(letters_);
     if (!typeface) return false; // boxes, as none is installed
-    font_.reset(); // one at a time
+    font_.reset();               // one at a time
     font_ = std::make_unique<StudyFont>(*typeface);
     return true;
 }

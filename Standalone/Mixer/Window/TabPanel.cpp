@@ -8,7 +8,9 @@ namespace {
 
 constexpr int widestRest = 60; // beside a name
 
-int widthOf(const juce::String& name) { return juce::Font{text::medium, juce::Font::bold}.getStringWidth(name) + 6; }
+int widthOf(const juce::String& name) {
+    return juce::Font{text::medium, juce::Font::bold}.getStringWidth(name) + 6;
+}
 
 } // namespace
 
@@ -81,7 +83,9 @@ void TabPanel::resized() {
     int rest = names.getWidth();
     for (auto& page : pages_) rest -= widthOf(page.name->getName());
     rest = juce::jlimit(0, widestRest, rest / static_cast<int>(pages_.size()));
-    for (auto& page : pages_) page.name->setBounds(names.removeFromLeft(widthOf(page.name->getName()) + rest).withTrimmedRight(rest / 3));
+    for (auto& page : pages_)
+        page.name->setBounds(
+            names.removeFromLeft(widthOf(page.name->getName()) + rest).withTrimmedRight(rest / 3));
     area.removeFromTop(10);
     for (auto& page : pages_) page.tab->setBounds(area);
 }

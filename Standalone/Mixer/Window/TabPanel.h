@@ -9,7 +9,7 @@ namespace physvib {
 /// A page of the panel. To add one, derive from it and name it in MixerView's constructor.
 class Tab : public juce::Component {
 public:
-    virtual void takeMix() {}                     ///< the desk has changed
+    virtual void takeMix() {}                  ///< the desk has changed
     virtual void refresh(const DeskMoment&) {} ///< while it is shown, at most about 30 times a second
 };
 

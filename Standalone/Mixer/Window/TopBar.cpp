@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bar's controls and its numbers.
 #include "Mixer/Window/TopBar.h"
-#include "Scene/SceneCatalogue.h"
 #include "Host/Devices/NoDevice.h"
+#include "Scene/SceneCatalogue.h"
 
 namespace physvib {
 
@@ -14,10 +14,14 @@ constexpr std::array<int, 4> paces{1, 2, 4, 8};
 
 juce::String clock(std::int64_t ns) {
     const auto hundredths = ns / 10'000'000;
-    return juce::String{hundredths / 6000}.paddedLeft('0', 2) + ":" + juce::String{hundredths / 100 % 60}.paddedLeft('0', 2) + "." + juce::String{hundredths % 100}.paddedLeft('0', 2);
+    return juce::String{hundredths / 6000}.paddedLeft('0', 2) + ":" +
+           juce::String{hundredths / 100 % 60}.paddedLeft('0', 2) + "." +
+           juce::String{hundredths % 100}.paddedLeft('0', 2);
 }
 
-juce::String count(std::uint64_t n, const char* what) { return number(static_cast<double>(n), 0) + " " + what; }
+juce::String count(std::uint64_t n, const char* what) {
+    return number(static_cast<double>(n), 0) + " " + what;
+}
 
 const juce::String disc = juce::String::charToString(0x25cf) + " ";
 const juce::String dot = juce::String::charToString(0x00b7);
@@ -32,7 +36,9 @@ TopBar::TopBar(Desk& desk)
     menu_.setTooltip("Open, save, record, render (F10)");
     menu_.getProperties().set(quietProperty, true);
     menu_.getProperties().set(titleProperty, true);
-    menu_.onClick = [this] { if (onMenu) onMenu(menu_); };
+    menu_.onClick = [this] {
+        if (onMenu) onMenu(menu_);
+    };
     scene_.setTitle("Scene");
     listScenes();
     scene_.onChange = [this] { chooseScene(); };
@@ -63,12 +69,16 @@ TopBar::TopBar(Desk& desk)
     record_.setTitle("Record");
     record_.setTooltip("Record what is played, and every event (Ctrl+R)");
     record_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::limit.getARGB()));
-    record_.onClick = [this] { if (onRecord) onRecord(); };
+    record_.onClick = [this] {
+        if (onRecord) onRecord();
+    };
     silence_.getProperties().set(stopProperty, true);
     silence_.setTitle("Silence");
     silence_.setTooltip("Silence every actuator at once; again: play on (Esc)");
     silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&menu_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_, &seed_, &time_, &record_, &device_, &board_, &load_, &silence_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{
+             &menu_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_, &seed_, &time_, &record_,
+             &device_, &board_, &load_, &silence_})
         addAndMakeVisible(c);
     setRecording(false);
     takeMix();
@@ -87,7 +97,8 @@ void TopBar::listScenes() {
     scene_.clear(juce::dontSendNotification);
     for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(titleOf(scene.name), id++);
     scene_.addSeparator();
-    for (int k = 0; k < own_.size(); ++k) scene_.addItem(own_[k].getFileNameWithoutExtension(), sceneFileId + 1 + k);
+    for (int k = 0; k < own_.size(); ++k)
+        scene_.addItem(own_[k].getFileNameWithoutExtension(), sceneFileId + 1 + k);
     scene_.addItem(juce::String::fromUTF8("Scene file\xe2\x80\xa6"), sceneFileId);
 }
 
@@ -110,7 +121,8 @@ void TopBar::takeMix() {
     scene_.setText(titleOf(mix.scene->name), juce::dontSendNotification);
     seed_.setText(juce::String{static_cast<juce::int64>(mix.seed)}, juce::dontSendNotification);
     const int slowness = desk_.session().world().slowness();
-    pause_.setSign(slowness == 0 ? Sign::play : Sign::pause, slowness == 0 ? "Let the world go on (Space)" : "Pause the world (Space)");
+    pause_.setSign(slowness == 0 ? Sign::play : Sign::pause,
+                   slowness == 0 ? "Let the world go on (Space)" : "Pause the world (Space)");
     pause_.setToggleState(slowness == 0, juce::dontSendNotification);
     step_.setEnabled(slowness == 0);
     slow_.setButtonText(slowness < 2 ? juce::String::fromUTF8("1\xc3\x97") : "1/" + juce::String{slowness});
@@ -132,20 +144,32 @@ void TopBar::refresh(const DeskMoment& moment) {
     const auto& output = desk_.output();
     const auto name = juce::String::fromUTF8(output.device().c_str());
     const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
-    const auto numbers = number(output.sampleRateHz() / 1000.0, output.sampleRateHz() % 1000 == 0 ? 0 : 1) + " kHz";
-    if (!moment.device.isRunning) device_.set("No sound", desk_.trouble(), Shade::limit);
+    const auto numbers =
+        number(output.sampleRateHz() / 1000.0, output.sampleRateHz() % 1000 == 0 ? 0 : 1) + " kHz";
+    if (!moment.device.isRunning)
+        device_.set("No sound", desk_.trouble(), Shade::limit);
     else
-        device_.set(dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
-                    "felt " + number(1e3 * desk_.device().playOutSeconds(), 0) + " ms after the contact", isNone ? Shade::now : Shade::text);
+        device_.set(
+            dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
+            "felt " + number(1e3 * desk_.device().playOutSeconds(), 0) + " ms after the contact",
+            isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
     const auto& r = moment.session.render;
     const auto lost = desk_.session().world().drops() + r.untold;
-    load_.set("Load " + number(100.0 * moment.device.load, 1) + " %", dotted({count(r.late, "late"), count(lost, "dropped")}), r.late + lost > 0 ? Shade::now : Shade::text);
+    load_.set("Load " + number(100.0 * moment.device.load, 1) + " %",
+              dotted({count(r.late, "late"), count(lost, "dropped")}),
+              r.late + lost > 0 ? Shade::now : Shade::text);
     const auto sinks = desk_.session().sinks().states();
     const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
     const auto sink = sinks.empty() ? juce::String{"Board"} : titleOf(sinks.front().name);
-    board_.set(sink + (sinks.empty() ? ": none" : areReady ? ": ready" : ": not there"), count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
-               sinks.empty() ? Shade::muted : areReady ? Shade::accent : Shade::limit);
+    board_.set(
+        sink + (sinks.empty() ? ": none"
+                : areReady    ? ": ready"
+                              : ": not there"),
+        count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
+        sinks.empty() ? Shade::muted
+        : areReady    ? Shade::accent
+                      : Shade::limit);
 }
 
 void TopBar::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::panel)); }
@@ -160,7 +184,9 @@ void TopBar::resized() {
     area.removeFromLeft(between);
     scene_.setBounds(area.removeFromLeft(isWide ? 176 : 128));
     area.removeFromLeft(between);
-    for (juce::Component* button : std::initializer_list<juce::Component*>{&pause_, &step_, &slow_, &restart_}) button->setBounds(area.removeFromLeft(isWide ? 36 : 32)), area.removeFromLeft(isWide ? 6 : 4);
+    for (juce::Component* button :
+         std::initializer_list<juce::Component*>{&pause_, &step_, &slow_, &restart_})
+        button->setBounds(area.removeFromLeft(isWide ? 36 : 32)), area.removeFromLeft(isWide ? 6 : 4);
     area.removeFromLeft(isWide ? 6 : 0);
     seedName_.setBounds(area.removeFromLeft(isWide ? 40 : 0));
     seed_.setBounds(area.removeFromLeft(isWide ? 44 : 34));

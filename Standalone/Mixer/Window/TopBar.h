@@ -32,7 +32,8 @@ private:
     int looks_ = 0;
     juce::TextButton menu_{"PhysVib"}, slow_, record_, silence_{"SILENCE  Esc"};
     juce::ComboBox scene_;
-    SignButton pause_{Sign::pause, "Pause the world"}, step_{Sign::step, "One step of the world"}, restart_{Sign::restart, "Start the scene anew"};
+    SignButton pause_{Sign::pause, "Pause the world"}, step_{Sign::step, "One step of the world"},
+        restart_{Sign::restart, "Start the scene anew"};
     juce::Label seedName_, seed_, time_;
     TwoLines device_{"Device state"}, board_{"Board state"}, load_{"Load"};
 };

@@ -45,8 +45,10 @@ void DrawPane::grip(const juce::MouseEvent& e) {
     }
     auto next = chosen_;
     const auto place = std::ranges::find(next, *known);
-    if (e.mods.isShiftDown()) place == next.end() ? next.push_back(*known) : void(next.erase(place));
-    else if (place == next.end()) next = {*known};
+    if (e.mods.isShiftDown())
+        place == next.end() ? next.push_back(*known) : void(next.erase(place));
+    else if (place == next.end())
+        next = {*known};
     choose(next);
     grip_ = Grip::move;
 }

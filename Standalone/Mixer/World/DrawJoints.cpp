@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Joints between bodies, or to the field.
-#include "Mixer/World/DrawPane.h"
 #include "Mixer/Desk/DeskWords.h"
+#include "Mixer/World/DrawPane.h"
 #include "Scene/Drawing/DrawnBodies.h"
 #include <algorithm>
 

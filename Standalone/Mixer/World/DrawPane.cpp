@@ -19,7 +19,8 @@ void DrawPane::use(DrawTool tool) {
     stroke_.clear();
     isDrawing_ = false;
     setInterceptsMouseClicks(tool != DrawTool::hand, false);
-    setMouseCursor(tool == DrawTool::choose ? juce::MouseCursor::NormalCursor : juce::MouseCursor::CrosshairCursor);
+    setMouseCursor(tool == DrawTool::choose ? juce::MouseCursor::NormalCursor
+                                            : juce::MouseCursor::CrosshairCursor);
     if (tool != DrawTool::choose) chosen_.clear();
     if (onChange) onChange();
     repaint();
@@ -49,13 +50,17 @@ void DrawPane::takeMix() {
     const auto before = chosen_.size();
     std::erase_if(chosen_, [&](const std::string& name) { return drawing.find(name) == nullptr; });
     const auto& materials = drawing.drawn().materials;
-    if (material_ < 0) material_ = static_cast<int>(std::ranges::find_if(materials, [](const Material& m) { return m.frequencyHz > 0.0; }) - materials.begin());
+    if (material_ < 0)
+        material_ = static_cast<int>(
+            std::ranges::find_if(materials, [](const Material& m) { return m.frequencyHz > 0.0; }) -
+            materials.begin());
     if (material_ >= static_cast<int>(materials.size())) material_ = 0;
     if (before != chosen_.size() && onChange) onChange();
     repaint();
 }
 
-void DrawPane::changeChosen(const juce::String& name, const std::function<void(const Scene&, BodyDescription&)>& change, bool goesOn) {
+void DrawPane::changeChosen(const juce::String& name,
+                            const std::function<void(const Scene&, BodyDescription&)>& change, bool goesOn) {
     std::vector<Action> actions;
     for (const std::string& chosen : chosen_)
         if (const auto* body = desk_.world().drawing().find(chosen)) {
@@ -67,10 +72,13 @@ void DrawPane::changeChosen(const juce::String& name, const std::function<void(c
 }
 
 void DrawPane::edit(const juce::String& name, std::vector<Action> actions, bool goesOn) {
-    if (const auto fault = desk_.world().edit(name, std::move(actions), goesOn); !fault.empty()) desk_.report(name + ": " + utf8(fault));
+    if (const auto fault = desk_.world().edit(name, std::move(actions), goesOn); !fault.empty())
+        desk_.report(name + ": " + utf8(fault));
 }
 
-double DrawPane::grid() const { return snaps_ ? desk_.world().scene().fieldHeightMetres / gridsPerField : 0.0; }
+double DrawPane::grid() const {
+    return snaps_ ? desk_.world().scene().fieldHeightMetres / gridsPerField : 0.0;
+}
 Vector DrawPane::at(const juce::MouseEvent& e) const { return snapped(view_.metresAt(e.position), grid()); }
 
 std::optional<BodyPlace> DrawPane::placeNow(const std::string& name) const {
@@ -111,15 +119,21 @@ void DrawPane::mouseUp(const juce::MouseEvent& e) {
     if (!isDrawing_ || tool_ == DrawTool::polygon) return;
     isDrawing_ = false;
     const bool hasMoved = e.getDistanceFromDragStart() > 2;
-    if (isStroke(tool_)) add(drawnNow());
-    else if (isJoint(tool_)) join();
+    if (isStroke(tool_))
+        add(drawnNow());
+    else if (isJoint(tool_))
+        join();
     else if (tool_ == DrawTool::choose && hasMoved) {
-        if (grip_ == Grip::size) edit("Size", {changed(sizedNow())});
-        else if (grip_ == Grip::move || grip_ == Grip::turn) edit(grip_ == Grip::turn ? "Turn" : "Move", movedTo(desk_.world().drawing(), movedNow()));
+        if (grip_ == Grip::size)
+            edit("Size", {changed(sizedNow())});
+        else if (grip_ == Grip::move || grip_ == Grip::turn)
+            edit(grip_ == Grip::turn ? "Turn" : "Move", movedTo(desk_.world().drawing(), movedNow()));
         else if (grip_ == Grip::around && !stroke_.empty()) {
             std::vector<std::string> inside = e.mods.isShiftDown() ? chosen_ : std::vector<std::string>{};
             for (const auto& body : desk_.world().drawing().drawn().bodies)
-                if (const auto place = placeNow(body.name); place && (place->metres.x - stroke_[0].x) * (place->metres.x - to_.x) < 0.0 && (place->metres.y - stroke_[0].y) * (place->metres.y - to_.y) < 0.0)
+                if (const auto place = placeNow(body.name);
+                    place && (place->metres.x - stroke_[0].x) * (place->metres.x - to_.x) < 0.0 &&
+                    (place->metres.y - stroke_[0].y) * (place->metres.y - to_.y) < 0.0)
                     if (std::ranges::find(inside, body.name) == inside.end()) inside.push_back(body.name);
             choose(inside);
         }

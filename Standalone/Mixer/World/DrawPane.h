@@ -25,7 +25,8 @@ public:
     const std::vector<std::string>& chosen() const noexcept { return chosen_; } ///< names of bodies
     void choose(std::vector<std::string> names);
     /// Changes each chosen body where it is; one edit.
-    void changeChosen(const juce::String& name, const std::function<void(const Scene&, BodyDescription&)>& change, bool goesOn = false);
+    void changeChosen(const juce::String& name,
+                      const std::function<void(const Scene&, BodyDescription&)>& change, bool goesOn = false);
 
     std::function<void()> onChange; ///< tool, choice or material
 
@@ -67,7 +68,8 @@ private:
     std::string jointAt(juce::Point<float> place) const;
     Vector anchorNow(const JointDescription& joint, const Vector& anchor, const std::string& body) const;
     void drawJoints(juce::Graphics& g) const;
-    void drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place, juce::Colour colour, bool isFilled) const;
+    void drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,
+                     juce::Colour colour, bool isFilled) const;
     void drawChosen(juce::Graphics& g) const;
     void drawStroke(juce::Graphics& g) const;
 

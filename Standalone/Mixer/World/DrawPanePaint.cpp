@@ -8,7 +8,9 @@ namespace physvib {
 
 juce::Path signOf(DrawTool tool) {
     juce::Path p, line;
-    const auto stroke = [&p, &line](float width = 1.8f) { juce::PathStrokeType{width}.createStrokedPath(p, line); };
+    const auto stroke = [&p, &line](float width = 1.8f) {
+        juce::PathStrokeType{width}.createStrokedPath(p, line);
+    };
     switch (tool) {
     case DrawTool::hand: // what is thrown
         p.addEllipse(-8.0f, 0.0f, 8.0f, 8.0f);
@@ -16,7 +18,9 @@ juce::Path signOf(DrawTool tool) {
         break;
     case DrawTool::choose:
         p.startNewSubPath(-5.0f, -8.0f);
-        for (const auto& [x, y] : {std::pair{-5.0f, 6.0f}, {-1.5f, 2.8f}, {0.8f, 8.0f}, {3.2f, 7.0f}, {1.0f, 2.0f}, {5.5f, 2.0f}}) p.lineTo(x, y);
+        for (const auto& [x, y] :
+             {std::pair{-5.0f, 6.0f}, {-1.5f, 2.8f}, {0.8f, 8.0f}, {3.2f, 7.0f}, {1.0f, 2.0f}, {5.5f, 2.0f}})
+            p.lineTo(x, y);
         p.closeSubPath();
         break;
     case DrawTool::ball: p.addEllipse(-7.0f, -7.0f, 14.0f, 14.0f); break;
@@ -69,7 +73,8 @@ Vector DrawPane::anchorNow(const JointDescription&, const Vector& anchor, const 
     const auto* body = desk_.world().drawing().find(name);
     const auto place = placeNow(name);
     if (body == nullptr || !place) return anchor;
-    const double turned = place->angleRadians - body->angleRadians, c = std::cos(turned), s = std::sin(turned);
+    const double turned = place->angleRadians - body->angleRadians, c = std::cos(turned),
+                 s = std::sin(turned);
     const double x = anchor.x - body->positionMetres.x, y = anchor.y - body->positionMetres.y;
     return {place->metres.x + c * x - s * y, place->metres.y + s * x + c * y};
 }
@@ -77,14 +82,20 @@ Vector DrawPane::anchorNow(const JointDescription&, const Vector& anchor, const 
 std::string DrawPane::jointAt(juce::Point<float> place) const {
     constexpr float near = 8.0f;
     for (const auto& joint : desk_.world().drawing().drawn().joints) {
-        const bool isNear = std::visit([&](const auto& kind) {
-            if constexpr (requires { kind.anchorMetres; }) return view_.placeOfMetres(anchorNow(joint, kind.anchorMetres, joint.bodyA)).getDistanceFrom(place) < near;
-            else {
-                juce::Point<float> on;
-                const juce::Line<float> rope{view_.placeOfMetres(anchorNow(joint, kind.anchorAMetres, joint.bodyA)), view_.placeOfMetres(anchorNow(joint, kind.anchorBMetres, joint.bodyB))};
-                return rope.getDistanceFromPoint(place, on) < near;
-            }
-        }, joint.joint);
+        const bool isNear = std::visit(
+            [&](const auto& kind) {
+                if constexpr (requires { kind.anchorMetres; })
+                    return view_.placeOfMetres(anchorNow(joint, kind.anchorMetres, joint.bodyA))
+                               .getDistanceFrom(place) < near;
+                else {
+                    juce::Point<float> on;
+                    const juce::Line<float> rope{
+                        view_.placeOfMetres(anchorNow(joint, kind.anchorAMetres, joint.bodyA)),
+                        view_.placeOfMetres(anchorNow(joint, kind.anchorBMetres, joint.bodyB))};
+                    return rope.getDistanceFromPoint(place, on) < near;
+                }
+            },
+            joint.joint);
         if (isNear) return joint.name;
     }
     return {};
@@ -94,35 +105,47 @@ void DrawPane::drawJoints(juce::Graphics& g) const {
     for (const auto& joint : desk_.world().drawing().drawn().joints) {
         if (!placeNow(joint.bodyA) || !placeNow(joint.bodyB)) continue;
         g.setColour(shade(*this, Shade::text).withAlpha(tool_ == DrawTool::hand ? 0.45f : 0.9f));
-        const auto dot = [&](juce::Point<float> at, float radius) { g.fillEllipse(juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(at)); };
-        std::visit([&](const auto& kind) {
-            if constexpr (requires { kind.anchorMetres; }) {
-                const auto at = view_.placeOfMetres(anchorNow(joint, kind.anchorMetres, joint.bodyA));
-                dot(at, 3.0f);
-                if constexpr (requires { kind.maxForceNewtons; }) {
-                    const double length = kind.travelMetres ? kind.travelMetres->upper : 0.0, size = std::hypot(kind.axis.x, kind.axis.y);
-                    const Vector end{kind.anchorMetres.x + length * kind.axis.x / size, kind.anchorMetres.y + length * kind.axis.y / size};
-                    g.drawLine({at, view_.placeOfMetres(anchorNow(joint, end, joint.bodyA))}, 1.5f);
-                } else g.drawEllipse(juce::Rectangle<float>{12.0f, 12.0f}.withCentre(at), 1.4f);
-                if constexpr (requires { kind.maxTorqueNewtonMetres; })
-                    if (kind.maxTorqueNewtonMetres > 0.0) g.drawEllipse(juce::Rectangle<float>{17.0f, 17.0f}.withCentre(at), 1.4f);
-            } else {
-                const auto a = view_.placeOfMetres(anchorNow(joint, kind.anchorAMetres, joint.bodyA)), b = view_.placeOfMetres(anchorNow(joint, kind.anchorBMetres, joint.bodyB));
-                g.drawLine({a, b}, 1.8f);
-                dot(a, 3.0f);
-                dot(b, 3.0f);
-            }
-        }, joint.joint);
+        const auto dot = [&](juce::Point<float> at, float radius) {
+            g.fillEllipse(juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(at));
+        };
+        std::visit(
+            [&](const auto& kind) {
+                if constexpr (requires { kind.anchorMetres; }) {
+                    const auto at = view_.placeOfMetres(anchorNow(joint, kind.anchorMetres, joint.bodyA));
+                    dot(at, 3.0f);
+                    if constexpr (requires { kind.maxForceNewtons; }) {
+                        const double length = kind.travelMetres ? kind.travelMetres->upper : 0.0,
+                                     size = std::hypot(kind.axis.x, kind.axis.y);
+                        const Vector end{kind.anchorMetres.x + length * kind.axis.x / size,
+                                         kind.anchorMetres.y + length * kind.axis.y / size};
+                        g.drawLine({at, view_.placeOfMetres(anchorNow(joint, end, joint.bodyA))}, 1.5f);
+                    } else
+                        g.drawEllipse(juce::Rectangle<float>{12.0f, 12.0f}.withCentre(at), 1.4f);
+                    if constexpr (requires { kind.maxTorqueNewtonMetres; })
+                        if (kind.maxTorqueNewtonMetres > 0.0)
+                            g.drawEllipse(juce::Rectangle<float>{17.0f, 17.0f}.withCentre(at), 1.4f);
+                } else {
+                    const auto a = view_.placeOfMetres(anchorNow(joint, kind.anchorAMetres, joint.bodyA)),
+                               b = view_.placeOfMetres(anchorNow(joint, kind.anchorBMetres, joint.bodyB));
+                    g.drawLine({a, b}, 1.8f);
+                    dot(a, 3.0f);
+                    dot(b, 3.0f);
+                }
+            },
+            joint.joint);
     }
 }
 
-void DrawPane::drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place, juce::Colour colour, bool isFilled) const {
+void DrawPane::drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,
+                           juce::Colour colour, bool isFilled) const {
     const float scale = view_.pixelsPerMetre();
     for (const auto& fixture : body.fixtures) {
-        const auto where = juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
-                               .translated(static_cast<float>(fixture.offsetMetres.x) * scale, static_cast<float>(-fixture.offsetMetres.y) * scale)
-                               .followedBy(juce::AffineTransform::rotation(static_cast<float>(-place.angleRadians)))
-                               .translated(view_.placeOfMetres(place.metres));
+        const auto where =
+            juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
+                .translated(static_cast<float>(fixture.offsetMetres.x) * scale,
+                            static_cast<float>(-fixture.offsetMetres.y) * scale)
+                .followedBy(juce::AffineTransform::rotation(static_cast<float>(-place.angleRadians)))
+                .translated(view_.placeOfMetres(place.metres));
         const auto path = shapeOutline<juce::Path>(fixture.shape, scale);
         g.setColour(colour.withAlpha(0.3f));
         if (isFilled && !std::holds_alternative<ChainShape>(fixture.shape)) g.fillPath(path, where);
@@ -140,7 +163,8 @@ void DrawPane::drawChosen(juce::Graphics& g) const {
         const auto place = placeNow(name);
         if (body == nullptr || !place) continue;
         drawOutline(g, *body, *place, accent, false);
-        if (const auto next = moved.find(name); next != moved.end()) drawOutline(g, *body, next->second, accent, true);
+        if (const auto next = moved.find(name); next != moved.end())
+            drawOutline(g, *body, next->second, accent, true);
     }
     if (isDrawing_ && grip_ == Grip::size && chosen_.size() == 1)
         if (const auto place = placeNow(chosen_[0])) drawOutline(g, sizedNow(), *place, accent, true);
@@ -162,7 +186,8 @@ void DrawPane::drawStroke(juce::Graphics& g) const {
     const auto accent = shade(*this, Shade::accent);
     const auto from = view_.placeOfMetres(stroke_[0]), to = view_.placeOfMetres(to_);
     g.setColour(accent);
-    if (tool_ == DrawTool::choose) return grip_ == Grip::around ? g.drawRect(juce::Rectangle<float>{from, to}, 1.2f) : void();
+    if (tool_ == DrawTool::choose)
+        return grip_ == Grip::around ? g.drawRect(juce::Rectangle<float>{from, to}, 1.2f) : void();
     if (tool_ == DrawTool::polygon || tool_ == DrawTool::line) {
         juce::Path path;
         path.startNewSubPath(from);
@@ -171,7 +196,8 @@ void DrawPane::drawStroke(juce::Graphics& g) const {
         return g.strokePath(path, juce::PathStrokeType{2.0f});
     }
     if (tool_ == DrawTool::rope || tool_ == DrawTool::slider) return g.drawLine({from, to}, 2.0f);
-    if (const auto body = drawnNow()) drawOutline(g, body.value, {body.value.positionMetres, body.value.angleRadians}, accent, true);
+    if (const auto body = drawnNow())
+        drawOutline(g, body.value, {body.value.positionMetres, body.value.angleRadians}, accent, true);
 }
 
 void DrawPane::paint(juce::Graphics& g) {

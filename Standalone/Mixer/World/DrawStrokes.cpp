@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a stroke of the mouse makes: new bodies, and what the eraser takes away.
-#include "Mixer/World/DrawPane.h"
 #include "Mixer/Desk/DeskWords.h"
+#include "Mixer/World/DrawPane.h"
 #include "Scene/Drawing/DrawnBodies.h"
 #include <cmath>
 

@@ -17,7 +17,8 @@ struct DrawToolWords {
 /// In the order of the bar.
 inline constexpr std::array<DrawToolWords, 12> drawTools{{
     {DrawTool::hand, 'h', "Hand", "Drag a body to throw it, with Shift to hold it"},
-    {DrawTool::choose, 's', "Select", "Click a body, or drag around several; drag to move, handles to size and turn"},
+    {DrawTool::choose, 's', "Select",
+     "Click a body, or drag around several; drag to move, handles to size and turn"},
     {DrawTool::ball, 'b', "Ball", "Drag from the centre outwards"},
     {DrawTool::box, 'x', "Box", "Drag from corner to corner"},
     {DrawTool::polygon, 'p', "Polygon", "Click the corners; double click or Enter ends it"},

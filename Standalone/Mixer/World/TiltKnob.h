@@ -30,7 +30,9 @@ public:
         setValue(degrees);
     }
     // the same law with the focus on it
-    bool keyPressed(const juce::KeyPress& key) override { return takeKey(key) || juce::Slider::keyPressed(key); }
+    bool keyPressed(const juce::KeyPress& key) override {
+        return takeKey(key) || juce::Slider::keyPressed(key);
+    }
 
     /// Left and right turn, down and up stand for themselves; false: another key.
     bool takeKey(const juce::KeyPress& key) {

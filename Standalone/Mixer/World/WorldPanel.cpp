@@ -10,9 +10,11 @@ namespace physvib {
 
 namespace {
 
-constexpr double tellMs = 900.0; // a sentence stays at least so long, unless a stronger hit comes
-constexpr double handMs = 10.0;  // between inputs of a hand that holds; mice tell of themselves up to a thousand times a second
-constexpr double handSeconds = 0.02; // for each way: the next input comes before it has ended, and the hand does not stop between
+constexpr double tellMs = 900.0;     // a sentence stays at least so long, unless a stronger hit comes
+constexpr double handMs = 10.0;      // between inputs of a hand that holds; mice tell of themselves up to a
+                                     // thousand times a second
+constexpr double handSeconds = 0.02; // for each way: the next input comes before it has ended, and the hand
+                                     // does not stop between
 constexpr int lawNeeds = 700; // pixels of the panel; else there is no room for what the tab says as well
 const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
 const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
@@ -23,23 +25,34 @@ WorldPanel::WorldPanel(Desk& desk)
     : desk_{desk} {
     setTitle("World");
     setWantsKeyboardFocus(true);
-    view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) { pull(body, screenMetres, point); };
+    view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) {
+        pull(body, screenMetres, point);
+    };
     view_.onHold = [this](const std::string& body, Vector point, Vector to) { hold(body, point, to); };
     view_.onLetGo = [this](const std::string& body) { letGo(body); };
-    view_.pullText = [this](double screenMetres) { return "drag " + number(1e-3 * desk_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " + kiloNewtonSeconds; };
+    view_.pullText = [this](double screenMetres) {
+        return "drag " + number(1e-3 * desk_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " +
+               kiloNewtonSeconds;
+    };
     view_.onAttach = [this](FieldShare at) { desk_.attach(at.x, at.y); };
     view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
     view_.takesFiles = isClipDrag;
     view_.onFiles = [this](const juce::StringArray& files, int enchanter, FieldShare at) {
-        if (enchanter >= 0) desk_.strikes().feelOn(files, enchanter);
-        else desk_.strikes().feelAt(files, at.x, at.y);
+        if (enchanter >= 0)
+            desk_.strikes().feelOn(files, enchanter);
+        else
+            desk_.strikes().feelAt(files, at.x, at.y);
     };
     view_.onMove = [this](int enchanter, FieldShare to) {
-        desk_.change("Move " + utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label), [&](Mix& mix) {
-            auto& layout = mix.layout.geometry;
-            layout.places[static_cast<std::size_t>(enchanter)] = {to.x * layout.extentWidthMetres, to.y * layout.extentHeightMetres};
-            mix.layout.name = "own";
-        }, std::exchange(isMoving_, true));
+        desk_.change(
+            "Move " + utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label),
+            [&](Mix& mix) {
+                auto& layout = mix.layout.geometry;
+                layout.places[static_cast<std::size_t>(enchanter)] = {to.x * layout.extentWidthMetres,
+                                                                      to.y * layout.extentHeightMetres};
+                mix.layout.name = "own";
+            },
+            std::exchange(isMoving_, true));
     };
     view_.addMouseListener(this, false);
     view_.onMenu = [this](const std::string& body, FieldShare at) { showMenu(body, at); };
@@ -49,21 +62,32 @@ WorldPanel::WorldPanel(Desk& desk)
     law_.setFont(juce::Font{text::small});
     law_.setJustificationType(juce::Justification::centredRight);
     tilt_.onValueChange = [this] {
-        if (player_ && player_->moves()) play(player_->tilt(tilt_.angleRadians()));
-        else desk_.world().act(TiltAction{tilt_.angleRadians()});
+        if (player_ && player_->moves())
+            play(player_->tilt(tilt_.angleRadians()));
+        else
+            desk_.world().act(TiltAction{tilt_.angleRadians()});
     };
     drag_.setTitle("Drag strength");
     drag_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
     drag_.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
-    drag_.setTooltip("Drag strength: how hard a body is pushed per metre of the screen that it is dragged; double click: as in the thesis");
+    drag_.setTooltip("Drag strength: how hard a body is pushed per metre of the screen that it is dragged; "
+                     "double click: as in the thesis");
     drag_.setRange(leastDrag, mostDrag, 1'000.0);
     drag_.setSkewFactorFromMidPoint(10'000.0);
     drag_.setDoubleClickReturnValue(true, thesisDrag);
-    drag_.textFromValueFunction = [](double push) { return number(1e-3 * push, 0) + " " + kiloNewtonSeconds + "/m"; };
-    onSlide(drag_, [this](bool goesOn) { desk_.change("Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); }, goesOn); });
+    drag_.textFromValueFunction = [](double push) {
+        return number(1e-3 * push, 0) + " " + kiloNewtonSeconds + "/m";
+    };
+    onSlide(drag_, [this](bool goesOn) {
+        desk_.change(
+            "Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); },
+            goesOn);
+    });
     for (auto* name : {&tiltName_, &dragName_}) name->setFont(juce::Font{text::small});
     view_.setFootRoom(44);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &pane_, &bar_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{
+             &view_, &pane_, &bar_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_})
+        addAndMakeVisible(c);
     addChildComponent(palette_);
     addChildComponent(body_);
     addChildComponent(script_);
@@ -87,11 +111,14 @@ void WorldPanel::takeMix() {
     showTools();
     view_.show(mix.layout, mix.panner());
     view_.setDisplayWidth(desk_.displayWidthMetres());
-    law_.setText(juce::String{nameOf(mix.law).data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
+    law_.setText(juce::String{nameOf(mix.law).data()} + " law" + dot + "exponent " + number(mix.exponent, 1),
+                 juce::dontSendNotification);
     law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
-    if (!drag_.isMouseButtonDown()) drag_.setValue(mix.dragNewtonSecondsPerScreenMetre, juce::dontSendNotification);
+    if (!drag_.isMouseButtonDown())
+        drag_.setValue(mix.dragNewtonSecondsPerScreenMetre, juce::dontSendNotification);
     dragName_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);
-    for (auto* name : {&tiltName_, &dragName_}) name->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (auto* name : {&tiltName_, &dragName_})
+        name->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     sentence_.setColour(juce::Label::textColourId, shade(*this, Shade::now));
 }
 
@@ -111,7 +138,8 @@ void WorldPanel::play(const std::vector<Action>& actions) {
     if (const Scene& drawn = desk_.world().drawing().drawn(); sceneForHands(drawn) != drawn) {
         auto scene = sceneForHands(drawn);
         takesBefore_ = desk_.saved().log.takes.size();
-        desk_.change("Play", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
+        desk_.change("Play",
+                     [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
         shown_ = desk_.mix().scene; // the same player goes on
         first_ = actions;
         return;
@@ -136,13 +164,17 @@ bool WorldPanel::keyPressed(const juce::KeyPress& key) {
 // What is moved goes for as long as a key is held; what is driven goes on.
 bool WorldPanel::keyStateChanged(bool isDown) {
     using juce::KeyPress;
-    if (isDown || !player_ || !player_->moves() || KeyPress::isKeyCurrentlyDown(KeyPress::leftKey) || KeyPress::isKeyCurrentlyDown(KeyPress::rightKey)) return false;
+    if (isDown || !player_ || !player_->moves() || KeyPress::isKeyCurrentlyDown(KeyPress::leftKey) ||
+        KeyPress::isKeyCurrentlyDown(KeyPress::rightKey))
+        return false;
     return play(player_->steer(0)), false;
 }
 
 void WorldPanel::mouseDrag(const juce::MouseEvent& e) {
     const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x;
-    if (player_ && player_->moves() && e.eventComponent == &view_ && !view_.isHolding()) pointed_ = desk_.world().scene().fieldWidthMetres * static_cast<double>((e.position.x - left) / (right - left));
+    if (player_ && player_->moves() && e.eventComponent == &view_ && !view_.isHolding())
+        pointed_ = desk_.world().scene().fieldWidthMetres *
+                   static_cast<double>((e.position.x - left) / (right - left));
 }
 
 void WorldPanel::mouseUp(const juce::MouseEvent&) {
@@ -150,8 +182,11 @@ void WorldPanel::mouseUp(const juce::MouseEvent&) {
 }
 
 std::optional<double> WorldPanel::playersPlace() {
-    const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x, at = view_.placeOfBody(player_->body()).x;
-    return at < -1e3f ? std::nullopt : std::optional{desk_.world().scene().fieldWidthMetres * static_cast<double>((at - left) / (right - left))};
+    const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x,
+                at = view_.placeOfBody(player_->body()).x;
+    return at < -1e3f ? std::nullopt
+                      : std::optional{desk_.world().scene().fieldWidthMetres *
+                                      static_cast<double>((at - left) / (right - left))};
 }
 
 void WorldPanel::lookAfterPlayer() {
@@ -167,7 +202,8 @@ void WorldPanel::lookAfterPlayer() {
 
 void WorldPanel::pull(const std::string& body, Vector screenMetres, Vector point) {
     const double push = desk_.mix().dragNewtonSecondsPerScreenMetre;
-    const auto fault = desk_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point});
+    const auto fault =
+        desk_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point});
     if (!fault.empty()) desk_.report(utf8(fault));
 }
 
@@ -178,19 +214,22 @@ void WorldPanel::hold(const std::string& body, Vector point, Vector to) {
 
 void WorldPanel::letGo(const std::string& body) {
     hand_.reset();
-    if (const auto fault = desk_.world().act(GripAction{body, {}, {}}); !fault.empty()) desk_.report(utf8(fault));
+    if (const auto fault = desk_.world().act(GripAction{body, {}, {}}); !fault.empty())
+        desk_.report(utf8(fault));
 }
 
 void WorldPanel::moveHand() {
     if (!hand_ || nowMs() - handAtMs_ < handMs) return;
     handAtMs_ = nowMs();
-    if (const auto fault = desk_.world().act(*std::exchange(hand_, {})); !fault.empty()) desk_.report(utf8(fault));
+    if (const auto fault = desk_.world().act(*std::exchange(hand_, {})); !fault.empty())
+        desk_.report(utf8(fault));
 }
 
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = desk_.world().scene();
     if (isClip(hit.frequencyHz)) return materialName(scene, hit) + dot + placeText(scene, hit);
-    return materialName(scene, hit) + dot + number(hit.frequencyHz, 0) + " Hz" + dot + juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
+    return materialName(scene, hit) + dot + number(hit.frequencyHz, 0) + " Hz" + dot +
+           juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
            number(feltMost(desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
@@ -205,7 +244,8 @@ void WorldPanel::refresh(const DeskMoment& moment) {
     lookAfterPlayer();
     moveHand();
     if (desk_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
-    view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits, std::span{moment.meters.peaks}.first(static_cast<std::size_t>(desk_.mix().count()))});
+    view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
+                  std::span{moment.meters.peaks}.first(static_cast<std::size_t>(desk_.mix().count()))});
 }
 
 void WorldPanel::showMenu(const std::string& body, FieldShare at) {
@@ -213,19 +253,27 @@ void WorldPanel::showMenu(const std::string& body, FieldShare at) {
     const auto& scene = desk_.world().scene();
     for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
         const auto name = utf8(scene.materials[static_cast<std::size_t>(i)].name);
-        materials.addItem(name, [this, body, i] { edit("Material of " + utf8(body), MaterialAction{body, everyFixture, i}); });
+        materials.addItem(name, [this, body, i] {
+            edit("Material of " + utf8(body), MaterialAction{body, everyFixture, i});
+        });
     }
     if (!body.empty()) {
         menu.addSectionHeader(utf8(body));
         menu.addSubMenu("Material", materials);
         menu.addItem("Select", [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
         menu.addItem("Remove", [this, body] {
-            if (const auto fault = desk_.world().edit("Remove " + utf8(body), erased(desk_.world().drawing(), {body})); !fault.empty()) desk_.report(utf8(fault));
+            if (const auto fault =
+                    desk_.world().edit("Remove " + utf8(body), erased(desk_.world().drawing(), {body}));
+                !fault.empty())
+                desk_.report(utf8(fault));
         });
         menu.addSeparator();
     }
-    for (const DrawTool tool : {DrawTool::ball, DrawTool::box}) menu.addItem("Draw a " + juce::String{wordsOf(tool).name}.toLowerCase(), [this, tool] { pane_.use(tool); });
-    menu.addItem("Attach an actuator here", desk_.mix().count() < limits::maxEnchanters, false, [this, at] { desk_.attach(at.x, at.y); });
+    for (const DrawTool tool : {DrawTool::ball, DrawTool::box})
+        menu.addItem("Draw a " + juce::String{wordsOf(tool).name}.toLowerCase(),
+                     [this, tool] { pane_.use(tool); });
+    menu.addItem("Attach an actuator here", desk_.mix().count() < limits::maxEnchanters, false,
+                 [this, at] { desk_.attach(at.x, at.y); });
     menu.setLookAndFeel(&getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world with what belongs to it: one sentence on the strongest hit, the way down, how hard a drag pushes, how hits are
-// spread.
+// The world with what belongs to it: one sentence on the strongest hit, the way down, how hard a drag pushes,
+// how hits are spread.
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Desk/Desk.h"

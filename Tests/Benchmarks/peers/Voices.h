@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What every peer plays: the lines of a voices file, "frequency_hz decay_per_s amplitude gain_1 ... gain_N".
-// A program is called as PROGRAM VOICES SECONDS OUT and writes 48 kHz, interleaved 32-bit floats, in blocks of 64 frames.
-// It keeps only the first 2 s: what is timed is making samples, not writing them.
+// A program is called as PROGRAM VOICES SECONDS OUT and writes 48 kHz, interleaved 32-bit floats, in blocks
+// of 64 frames. It keeps only the first 2 s: what is timed is making samples, not writing them.
 #pragma once
 #include <cstdio>
 #include <cstdlib>

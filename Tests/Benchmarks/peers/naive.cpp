@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one would write first: sin times exp, per voice and sample. REAL is float or double; compilers do what flags let them.
+// What one would write first: sin times exp, per voice and sample. REAL is float or double; compilers do what
+// flags let them.
 #include "Voices.h"
 #include <cmath>
 
@@ -8,9 +9,12 @@
 #endif
 
 // On its own and without aliases, so that the compiler can use its vector library.
-__attribute__((noinline)) void add(const Voice& v, int first, float* __restrict a, float* __restrict b, float* __restrict c, float* __restrict d) {
-    const REAL turn = REAL(2 * M_PI * v.frequencyHz / rate), decay = REAL(v.decayPerSecond / rate), amplitude = REAL(v.amplitude);
-    const float g0 = float(v.gains[0]), g1 = float(v.gains[1]), g2 = float(v.gains[2]), g3 = float(v.gains[3]);
+__attribute__((noinline)) void add(const Voice& v, int first, float* __restrict a, float* __restrict b,
+                                   float* __restrict c, float* __restrict d) {
+    const REAL turn = REAL(2 * M_PI * v.frequencyHz / rate), decay = REAL(v.decayPerSecond / rate),
+               amplitude = REAL(v.amplitude);
+    const float g0 = float(v.gains[0]), g1 = float(v.gains[1]), g2 = float(v.gains[2]),
+                g3 = float(v.gains[3]);
     for (int k = 0; k < block; ++k) {
         const REAL t = REAL(first + k);
         const float x = float(amplitude * std::sin(turn * t) * std::exp(-decay * t));

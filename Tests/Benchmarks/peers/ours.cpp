@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// PhysVib itself: the mode bank (-DCHAIN: the whole renderer with panning, actuators and limiter, in which gains are
-// put on the enchanters by one event per voice and enchanter).
+// PhysVib itself: the mode bank (-DCHAIN: the whole renderer with panning, actuators and limiter, in which
+// gains are put on the enchanters by one event per voice and enchanter).
 #include "Core/HapticRenderer.h"
 #include "Voices.h"
 #include <memory>
@@ -22,7 +22,10 @@ int main(int, char** arguments) {
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
     const auto renderer = std::make_unique<HapticRenderer>();
-    renderer->prepare({.sampleRateHz = rate, .channels = channels, .panner = {layout, PanningLaw::linear, 1, layout.extentWidthMetres, layout.extentHeightMetres}});
+    renderer->prepare(
+        {.sampleRateHz = rate,
+         .channels = channels,
+         .panner = {layout, PanningLaw::linear, 1, layout.extentWidthMetres, layout.extentHeightMetres}});
     Source source;
     for (const Voice& v : readVoices(arguments[1]))
         for (int j = 0; j < channels; ++j) {
@@ -43,7 +46,8 @@ int main(int, char** arguments) {
 int main(int, char** arguments) {
     const auto bank = std::make_unique<ModeBank>();
     bank->prepare(rate, channels);
-    for (const Voice& v : readVoices(arguments[1])) bank->strike({v.frequencyHz, v.decayPerSecond, v.amplitude, {0, 0.0}, Strike::never}, v.gains);
+    for (const Voice& v : readVoices(arguments[1]))
+        bank->strike({v.frequencyHz, v.decayPerSecond, v.amplitude, {0, 0.0}, Strike::never}, v.gains);
     return play(arguments, [&](float* const* out, long first) { bank->render(out, first, block); });
 }
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The board's renderer over a fixed random list, and a hash of all its codes and of its last state: built for this computer and for QEMU's
-// Cortex-M4F, it must print the same two numbers.
+// The board's renderer over a fixed random list, and a hash of all its codes and of its last state: built for
+// this computer and for QEMU's Cortex-M4F, it must print the same two numbers.
 #include "Core/BoardRenderer.h"
 #include "Wire/Crc16.h"
 #include <new>
@@ -41,7 +41,8 @@ Hashes run(int blocks) {
         h.codes = h.codes * 31u + crc16({block[0].data(), sizeof block});
     }
     for (int i = 0; i < renderer.bank().liveModes(); ++i)
-        h.state = h.state * 31u + crc16({reinterpret_cast<const std::uint8_t*>(&renderer.bank().mode(i)), sizeof(PhasorBank::Mode)});
+        h.state = h.state * 31u + crc16({reinterpret_cast<const std::uint8_t*>(&renderer.bank().mode(i)),
+                                         sizeof(PhasorBank::Mode)});
     return h;
 }
 
@@ -69,12 +70,14 @@ extern "C" void start() {
         register const void* r1 asm("r1") = argument;
         asm volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
     };
-    semihost(4, result());                                     // SYS_WRITE0
-    semihost(0x18, reinterpret_cast<const void*>(0x20026));    // SYS_EXIT, well
-    for (;;) {}
+    semihost(4, result());                                  // SYS_WRITE0
+    semihost(0x18, reinterpret_cast<const void*>(0x20026)); // SYS_EXIT, well
+    for (;;) {
+    }
 }
 
-__attribute__((section(".vectors"), used)) const void* const vectors[] = {reinterpret_cast<const void*>(0x20020000), reinterpret_cast<const void*>(start)};
+__attribute__((section(".vectors"), used)) const void* const vectors[] = {
+    reinterpret_cast<const void*>(0x20020000), reinterpret_cast<const void*>(start)};
 #else
 #include <cstdio>
 int main() { std::fputs(result(), stdout); }

@@ -85,8 +85,8 @@ void measure(int bodies, const juce::File& folder) {
 
 int main(int argc, char* argv[]) {
     juce::JUCEApplicationBase::createInstance = [] {
-        return static_cast<juce::JUCEApplicationBase*>(
-            nullptr); // as a program of its own, JUCE bears errors of X
+        return static_cast<juce::JUCEApplicationBase*>(nullptr); // as a program of its own, JUCE bears errors
+                                                                 // of X
     };
     const juce::ScopedJuceInitialiser_GUI juce;
     const auto folder = juce::File::createTempFile("physvib-big-world");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A person's way through the mixer in a real window: start, drag a ball, attach a fifth enchanter, mute, record, save,
-// open again; the recorded file has what the actions say.
+// A person's way through the mixer in a real window: start, drag a ball, attach a fifth enchanter, mute,
+// record, save, open again; the recorded file has what the actions say.
 #include "../MixerTesting.h"
 #include "Host/FakeAudioDevice.h"
 #include "Host/Views/DisplayScale.h"
@@ -19,8 +19,8 @@ namespace {
 
 using namespace test;
 
-/// The display's own mouse lies beside every window before there is one: what it tells when a window comes, changes its size or
-/// goes, whenever that arrives, would release the hand's button.
+/// The display's own mouse lies beside every window before there is one: what it tells when a window comes,
+/// changes its size or goes, whenever that arrives, would release the hand's button.
 struct OwnMouse : testing::Environment {
     void SetUp() override { juce::Desktop::setMousePosition({0, 0}); }
 };
@@ -60,8 +60,12 @@ public:
         window_.getPeer()->handleKeyPress(juce::KeyPress{code, modifiers, 0});
         runFor(0.05);
     }
-    juce::Point<float> placeOf(juce::Component& c, juce::Point<float> inIt) { return window_.getLocalPoint(&c, inIt); }
-    juce::Point<float> middleOf(juce::Component& c) { return placeOf(c, c.getLocalBounds().toFloat().getCentre()); }
+    juce::Point<float> placeOf(juce::Component& c, juce::Point<float> inIt) {
+        return window_.getLocalPoint(&c, inIt);
+    }
+    juce::Point<float> middleOf(juce::Component& c) {
+        return placeOf(c, c.getLocalBounds().toFloat().getCentre());
+    }
 
 private:
     void send(juce::Point<float> at, int buttons) {
@@ -69,7 +73,8 @@ private:
         juce::ModifierKeys::currentModifiers = juce::ModifierKeys{buttons}.withoutMouseButtons();
         // not behind what JUCE itself tells of the mouse
         timeMs_ = std::max(timeMs_ + 20, juce::Time::currentTimeMillis());
-        window_.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at, juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
+        window_.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at,
+                                            juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
         runFor(0.03);
     }
     MixerWindow& window_;
@@ -81,7 +86,8 @@ juce::AudioBuffer<float> samplesOf(const juce::File& file) {
     formats.registerBasicFormats();
     const std::unique_ptr<juce::AudioFormatReader> reader{formats.createReaderFor(file)};
     if (!reader) return {};
-    juce::AudioBuffer<float> samples{static_cast<int>(reader->numChannels), static_cast<int>(reader->lengthInSamples)};
+    juce::AudioBuffer<float> samples{static_cast<int>(reader->numChannels),
+                                     static_cast<int>(reader->lengthInSamples)};
     reader->read(&samples, 0, samples.getNumSamples(), 0, true, true);
     return samples;
 }
@@ -101,7 +107,8 @@ TEST(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindows
     window.desk().setDisplayWidth(displayOf(view).getWidth() / 4000.0); // 40 pixels are 10 mm
     window.desk().dispatchPendingMessages();
     std::size_t drags = 0;
-    for (const auto& size : {juce::Point<int>{1440, 900}, {MixerView::leastWidth, MixerView::leastHeight}, {1200, 880}}) {
+    for (const auto& size :
+         {juce::Point<int>{1440, 900}, {MixerView::leastWidth, MixerView::leastHeight}, {1200, 880}}) {
         window.setSize(size.x, size.y);
         runFor(0.2);
         const auto ball = view.placeOfBody("large rubber ball");
@@ -121,15 +128,17 @@ TEST(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
     {
         MixerWindow window{fakeTypes({&speakers}), "Fake:hands", folder("hands.json"), folder("config")};
         EXPECT_TRUE(window.desk().device().choice().monitor.empty());
-        ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains("headphones"); })) << window.desk().trouble();
+        ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains("headphones"); }))
+            << window.desk().trouble();
         ASSERT_EQ(window.desk().monitorInstead({0, 1}, -30.0), "");
         window.save(); // or the next one would ask for it
-        runFor(0.7); // the settings are written twice a second
+        runFor(0.7);   // the settings are written twice a second
     }
     MixerWindow again{fakeTypes({&speakers}), "", {}, folder("config")};
     EXPECT_EQ(again.desk().device().choice().monitor, (std::vector{0, 1}));
     EXPECT_EQ(again.desk().device().choice().monitorDb, -30.0);
-    EXPECT_EQ(again.desk().device().listening().settings().contacts, (std::vector{0, 1})) << "a new session's enchanters leave them alone";
+    EXPECT_EQ(again.desk().device().listening().settings().contacts, (std::vector{0, 1}))
+        << "a new session's enchanters leave them alone";
     runFor(0.7);
     EXPECT_FALSE(again.desk().trouble().contains("headphones")) << again.desk().trouble();
 }
@@ -145,7 +154,8 @@ TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
     const auto ball = view.placeOfBody("large rubber ball");
     ASSERT_TRUE(view.getLocalBounds().toFloat().contains(ball));
     const auto to = ball + juce::Point<float>{-80.0f, 30.0f};
-    hand.drag(hand.placeOf(view, ball + juce::Point<float>{5.0f, 0.0f}), hand.placeOf(view, to), juce::ModifierKeys::shiftModifier);
+    hand.drag(hand.placeOf(view, ball + juce::Point<float>{5.0f, 0.0f}), hand.placeOf(view, to),
+              juce::ModifierKeys::shiftModifier);
     const auto inputs = window.desk().saved().log.takes.back().inputs;
     ASSERT_GE(inputs.size(), 3u);
     const Scene& scene = window.desk().world().scene();
@@ -154,12 +164,17 @@ TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
         const auto& grip = std::get<GripAction>(inputs[i].action);
         EXPECT_EQ(grip.body, "large rubber ball");
         ASSERT_TRUE(grip.toMetres && grip.pointMetres) << i << " of " << inputs.size();
-        EXPECT_NEAR(std::hypot(grip.pointMetres->x, grip.pointMetres->y), 5.0 / static_cast<double>(right.x - left.x) * scene.fieldWidthMetres, 0.01) << "where it was taken, turned with the ball";
+        EXPECT_NEAR(std::hypot(grip.pointMetres->x, grip.pointMetres->y),
+                    5.0 / static_cast<double>(right.x - left.x) * scene.fieldWidthMetres, 0.01)
+            << "where it was taken, turned with the ball";
         EXPECT_GT(grip.overSeconds, 0.0);
     }
     const auto& last = std::get<GripAction>(inputs[inputs.size() - 2].action);
-    EXPECT_NEAR(last.toMetres->x, static_cast<double>((to.x - left.x) / (right.x - left.x)) * scene.fieldWidthMetres, 0.01) << "the last place is told";
-    EXPECT_NEAR(last.toMetres->y, static_cast<double>((left.y - to.y) / (left.y - right.y)) * scene.fieldHeightMetres, 0.01);
+    EXPECT_NEAR(last.toMetres->x,
+                static_cast<double>((to.x - left.x) / (right.x - left.x)) * scene.fieldWidthMetres, 0.01)
+        << "the last place is told";
+    EXPECT_NEAR(last.toMetres->y,
+                static_cast<double>((left.y - to.y) / (left.y - right.y)) * scene.fieldHeightMetres, 0.01);
     EXPECT_FALSE(std::get<GripAction>(inputs.back().action).toMetres.has_value()) << "let go";
     EXPECT_FALSE(view.isHolding());
     EXPECT_TRUE(window.desk().trouble().isEmpty()) << window.desk().trouble();
@@ -188,8 +203,11 @@ TEST(Window, APersonsWayThroughTheMixer) {
         EXPECT_GT(pull.newtonSeconds.y, 0.0);
         EXPECT_TRUE(window.isChanged());
         window.desk().setSlowness(1);
-        hand.drag(hand.placeOf(view, view.placeOfBody("large rubber ball")), hand.placeOf(view, view.placeOfShare({0.8, 0.5})), juce::ModifierKeys::shiftModifier);
-        EXPECT_TRUE(std::holds_alternative<GripAction>(window.desk().saved().log.takes.back().inputs.back().action)) << "what is held renders again to the bit as well";
+        hand.drag(hand.placeOf(view, view.placeOfBody("large rubber ball")),
+                  hand.placeOf(view, view.placeOfShare({0.8, 0.5})), juce::ModifierKeys::shiftModifier);
+        EXPECT_TRUE(
+            std::holds_alternative<GripAction>(window.desk().saved().log.takes.back().inputs.back().action))
+            << "what is held renders again to the bit as well";
 
         auto* place = find(window.view(), "Attach an actuator");
         ASSERT_NE(place, nullptr);
@@ -244,11 +262,16 @@ TEST(Window, APersonsWayThroughTheMixer) {
     int wrong = 0;
     std::int64_t done = 0;
     renderOffline(sessionEvents(saved.value, frames * 1'000'000'000 / 48000).events,
-                  {{48000, saved.value.channels, saved.value.panner, true, saved.value.ceilings}, frames, 512, controlsOf(saved.value.log, true, saved.value.channels)},
+                  {{48000, saved.value.channels, saved.value.panner, true, saved.value.ceilings},
+                   frames,
+                   512,
+                   controlsOf(saved.value.log, true, saved.value.channels)},
                   [&](const float* const* block, int n) {
                       for (int k = 0; k < n; ++k)
                           if (const auto frame = done + k - (from - playOut); frame >= 0)
-                              for (int j = 0; j < 5; ++j) wrong += block[j][k] != recorded.getSample(j, static_cast<int>(frame)) ? 1 : 0;
+                              for (int j = 0; j < 5; ++j)
+                                  wrong +=
+                                      block[j][k] != recorded.getSample(j, static_cast<int>(frame)) ? 1 : 0;
                       done += n;
                       return true;
                   });
@@ -382,7 +405,9 @@ TEST(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
         expectLowered(window.desk().mix());
         EXPECT_TRUE(window.desk().isSilent()) << "what was silenced by hand stays so";
         const auto told = window.desk().trouble();
-        EXPECT_TRUE(told.startsWith("Lowered to this desk: master 0.0 to -30.0 dB; A gain 6.0 to 0.0 dB; A ceiling 0.0 to -18.0 dB")) << told;
+        EXPECT_TRUE(told.startsWith(
+            "Lowered to this desk: master 0.0 to -30.0 dB; A gain 6.0 to 0.0 dB; A ceiling 0.0 to -18.0 dB"))
+            << told;
         EXPECT_TRUE(told.contains("D without output 6")) << told;
     }
     MixerWindow again{onlyNoDevice(), "None:no device", theirs, folder("config")};
@@ -393,8 +418,10 @@ TEST(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
     TestFolder folder;
     const auto file = folder("eight.json");
     EnchanterLayout eight = presetOf("phone4");
-    for (; eight.count < 8; ++eight.count) eight.places[static_cast<std::size_t>(eight.count)] = {0.01 * eight.count, 0.01};
-    ASSERT_EQ(writeFile(file.getFullPathName().toStdString(), layoutJson(describeLayout("eight", eight))), "");
+    for (; eight.count < 8; ++eight.count)
+        eight.places[static_cast<std::size_t>(eight.count)] = {0.01 * eight.count, 0.01};
+    ASSERT_EQ(writeFile(file.getFullPathName().toStdString(), layoutJson(describeLayout("eight", eight))),
+              "");
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     window.openFile(file);
     const auto& strips = window.desk().mix().strips;
@@ -414,7 +441,8 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     auto& tab = dynamic_cast<MaterialsTab&>(*window.view().tabs().find("Materials"));
     ASSERT_TRUE(runUntil([&] { return tab.isShowing(); }));
     auto& plot = *find(tab, "Spectrum of the material");
-    const juce::ComponentPeer::DragInfo drop{{folder("knock.wav").getFullPathName()}, {}, hand.middleOf(plot).toInt()};
+    const juce::ComponentPeer::DragInfo drop{
+        {folder("knock.wav").getFullPathName()}, {}, hand.middleOf(plot).toInt()};
     EXPECT_TRUE(window.getPeer()->handleDragMove(drop));
     window.getPeer()->handleDragDrop(drop);
     const auto& concrete = window.desk().world().scene().materials[3]; // the first that sounds is chosen
@@ -433,7 +461,8 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     EXPECT_EQ(strikes[0].frequencyHz, concrete.frequencyHz);
     EXPECT_NEAR(strikes[0].x / window.desk().world().scene().fieldWidthMetres, 0.25, 0.01);
     EXPECT_NEAR(strikes[0].y / window.desk().world().scene().fieldHeightMetres, 0.75, 0.01);
-    EXPECT_NEAR(strikes[1].x / window.desk().world().scene().fieldWidthMetres, 0.75, 0.01) << "a long press is a click";
+    EXPECT_NEAR(strikes[1].x / window.desk().world().scene().fieldWidthMetres, 0.75, 0.01)
+        << "a long press is a click";
     EXPECT_EQ(strikes[2].x, strikes[1].x);
     hand.key('z', juce::ModifierKeys::commandModifier);
     EXPECT_EQ(concrete.frequencyHz, 80.0);
@@ -451,9 +480,11 @@ TEST(Window, ABrokenSessionIsNamedAndNothingIsLost) {
     window.desk().change("Law", [](Mix& mix) { mix.law = PanningLaw::energy; });
     window.desk().undoManager().undo();
     MixerWindow broken{onlyNoDevice(), "None:no device", folder("broken.json"), folder("config")};
-    EXPECT_TRUE(broken.desk().trouble().contains("broken.json: field \"steps_per_second\" is missing")) << broken.desk().trouble();
+    EXPECT_TRUE(broken.desk().trouble().contains("broken.json: field \"steps_per_second\" is missing"))
+        << broken.desk().trouble();
     EXPECT_EQ(broken.document(), juce::File{}) << "saving would replace the broken file";
-    EXPECT_TRUE(runUntil([&] { return broken.desk().look().session.render.played > 3; })) << "the mixer plays on";
+    EXPECT_TRUE(runUntil([&] { return broken.desk().look().session.render.played > 3; }))
+        << "the mixer plays on";
 }
 
 TEST(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
@@ -463,7 +494,10 @@ TEST(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     folder("scene.json").replaceWithText(sceneJson(scene));
     folder("layout.json").replaceWithText(layoutJson(describeLayout("three", presetOf("ring3"))));
     folder("other.json").replaceWithText("{}");
-    const auto start = [&](const char* name) { return std::make_unique<MixerWindow>(onlyNoDevice(), "None:no device", folder(name), folder("config")); };
+    const auto start = [&](const char* name) {
+        return std::make_unique<MixerWindow>(onlyNoDevice(), "None:no device", folder(name),
+                                             folder("config"));
+    };
     auto window = start("scene.json");
     EXPECT_EQ(window->desk().mix().scene->name, "mine");
     EXPECT_EQ(window->document(), juce::File{}) << "saving would replace the scene";
@@ -472,7 +506,8 @@ TEST(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     EXPECT_EQ(window->desk().mix().count(), 3);
     EXPECT_EQ(window->desk().mix().strips.size(), 3u);
     window = start("other.json");
-    EXPECT_TRUE(window->desk().trouble().endsWith("other.json: expected a session, a scene or a layout")) << window->desk().trouble();
+    EXPECT_TRUE(window->desk().trouble().endsWith("other.json: expected a session, a scene or a layout"))
+        << window->desk().trouble();
     window->desk().report({});
 
     const auto drop = [&](const char* name) {
@@ -481,7 +516,8 @@ TEST(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
         window->fileDragEnter(files, 100, 100);
         window->filesDropped(files, 100, 100);
     };
-    EXPECT_FALSE(window->isInterestedInFileDrag({folder("take.wav").getFullPathName()})) << "recordings are for others";
+    EXPECT_FALSE(window->isInterestedInFileDrag({folder("take.wav").getFullPathName()}))
+        << "recordings are for others";
     drop("other.json");
     EXPECT_TRUE(window->desk().trouble().contains("other.json"));
     drop("scene.json");
@@ -507,7 +543,8 @@ TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesN
     ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 500'000'000; }));
     const auto before = desk.look().session.sessionNs;
     window.renderTo(folder("long.wav"), 20.0);
-    ASSERT_TRUE(runUntil([&] { return desk.isNews() && desk.trouble().contains("long.wav"); }, 60.0)) << desk.trouble();
+    ASSERT_TRUE(runUntil([&] { return desk.isNews() && desk.trouble().contains("long.wav"); }, 60.0))
+        << desk.trouble();
     EXPECT_GT(desk.look().session.sessionNs, before);
     const auto samples = samplesOf(folder("long.wav"));
     EXPECT_EQ(samples.getNumSamples(), 20 * 48000);
@@ -580,7 +617,9 @@ TEST(Window, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
 
 TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
     TestFolder folder;
-    const auto copies = [&] { return folder("config").findChildFiles(juce::File::findFiles, false, "recovery-*.json"); };
+    const auto copies = [&] {
+        return folder("config").findChildFiles(juce::File::findFiles, false, "recovery-*.json");
+    };
     {
         MixerWindow window{onlyNoDevice(), "None:no device", folder("kept.json"), folder("config")};
         window.desk().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
@@ -694,7 +733,9 @@ TEST(Window, OfVeryManyCopiesTheNewestAreOfferedAndTheOthersStay) {
 
 int main(int argc, char** argv) {
     // as in a program of its own, JUCE bears errors of X
-    juce::JUCEApplicationBase::createInstance = [] { return static_cast<juce::JUCEApplicationBase*>(nullptr); };
+    juce::JUCEApplicationBase::createInstance = [] {
+        return static_cast<juce::JUCEApplicationBase*>(nullptr);
+    };
     testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One hit on two outputs, beside a Core/Limits.h of the user's own.
 #include "Core/Limits.h"
-#include <physvib/Core/HapticRenderer.h>
-#include <physvib/Version.h>
 #include <algorithm>
 #include <array>
 #include <iostream>
 #include <memory>
+#include <physvib/Core/HapticRenderer.h>
+#include <physvib/Version.h>
 
 static_assert(PHYSVIB_VERSION_MAJOR * 100 + PHYSVIB_VERSION_MINOR >= 1, "expected a version");
 
@@ -14,7 +14,9 @@ int main() {
     physvib::EnchanterLayout layout;
     physvib::layoutPreset("phone2", layout);
     const auto renderer = std::make_unique<physvib::HapticRenderer>();
-    if (!renderer->prepare({.channels = user::outputs, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}})) return 1;
+    if (!renderer->prepare(
+            {.channels = user::outputs, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}}))
+        return 1;
     physvib::EventQueue<physvib::CollisionEvent, 4> queue;
     physvib::CollisionEvent hit;
     hit.frequencyHz = 200.0;

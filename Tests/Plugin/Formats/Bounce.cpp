@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a plug-in of that width plays when the transport starts at 0 (restart on play), one enchanter a channel in a
-// line, and the pattern of notes, as a host that is not in real time gets it: raw interleaved floats on
-// stdout. The folder gets the state for other hosts: state.lv2 (a preset) and state.vstpreset.
+// What a plug-in of that width plays when the transport starts at 0 (restart on play), one enchanter a
+// channel in a line, and the pattern of notes, as a host that is not in real time gets it: raw interleaved
+// floats on stdout. The folder gets the state for other hosts: state.lv2 (a preset) and state.vstpreset.
 // Usage: physvib-plugin-bounce CHANNELS SECONDS BLOCK_FRAMES FOLDER
 #include "Live/NotePattern.h"
 #include "Plugin/Formats/HostStates.h"
@@ -14,7 +14,8 @@ using namespace physvib;
 
 PluginState inALine(PluginState state, int enchanters) {
     EnchanterLayout line{enchanters - 1.0, 1.0, enchanters, {}};
-    for (int j = 0; j < enchanters; ++j) line.places[static_cast<std::size_t>(j)] = {static_cast<double>(j), 0.5};
+    for (int j = 0; j < enchanters; ++j)
+        line.places[static_cast<std::size_t>(j)] = {static_cast<double>(j), 0.5};
     state.layout = describeLayout("line", line);
     state.transport = TransportMode::restartOnPlay;
     return state;
@@ -24,7 +25,8 @@ PluginState inALine(PluginState state, int enchanters) {
 juce::MidiBuffer notesOf(std::int64_t frame, int frames, int& next) {
     juce::MidiBuffer midi;
     for (auto note = test::patternNote(next); note.frame < frame + frames; note = test::patternNote(++next))
-        midi.addEvent(juce::MidiMessage::noteOn(1, note.note, note.velocity), static_cast<int>(note.frame - frame));
+        midi.addEvent(juce::MidiMessage::noteOn(1, note.note, note.velocity),
+                      static_cast<int>(note.frame - frame));
     return midi;
 }
 
@@ -36,7 +38,8 @@ int main(int argc, char** argv) {
     const juce::File folder{argv[4]};
     const juce::ScopedJuceInitialiser_GUI juce;
     test::Rolling transport;
-    const juce::String uri = "urn:physvib:plugin" + (channels == 4 ? juce::String{} : ":" + juce::String{channels});
+    const juce::String uri =
+        "urn:physvib:plugin" + (channels == 4 ? juce::String{} : ":" + juce::String{channels});
     PluginProcessor plugin{"PhysVib", {BusPlan::Kind::oneBus, channels}};
     if (!plugin.apply(inALine(plugin.state(), channels))) return 1;
     juce::MemoryBlock chunk;

@@ -10,9 +10,11 @@ namespace physvib::test {
 inline Display* openDisplayWithNames() {
     Display* const display = XOpenDisplay(nullptr);
     if (display == nullptr) return nullptr;
-    for (const char* name : std::array{"WM_PROTOCOLS", "WM_TAKE_FOCUS", "WM_DELETE_WINDOW", "WM_CHANGE_STATE", "WM_STATE", "_NET_WM_PING", "_NET_WM_STATE",
-                                       "_NET_WM_STATE_HIDDEN", "_NET_WM_STATE_FULLSCREEN", "_NET_WM_WINDOW_TYPE", "_NET_WM_ALLOWED_ACTIONS", "_NET_FRAME_EXTENTS",
-                                       "_NET_WORKAREA", "_MOTIF_WM_HINTS"})
+    for (const char* name :
+         std::array{"WM_PROTOCOLS", "WM_TAKE_FOCUS", "WM_DELETE_WINDOW", "WM_CHANGE_STATE", "WM_STATE",
+                    "_NET_WM_PING", "_NET_WM_STATE", "_NET_WM_STATE_HIDDEN", "_NET_WM_STATE_FULLSCREEN",
+                    "_NET_WM_WINDOW_TYPE", "_NET_WM_ALLOWED_ACTIONS", "_NET_FRAME_EXTENTS", "_NET_WORKAREA",
+                    "_MOTIF_WM_HINTS"})
         XInternAtom(display, name, 0);
     XSync(display, 0);
     return display;

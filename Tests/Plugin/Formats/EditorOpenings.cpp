@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Opens the editor in a window of a display, again and again, while the plug-in plays; fails if a window does not come or if
-// the memory in use grows from one opening to the next. Run by openings.sh.
-// Usage: physvib-editor-openings COUNT
+// Opens the editor in a window of a display, again and again, while the plug-in plays; fails if a window does
+// not come or if the memory in use grows from one opening to the next. Run by openings.sh. Usage:
+// physvib-editor-openings COUNT
 #include "Host/MessageLoop.h"
+#include "Plugin/Formats/DisplayNames.h" // last: X11's names are macros
 #include "PluginProcessor.h"
 #include <cstdio>
 #include <cstdlib>
 #include <malloc.h>
-#include "Plugin/Formats/DisplayNames.h" // last: X11's names are macros
 
 namespace {
 
 using namespace physvib;
 
 constexpr int framesPerBlock = 512;
-constexpr double mostGrowthBytes = 1.0e6; // caches fill for some two hundred openings; 25 editors that are not freed hold 3 MB
+constexpr double mostGrowthBytes = 1.0e6; // caches fill for some two hundred openings; 25 editors that are
+                                          // not freed hold 3 MB
 
 double bytesInUse() {
     const auto heap = mallinfo2();
@@ -62,8 +63,9 @@ int main(int argc, char** argv) {
         plugin.takes().takeLog(); // which grows while the plug-in plays
     }
     const double growth = bytesInUse() - before;
-    std::printf("editor: %d openings; %.1f MB in use, and %.0f kB while it is open; %.0f bytes more per opening since number %d\n", count,
-                bytesInUse() / 1e6, held / 1e3, growth / (count - first), first);
+    std::printf("editor: %d openings; %.1f MB in use, and %.0f kB while it is open; %.0f bytes more per "
+                "opening since number %d\n",
+                count, bytesInUse() / 1e6, held / 1e3, growth / (count - first), first);
     XCloseDisplay(display);
     return growth <= mostGrowthBytes ? 0 : 1;
 }

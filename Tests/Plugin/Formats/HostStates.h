@@ -24,8 +24,8 @@ inline bool writeLv2Preset(const juce::MemoryBlock& chunk, const juce::String& u
            writeText(to.getChildFile("state.ttl"), state);
 }
 
-/// "VST 3 Preset File Format": a head, the chunk of the component, and a list of chunks. The class is named by
-/// JUCE's prefix and two codes: `code` is ours of the module.
+/// "VST 3 Preset File Format": a head, the chunk of the component, and a list of chunks. The class is named
+/// by JUCE's prefix and two codes: `code` is ours of the module.
 inline bool writeVst3Preset(const juce::MemoryBlock& chunk, const char* code, const juce::File& file) {
     constexpr int headBytes = 4 + 4 + 32 + 8;
     juce::MemoryOutputStream out;

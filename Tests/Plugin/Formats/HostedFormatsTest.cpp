@@ -9,7 +9,8 @@ namespace {
 using namespace test;
 
 /// `prepared`: before the first block.
-Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes, const std::function<void()>& prepared = {}) {
+Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes,
+                 const std::function<void()>& prepared = {}) {
     plugin.setNonRealtime(true);
     plugin.setRateAndBufferSizeDetails(48000.0, 512);
     plugin.prepareToPlay(48000.0, 512);
@@ -18,13 +19,18 @@ Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes, const
     juce::AudioBuffer<float> buffer(static_cast<int>(signal.size()), 512);
     for (int done = 0; done < frames; done += 512) {
         juce::MidiBuffer midi;
-        if (withNotes) midi.addEvent(juce::MidiMessage::noteOn(1, 36 + done / 512 % 60, juce::uint8{100}), done / 512 % 512);
+        if (withNotes)
+            midi.addEvent(juce::MidiMessage::noteOn(1, 36 + done / 512 % 60, juce::uint8{100}),
+                          done / 512 % 512);
         buffer.clear();
         plugin.processBlock(buffer, midi);
-        for (std::size_t c = 0; c < signal.size(); ++c) signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)), buffer.getReadPointer(static_cast<int>(c)) + 512);
+        for (std::size_t c = 0; c < signal.size(); ++c)
+            signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)),
+                             buffer.getReadPointer(static_cast<int>(c)) + 512);
     }
     runFor(0.05); // this host hears of latencies by a message
-    EXPECT_EQ(plugin.getLatencySamples(), 1999) << "512 frames of a block, 10 ms of gap, two steps, the limiter";
+    EXPECT_EQ(plugin.getLatencySamples(), 1999)
+        << "512 frames of a block, 10 ms of gap, two steps, the limiter";
     plugin.releaseResources();
     return signal;
 }
@@ -48,7 +54,8 @@ TEST(HostedFormats, Vst3) { expectTheProcessorsSamples(Format{true}, vst3Identif
 
 TEST(HostedFormats, Lv2OfEveryWidth) {
     const Format format{false};
-    for (const auto& [suffix, width] : {std::pair{":2", 2}, {"", 4}, {":8", 8}, {":16", 16}}) expectTheProcessorsSamples(format, lv2Identifier + suffix, width);
+    for (const auto& [suffix, width] : {std::pair{":2", 2}, {"", 4}, {":8", 8}, {":16", 16}})
+        expectTheProcessorsSamples(format, lv2Identifier + suffix, width);
 }
 
 TEST(HostedFormats, ParametersHaveTheirNamesAndDefaults) {
@@ -61,7 +68,8 @@ TEST(HostedFormats, ParametersHaveTheirNamesAndDefaults) {
             ASSERT_NE(parameter, nullptr) << row.name;
             // LV2 tells the range, hosts make the scale
             const bool isBent = !isVst3 && row.scale == ParameterScale::log;
-            if (!isBent) EXPECT_NEAR(parameter->getDefaultValue(), normalised(row, row.initial), 1e-6) << row.name;
+            if (!isBent)
+                EXPECT_NEAR(parameter->getDefaultValue(), normalised(row, row.initial), 1e-6) << row.name;
         }
     }
 }
@@ -73,10 +81,13 @@ TEST(HostedFormats, StateGoesThroughTheFormats) {
         const auto first = format.load(identifier), second = format.load(identifier);
         ASSERT_NE(second, nullptr);
         int world = 0; // LV2's hosts list presets in any order
-        while (world < first->getNumPrograms() && first->getProgramName(world).toStdString() != builtInScenes()[1].name) ++world;
+        while (world < first->getNumPrograms() &&
+               first->getProgramName(world).toStdString() != builtInScenes()[1].name)
+            ++world;
         ASSERT_LT(world, first->getNumPrograms()) << identifier;
         first->setCurrentProgram(world);
-        // Hosts hand parameters over with a block; JUCE's makes an LV2 anew when it prepares, by what it handed over.
+        // Hosts hand parameters over with a block; JUCE's makes an LV2 anew when it prepares, by what it
+        // handed over.
         blocksOf(*first, 512, false, [&first] { named(*first, "Level")->setValue(1.0f); });
         juce::MemoryBlock chunk;
         first->getStateInformation(chunk);

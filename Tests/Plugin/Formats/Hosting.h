@@ -6,13 +6,16 @@
 
 namespace physvib::test {
 
-inline const juce::String vst3Identifier = PHYSVIB_PLUGINS "/PhysVib.vst3", lv2Identifier = "urn:physvib:plugin";
+inline const juce::String vst3Identifier = PHYSVIB_PLUGINS "/PhysVib.vst3",
+                          lv2Identifier = "urn:physvib:plugin";
 
 /// VST3 goes by its bundle, LV2 by the address that its bundle tells.
 struct Format {
     explicit Format(bool isVst3) {
-        if (isVst3) format = std::make_unique<juce::VST3PluginFormat>();
-        else format = std::make_unique<juce::LV2PluginFormat>();
+        if (isVst3)
+            format = std::make_unique<juce::VST3PluginFormat>();
+        else
+            format = std::make_unique<juce::LV2PluginFormat>();
         format->searchPathsForPlugins(juce::FileSearchPath{PHYSVIB_PLUGINS}, true, false);
     }
     std::unique_ptr<juce::AudioPluginInstance> load(const juce::String& identifier) const {
@@ -28,7 +31,8 @@ struct Format {
 };
 
 /// JUCE's host calls `lv2:enabled` a parameter "Bypass" as well: not that one.
-inline juce::AudioProcessorParameter* named(const juce::AudioPluginInstance& plugin, std::string_view name, const juce::AudioProcessorParameter* notThis = nullptr) {
+inline juce::AudioProcessorParameter* named(const juce::AudioPluginInstance& plugin, std::string_view name,
+                                            const juce::AudioProcessorParameter* notThis = nullptr) {
     for (auto* p : plugin.getParameters())
         if (p != notThis && p->getName(100).toStdString() == name) return p;
     return nullptr;

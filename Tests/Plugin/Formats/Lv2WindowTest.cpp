@@ -74,7 +74,7 @@ TEST(Lv2Window, WritesThePortOfAParameterThatSomethingElseMoved) {
         host.activate();
         RawLv2Window window{host, display};
         window.idle(5);
-        window.written.clear(); // what the preset set
+        window.written.clear();         // what the preset set
         host.controls[gravity] *= 0.5f; // the host's own move is no news
         window.idle(5);
         EXPECT_TRUE(window.written.empty());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An LV2 and a VST3 module in one process, as one host loads them: neither sees anything of the other, and both play what the
-// processor renders, at every rate and in blocks of any size.
+// An LV2 and a VST3 module in one process, as one host loads them: neither sees anything of the other, and
+// both play what the processor renders, at every rate and in blocks of any size.
 #include "Plugin/Formats/RawLv2.h"
 #include "Plugin/Formats/RawVst3.h"
 #include "Plugin/PluginTesting.h"
@@ -11,24 +11,28 @@ namespace {
 using namespace test;
 
 constexpr std::size_t channels = RawLv2::channels;
-const std::string vst3File = PHYSVIB_PLUGINS "/PhysVib.vst3/Contents/x86_64-linux/PhysVib.so", lv2File = PHYSVIB_PLUGINS "/PhysVib.lv2/PhysVib.so";
+const std::string vst3File = PHYSVIB_PLUGINS "/PhysVib.vst3/Contents/x86_64-linux/PhysVib.so",
+                  lv2File = PHYSVIB_PLUGINS "/PhysVib.lv2/PhysVib.so";
 
 void add(Samples& signal, const std::vector<std::vector<float>>& block) {
     signal.resize(channels);
-    for (std::size_t c = 0; c < channels; ++c) signal[c].insert(signal[c].end(), block[c].begin(), block[c].end());
+    for (std::size_t c = 0; c < channels; ++c)
+        signal[c].insert(signal[c].end(), block[c].begin(), block[c].end());
 }
 
 /// `frames` frames as they are felt, whatever block they came in.
 Samples felt(const Samples& signal, int latency, int frames) {
     Samples shown;
-    for (const auto& channel : signal) shown.emplace_back(channel.begin() + latency, channel.begin() + latency + frames);
+    for (const auto& channel : signal)
+        shown.emplace_back(channel.begin() + latency, channel.begin() + latency + frames);
     return shown;
 }
 
 /// What the processor renders at the modules' level.
 Samples expectedAt(double rate, int frames) {
     TestHost host;
-    host.plugin->parameter(Parameter::level).setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
+    host.plugin->parameter(Parameter::level)
+        .setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
     host.prepare(rate, 480);
     Samples signal;
     const int latency = host.plugin->getLatencySamples();
@@ -93,7 +97,8 @@ TEST(ModulesTogether, SeeNothingOfEachOther) {
     ASSERT_TRUE(vst3 && lv2) << "both are loaded";
     EXPECT_TRUE(dlsym(vst3, "GetPluginFactory") && dlsym(lv2, "lv2_descriptor"));
     EXPECT_FALSE(dlsym(vst3, "lv2_descriptor") || dlsym(lv2, "GetPluginFactory"));
-    for (const char* const name : {"GetPluginFactory", "ModuleEntry", "lv2_descriptor", "lv2ui_descriptor"}) EXPECT_FALSE(dlsym(RTLD_DEFAULT, name)) << name;
+    for (const char* const name : {"GetPluginFactory", "ModuleEntry", "lv2_descriptor", "lv2ui_descriptor"})
+        EXPECT_FALSE(dlsym(RTLD_DEFAULT, name)) << name;
     // each has one of its own, and so its statics
     const char* const shared = "_ZN4juce14MessageManager11getInstanceEv";
     EXPECT_FALSE(dlsym(vst3, shared) || dlsym(lv2, shared));

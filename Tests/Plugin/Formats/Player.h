@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The processor, or a finished module of it in JUCE's host, that plays notes in every block: there is always something to
-// silence.
+// The processor, or a finished module of it in JUCE's host, that plays notes in every block: there is always
+// something to silence.
 #pragma once
 #include "Plugin/Formats/Hosting.h"
 
@@ -11,13 +11,16 @@ constexpr int block = 512, ramp = 480;
 
 enum class Kind { processor, vst3, lv2 };
 
-/// The processor itself or a module of it, that plays: notes in every block, so that there is always something to silence.
+/// The processor itself or a module of it, that plays: notes in every block, so that there is always
+/// something to silence.
 class Player {
 public:
     explicit Player(Kind kindOf)
         : kind{kindOf} {
-        if (kind == Kind::processor) own_ = std::make_unique<PluginProcessor>("PhysVib", BusPlan{});
-        else hosted_ = Format{kind == Kind::vst3}.load(kind == Kind::vst3 ? vst3Identifier : lv2Identifier);
+        if (kind == Kind::processor)
+            own_ = std::make_unique<PluginProcessor>("PhysVib", BusPlan{});
+        else
+            hosted_ = Format{kind == Kind::vst3}.load(kind == Kind::vst3 ? vst3Identifier : lv2Identifier);
         plugin().setPlayHead(&playHead);
         playHead.isThere = playHead.isPlaying = true;
     }
@@ -46,7 +49,8 @@ public:
             if (playHead.isPlaying) playHead.frame += block;
             if (from < block) peak = std::max(peak, buffer_.getMagnitude(from, block - from));
             // the pace of a device
-            if (!plugin().isNonRealtime()) std::this_thread::sleep_for(std::chrono::microseconds{block * 1'000'000 / 48'000});
+            if (!plugin().isNonRealtime())
+                std::this_thread::sleep_for(std::chrono::microseconds{block * 1'000'000 / 48'000});
         }
         return peak;
     }
@@ -59,7 +63,10 @@ public:
     }
 
     /// Our own switch, as hosts automate it, and that of the host.
-    juce::AudioProcessorParameter& bypass() { return own_ ? own_->parameter(Parameter::bypass) : *named(*hosted_, "Bypass", kind == Kind::lv2 ? &hostsBypass() : nullptr); }
+    juce::AudioProcessorParameter& bypass() {
+        return own_ ? own_->parameter(Parameter::bypass)
+                    : *named(*hosted_, "Bypass", kind == Kind::lv2 ? &hostsBypass() : nullptr);
+    }
     juce::AudioProcessorParameter& hostsBypass() { return *plugin().getBypassParameter(); }
 
     /// As from a saved session. The hosts' wrapping of our chunk is JUCE's own.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least an LV2 host can be: one instance of a module of four channels, its ports, blocks. Does only what it is told.
+// The least an LV2 host can be: one instance of a module of four channels, its ports, blocks. Does only what
+// it is told.
 #pragma once
 #include "Parameters.h"
 #include <array>
@@ -27,19 +28,26 @@ public:
 
     /// `nominal` 0: not told, as some hosts do. `hasMusic`: the module with two ports for music.
     RawLv2(int largestBlock, int nominal, double rate = 48000.0, bool hasMusic = false) {
-        const std::string name = hasMusic ? "PhysVib-Music" : "PhysVib", bundle = PHYSVIB_PLUGINS "/" + name + ".lv2/";
+        const std::string name = hasMusic ? "PhysVib-Music" : "PhysVib",
+                          bundle = PHYSVIB_PLUGINS "/" + name + ".lv2/";
         if (hasMusic) uri_ += ":music";
         module_ = dlopen((bundle + name + ".so").c_str(), RTLD_NOW | RTLD_LOCAL);
         if (!module_) return;
-        descriptor_ = reinterpret_cast<const LV2_Descriptor* (*)(std::uint32_t)>(dlsym(module_, "lv2_descriptor"))(0);
+        descriptor_ =
+            reinterpret_cast<const LV2_Descriptor* (*)(std::uint32_t)>(dlsym(module_, "lv2_descriptor"))(0);
         largest_ = largestBlock;
         nominal_ = nominal;
-        const auto whole = idOf(LV2_ATOM__Int), largestId = idOf(LV2_BUF_SIZE__maxBlockLength), nominalId = idOf(LV2_BUF_SIZE__nominalBlockLength);
-        const LV2_Options_Option largestOption{LV2_OPTIONS_INSTANCE, 0, largestId, sizeof largest_, whole, &largest_};
-        const LV2_Options_Option nominalOption{LV2_OPTIONS_INSTANCE, 0, nominalId, sizeof nominal_, whole, &nominal_};
+        const auto whole = idOf(LV2_ATOM__Int), largestId = idOf(LV2_BUF_SIZE__maxBlockLength),
+                   nominalId = idOf(LV2_BUF_SIZE__nominalBlockLength);
+        const LV2_Options_Option largestOption{LV2_OPTIONS_INSTANCE, 0,     largestId,
+                                               sizeof largest_,      whole, &largest_};
+        const LV2_Options_Option nominalOption{LV2_OPTIONS_INSTANCE, 0,     nominalId,
+                                               sizeof nominal_,      whole, &nominal_};
         const LV2_Options_Option end{};
         options_ = {largestOption, nominal > 0 ? nominalOption : end, end};
-        features_ = {LV2_Feature{LV2_URID__map, &map_}, {LV2_BUF_SIZE__boundedBlockLength, nullptr}, {LV2_OPTIONS__options, options_.data()}};
+        features_ = {LV2_Feature{LV2_URID__map, &map_},
+                     {LV2_BUF_SIZE__boundedBlockLength, nullptr},
+                     {LV2_OPTIONS__options, options_.data()}};
         const LV2_Feature* const features[]{&features_[0], &features_[1], &features_[2], nullptr};
         handle_ = descriptor_->instantiate(descriptor_, rate, bundle.c_str(), features);
         if (!handle_) return;
@@ -71,7 +79,8 @@ public:
     /// The preset of that number; the first is a world that moves by itself.
     void choose(std::int32_t program) {
         program_ = program;
-        const auto retrieve = [](LV2_State_Handle host, std::uint32_t key, std::size_t* size, std::uint32_t* type, std::uint32_t* flags) -> const void* {
+        const auto retrieve = [](LV2_State_Handle host, std::uint32_t key, std::size_t* size,
+                                 std::uint32_t* type, std::uint32_t* flags) -> const void* {
             auto& self = *static_cast<RawLv2*>(host);
             if (key != self.idOf(self.uri_ + ":Program")) return nullptr;
             *size = sizeof self.program_;
@@ -101,8 +110,8 @@ public:
         return all.second;
     }
     void restore(const State& state) {
-        const auto retrieve = [](LV2_State_Handle self, std::uint32_t key, std::size_t* size, std::uint32_t* type,
-                                 std::uint32_t* flags) -> const void* {
+        const auto retrieve = [](LV2_State_Handle self, std::uint32_t key, std::size_t* size,
+                                 std::uint32_t* type, std::uint32_t* flags) -> const void* {
             const auto& [host, kept] = *static_cast<std::pair<RawLv2*, const State*>*>(self);
             const auto found = kept->find(host->uris_[key - 1]);
             if (found == kept->end()) return nullptr;
@@ -139,7 +148,8 @@ public:
         std::vector<float> signal;
         for (int b = 0; b < blocks; ++b) {
             run(frames);
-            for (const auto& channel : out) signal.insert(signal.end(), channel.begin(), channel.begin() + frames);
+            for (const auto& channel : out)
+                signal.insert(signal.end(), channel.begin(), channel.begin() + frames);
         }
         return signal;
     }
@@ -149,7 +159,7 @@ public:
         std::string parameter; // id
         float value;           // in its unit
     };
-    std::vector<Point> points; ///< of the next block, in frame order
+    std::vector<Point> points;               ///< of the next block, in frame order
     std::array<std::vector<float>, 2> music; ///< of the next block, where there are ports for it
     std::array<std::vector<float>, channels> out;
     std::array<float, parameterCount> controls{}; ///< the parameters' ports, each in its unit
@@ -188,7 +198,9 @@ private:
     }
     std::string uri_ = "urn:physvib:plugin";
     std::vector<std::string> uris_;
-    LV2_URID_Map map_{this, [](LV2_URID_Map_Handle host, const char* uri) { return static_cast<RawLv2*>(host)->idOf(uri); }};
+    LV2_URID_Map map_{this, [](LV2_URID_Map_Handle host, const char* uri) {
+                          return static_cast<RawLv2*>(host)->idOf(uri);
+                      }};
     std::array<LV2_Options_Option, 3> options_{};
     std::array<LV2_Feature, 3> features_{};
     std::int32_t largest_ = 0, nominal_ = 0, program_ = 0;

@@ -20,7 +20,10 @@ using namespace test;
 constexpr int block = 512, latencyOf512 = 1999; // a block, 10 ms of gap, two steps, the limiter
 
 TEST(RawLv2, TheLatencyIsThatOfTheUsualBlockNotOfTheLargest) {
-    for (const auto& [largest, nominal, latency] : {std::tuple{8192, block, latencyOf512}, {block, 0, latencyOf512}, {block, 8192, latencyOf512}, {8192, 0, latencyOf512 + 8192 - block}}) {
+    for (const auto& [largest, nominal, latency] : {std::tuple{8192, block, latencyOf512},
+                                                    {block, 0, latencyOf512},
+                                                    {block, 8192, latencyOf512},
+                                                    {8192, 0, latencyOf512 + 8192 - block}}) {
         RawLv2 host{largest, nominal};
         ASSERT_TRUE(host.isLoaded());
         host.activate();
@@ -82,7 +85,8 @@ std::vector<float> automated(int frames, std::int64_t length) {
             host.points.push_back({static_cast<int>(f - at), "tilt", 90.0f * angle(3 * f)});
         }
         host.run(frames);
-        for (std::size_t n = 0; n < static_cast<std::size_t>(frames); ++n) signal.push_back(host.out[0][n] + host.out[1][n] + host.out[2][n] + host.out[3][n]);
+        for (std::size_t n = 0; n < static_cast<std::size_t>(frames); ++n)
+            signal.push_back(host.out[0][n] + host.out[1][n] + host.out[2][n] + host.out[3][n]);
     }
     const auto latency = static_cast<std::ptrdiff_t>(host.latency);
     host.deactivate();
@@ -92,7 +96,8 @@ std::vector<float> automated(int frames, std::int64_t length) {
 TEST(RawLv2, WhatSetsAParameterActsAtItsFrameInBlocksOfAnySize) {
     const auto expected = automated(512, 96000);
     EXPECT_GT(*std::ranges::max_element(expected), 0.02f);
-    for (const int frames : {64, 100, 1000, 4096}) EXPECT_TRUE(automated(frames, 96000) == expected) << frames;
+    for (const int frames : {64, 100, 1000, 4096})
+        EXPECT_TRUE(automated(frames, 96000) == expected) << frames;
 }
 
 float loudestOf(const std::vector<float>& signal) {
@@ -210,7 +215,8 @@ TEST(RawLv2, APortThatHoldsNoNumberIsNone) {
 }
 
 TEST(RawLv2, DescriptionsHaveAPortForEachParameterBehindJucesOwnAndNoProperty) {
-    constexpr std::array<std::pair<const char*, int>, 5> modules{{{"", 9}, {"-2", 7}, {"-8", 13}, {"-16", 21}, {"-Music", 11}}};
+    constexpr std::array<std::pair<const char*, int>, 5> modules{
+        {{"", 9}, {"-2", 7}, {"-8", 13}, {"-16", 21}, {"-Music", 11}}};
     for (const auto& [width, first] : modules) {
         std::ifstream file{std::string{PHYSVIB_PLUGINS "/PhysVib"} + width + ".lv2/dsp.ttl"};
         const std::string text{std::istreambuf_iterator<char>{file}, {}};
@@ -231,23 +237,31 @@ TEST(RawLv2, MusicAtItsTwoPortsIsFeltAsInTheProcessor) {
     ASSERT_TRUE(host.isLoaded());
     TestHost processor{{BusPlan::Kind::oneBus, 4, true}};
     processor.plugin->setCurrentProgram(0);
-    for (const auto& row : allParameters()) processor.plugin->parameter(row.parameter).setValue(static_cast<float>(normalised(row, row.initial)));
+    for (const auto& row : allParameters())
+        processor.plugin->parameter(row.parameter).setValue(static_cast<float>(normalised(row, row.initial)));
     processor.prepare(48000, block);
     host.activate();
     float left = 0.0f, right = 0.0f;
     for (int b = 0; b < 60; ++b) {
         if (b == 1) {
-            processor.plugin->parameter(Parameter::music).setValue(static_cast<float>(normalised(rowOf(Parameter::music), -3.0)));
+            processor.plugin->parameter(Parameter::music)
+                .setValue(static_cast<float>(normalised(rowOf(Parameter::music), -3.0)));
             processor.plugin->parameter(Parameter::musicSides).setValue(1.0f);
             host.points.push_back({0, "music", -3.0f});
             host.points.push_back({0, "music_sides", 1.0f});
         }
         for (int c = 0; c < 2; ++c)
-            for (int n = 0; n < block; ++n) host.music[static_cast<std::size_t>(c)][static_cast<std::size_t>(n)] = c == 0 ? 0.8f * std::sin(0.013f * static_cast<float>(b * block + n)) : 0.0f;
-        for (int c = 0; c < 2; ++c) processor.buffer.copyFrom(c, 0, host.music[static_cast<std::size_t>(c)].data(), block);
+            for (int n = 0; n < block; ++n)
+                host.music[static_cast<std::size_t>(c)][static_cast<std::size_t>(n)] =
+                    c == 0 ? 0.8f * std::sin(0.013f * static_cast<float>(b * block + n)) : 0.0f;
+        for (int c = 0; c < 2; ++c)
+            processor.buffer.copyFrom(c, 0, host.music[static_cast<std::size_t>(c)].data(), block);
         host.run(block);
         const auto& expected = processor.block(block);
-        for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::equal(host.out[static_cast<std::size_t>(c)].begin(), host.out[static_cast<std::size_t>(c)].end(), expected.getReadPointer(c))) << b << ' ' << c;
+        for (int c = 0; c < 4; ++c)
+            ASSERT_TRUE(std::equal(host.out[static_cast<std::size_t>(c)].begin(),
+                                   host.out[static_cast<std::size_t>(c)].end(), expected.getReadPointer(c)))
+                << b << ' ' << c;
         left = std::max(left, loudestOf(host.out[0]));
         right = std::max(right, loudestOf(host.out[1]));
     }
@@ -263,7 +277,9 @@ TEST(RawLv2, DescriptionsHaveFloatsAndNoEmptyAddresses) {
         ASSERT_FALSE(text.empty()) << width;
         EXPECT_NE(text.find(", doap:Project ;"), std::string::npos) << width << ": what has a maintainer";
         std::ifstream presets{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/manifest.ttl"};
-        EXPECT_NE((std::string{std::istreambuf_iterator<char>{presets}, {}}).find("rdfs:label \"Program\""), std::string::npos) << width << ": what presets set";
+        EXPECT_NE((std::string{std::istreambuf_iterator<char>{presets}, {}}).find("rdfs:label \"Program\""),
+                  std::string::npos)
+            << width << ": what presets set";
         EXPECT_EQ(text.find("<>"), std::string::npos) << width << ": that is the file itself";
         EXPECT_NE(text.find("bufs:nominalBlockLength"), std::string::npos) << width;
         const std::regex number{"(lv2:default|lv2:minimum|lv2:maximum|rdf:value) ([^ \t\n]+)"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least a VST3 host can be: one component of a module, its buses, its state, blocks with notes. Does only what it
-// is told, so that a plug-in can be met in every order of calls.
+// The least a VST3 host can be: one component of a module, its buses, its state, blocks with notes. Does only
+// what it is told, so that a plug-in can be met in every order of calls.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -54,9 +54,13 @@ struct Stream final : OnStack<Steinberg::IBStream> {
         if (done) *done = count;
         return kResultOk;
     }
-    Steinberg::tresult PLUGIN_API seek(Steinberg::int64 place, Steinberg::int32 mode, Steinberg::int64* result) override {
-        const auto from = mode == kIBSeekSet ? 0 : mode == kIBSeekCur ? static_cast<Steinberg::int64>(at) : static_cast<Steinberg::int64>(bytes.size());
-        at = static_cast<std::size_t>(std::clamp<Steinberg::int64>(from + place, 0, static_cast<Steinberg::int64>(bytes.size())));
+    Steinberg::tresult PLUGIN_API seek(Steinberg::int64 place, Steinberg::int32 mode,
+                                       Steinberg::int64* result) override {
+        const auto from = mode == kIBSeekSet   ? 0
+                          : mode == kIBSeekCur ? static_cast<Steinberg::int64>(at)
+                                               : static_cast<Steinberg::int64>(bytes.size());
+        at = static_cast<std::size_t>(
+            std::clamp<Steinberg::int64>(from + place, 0, static_cast<Steinberg::int64>(bytes.size())));
         if (result) *result = static_cast<Steinberg::int64>(at);
         return kResultOk;
     }
@@ -68,7 +72,9 @@ struct Stream final : OnStack<Steinberg::IBStream> {
 
 struct Notes final : OnStack<vst::IEventList> {
     std::vector<vst::Event> events;
-    Steinberg::int32 PLUGIN_API getEventCount() override { return static_cast<Steinberg::int32>(events.size()); }
+    Steinberg::int32 PLUGIN_API getEventCount() override {
+        return static_cast<Steinberg::int32>(events.size());
+    }
     Steinberg::tresult PLUGIN_API getEvent(Steinberg::int32 index, vst::Event& event) override {
         event = events[static_cast<std::size_t>(index)];
         return kResultOk;
@@ -84,13 +90,17 @@ struct Queue final : OnStack<vst::IParamValueQueue> {
     vst::ParamID id = 0;
     std::vector<std::pair<Steinberg::int32, vst::ParamValue>> points;
     vst::ParamID PLUGIN_API getParameterId() override { return id; }
-    Steinberg::int32 PLUGIN_API getPointCount() override { return static_cast<Steinberg::int32>(points.size()); }
-    Steinberg::tresult PLUGIN_API getPoint(Steinberg::int32 index, Steinberg::int32& frame, vst::ParamValue& value) override {
+    Steinberg::int32 PLUGIN_API getPointCount() override {
+        return static_cast<Steinberg::int32>(points.size());
+    }
+    Steinberg::tresult PLUGIN_API getPoint(Steinberg::int32 index, Steinberg::int32& frame,
+                                           vst::ParamValue& value) override {
         if (index < 0 || index >= getPointCount()) return Steinberg::kResultFalse;
         std::tie(frame, value) = points[static_cast<std::size_t>(index)];
         return Steinberg::kResultTrue;
     }
-    Steinberg::tresult PLUGIN_API addPoint(Steinberg::int32 frame, vst::ParamValue value, Steinberg::int32& index) override {
+    Steinberg::tresult PLUGIN_API addPoint(Steinberg::int32 frame, vst::ParamValue value,
+                                           Steinberg::int32& index) override {
         points.emplace_back(frame, value);
         index = getPointCount() - 1;
         return Steinberg::kResultTrue;
@@ -99,9 +109,14 @@ struct Queue final : OnStack<vst::IParamValueQueue> {
 
 struct Changes final : OnStack<vst::IParameterChanges> {
     std::vector<Queue> queues;
-    Steinberg::int32 PLUGIN_API getParameterCount() override { return static_cast<Steinberg::int32>(queues.size()); }
-    vst::IParamValueQueue* PLUGIN_API getParameterData(Steinberg::int32 index) override { return &queues[static_cast<std::size_t>(index)]; }
-    vst::IParamValueQueue* PLUGIN_API addParameterData(const vst::ParamID& id, Steinberg::int32& index) override {
+    Steinberg::int32 PLUGIN_API getParameterCount() override {
+        return static_cast<Steinberg::int32>(queues.size());
+    }
+    vst::IParamValueQueue* PLUGIN_API getParameterData(Steinberg::int32 index) override {
+        return &queues[static_cast<std::size_t>(index)];
+    }
+    vst::IParamValueQueue* PLUGIN_API addParameterData(const vst::ParamID& id,
+                                                       Steinberg::int32& index) override {
         index = getParameterCount();
         queues.emplace_back().id = id;
         return &queues.back();
@@ -146,8 +161,11 @@ public:
         component->getState(&stream);
         return stream.bytes;
     }
-    bool arrange(std::vector<vst::SpeakerArrangement> outputs, std::vector<vst::SpeakerArrangement> inputs = {}) {
-        return processor->setBusArrangements(inputs.data(), static_cast<Steinberg::int32>(inputs.size()), outputs.data(), static_cast<Steinberg::int32>(outputs.size())) == Steinberg::kResultTrue;
+    bool arrange(std::vector<vst::SpeakerArrangement> outputs,
+                 std::vector<vst::SpeakerArrangement> inputs = {}) {
+        return processor->setBusArrangements(inputs.data(), static_cast<Steinberg::int32>(inputs.size()),
+                                             outputs.data(), static_cast<Steinberg::int32>(outputs.size())) ==
+               Steinberg::kResultTrue;
     }
     /// A side chain of one channel or two, before start; what comes in by it is `music`.
     bool hear(std::size_t channels, int block) {
@@ -174,7 +192,10 @@ public:
         component->setActive(true);
         processor->setProcessing(true);
         channels.clear();
-        for (int b = 0; b < buses(); ++b) channels.push_back(std::vector<std::vector<float>>(static_cast<std::size_t>(channelsOf(b)), std::vector<float>(static_cast<std::size_t>(block))));
+        for (int b = 0; b < buses(); ++b)
+            channels.push_back(
+                std::vector<std::vector<float>>(static_cast<std::size_t>(channelsOf(b)),
+                                                std::vector<float>(static_cast<std::size_t>(block))));
     }
     void stop() {
         processor->setProcessing(false);
@@ -227,20 +248,24 @@ public:
     /// Of the next block, in the order in which the module lists its parameters.
     void point(std::size_t parameter, int frame, double value) {
         const auto id = ids_[parameter];
-        const auto found = std::find_if(changes.queues.begin(), changes.queues.end(), [id](const Queue& queue) { return queue.id == id; });
+        const auto found = std::find_if(changes.queues.begin(), changes.queues.end(),
+                                        [id](const Queue& queue) { return queue.id == id; });
         Steinberg::int32 index = 0;
         auto* const queue = found == changes.queues.end() ? changes.addParameterData(id, index) : &*found;
         queue->addPoint(frame, value, index);
     }
 
-    Changes changes; ///< of the next block
+    Changes changes;                                    ///< of the next block
     std::vector<std::u16string> names, shortNames;      ///< of the parameters
-    std::array<std::vector<vst::ParamID>, 16> standIns; ///< [MIDI channel][controller], bends and pressure as VST3 numbers them; 0: none that is listed
+    std::array<std::vector<vst::ParamID>, 16> standIns; ///< [MIDI channel][controller], bends and pressure as
+                                                        ///< VST3 numbers them; 0: none that is listed
     vst::IComponent* component = nullptr;
     vst::IAudioProcessor* processor = nullptr;
     Steinberg::int32 mode = vst::kOffline;
-    Steinberg::tresult (*call)(vst::IAudioProcessor&, vst::ProcessData&) = [](vst::IAudioProcessor& to, vst::ProcessData& data) { return to.process(data); };
-    std::vector<std::vector<float>> music; ///< [channel][frame] of the next block; none: the side chain is off
+    Steinberg::tresult (*call)(vst::IAudioProcessor&, vst::ProcessData&) =
+        [](vst::IAudioProcessor& to, vst::ProcessData& data) { return to.process(data); };
+    std::vector<std::vector<float>> music; ///< [channel][frame] of the next block; none: the side chain is
+                                           ///< off
     std::vector<std::vector<std::vector<float>>> channels; ///< [bus][channel][frame] of the last block
 
 private:
@@ -267,7 +292,9 @@ private:
         for (Steinberg::int16 c = 0; mapping && c < 16; ++c)
             for (Steinberg::int16 number = 0; number < vst::kCountCtrlNumber; ++number) {
                 auto& id = standIns[static_cast<std::size_t>(c)].emplace_back();
-                if (mapping->getMidiControllerAssignment(0, c, number, id) != Steinberg::kResultTrue || std::find(ids_.begin(), ids_.end(), id) == ids_.end()) id = 0;
+                if (mapping->getMidiControllerAssignment(0, c, number, id) != Steinberg::kResultTrue ||
+                    std::find(ids_.begin(), ids_.end(), id) == ids_.end())
+                    id = 0;
             }
         if (mapping) mapping->release();
         one->disconnect(other);

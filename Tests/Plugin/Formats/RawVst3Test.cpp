@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VST3 in a host that does only what the standard makes it do: every arrangement, none at all, states, suspensions.
-#include "Plugin/PluginTesting.h"
+// VST3 in a host that does only what the standard makes it do: every arrangement, none at all, states,
+// suspensions.
 #include "RawVst3.h"
+#include "Plugin/PluginTesting.h"
 #include "Support/BeatSong.h"
 #include <cmath>
 #include <set>
@@ -13,7 +14,8 @@ using namespace test;
 namespace arr = Steinberg::Vst::SpeakerArr;
 
 // another build of them
-const std::string folder = std::getenv("PHYSVIB_PLUGINS_FOLDER") ? std::getenv("PHYSVIB_PLUGINS_FOLDER") : PHYSVIB_PLUGINS;
+const std::string folder =
+    std::getenv("PHYSVIB_PLUGINS_FOLDER") ? std::getenv("PHYSVIB_PLUGINS_FOLDER") : PHYSVIB_PLUGINS;
 const std::string oneBus = folder + "/PhysVib.vst3", pairs = folder + "/PhysVib-Pairs.vst3";
 
 /// The channel, counted over all buses, that carries a strike at enchanter j of n; -1: none.
@@ -63,7 +65,9 @@ TEST(RawVst3, TheFirstNSpeakers) {
 }
 
 TEST(RawVst3, SurroundArrangementsKeepTheirOrderOrAreRefused) {
-    for (const auto arrangement : {arr::kStereo, arr::k40Music, arr::k50, arr::k51, arr::k60Music, arr::k71Cine, arr::k71Music, arr::k70Music, arr::k71_4, arr::kAmbi3rdOrderACN}) {
+    for (const auto arrangement :
+         {arr::kStereo, arr::k40Music, arr::k50, arr::k51, arr::k60Music, arr::k71Cine, arr::k71Music,
+          arr::k70Music, arr::k71_4, arr::kAmbi3rdOrderACN}) {
         RawVst3 host{oneBus, "PhysVib"};
         const bool taken = host.arrange({arrangement});
         if (taken) EXPECT_EQ(host.channelsOf(0), arr::getChannelCount(arrangement));
@@ -88,7 +92,8 @@ TEST(RawVst3, StateComesBackAndSuspensionRepeatsTheTake) {
     RawVst3 host{oneBus, "PhysVib"};
     const std::string fresh = host.state();
     EXPECT_TRUE(host.setState("nonsense"));
-    EXPECT_TRUE(host.state().starts_with("nonsense")) << "a chunk that cannot be read is what the next save gives back";
+    EXPECT_TRUE(host.state().starts_with("nonsense"))
+        << "a chunk that cannot be read is what the next save gives back";
     auto state = shakenBox();
     state.seed = 42;
     EXPECT_TRUE(host.setState(pluginStateJson(state)));
@@ -99,7 +104,8 @@ TEST(RawVst3, StateComesBackAndSuspensionRepeatsTheTake) {
         host.start(256);
         for (int b = 0; b < 400; ++b) {
             host.process();
-            for (const auto& channel : host.channels[0]) take.insert(take.end(), channel.begin(), channel.end());
+            for (const auto& channel : host.channels[0])
+                take.insert(take.end(), channel.begin(), channel.end());
         }
         host.stop();
     }
@@ -126,18 +132,24 @@ TEST(RawVst3, TheSideChainIsAnAuxiliaryBusThatIsOff) {
 TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAndIsFeltAsInTheProcessor) {
     const BeatSong song{2.0, 48000, 7};
     auto state = strikeAt(0, 4);
-    state.parameters = {{"level", 0.0}, {"beats", 50.0}, {"strike_level", -6.0}, {"music", -6.0}, {"music_sides", "left and right"}};
+    state.parameters = {{"level", 0.0},
+                        {"beats", 50.0},
+                        {"strike_level", -6.0},
+                        {"music", -6.0},
+                        {"music_sides", "left and right"}};
     for (const std::size_t channels : {1u, 2u}) {
         RawVst3 host{oneBus, "PhysVib"};
         ASSERT_TRUE(host.setState(pluginStateJson(state)));
         ASSERT_TRUE(host.hear(channels, 512));
         TestHost processor;
         auto layout = processor.plugin->getBusesLayout();
-        layout.inputBuses.getReference(0) = channels == 1 ? juce::AudioChannelSet::mono() : juce::AudioChannelSet::stereo();
+        layout.inputBuses.getReference(0) =
+            channels == 1 ? juce::AudioChannelSet::mono() : juce::AudioChannelSet::stereo();
         ASSERT_TRUE(processor.plugin->setBusesLayout(layout));
         ASSERT_TRUE(processor.plugin->apply(state));
         processor.plugin->parameter(Parameter::beats).setValue(0.5f);
-        processor.plugin->parameter(Parameter::music).setValue(static_cast<float>(normalised(rowOf(Parameter::music), -6.0)));
+        processor.plugin->parameter(Parameter::music)
+            .setValue(static_cast<float>(normalised(rowOf(Parameter::music), -6.0)));
         processor.plugin->parameter(Parameter::musicSides).setValue(1.0f);
         processor.prepare(48000, 512);
         host.start(512);
@@ -145,13 +157,18 @@ TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAndIsFeltAsInTheProcessor) {
         for (std::size_t at = 0; at + 512 <= song.samples.size(); at += 512) {
             for (std::size_t c = 0; c < channels; ++c) { // their mean is heard
                 const float share = channels == 1 ? 1.0f : c == 0 ? 1.5f : 0.5f;
-                std::transform(song.samples.begin() + static_cast<std::ptrdiff_t>(at), song.samples.begin() + static_cast<std::ptrdiff_t>(at) + 512, host.music[c].begin(), [share](float x) { return share * x; });
+                std::transform(song.samples.begin() + static_cast<std::ptrdiff_t>(at),
+                               song.samples.begin() + static_cast<std::ptrdiff_t>(at) + 512,
+                               host.music[c].begin(), [share](float x) { return share * x; });
                 processor.buffer.copyFrom(static_cast<int>(c), 0, host.music[c].data(), 512);
             }
             ASSERT_TRUE(host.process());
             const auto& expected = processor.block(512);
             for (int c = 0; c < 4; ++c) {
-                ASSERT_TRUE(std::equal(host.channels[0][static_cast<std::size_t>(c)].begin(), host.channels[0][static_cast<std::size_t>(c)].end(), expected.getReadPointer(c))) << at;
+                ASSERT_TRUE(std::equal(host.channels[0][static_cast<std::size_t>(c)].begin(),
+                                       host.channels[0][static_cast<std::size_t>(c)].end(),
+                                       expected.getReadPointer(c)))
+                    << at;
                 peak = std::max(peak, expected.getMagnitude(c, 0, 512));
             }
         }
@@ -160,7 +177,8 @@ TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAndIsFeltAsInTheProcessor) {
     }
 }
 
-/// Level, tilt and strike level every 32 frames, and a note now and then, in blocks of that size; what is played L later.
+/// Level, tilt and strike level every 32 frames, and a note now and then, in blocks of that size; what is
+/// played L later.
 std::vector<std::vector<float>> automated(int block, std::int64_t frames) {
     RawVst3 host{oneBus, "PhysVib"};
     EXPECT_TRUE(host.setState(pluginStateJson(shakenBox())));
@@ -169,11 +187,16 @@ std::vector<std::vector<float>> automated(int block, std::int64_t frames) {
     const auto latency = static_cast<std::int64_t>(host.processor->getLatencySamples());
     for (std::int64_t at = 0; at < frames + latency; at += block) {
         for (std::int64_t f = (at + 31) / 32 * 32; f < at + block; f += 32)
-            for (const std::size_t parameter : {std::size_t(Parameter::level), std::size_t(Parameter::tilt), std::size_t(Parameter::strikeLevel)})
-                host.point(parameter, static_cast<int>(f - at), 0.6 + 0.3 * std::sin(1e-4 * static_cast<double>(f) * static_cast<double>(parameter + 1)));
-        for (std::int64_t f = (at + 4999) / 5000 * 5000; f < at + block; f += 5000) host.note(60, static_cast<int>(f - at));
+            for (const std::size_t parameter : {std::size_t(Parameter::level), std::size_t(Parameter::tilt),
+                                                std::size_t(Parameter::strikeLevel)})
+                host.point(
+                    parameter, static_cast<int>(f - at),
+                    0.6 + 0.3 * std::sin(1e-4 * static_cast<double>(f) * static_cast<double>(parameter + 1)));
+        for (std::int64_t f = (at + 4999) / 5000 * 5000; f < at + block; f += 5000)
+            host.note(60, static_cast<int>(f - at));
         EXPECT_TRUE(host.process());
-        for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), host.channels[0][c].begin(), host.channels[0][c].end());
+        for (std::size_t c = 0; c < 4; ++c)
+            signal[c].insert(signal[c].end(), host.channels[0][c].begin(), host.channels[0][c].end());
     }
     host.stop();
     for (auto& c : signal) c = {c.begin() + latency, c.begin() + latency + frames};
@@ -195,7 +218,9 @@ TEST(RawVst3, StandInsOfControllersAreFewAndEachControllerOfEachChannelHasOne) {
         ASSERT_EQ(std::ssize(channel), static_cast<std::ptrdiff_t>(vst::kCountCtrlNumber));
         EXPECT_EQ(std::ranges::count(channel, vst::ParamID{0}), 0);
     }
-    for (const auto own : {static_cast<std::size_t>(vst::kAfterTouch), static_cast<std::size_t>(vst::kPitchBend), std::size_t{74}, std::size_t{64}}) EXPECT_NE(host.standIns[0][own], host.standIns[9][own]) << own;
+    for (const auto own : {static_cast<std::size_t>(vst::kAfterTouch),
+                           static_cast<std::size_t>(vst::kPitchBend), std::size_t{74}, std::size_t{64}})
+        EXPECT_NE(host.standIns[0][own], host.standIns[9][own]) << own;
     EXPECT_EQ(host.standIns[0][1], host.standIns[9][1]) << "the modulation wheel of any channel is the same";
 }
 
@@ -203,7 +228,8 @@ TEST(RawVst3, ShortTitlesDiffer) {
     RawVst3 host{oneBus, "PhysVib"};
     ASSERT_TRUE(host.isLoaded());
     std::set<std::u16string> titles;
-    for (std::size_t p = 0; p < parameterCount; ++p) EXPECT_TRUE(titles.insert(host.shortNames[p]).second) << p;
+    for (std::size_t p = 0; p < parameterCount; ++p)
+        EXPECT_TRUE(titles.insert(host.shortNames[p]).second) << p;
 }
 
 TEST(RawVst3, TwentyInstances) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SILENCE clicked in the window that a module opens in its host: it stays pressed, and nothing moves any more. Needs a
-// display.
+// SILENCE clicked in the window that a module opens in its host: it stays pressed, and nothing moves any
+// more. Needs a display.
 #include "Plugin/Formats/Player.h"
 #include "PluginEditor.h"
 #include <cstdlib>
@@ -14,7 +14,8 @@ using namespace test;
 
 juce::Button* silenceIn(juce::Component& in) {
     for (auto* child : in.getChildren()) {
-        if (auto* button = dynamic_cast<juce::Button*>(child); button && button->getButtonText() == "SILENCE") return button;
+        if (auto* button = dynamic_cast<juce::Button*>(child); button && button->getButtonText() == "SILENCE")
+            return button;
         if (auto* found = silenceIn(*child)) return found;
     }
     return nullptr;
@@ -29,7 +30,8 @@ juce::Point<int> placeOfSilence(int width, int height) {
     return button ? editor->getLocalPoint(button, button->getLocalBounds().getCentre()) : juce::Point<int>{};
 }
 
-/// The innermost window: each host and each format nests it in others of its own, below one of a pixel for the keyboard.
+/// The innermost window: each host and each format nests it in others of its own, below one of a pixel for
+/// the keyboard.
 Window innermost(Display* display, Window window) {
     Window root = 0, parent = 0, *children = nullptr;
     unsigned int count = 0;
@@ -39,7 +41,8 @@ Window innermost(Display* display, Window window) {
     return innermost(display, child);
 }
 
-// The pointer goes there, and nothing lies between press and release: a button that is not below the pointer is let go.
+// The pointer goes there, and nothing lies between press and release: a button that is not below the pointer
+// is let go.
 void click(Display* display, Window window, juce::Point<int> at) {
     XWarpPointer(display, 0, window, 0, 0, 0, 0, at.x, at.y);
     XSync(display, 0);
@@ -51,7 +54,8 @@ void click(Display* display, Window window, juce::Point<int> at) {
     event.xbutton.y = at.y;
     event.xbutton.button = Button1;
     event.xbutton.same_screen = 1;
-    for (const auto& [type, mask, state] : {std::tuple{ButtonPress, ButtonPressMask, 0}, {ButtonRelease, ButtonReleaseMask, Button1Mask}}) {
+    for (const auto& [type, mask, state] :
+         {std::tuple{ButtonPress, ButtonPressMask, 0}, {ButtonRelease, ButtonReleaseMask, Button1Mask}}) {
         event.type = type;
         event.xbutton.state = static_cast<unsigned int>(state);
         XSendEvent(display, window, 1, mask, &event);
@@ -70,7 +74,8 @@ void expectTheButtonSilences(Kind kind, Display* display) {
     editor->addToDesktop(0);
     editor->setVisible(true);
     runFor(1.0);
-    const auto window = innermost(display, static_cast<Window>(reinterpret_cast<std::uintptr_t>(editor->getWindowHandle())));
+    const auto window =
+        innermost(display, static_cast<Window>(reinterpret_cast<std::uintptr_t>(editor->getWindowHandle())));
     const auto place = placeOfSilence(editor->getWidth(), editor->getHeight());
     click(display, window, place);
     EXPECT_EQ(player.peakOf(40, block + ramp), 0.0f);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SILENCE by every door, in every format, whatever the host does: at most one block and the ramp of 10 ms until nothing
-// moves any more, and it stays so. In the wrappers themselves, since what they do to a bypass is not ours.
+// SILENCE by every door, in every format, whatever the host does: at most one block and the ramp of 10 ms
+// until nothing moves any more, and it stays so. In the wrappers themselves, since what they do to a bypass
+// is not ours.
 #include "Plugin/Formats/Player.h"
 #include <functional>
 
@@ -14,10 +15,13 @@ struct Door {
     std::function<void(Player&)> silence, open;
 };
 const std::vector<Door> doors{
-    {"automation", [](Player& p) { p.bypass().setValue(1.0f); }, [](Player& p) { p.bypass().setValue(0.0f); }},
-    {"the host's bypass", [](Player& p) { (p.kind == Kind::processor ? p.bypass() : p.hostsBypass()).setValue(1.0f); },
+    {"automation", [](Player& p) { p.bypass().setValue(1.0f); },
+     [](Player& p) { p.bypass().setValue(0.0f); }},
+    {"the host's bypass",
+     [](Player& p) { (p.kind == Kind::processor ? p.bypass() : p.hostsBypass()).setValue(1.0f); },
      [](Player& p) { (p.kind == Kind::processor ? p.bypass() : p.hostsBypass()).setValue(0.0f); }},
-    {"a controller", [](Player& p) { p.next.addEvent(juce::MidiMessage::controllerEvent(1, panicController, 127), 0); },
+    {"a controller",
+     [](Player& p) { p.next.addEvent(juce::MidiMessage::controllerEvent(1, panicController, 127), 0); },
      [](Player& p) { p.next.addEvent(juce::MidiMessage::controllerEvent(1, panicController, 0), 0); }},
     {"a session", [](Player& p) { p.load(playing(true)); }, [](Player& p) { p.load(playing(false)); }},
 };
@@ -34,7 +38,8 @@ TEST(Silence, ByEveryDoorInEveryFormatAndHostState) {
     for (const auto kind : {Kind::processor, Kind::vst3, Kind::lv2})
         for (const auto& host : hostStates)
             for (const auto& door : doors) {
-                SCOPED_TRACE(std::string{kindNames[static_cast<int>(kind)]} + ", the host " + host.name + ", " + door.name);
+                SCOPED_TRACE(std::string{kindNames[static_cast<int>(kind)]} + ", the host " + host.name +
+                             ", " + door.name);
                 Player player{kind};
                 player.load(playing());
                 player.prepare(host.isOffline);

@@ -26,7 +26,7 @@ using namespace physvib;
 
 constexpr int rateHz = 48000, channels = 4, seconds = 12;
 constexpr int ticksPerBeat = 1920, ticks = 2 * ticksPerBeat * (seconds - 1); // at 120 beats a minute
-constexpr std::int64_t frameOf(int tick) { return 25LL * tick / 2; }           // ticks are even
+constexpr std::int64_t frameOf(int tick) { return 25LL * tick / 2; }         // ticks are even
 
 struct TimedMessage {
     int tick;
@@ -59,9 +59,9 @@ std::vector<TimedMessage> messages() {
     return all;
 }
 
-// On a MIDI track hosts keep automation by beats, so at even ticks; and away from the beginnings of blocks, where
-// it depends on rounding to which of them a point belongs. The first of each stands at 0: before it hosts take its
-// value.
+// On a MIDI track hosts keep automation by beats, so at even ticks; and away from the beginnings of blocks,
+// where it depends on rounding to which of them a point belongs. The first of each stands at 0: before it
+// hosts take its value.
 std::vector<Point> automation() {
     std::vector<Point> all;
     const auto addEvery = [&all](int step, Parameter which, auto value) {
@@ -114,8 +114,10 @@ public:
             auto& queue = queues_[static_cast<std::size_t>(point.parameter)];
             const auto normal = static_cast<float>(normalOf(point));
             const ParameterPoint told{static_cast<int>(point.frame - frame), normal};
-            if (queue.empty() || told.frame <= 0) queue.assign(1, {0, told.normal});
-            else if (told.frame <= frames) queue.push_back(told);
+            if (queue.empty() || told.frame <= 0)
+                queue.assign(1, {0, told.normal});
+            else if (told.frame <= frames)
+                queue.push_back(told);
         }
         for (auto& queue : queues_)
             if (!queue.empty() && queue.back().frame < frames) queue.push_back({frames, queue.back().normal});
@@ -158,8 +160,10 @@ public:
         for (const auto end = static_cast<std::int64_t>(music.size()); transport_.frame < end;) {
             const int frames = nextBlock(plugin, end);
             for (int c = 0; c < 2; ++c)
-                if (transport_.frame < 0) buffer_.clear(c, 0, frames);
-                else buffer_.copyFrom(c, 0, music.data() + transport_.frame, frames);
+                if (transport_.frame < 0)
+                    buffer_.clear(c, 0, frames);
+                else
+                    buffer_.copyFrom(c, 0, music.data() + transport_.frame, frames);
             juce::AudioBuffer<float> part{buffer_.getArrayOfWritePointers(), channels, frames};
             auto midi = midiOf(frames);
             plugin.processBlock(part, midi);
@@ -205,7 +209,8 @@ private:
         };
         bool isWritten = writeAs("song.raw", played);
         for (int c = 0; c < channels; ++c)
-            isWritten = writeAs("song-" + juce::String{c + 1} + ".raw", each[static_cast<std::size_t>(c)]) && isWritten;
+            isWritten = writeAs("song-" + juce::String{c + 1} + ".raw", each[static_cast<std::size_t>(c)]) &&
+                        isWritten;
         return isWritten;
     }
 

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Stands for <box2d/box2d.h> of Box2D 3.1 where there is none: what physvib_box2d3.h asks of it, answered from a recording of a ball (body 2) that
-// falls onto a floor (body 1). Names and meanings are Box2D's.
+// Stands for <box2d/box2d.h> of Box2D 3.1 where there is none: what physvib_box2d3.h asks of it, answered
+// from a recording of a ball (body 2) that falls onto a floor (body 1). Names and meanings are Box2D's.
 #pragma once
 #include <cstdint>
 
-struct b2Vec2 { float x, y; };
-struct b2WorldId { std::uint16_t index1, generation; };
-struct b2BodyId { std::int32_t index1; std::uint16_t world0, generation; };
-struct b2ShapeId { std::int32_t index1; std::uint16_t world0, generation; };
+struct b2Vec2 {
+    float x, y;
+};
+struct b2WorldId {
+    std::uint16_t index1, generation;
+};
+struct b2BodyId {
+    std::int32_t index1;
+    std::uint16_t world0, generation;
+};
+struct b2ShapeId {
+    std::int32_t index1;
+    std::uint16_t world0, generation;
+};
 enum b2BodyType { b2_staticBody = 0, b2_kinematicBody = 1, b2_dynamicBody = 2 };
 struct b2ManifoldPoint {
     b2Vec2 point;
@@ -23,7 +33,9 @@ struct b2ContactData {
     b2ShapeId shapeIdA, shapeIdB;
     b2Manifold manifold;
 };
-struct b2BodyMoveEvent { b2BodyId bodyId; };
+struct b2BodyMoveEvent {
+    b2BodyId bodyId;
+};
 struct b2BodyEvents {
     b2BodyMoveEvent* moveEvents;
     int moveCount;
@@ -48,8 +60,12 @@ inline float b2Body_GetRotationalInertia(b2BodyId body) { return isBall(body) ? 
 inline float b2Body_GetGravityScale(b2BodyId) { return 1.0F; }
 inline bool b2Body_IsAwake(b2BodyId body) { return isBall(body); }
 inline bool b2Body_IsValid(b2BodyId body) { return body.generation == 1; }
-inline b2Vec2 b2Body_GetWorldCenterOfMass(b2BodyId body) { return isBall(body) ? b2Vec2{0.25F, recordedStep->height} : b2Vec2{0.0F, -1.0F}; }
-inline b2Vec2 b2Body_GetLinearVelocity(b2BodyId body) { return {0.0F, !isBall(body) ? 0.0F : hasRecordedStepped ? recordedStep->after : recordedStep->before}; }
+inline b2Vec2 b2Body_GetWorldCenterOfMass(b2BodyId body) {
+    return isBall(body) ? b2Vec2{0.25F, recordedStep->height} : b2Vec2{0.0F, -1.0F};
+}
+inline b2Vec2 b2Body_GetLinearVelocity(b2BodyId body) {
+    return {0.0F, !isBall(body) ? 0.0F : hasRecordedStepped ? recordedStep->after : recordedStep->before};
+}
 inline float b2Body_GetAngularVelocity(b2BodyId) { return 0.0F; }
 inline b2BodyId b2Shape_GetBody(b2ShapeId shape) { return shape.index1 == 1 ? recordedFloor : recordedBall; }
 inline float b2Shape_GetRestitution(b2ShapeId) { return 0.5F; }
@@ -62,6 +78,15 @@ inline b2BodyEvents b2World_GetBodyEvents(b2WorldId) {
 inline int b2Body_GetContactCapacity(b2BodyId) { return 4; }
 inline int b2Body_GetContactData(b2BodyId body, b2ContactData* found, int) {
     if (!isBall(body) || recordedStep->isTouching == 0) return 0;
-    found[0] = {{1, 0, 1}, {2, 0, 1}, {{0.0F, 1.0F}, {{{0.25F, 0.0F}, recordedStep->separation, recordedStep->pushed, recordedStep->normalVelocity, static_cast<std::uint16_t>(recordedStep->id)}, {}}, 1}};
+    found[0] = {{1, 0, 1},
+                {2, 0, 1},
+                {{0.0F, 1.0F},
+                 {{{0.25F, 0.0F},
+                   recordedStep->separation,
+                   recordedStep->pushed,
+                   recordedStep->normalVelocity,
+                   static_cast<std::uint16_t>(recordedStep->id)},
+                  {}},
+                 1}};
     return 1;
 }
