@@ -61,12 +61,10 @@ public:
     void wait(int frames) noexcept;
 
     /// The other way round, beside render: nobody feels the renderer's next frames, and L is shorter by as
-    /// many. `unfelt` is written as by render. After L has grown, or where the world has room for that. R,
-    /// wait-free.
+    /// many. `unfelt` is as of render. After L has grown, or where the world has room for that. R, wait-free.
     void wait(float* const* unfelt, int frames) noexcept;
 
-    /// Before the first block: what is born is felt as soon as before, the world begins so much later. R, or
-    /// M.
+    /// Before the first block: what is born is felt as soon as before, the world begins later. R, or M.
     void startLater(std::int64_t frames) noexcept;
 
     /// Does an input: what it does is felt L after its time, logged, and the same to the bit when the log is

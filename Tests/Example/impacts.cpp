@@ -20,6 +20,5 @@ int main() {
     std::vector<physvib::CollisionEvent> impacts;
     for (int step = 0; step < 200; ++step) haptics.step(0.01f);
     haptics.take(impacts);
-    for (const auto& impact : impacts)
-        std::printf("%.3f s: amplitude %.2f\n", impact.timeNs * 1e-9, impact.amplitude);
+    for (const auto& hit : impacts) std::printf("%.3f s: amplitude %.2f\n", hit.timeNs * 1e-9, hit.amplitude);
 }

@@ -185,15 +185,13 @@ typedef struct physvib_body {
 } physvib_body;
 
 #define PHYSVIB_POINT_NONE (-1) /**< of point_id: the points of a pair are not distinguished */
-#define PHYSVIB_POINT_BY_PLACE                                                                               \
-    (-2) /**< of point_id: points are distinguished by place; physvib_world_move says how far a point may    \
-            have slid */
+/** of point_id: points are distinguished by place; physvib_world_move says how far a point may have slid */
+#define PHYSVIB_POINT_BY_PLACE (-2)
 
 #define PHYSVIB_SOFT 1 /**< of is_soft: the impulse of one step is a load, and no measure of an impact */
-#define PHYSVIB_SOFT_WHOLE                                                                                   \
-    2 /**< of is_soft: the same, but it is all that the bodies were given in the step. Where it is clearly   \
-         more than speed and masses say (what is struck is supported, or hangs in joints), it is the impact                              \
-       */
+/** of is_soft: the same, but it is all that the bodies were given in the step. Where it is clearly more than
+ * speed and masses say (what is struck is supported, or hangs in joints), it is the impact */
+#define PHYSVIB_SOFT_WHOLE 2
 
 /** Two bodies touch. Set the impulse, or the approach speed, or neither if physvib_world_move reports the
  * motions. */

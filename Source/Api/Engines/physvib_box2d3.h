@@ -13,9 +13,9 @@
 #define PHYSVIB_BOX2D3_MOST 64 /**< contacts of a body in a step; more are an error */
 
 /* What changed its name from version to version. */
-#if defined(b2_maxPolygonVertices)                                       /* 3.0 */
-#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse) /* of a sub-step: at least so much  \
-                                                                          */
+#if defined(b2_maxPolygonVertices) /* 3.0 */
+/* of a sub-step: at least so much */
+#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse)
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetInertiaTensor(body)
 #else
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetRotationalInertia(body)
@@ -26,8 +26,8 @@
 #else
 #define PHYSVIB_BOX2D3_CENTRE(body) b2Body_GetWorldCenterOfMass(body)
 #endif
-#if !defined(PHYSVIB_BOX2D3_PUSHED) /* 3.1 counts each sub-step twice: as it is solved, and as it is relaxed \
-                                     */
+/* 3.1 counts each sub-step twice: as it is solved, and as it is relaxed */
+#if !defined(PHYSVIB_BOX2D3_PUSHED)
 #define PHYSVIB_BOX2D3_PUSHED(point) (0.5 * (double)(point)->totalNormalImpulse)
 #endif
 

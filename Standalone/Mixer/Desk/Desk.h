@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mixer's window shows and changes: a live session on a device, the mix that is set on it, and the
-// way back of every change.
+// What the mixer's window shows and changes: a live session on a device, its mix, the way back of edits.
 #pragma once
 #include "Host/Devices/SimulationDriver.h"
 #include "Mixer/Desk/DeskDevice.h"
@@ -25,8 +24,7 @@ namespace physvib {
 /// M only. Listeners are told when the mix, the device or the trouble changes.
 class Desk final : public juce::ChangeBroadcaster {
 public:
-    static constexpr int channels = limits::maxEnchanters; ///< of the session: whatever is attached while it
-                                                           ///< plays finds one
+    static constexpr int channels = limits::maxEnchanters; ///< of the session: room for all that is attached
     static constexpr double gapSeconds = 0.005; ///< the driver's thread shares the machine with painting
 
     /// Plays `mix` on `device`, one of `types`; trouble() if it does not open. Its rate and block hold until
@@ -48,8 +46,7 @@ public:
     juce::UndoManager& undoManager() noexcept { return undo_; }
     bool attach(double shareX, double shareY); ///< at shares of the field, quietly; false: no room
     void detach(int enchanter);                ///< one always stays
-    /// grows with every edit and every input: what a document has to be saved for
-    std::uint64_t edits() const noexcept { return edits_; }
+    std::uint64_t edits() const noexcept { return edits_; } ///< with inputs: what a document is saved for
     const SavedSession& saved(); ///< the session until now: rendered again it is what was played
     void restart(std::uint32_t seed);
     void setSlowness(int slowness); ///< see WorldRunner
@@ -76,7 +73,6 @@ public:
     bool isSilent() const noexcept { return isSilent_; } ///< as it is shown: what is pressed then means that
     void stop();                                         ///< what Esc does first of all
     void takeEscape(); ///< of an Esc that nothing else took: lifts what was silent before it
-
     void setDisplayWidth(double metres); ///< of what the world is seen on, for drags; 0: as the system says
     double displayWidthMetres() const noexcept { return displayWidthMetres_; }
     DeskMoment look(); ///< what is new; at most about 30 times a second
