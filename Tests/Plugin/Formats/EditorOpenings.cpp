@@ -3,11 +3,12 @@
 // not come or if the memory in use grows from one opening to the next. Run by openings.sh. Usage:
 // physvib-editor-openings COUNT
 #include "Host/MessageLoop.h"
-#include "Plugin/Formats/DisplayNames.h" // last: X11's names are macros
 #include "PluginProcessor.h"
 #include <cstdio>
 #include <cstdlib>
 #include <malloc.h>
+// X11's macros come last
+#include "Plugin/Formats/DisplayNames.h"
 
 namespace {
 
