@@ -48,8 +48,8 @@ struct FedContact {
 
     /// Of what goes on touching a rough surface (HapticFixture::texture), with its impulse: how fast the
     /// point of contact moves along each of the two surfaces, m/s. Rolling: both alike; sliding: 0 along what
-    /// drags its own point. Both, or it is not felt. each along its own surface; nullopt: unknown
-    std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond;
+    /// drags its own point. Both, or it is not felt; nullopt: unknown.
+    std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond; ///< along its own surface
 
     /// Which point of its pair it is: a number of the engine's (>= 0), `byPlace` for engines that do not
     /// number them, or `none` if the pair is told as a whole. A point that was not there in the step before

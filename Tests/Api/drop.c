@@ -58,8 +58,7 @@ int main(void) {
     count = physvib_world_take(world, events, 100, 1);
     physvib_world_free(world);
 
-    physvib_renderer_settings_init(&settings, sizeof settings); /* 48 kHz, four enchanters on the corners of a
-                                                                   phone */
+    physvib_renderer_settings_init(&settings, sizeof settings); /* 48 kHz, an actuator at each corner */
     settings.field_width_m = settings.field_height_m = 1.0;
     if (samples == NULL || physvib_render(&settings, events, count, frames, samples) != PHYSVIB_OK)
         return failed("render");
