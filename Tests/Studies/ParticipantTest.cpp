@@ -384,8 +384,8 @@ TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
     p->desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
     begin(
         R"({"name": "main", "task": "estimate", "repetitions": 20, "question": "How strong?"})",
-        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["1"]}], "call": "stimulus phantom --at 0,0 --seconds 0.4 --frequency 40 --level-g {level_g}")",
-        R"(, "exposure_limit_m_per_s2": 0.014)");
+        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["1"]}], "call": "stimulus phantom --at 0,0 --seconds 0.8 --frequency 40 --level-g {level_g}")",
+        R"(, "exposure_limit_m_per_s2": 0.02)");
     passPage();
     int trials = 0;
     for (; p->screen()->page() == StudyScreen::Page::trial && trials < 20; ++trials) {
@@ -394,10 +394,10 @@ TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
         p->enter();
     }
     EXPECT_EQ(p->screen()->page(), StudyScreen::Page::exposed);
-    EXPECT_GT(trials, 1) << "0.4 s of 1 g at 40 Hz are an A(8) of about 0.01 m/s^2";
+    EXPECT_GT(trials, 1) << "0.8 s of 1 g at 40 Hz are an A(8) of about 0.015 m/s^2";
     EXPECT_LT(trials, 4);
     EXPECT_TRUE(p->screen()->getDescription().contains("the study pauses")) << p->screen()->getDescription();
-    EXPECT_TRUE(p->screen()->getDescription().contains("this study's limit is 0.014 m/s^2"))
+    EXPECT_TRUE(p->screen()->getDescription().contains("this study's limit is 0.02 m/s^2"))
         << p->screen()->getDescription();
     p->enter();
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
