@@ -185,6 +185,14 @@ private:
 
 } // namespace
 
+std::optional<FieldSize> parseField(std::string_view word) {
+    const auto comma = std::min(word.find(','), word.size());
+    const auto width = parseNumber<double>(word.substr(0, comma));
+    const auto height = parseNumber<double>(word.substr(std::min(comma + 1, word.size())));
+    const FieldSize field{width.value_or(0.0), height.value_or(0.0)};
+    return isField(field) ? std::optional{field} : std::nullopt;
+}
+
 Result<EventList> readEventsCsv(std::string_view text, std::string_view name, std::size_t maxRows) {
     const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
     return Reader(text, name, maxRows).read(lines);

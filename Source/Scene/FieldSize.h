@@ -28,13 +28,7 @@ inline bool isField(FieldSize field) noexcept {
 }
 
 /// Of `6.4,3.6`; none if it is anything else. Any thread.
-inline std::optional<FieldSize> parseField(std::string_view word) {
-    const auto comma = std::min(word.find(','), word.size());
-    const auto width = parseNumber<double>(word.substr(0, comma));
-    const auto height = parseNumber<double>(word.substr(std::min(comma + 1, word.size())));
-    const FieldSize field{width.value_or(0.0), height.value_or(0.0)};
-    return isField(field) ? std::optional{field} : std::nullopt;
-}
+std::optional<FieldSize> parseField(std::string_view word);
 
 /// What parseField takes. Any thread.
 inline std::string fieldWord(FieldSize field) {
