@@ -2,8 +2,8 @@
 // Which note strikes what and where; which controller moves which parameter.
 #pragma once
 #include "Core/CollisionEvent.h"
+#include "Live/Documents/PluginState.h"
 #include "Parameters.h"
-#include "Scene/Sessions/PluginState.h"
 #include <array>
 
 namespace physvib {

@@ -2,13 +2,13 @@
 // By what the file says it is.
 #include "OpenedFile.h"
 #include "Io/Disk/ReadFile.h"
+#include "Live/Documents/DeskLimits.h"
+#include "Live/Documents/SessionFile.h"
 #include "Parameters.h"
 #include "PluginSettings.h"
 #include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneFileLimits.h"
-#include "Scene/Sessions/DeskLimits.h"
-#include "Scene/Sessions/SessionFile.h"
 #include <algorithm>
 #include <utility>
 

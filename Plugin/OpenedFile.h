@@ -2,7 +2,7 @@
 // A file of one's own into what an instance plays: a scene, a layout, or a session with its desk.
 #pragma once
 #include "Io/Result.h"
-#include "Scene/Sessions/PluginState.h"
+#include "Live/Documents/PluginState.h"
 #include <filesystem>
 #include <string>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the state of an instance to what renders it.
 #pragma once
+#include "Live/Documents/PluginState.h"
+#include "Live/Session/Session.h"
 #include "Parameters.h"
-#include "Scene/Sessions/PluginState.h"
-#include "Session/Session.h"
 #include <optional>
 #include <string>
 

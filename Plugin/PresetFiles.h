@@ -3,7 +3,7 @@
 // instance lists. Beside it, how windows look.
 #pragma once
 #include "Host/Views/Look.h"
-#include "Scene/Sessions/PluginState.h"
+#include "Live/Documents/PluginState.h"
 #include <juce_core/juce_core.h>
 #include <string>
 #include <vector>

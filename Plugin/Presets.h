@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What an instance can be, by name: instruments of an empty field, and the built-in worlds.
 #pragma once
-#include "Scene/Sessions/PluginState.h"
+#include "Live/Documents/PluginState.h"
 #include <string>
 #include <vector>
 

@@ -4,9 +4,9 @@
 #include "ControlPace.h"
 #include "Core/Actuators/GainRamp.h"
 #include "Core/EventQueue.h"
+#include "Live/Documents/Mix.h"
+#include "Live/Session/Session.h"
 #include "MusicDelay.h"
-#include "Scene/Sessions/Mix.h"
-#include "Session/Session.h"
 #include "TakeSettings.h"
 #include <array>
 #include <atomic>

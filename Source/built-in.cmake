@@ -4,7 +4,7 @@ set(physvib_first_Scene/Scenes shake-the-box fruit-basket driving drop box-study
 set(physvib_first_Scene/Materials table-5-1)
 set(physvib_first_Scene/Actuators lra-205 piezo-230 haptuator-mark-2 haptuator-2 haptuator-planar erm-coin voice-coil)
 set(physvib_first_Scene/Pads pad-generic pad-xbox pad-dualshock)
-set(physvib_first_Study/Protocols patterns phantom-grids phantom-places model-or-sound eight-methods level-steps level-quest magnitudes)
+set(physvib_first_Lab/Protocols patterns phantom-grids phantom-places model-or-sound eight-methods level-steps level-quest magnitudes)
 
 # physvib_built_in(OUT FOLDER), as Scene/Scenes: its files, in the order of their listing.
 function(physvib_built_in out folder)

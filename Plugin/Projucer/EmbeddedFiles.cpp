@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The built-in scenes, materials, actuators, protocols and words where the Projucer embeds them (CMake does
+// The built-in scenes, materials, actuators and pads where the Projucer embeds them (CMake does
 // by Source/Io/embed.cmake).
 #include "BinaryData.h"
 #include "Io/Disk/Embedded.h"
@@ -38,13 +38,8 @@ const std::vector<EmbeddedFile>& embeddedActuators() {
     return files;
 }
 
-const std::vector<EmbeddedFile>& embeddedProtocols() {
-    static const auto files = embedded("\"physvib_protocol\"");
-    return files;
-}
-
-const std::vector<EmbeddedFile>& embeddedWords() {
-    static const auto files = embedded("\"physvib_words\"");
+const std::vector<EmbeddedFile>& embeddedPads() {
+    static const auto files = embedded("\"physvib_pad\"");
     return files;
 }
 

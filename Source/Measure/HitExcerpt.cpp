@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Levels of short frames against the quietest part of the recording.
 #include "Measure/HitExcerpt.h"
-#include "Measure/PartialFit.h"
-#include <span>
 
 namespace physvib {
+
+double energyOf(std::span<const double> samples) {
+    double sum = 0.0;
+    for (const double x : samples) sum += x * x;
+    return sum;
+}
+
 namespace {
 
 constexpr double longestHitSeconds = 1.0;   // a slower decay is seen well enough by then

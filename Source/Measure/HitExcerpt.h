@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace physvib {
@@ -19,6 +20,9 @@ struct HitExcerpt {
 inline std::size_t samplesIn(double seconds, double rateHz) noexcept {
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(seconds * rateHz)));
 }
+
+/// The sum of their squares. Any thread.
+double energyOf(std::span<const double> samples);
 
 /// From the onset of what is loudest to where it has sunk into the noise, the next hit, or one second;
 /// `samples` are not empty. M only.

@@ -44,12 +44,6 @@ double solveAmplitudes(std::span<const double> samples, double rateHz, Partial& 
 
 } // namespace
 
-double energyOf(std::span<const double> samples) {
-    double sum = 0.0;
-    for (const double x : samples) sum += x * x;
-    return sum;
-}
-
 Partial Partial::shifted(double seconds) const noexcept {
     const double decay = std::exp(-tau * seconds), c = decay * std::cos(omega * seconds),
                  s = decay * std::sin(omega * seconds);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Least squares of a sum of decaying sinusoids to samples, partials found one by one and refined together.
 #pragma once
+#include "Measure/HitExcerpt.h"
 #include "Measure/LeastSquares.h"
 #include <cmath>
 #include <span>
@@ -65,9 +66,6 @@ private:
     double rateHz_;
     std::vector<Partial> partials_;
 };
-
-/// The sum of their squares. Any thread.
-double energyOf(std::span<const double> samples);
 
 /// Frequency in Hz, between `lowHz` and `highHz`, of the highest peak in the magnitude spectrum, to a
 /// thousandth of a bin.

@@ -4,7 +4,7 @@
 #include "Calls/RenderOptions.h"
 #include "Calls/StimulusOptions.h"
 #include "Io/Disk/FileClash.h"
-#include "Study/Files/ProtocolFile.h"
+#include "Lab/Files/ProtocolFile.h"
 #include <set>
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "Calls/CouplingChoice.h"
 #include "Core/Decibels.h"
 #include "Io/Text/NumberText.h"
-#include "Study/Files/CouplingFile.h"
+#include "Lab/Files/CouplingFile.h"
 #include <cmath>
 
 namespace physvib {

@@ -2,8 +2,8 @@
 // What --coupling means for a layout.
 #pragma once
 #include "Io/Result.h"
+#include "Lab/Study/Coupling.h"
 #include "Scene/LayoutFile.h"
-#include "Study/Coupling.h"
 #include <string>
 
 namespace physvib {

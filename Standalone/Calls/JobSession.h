@@ -2,7 +2,7 @@
 // A job that is played live instead: the session that it becomes.
 #pragma once
 #include "Calls/LoadedRender.h"
-#include "Session/SessionSetup.h"
+#include "Live/Session/SessionSetup.h"
 #include <vector>
 
 namespace physvib {

@@ -11,11 +11,11 @@
 #include "Host/Recordings/LoadRecordings.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Text/NumberText.h"
-#include "Jobs/LayoutNamed.h"
+#include "Live/Documents/SessionFile.h"
 #include "Scene/LayoutFile.h"
+#include "Scene/LayoutNamed.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneValidation.h"
-#include "Scene/Sessions/SessionFile.h"
 #include "Scene/World/SceneRun.h"
 #include "System/ExitCode.h"
 #include <algorithm>

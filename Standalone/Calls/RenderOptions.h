@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib render`, from words to checked values.
 #pragma once
-#include "Jobs/RenderJob.h"
+#include "Calls/RenderJob.h"
 
 namespace physvib {
 

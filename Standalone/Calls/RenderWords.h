@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From words of a call to values of a job, where a word is no number, name or path.
 #pragma once
-#include "Jobs/RenderJob.h"
+#include "Calls/RenderJob.h"
 #include "Options/OptionTable.h"
 
 namespace physvib {

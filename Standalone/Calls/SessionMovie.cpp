@@ -4,7 +4,7 @@
 #include "Calls/MovieOutput.h"
 #include "Host/Recordings/LoadRecordings.h"
 #include "Io/Disk/FileClash.h"
-#include "Session/SessionRender.h"
+#include "Live/Session/SessionRender.h"
 #include <algorithm>
 #include <cmath>
 #include <optional>

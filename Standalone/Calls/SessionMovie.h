@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The last part of a session as a movie.
 #pragma once
-#include "Scene/Sessions/SessionFile.h"
+#include "Live/Documents/SessionFile.h"
 #include <functional>
 #include <string>
 

@@ -4,7 +4,7 @@
 #include "Calls/RenderWords.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
-#include "Study/PercentCounts.h"
+#include "Lab/Study/PercentCounts.h"
 #include <cmath>
 
 namespace physvib {

@@ -3,7 +3,7 @@
 // (stimulusWords).
 #pragma once
 #include "Io/Result.h"
-#include "Study/StimulusJob.h"
+#include "Lab/Study/StimulusJob.h"
 #include <string>
 
 namespace physvib {

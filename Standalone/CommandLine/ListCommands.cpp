@@ -3,9 +3,9 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/DeviceList.h"
 #include "Io/Text/NumberText.h"
+#include "Live/Session/SerialLine.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/SceneCatalogue.h"
-#include "Session/SerialLine.h"
 
 namespace physvib {
 namespace {

@@ -7,12 +7,12 @@
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
 #include "Io/Wav/WavSink.h"
+#include "Live/Session/OfflineRender.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SilentWords.h"
 #include "Scene/World/SceneRun.h"
-#include "Session/OfflineRender.h"
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>

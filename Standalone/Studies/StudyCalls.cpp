@@ -5,12 +5,12 @@
 #include "Calls/JobSession.h"
 #include "Calls/StimulusOptions.h"
 #include "Core/Decibels.h"
-#include "Jobs/LayoutNamed.h"
-#include "Jobs/MakeStimulus.h"
-#include "Jobs/StudyRun.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Study/MakeStimulus.h"
+#include "Lab/Study/StudyRun.h"
+#include "Live/Session/StimulusRender.h"
 #include "Options/Parser.h"
-#include "Session/StimulusRender.h"
-#include "Study/Files/ProtocolFile.h"
+#include "Scene/LayoutNamed.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>

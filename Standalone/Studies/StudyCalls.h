@@ -3,10 +3,10 @@
 // program parses it.
 #pragma once
 #include "Io/Result.h"
+#include "Lab/Study/Trial.h"
+#include "Live/Session/SessionSetup.h"
 #include "Scene/LayoutFile.h"
-#include "Session/SessionSetup.h"
-#include "Study/Stimulus.h"
-#include "Study/Trial.h"
+#include "Stimuli/Stimulus.h"
 #include <string>
 #include <vector>
 

@@ -2,7 +2,7 @@
 // A study looked at before anybody takes part: how strong each stimulus is, what limiter and guard would
 // alter, how long it takes, how orders balance.
 #pragma once
-#include "Study/Protocol.h"
+#include "Lab/Study/Protocol.h"
 #include <string>
 #include <vector>
 

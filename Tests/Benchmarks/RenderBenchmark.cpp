@@ -2,9 +2,9 @@
 // Scenes from their start to a WAV file, a minute of "shake the box" also in its parts; the counter
 // `times_real_time` is the figure.
 #include "Io/Wav/WavSink.h"
+#include "Live/Session/OfflineRender.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/SceneRun.h"
-#include "Session/OfflineRender.h"
 #include <benchmark/benchmark.h>
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One session on a device and a board: each hit leaves the device and the board's converters at the same
 // moment.
-#include "Session/BoardOutput.h"
+#include "Live/Session/BoardOutput.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/FakeAudioDevice.h"

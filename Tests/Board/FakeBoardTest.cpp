@@ -2,7 +2,7 @@
 // Boards that answer as none should, and one whose counter is over: what the link makes of them.
 #include "Host/Devices/AudioOutput.h"
 #include "Host/FakeAudioDevice.h"
-#include "Session/BoardOutput.h"
+#include "Live/Session/BoardOutput.h"
 #include "Session/WallsScene.h"
 #include "VirtualBoard.h"
 #include "VirtualBoard/PseudoTerminal.h"

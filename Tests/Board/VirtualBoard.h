@@ -2,7 +2,7 @@
 // A virtual board in a process of its own, as a person's would be: Unicorn's licence keeps it out of this
 // program.
 #pragma once
-#include "Session/BoardLink.h"
+#include "Live/Session/BoardLink.h"
 #include <csignal>
 #include <cstdio>
 #include <filesystem>

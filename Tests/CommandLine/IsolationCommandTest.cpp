@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib attenuation FOLDER` and `physvib coupling`: recordings whose answers are known.
 #include "Calls.h"
-#include "Study/Files/CouplingFile.h"
+#include "Lab/Files/CouplingFile.h"
 #include <cmath>
 #include <complex>
 #include <cstring>

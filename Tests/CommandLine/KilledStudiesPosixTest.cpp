@@ -2,9 +2,9 @@
 // Every built-in study, killed (SIGKILL) in each of its phases: nothing that was answered is lost, settings
 // that changed meanwhile are refused in words, and the file ends as that of a study that was never killed,
 // byte by byte.
-#include "Jobs/StudyRun.h"
-#include "Study/Files/ProtocolFile.h"
-#include "Study/SimulatedObserver.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Study/SimulatedObserver.h"
+#include "Lab/Study/StudyRun.h"
 #include <csignal>
 #include <cstdlib>
 #include <fstream>

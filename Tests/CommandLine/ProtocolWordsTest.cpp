@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every field of a protocol has its words in the report's section on methods, or a reason why not; without
 // the field there are no such words.
-#include "Jobs/Report/ProtocolWords.h"
-#include "Study/Files/ProtocolFields.h"
+#include "Lab/Report/ProtocolWords.h"
+#include "Lab/Files/ProtocolFields.h"
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
@@ -306,7 +306,7 @@ TEST(ProtocolWords, NoFieldIsForgotten) {
     for (const PlantedField& field : plantedFields()) known.insert(field.name);
     for (const auto& [name, reason] : wordless)
         EXPECT_TRUE(known.insert(name).second) << name << " has words, and a reason to have none";
-    EXPECT_EQ(known, allFields()) << "a new field: say it in Source/Jobs/Report/ProtocolWords.cpp and plant "
+    EXPECT_EQ(known, allFields()) << "a new field: say it in Source/Lab/Report/ProtocolWords.cpp and plant "
                                      "it here, or say why it has no words";
 }
 

@@ -3,7 +3,7 @@
 // that say so.
 #include "Calls.h"
 #include "Io/Text/NumberText.h"
-#include "Study/Files/ProtocolFile.h"
+#include "Lab/Files/ProtocolFile.h"
 
 namespace physvib {
 namespace {

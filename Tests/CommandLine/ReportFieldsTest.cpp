@@ -2,8 +2,8 @@
 // Every sentence of the methods section comes from a field: each is planted into trials and looked for on the
 // page, and is not there without it.
 #include "Calls.h"
-#include "Jobs/Report/ProtocolWords.h"
-#include "Study/Files/ProtocolFile.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Report/ProtocolWords.h"
 #include <algorithm>
 #include <regex>
 #include <sstream>

@@ -28,16 +28,16 @@ for script, names in pages.items():
             bad.append(f"Docs/{names[0]}: expected the line that Tests/figures/{script} prints, found none like it: {line}")
 
 cell = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # the formatter may have cut a text in two
-source = (root / "Source/Study/ThesisDeviations.h").read_text()
+source = (root / "Source/Lab/Study/ThesisDeviations.h").read_text()
 page = (root / "Docs/studies-thesis.md").read_text()
 deviations = re.findall(r"ThesisDeviation\{" + r",\s*".join([cell] * 5) + r"(?:,\s*ThesisEdit::\w+)?\}", source)
 lines = {f"| `{protocol}` {section} | {thesis} | {here} | {change or '-'} |" for protocol, section, thesis, here, change in ([re.sub(r'"\s*"', "", text.strip())[1:-1] for text in one] for one in deviations)}
 for line in sorted(lines):
     if line not in page.split("\n"):
-        bad.append(f"Docs/studies-thesis.md: expected the line of Source/Study/ThesisDeviations.h: {line}")
+        bad.append(f"Docs/studies-thesis.md: expected the line of Source/Lab/Study/ThesisDeviations.h: {line}")
 for line in re.findall(r"^\| `[a-z-]+` \d.*\|$", page, re.M):
     if line not in lines:
-        bad.append(f"Docs/studies-thesis.md: a deviation that Source/Study/ThesisDeviations.h does not have: {line}")
+        bad.append(f"Docs/studies-thesis.md: a deviation that Source/Lab/Study/ThesisDeviations.h does not have: {line}")
 
 if bad or not deviations:
     sys.exit("\n".join(bad or ["no deviations were read"]))

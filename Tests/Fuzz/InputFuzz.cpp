@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of live input lines; what is accepted acts on a small world.
 #include "Fuzzing.h"
+#include "Live/Documents/InputLine.h"
 #include "Scene/SceneCatalogue.h"
-#include "Scene/Sessions/InputLine.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/Simulation.h"
 

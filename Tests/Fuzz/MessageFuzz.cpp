@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of messages in lines; what is taken is played for a while.
 #include "Fuzzing.h"
-#include "Scene/Sessions/InputLine.h"
-#include "Session/Messages/MessageRouter.h"
+#include "Live/Documents/InputLine.h"
+#include "Live/Messages/MessageRouter.h"
 #include "SessionFuzzing.h"
 #include <array>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the protocol reader, and of experiments on whatever it lets through.
 #include "Fuzzing.h"
-#include "Study/Experiment.h"
-#include "Study/Files/ProtocolFile.h"
-#include "Study/Files/TrialLog.h"
-#include "Study/SimulatedObserver.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Study/Experiment.h"
+#include "Lab/Study/SimulatedObserver.h"
 
 namespace {
 using namespace physvib;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the session reader.
 #include "Fuzzing.h"
-#include "Scene/Sessions/SessionFile.h"
+#include "Live/Documents/SessionFile.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the plug-in's state, which hosts keep and may damage.
 #include "Fuzzing.h"
-#include "Scene/Sessions/PluginState.h"
+#include "Live/Documents/PluginState.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

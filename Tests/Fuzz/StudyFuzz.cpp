@@ -2,12 +2,12 @@
 // Fuzz target of the readers of study files, and of the analyses on whatever they let through: no number may
 // be missing.
 #include "Fuzzing.h"
-#include "Study/Files/LongTableCsv.h"
-#include "Study/Files/StudyCsv.h"
-#include "Study/InformationTransfer.h"
-#include "Study/Statistics/RankTests.h"
-#include "Study/Statistics/RepeatedMeasures.h"
-#include "Study/Statistics/ShapiroWilk.h"
+#include "Lab/Files/LongTableCsv.h"
+#include "Lab/Files/StudyCsv.h"
+#include "Lab/Statistics/RankTests.h"
+#include "Lab/Statistics/RepeatedMeasures.h"
+#include "Lab/Statistics/ShapiroWilk.h"
+#include "Lab/Study/InformationTransfer.h"
 #include <cmath>
 
 namespace {

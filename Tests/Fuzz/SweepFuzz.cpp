@@ -2,8 +2,8 @@
 // Fuzz target of the reader of designs: every task is a call that renders, reads below its folder, and does
 // nothing else.
 #include "Fuzzing.h"
-#include "Study/CallWords.h"
-#include "Study/Files/SweepFile.h"
+#include "Lab/Files/SweepFile.h"
+#include "Lab/Study/CallWords.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

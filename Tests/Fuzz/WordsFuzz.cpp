@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the reader of words that participants read.
 #include "Fuzzing.h"
-#include "Study/Files/Words.h"
+#include "Lab/Files/Words.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

@@ -6,8 +6,8 @@
 #include "Host/Recordings/ReadRecording.h"
 #include "Host/Recordings/SessionWav.h"
 #include "Io/Wav/WavSink.h"
+#include "Live/Session/SessionJournal.h"
 #include "Session/FakeHost.h"
-#include "Session/SessionJournal.h"
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

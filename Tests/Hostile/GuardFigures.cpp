@@ -2,7 +2,7 @@
 // What reaches an actuator, measured as its coil is warmed by it: the worst mean over 250 ms, the worst rms
 // below 5 Hz of a second. Usage: physvib-guard-figures FILE.raw CHANNELS RATE    of interleaved floats
 //        physvib-guard-figures lists COUNT [SEED]        of random hostile lists of events, rendered
-#include "Session/OfflineRender.h"
+#include "Live/Session/OfflineRender.h"
 #include "Support/ClosedForm.h"
 #include "Support/SlowFigures.h"
 #include <cstdio>

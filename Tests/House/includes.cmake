@@ -6,27 +6,32 @@ set(Io_may "Io/|Core/|nlohmann/")
 set(Contacts_may "Contacts/|Core/")
 set(Physics_may "Physics/|Contacts/|Core/|box2d/")
 set(Scene_may "Scene/|Physics/|Contacts/|Io/|Core/|box2d/|nlohmann/")
-set(Study_may "Study/|Scene/|Io/|Core/|Eigen/|boost/|nlohmann/")
+set(Stimuli_may "Stimuli/|Core/")
+set(Lab_may "Lab/|Pictures/|Stimuli/|Scene/|Io/|Core/|Eigen/|boost/|nlohmann/")
 set(Formats_may "Formats/|Io/|Core/|nlohmann/")
 set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Io/(Result|Text/NumberText)\\.h|Contacts/(Grains|Texture)\\.h|Core/") # one line of words for what a recording lacks
 set(Api_may "Api/C/|Scene/|Io/|Contacts/|Core/")
-set(Api/Live_may "Api/|Host/|Session/|Scene/|Io/|Core/|juce_")
+set(Api/Live_may "Api/|Host/|Live/|Scene/|Io/|Core/|juce_")
 set(Api/JavaScript_may "Api/(C|JavaScript)/|Members\\.inc|Formats/|Scene/|Io/|Core/")
-set(Session_may "Session/|Scene/|Io/|Physics/|Contacts/|Wire/|Study/|Core/")
+set(Live/Documents_may "Live/Documents/|Scene/|Io/|Core/|nlohmann/")
+set(Live/Session_may "Live/(Documents|Messages|Session)/|Stimuli/|Scene/|Io/|Physics/|Contacts/|Wire/|Core/")
+set(Live/Messages_may "${Live/Session_may}")
+set(Live/Pads_may "Live/|SDL2/|Scene/|Io/|Core/")
 set(Standalone/Web_may "Page(File|World)\\.h|Api/JavaScript/Exports\\.h|Formats/|Measure/|box2d/|Scene/|Io/|Physics/|Contacts/|Core/")
-set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Session/OfflineRender\\.h|Scene/|Io/|Physics/|Contacts/|Core/")
-set(Pads_may "Pads/|SDL2/|Session/|Scene/|Io/|Core/")
-set(Jobs_may "Jobs/|Session/|Pictures/|Study/|Formats/|Measure/|Scene/|Io/|Physics/|Contacts/|Core/")
+set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Live/Session/OfflineRender\\.h|Scene/|Io/|Physics/|Contacts/|Core/")
 set(Standalone/Options_may "Options/|Scene/|Io/")
-set(Pictures_may "Pictures/|Study/|Scene/|Io/|Core/|ft2build|png\\.h")
-set(Host_may "Host/|Pads/PadOutput\\.h|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Formats/|Session/|Measure/|Scene/|Io/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
-set(Host/Osc_may "Host/Osc/|Session/|Scene/|Io/|Physics/|Core/|lo/")
-set(Plugin_may "Host/|Session/|Scene/|Io/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
+set(Pictures_may "Pictures/|Scene/|Io/|Core/|ft2build|png\\.h")
+set(Host_may "Host/|Live/|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Formats/|Measure/(HitExcerpt|LoudestChannel|RecordingFaults|SlowPart)\\.h|Stimuli/|Scene/|Io/|Physics/|Contacts/|Wire/|Core/|juce_")
+set(Host/Osc_may "Host/Osc/|Live/|Scene/|Io/|Physics/|Core/|lo/")
+set(Plugin_may "Host/|Live/|Scene/|Io/|Physics/|Contacts/|Stimuli/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
+# The mixer's desk is what plays: without studies.
+set(Standalone/Mixer/Desk_may "Mixer/(Desk|Strips)/|Host/|Live/|Stimuli/|Scene/|Io/|Core/")
 # Core also stays free of what a board without an operating system lacks.
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Io Contacts Physics Scene Study Formats Measure Pictures Api Api/JavaScript Api/Live Session Jobs Pads Host Host/Osc Plugin Standalone/Options Standalone/Render Standalone/Web)
+foreach(room Core Wire Io Contacts Physics Scene Stimuli Formats Measure Pictures Lab Api Api/JavaScript Api/Live Live/Documents Live/Messages Live/Session Live/Pads Host Host/Osc Plugin
+             Standalone/Mixer/Desk Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # Live: a room of its own, under another licence; JavaScript: with Formats; Engines: headers for engines of the user
         list(FILTER files EXCLUDE REGEX "/Api/(Live|JavaScript|Engines)/")

@@ -4,9 +4,9 @@
 // what was played is what the log renders. Usage: physvib-direct-meter MESSAGES
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SimulationDriver.h"
+#include "Live/Messages/MessageRouter.h"
+#include "Live/Session/SessionRender.h"
 #include "MeterClient.h"
-#include "Session/Messages/MessageRouter.h"
-#include "Session/SessionRender.h"
 #include "Session/WallsScene.h"
 #include <cstdio>
 #include <random>

@@ -2,9 +2,9 @@
 // A JACK client in the session's own process: records what it plays and notes which frame of the session each
 // cycle is.
 #pragma once
+#include "Live/Session/OfflineRender.h"
+#include "Live/Session/Session.h"
 #include "RecordingRuns.h"
-#include "Session/OfflineRender.h"
-#include "Session/Session.h"
 #include <atomic>
 #include <cmath>
 #include <jack/jack.h>

@@ -2,7 +2,7 @@
 // MaterialExtractor: what was put into synthetic hits comes out again; what is no hit is told.
 #include "Measure/MaterialExtractor.h"
 #include "Measure/HitBound.h"
-#include "Study/SeededRandom.h"
+#include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // Textures from scrapes: what our own engine was given comes out of what it plays; what is no scrape is told.
 #include "Measure/TextureExtractor.h"
 #include "Contacts/LastingContacts.h"
-#include "Study/SeededRandom.h"
+#include "Stimuli/SeededRandom.h"
 #include "Support/Rendering.h"
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Groups and gain lanes at the desk and in its window: what they do to strips, how they are written, edited
 // and taken back.
+#include "Live/Documents/StripGroups.h"
 #include "Mixer/Strips/LanesTab.h"
 #include "MixerTesting.h"
-#include "Scene/Sessions/StripGroups.h"
 
 namespace physvib {
 namespace {

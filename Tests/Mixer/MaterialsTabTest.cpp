@@ -3,9 +3,9 @@
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Host/Recordings/SessionWav.h"
 #include "Io/Wav/WavSink.h"
+#include "Live/Documents/SessionFile.h"
 #include "Mixer/Materials/MaterialShots.h"
 #include "MixerTesting.h"
-#include "Scene/Sessions/SessionFile.h"
 
 namespace physvib {
 namespace {

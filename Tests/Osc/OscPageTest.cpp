@@ -3,8 +3,8 @@
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
+#include "Live/Documents/ControlJson.h"
 #include "Scene/SceneFields.h"
-#include "Scene/Sessions/ControlJson.h"
 #include "TestPlaces.h"
 #include <functional>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A session on controllers that SDL makes up: what their motors are told is the model, to the command.
-#include "Pads/PadOutput.h"
+#include "Live/Pads/PadOutput.h"
 #include "Pads/VirtualPad.h"
 #include "Scene/PadCommands.h"
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A controller in numbers: what it is measured to be is what it is.
-#include "Pads/PadTrial.h"
+#include "Live/Pads/PadTrial.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A game controller of SDL's own making, which notes what its motors are told: a judge without hardware.
 #pragma once
-#include "Pads/GamePads.h"
-#include "Pads/SdlLibrary.h"
+#include "Live/Pads/GamePads.h"
+#include "Live/Pads/SdlLibrary.h"
 #include <chrono>
 #include <mutex>
 #include <string>

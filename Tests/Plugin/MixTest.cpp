@@ -2,10 +2,10 @@
 // The plug-in's mix: trims, mutes, solos, polarity, delays, ceilings and equalisers, in a bounce, live, and
 // while it plays.
 #include "Io/Disk/ReadFile.h"
+#include "Live/Session/OfflineRender.h"
 #include "PluginTesting.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/World/SceneRun.h"
-#include "Session/OfflineRender.h"
 #include "TestPlaces.h"
 
 namespace physvib {

@@ -3,11 +3,11 @@
 // it was.
 #include "OpenedFile.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Live/Documents/SessionFile.h"
 #include "PluginSettings.h"
 #include "PluginTesting.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
-#include "Scene/Sessions/SessionFile.h"
 
 namespace physvib {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The processor in its hosts' hands: bounces, rates, blocks, suspension, bypass, many instances.
+#include "Live/Session/OfflineRender.h"
 #include "PluginTesting.h"
 #include "Scene/World/SceneRun.h"
-#include "Session/OfflineRender.h"
 
 namespace physvib {
 namespace {

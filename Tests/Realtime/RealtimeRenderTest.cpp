@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A million guarded blocks of a live session while another thread edits it ten thousand times.
 #include "Core/ClipNumber.h"
+#include "Live/Session/Session.h"
 #include "Realtime/RealtimeGuard.h"
 #include "Scene/SceneCatalogue.h"
-#include "Session/Session.h"
 #include "Support/ClosedForm.h"
 #include <atomic>
 #include <gtest/gtest.h>

@@ -2,10 +2,10 @@
 // A file says what it is, wherever it says so.
 #include "Scene/FileKind.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Live/Documents/SessionFile.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
-#include "Scene/Sessions/SessionFile.h"
 #include "Support/FileTesting.h"
 #include <gtest/gtest.h>
 

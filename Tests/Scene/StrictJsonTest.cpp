@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // JSON from anywhere: what is refused while it is parsed, and the words for it.
+#include "Live/Documents/SessionFile.h"
 #include "Scene/LayoutFile.h"
-#include "Scene/Sessions/SessionFile.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

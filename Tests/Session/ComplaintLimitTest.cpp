@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Much nonsense, few words.
-#include "Session/Messages/ComplaintLimit.h"
+#include "Live/Messages/ComplaintLimit.h"
 #include <gtest/gtest.h>
 #include <string>
 

@@ -2,9 +2,9 @@
 // What needs no world is felt sooner where a session is direct; the world's collisions keep the play-out
 // delay.
 #include "FakeHost.h"
-#include "Scene/Sessions/InputLine.h"
-#include "Session/Messages/MessageRouter.h"
-#include "Session/SessionRender.h"
+#include "Live/Documents/InputLine.h"
+#include "Live/Messages/MessageRouter.h"
+#include "Live/Session/SessionRender.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

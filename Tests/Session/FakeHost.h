@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A host in virtual time: blocks of random size, and a driver that comes after random gaps.
 #pragma once
+#include "Live/Session/Session.h"
 #include "Scene/SceneCatalogue.h"
-#include "Session/Session.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
 #include <vector>

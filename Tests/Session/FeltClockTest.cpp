@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // FeltClock: calls that come late, a crystal that drifts, a device that pauses.
-#include "Session/FeltClock.h"
+#include "Live/Session/FeltClock.h"
 #include <gtest/gtest.h>
 #include <random>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a device tells whoever follows it.
-#include "Session/FeltOutput.h"
+#include "Live/Session/FeltOutput.h"
 #include <gtest/gtest.h>
 #include <thread>
 #include <vector>

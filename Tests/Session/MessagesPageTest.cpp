@@ -3,9 +3,9 @@
 #include "FakeHost.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
+#include "Live/Documents/InputLine.h"
+#include "Live/Messages/MessageRouter.h"
 #include "Scene/SceneFile.h"
-#include "Scene/Sessions/InputLine.h"
-#include "Session/Messages/MessageRouter.h"
 #include "TestPlaces.h"
 #include <gtest/gtest.h>
 

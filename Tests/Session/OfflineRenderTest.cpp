@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // OfflineRender: frame n is time n/rate, pieces do not matter, and the shipped scene has its level.
-#include "Session/OfflineRender.h"
+#include "Live/Session/OfflineRender.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/SceneRun.h"
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Pulses for machines: where they begin and end, and that they stand at the sample of what is felt, live and
 // offline.
-#include "Session/OnsetMarks.h"
+#include "Live/Session/OnsetMarks.h"
 #include "FakeHost.h"
-#include "Session/OfflineRender.h"
+#include "Live/Session/OfflineRender.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -2,8 +2,8 @@
 // Onsets of a live session, fitted one by one: all lie L after their collision, to a fiftieth of a frame,
 // although the driver is delayed at random up to 50 ms and blocks vary from 1 to 2048 frames.
 #include "FakeHost.h"
+#include "Live/Session/Session.h"
 #include "Scene/World/SceneRun.h"
-#include "Session/Session.h"
 #include <gtest/gtest.h>
 #include <numbers>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a mixer does to a session while it plays is saved, and rendered again to the bit.
 #include "FakeHost.h"
+#include "Live/Documents/SessionFile.h"
+#include "Live/Documents/StripGroups.h"
+#include "Live/Session/OfflineRender.h"
+#include "Live/Session/Session.h"
+#include "Live/Session/SessionRender.h"
 #include "Scene/SceneEdits.h"
-#include "Scene/Sessions/SessionFile.h"
-#include "Scene/Sessions/StripGroups.h"
-#include "Session/OfflineRender.h"
-#include "Session/Session.h"
-#include "Session/SessionRender.h"
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>

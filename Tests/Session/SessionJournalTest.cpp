@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What `play --save` leaves, whatever disk and targets do.
-#include "Session/SessionJournal.h"
+#include "Live/Session/SessionJournal.h"
 #include "FakeHost.h"
 #include "Io/Disk/ReadFile.h"
-#include "Scene/Sessions/SessionFile.h"
+#include "Live/Documents/SessionFile.h"
 #include <csignal>
 #include <filesystem>
 #include <fstream>

@@ -2,10 +2,10 @@
 // What is done to a session while it plays is logged; the log, saved and read again, renders to what was
 // felt, to the bit.
 #include "FakeHost.h"
-#include "Scene/Sessions/SessionFile.h"
-#include "Scene/Sessions/SessionJournalText.h"
-#include "Session/OfflineRender.h"
-#include "Session/Session.h"
+#include "Live/Documents/SessionFile.h"
+#include "Live/Documents/SessionJournalText.h"
+#include "Live/Session/OfflineRender.h"
+#include "Live/Session/Session.h"
 #include <atomic>
 #include <gtest/gtest.h>
 #include <thread>

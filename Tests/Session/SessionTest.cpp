@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Session: live is the rendered file, L later, to the bit; and nothing is lost when hosts and timers
 // misbehave.
-#include "Session/Session.h"
+#include "Live/Session/Session.h"
 #include "FakeHost.h"
+#include "Live/Session/OfflineRender.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/World/SceneCast.h"
 #include "Scene/World/SceneRun.h"
-#include "Session/OfflineRender.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>

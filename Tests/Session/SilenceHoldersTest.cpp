@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Who asks for silence, and who lifts it.
-#include "Session/SilenceHolders.h"
-#include "Scene/Sessions/InputLine.h"
-#include "Session/InputQueue.h"
+#include "Live/Session/SilenceHolders.h"
+#include "Live/Documents/InputLine.h"
+#include "Live/Session/InputQueue.h"
 #include <gtest/gtest.h>
 #include <thread>
 

@@ -2,7 +2,7 @@
 // What `play --listen --save` does, for hours of simulated time: inputs and a journal. For
 // Tests/ten-hours.sh.
 #include "FakeHost.h"
-#include "Session/SessionJournal.h"
+#include "Live/Session/SessionJournal.h"
 #include "Support/Growth.h"
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A ball between two walls, 4 mm of way: each push is one dull hit within the step.
 #pragma once
-#include "Session/SessionSetup.h"
+#include "Live/Session/SessionSetup.h"
 
 namespace physvib::test {
 

@@ -3,7 +3,7 @@
 #include "Core/PhantomPanner.h"
 #include "Mixer/Studies/StudyFont.h"
 #include "Participant.h"
-#include "Study/Stimulus.h"
+#include "Stimuli/Stimulus.h"
 
 namespace physvib {
 namespace {

@@ -3,7 +3,7 @@
 // script answered, and `physvib analyse` takes them.
 #include "Participant.h"
 #include "Io/Text/CsvTable.h"
-#include "Study/Files/ProtocolFile.h"
+#include "Lab/Files/ProtocolFile.h"
 #include "TestPlaces.h"
 #include <cstdlib>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every page of every built-in study on small displays, below a title bar: nothing is cut, nothing covers a
 // button.
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Study/SimulatedObserver.h"
 #include "Participant.h"
-#include "Study/Files/ProtocolFile.h"
-#include "Study/SimulatedObserver.h"
 #include <algorithm>
 #include <utility>
 

@@ -4,10 +4,10 @@
 #include "Host/FakeAudioDevice.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Io/Text/CsvTable.h"
+#include "Live/Documents/SessionFile.h"
 #include "Participant.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
-#include "Scene/Sessions/SessionFile.h"
 #include "TestPlaces.h"
 #include <cmath>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Tables of experiment programs under our columns' names.
-#include "Study/Files/ColumnNames.h"
-#include "Study/Files/LongTableCsv.h"
-#include "Study/Files/StudyCsv.h"
+#include "Lab/Files/ColumnNames.h"
+#include "Lab/Files/LongTableCsv.h"
+#include "Lab/Files/StudyCsv.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A measured coupling is read as it was written, and a bad one is named by its place.
-#include "Study/Files/CouplingFile.h"
+#include "Lab/Files/CouplingFile.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Support/FileTesting.h"
 

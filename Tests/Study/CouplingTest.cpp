@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compensated drives within their limit, and where the phantom's centroid lands on a 7 x 5 grid with and
 // without them.
-#include "Study/Coupling.h"
+#include "Lab/Study/Coupling.h"
 #include "Core/PhantomPanner.h"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Studies trial by trial: what is presented, what is refused, what unlocks, and going on after a cut.
-#include "Study/Experiment.h"
-#include "Study/SimulatedObserver.h"
+#include "Lab/Study/Experiment.h"
+#include "Lab/Study/SimulatedObserver.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Exact values, and the estimates on simulated data whose truth is known.
-#include "Study/InformationTransfer.h"
-#include "Study/SeededRandom.h"
+#include "Lab/Study/InformationTransfer.h"
+#include "Stimuli/SeededRandom.h"
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>

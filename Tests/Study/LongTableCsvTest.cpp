@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Long tables from any CSV: columns by name, factors inside labels, choices as numbers, and a million rows.
-#include "Study/Files/LongTableCsv.h"
-#include "Study/Statistics/RankTests.h"
-#include "Study/Statistics/RepeatedMeasures.h"
+#include "Lab/Files/LongTableCsv.h"
+#include "Lab/Statistics/RankTests.h"
+#include "Lab/Statistics/RepeatedMeasures.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The simulated observer: blur fitted to published exact shares, what it predicts of the others, and what its
 // analysis says.
-#include "Study/InformationTransfer.h"
-#include "Study/PlaceBlur.h"
-#include "Study/Proportion.h"
-#include "Study/Published.h"
-#include "Study/SimulatedObserver.h"
+#include "Lab/Study/InformationTransfer.h"
+#include "Lab/Study/PlaceBlur.h"
+#include "Lab/Study/Proportion.h"
+#include "Lab/Study/Published.h"
+#include "Lab/Study/SimulatedObserver.h"
 #include <array>
 #include <cmath>
 #include <cstdio>

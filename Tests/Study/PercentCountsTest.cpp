@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The published percent counts give the published resolutions (thesis Fig. 4.9); merging against brute force.
-#include "Study/PercentCounts.h"
-#include "Study/SeededRandom.h"
+#include "Lab/Study/PercentCounts.h"
+#include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 

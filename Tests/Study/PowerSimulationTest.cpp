@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Power by simulation, against textbooks.
-#include "Study/Statistics/PowerSimulation.h"
+#include "Lab/Statistics/PowerSimulation.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Protocols as JSON, and the thesis' studies as protocols.
-#include "Study/Files/ProtocolFile.h"
-#include "Study/Experiment.h"
-#include "Study/Files/ThesisVersions.h"
-#include "Study/SimulatedObserver.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Files/ThesisVersions.h"
+#include "Lab/Study/Experiment.h"
+#include "Lab/Study/SimulatedObserver.h"
 #include <gtest/gtest.h>
 #include <map>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Psychometric functions against R's glm and simulated observers, intervals by how often they hold, QUEST+
 // against a staircase.
-#include "Study/Statistics/Psychometric.h"
-#include "Study/SeededRandom.h"
-#include "Study/Staircase.h"
-#include "Study/Statistics/Bootstrap.h"
-#include "Study/Statistics/Moments.h"
-#include "Study/Statistics/PowerLaw.h"
-#include "Study/Statistics/QuestPlus.h"
+#include "Lab/Statistics/Psychometric.h"
+#include "Lab/Statistics/Bootstrap.h"
+#include "Lab/Statistics/Moments.h"
+#include "Lab/Statistics/PowerLaw.h"
+#include "Lab/Statistics/QuestPlus.h"
+#include "Lab/Study/Staircase.h"
+#include "Stimuli/SeededRandom.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // QUEST+ as a session of a protocol: what simulated observers' rows come to, beside a staircase's.
-#include "Study/Experiment.h"
-#include "Study/LevelTrials.h"
-#include "Study/SimulatedObserver.h"
+#include "Lab/Study/Experiment.h"
+#include "Lab/Study/LevelTrials.h"
+#include "Lab/Study/SimulatedObserver.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Moments against a hand calculation, maps against geometry, and data that allows no normal.
-#include "Study/ResponseMap.h"
-#include "Study/SeededRandom.h"
+#include "Lab/Study/ResponseMap.h"
+#include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Tests over participants against R (the tables in R/ and the script that made them), and bad designs, which
 // are refused by name.
-#include "Study/Statistics/Distributions.h"
-#include "Study/Statistics/LongTable.h"
-#include "Study/Statistics/Pairs.h"
-#include "Study/Statistics/RankTests.h"
-#include "Study/Statistics/RepeatedMeasures.h"
-#include "Study/Statistics/ShapiroWilk.h"
+#include "Lab/Statistics/Distributions.h"
+#include "Lab/Statistics/LongTable.h"
+#include "Lab/Statistics/Pairs.h"
+#include "Lab/Statistics/RankTests.h"
+#include "Lab/Statistics/RepeatedMeasures.h"
+#include "Lab/Statistics/ShapiroWilk.h"
 #include "TestPlaces.h"
 #include <algorithm>
 #include <cmath>

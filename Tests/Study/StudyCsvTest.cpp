@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Trials and percent counts from CSV: what counts, what is left out, what is refused.
-#include "Study/Files/StudyCsv.h"
+#include "Lab/Files/StudyCsv.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

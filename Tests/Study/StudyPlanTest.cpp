@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a protocol will ask for, against counts by hand.
-#include "Study/StudyPlan.h"
-#include "Study/Files/ProtocolFile.h"
+#include "Lab/Study/StudyPlan.h"
+#include "Lab/Files/ProtocolFile.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page that users read names every task of the table.
-#include "Study/StudyTasks.h"
+#include "Lab/Study/StudyTasks.h"
 #include "Io/Disk/ReadFile.h"
 #include "TestPlaces.h"
 #include <gtest/gtest.h>

@@ -2,10 +2,10 @@
 // What counts is on the disk: every fsync of this program is seen here, with what stood at the file's place
 // at that moment.
 #include "Io/Disk/AtomicFile.h"
-#include "Study/Experiment.h"
-#include "Study/Files/ProtocolFile.h"
-#include "Study/Files/TrialLog.h"
-#include "Study/SimulatedObserver.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Study/Experiment.h"
+#include "Lab/Study/SimulatedObserver.h"
 #include "Support/FileTesting.h"
 #include <cerrno>
 #include <functional>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Trial files: rows come back as records, cut ends are dropped, other people's files are left alone.
-#include "Study/Files/TrialLog.h"
+#include "Lab/Files/TrialLog.h"
 #include "Support/FileTesting.h"
 #if !defined(_WIN32)
 #include "Support/FullDisk.h"
 #endif
 #include "Io/Disk/ReadFile.h"
-#include "Study/Experiment.h"
-#include "Study/Files/ProtocolFile.h"
-#include "Study/Files/StudyCsv.h"
-#include "Study/SimulatedObserver.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Files/StudyCsv.h"
+#include "Lab/Study/Experiment.h"
+#include "Lab/Study/SimulatedObserver.h"
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Intervals and tests against tabled values; grouping of choices and ratings; the choice of icons.
-#include "Study/Votes.h"
-#include "Study/LevelTrials.h"
-#include "Study/Proportion.h"
-#include "Study/TactileIcons.h"
+#include "Lab/Study/Votes.h"
+#include "Lab/Study/LevelTrials.h"
+#include "Lab/Study/Proportion.h"
+#include "Lab/Study/TactileIcons.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

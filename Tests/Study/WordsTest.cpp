@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Words of a language: what is wrong with a file of them, and what the Korean ones have to hold.
-#include "Study/Files/Words.h"
-#include "Study/Files/ProtocolFile.h"
+#include "Lab/Files/Words.h"
+#include "Lab/Files/ProtocolFile.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A song whose onsets are known to the frame: drums at uneven times over a chord that stays, and noise.
 #pragma once
-#include "Study/SeededRandom.h"
+#include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

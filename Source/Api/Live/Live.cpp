@@ -3,7 +3,7 @@
 #include "Api/Live/Live.h"
 #include "Host/Devices/NoDevice.h"
 #include "Host/Devices/SimulationDriver.h"
-#include "Session/SessionJournal.h"
+#include "Live/Session/SessionJournal.h"
 #include <physvib/Version.h>
 #include <utility>
 

@@ -4,7 +4,7 @@
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SinkTable.h"
-#include "Session/Session.h"
+#include "Live/Session/Session.h"
 #include <atomic>
 #include <future>
 #include <memory>

@@ -3,8 +3,8 @@
 #include "Api/Live/Lives.h"
 #include "Host/Recordings/LoadRecordings.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Scene/Sessions/SessionFile.h"
-#include "Session/SessionRender.h"
+#include "Live/Documents/SessionFile.h"
+#include "Live/Session/SessionRender.h"
 #include <algorithm>
 #include <cstring>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What each enchanter is driven with so that coupled enchanters together do what one of them alone was to do:
-// complex matrices, one per frequency. They are computed elsewhere (Study/Coupling.h); the memory is the
+// complex matrices, one per frequency. They are computed elsewhere (Lab/Study/Coupling.h); the memory is the
 // caller's.
 #pragma once
 #include "Core/Trigonometry.h"

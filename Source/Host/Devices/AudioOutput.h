@@ -16,7 +16,7 @@
 #include "Host/Devices/LoadMeter.h"
 #include "Host/Devices/OnOffMotors.h"
 #include "Host/Devices/PlayedSession.h"
-#include "Session/FeltOutput.h"
+#include "Live/Session/FeltOutput.h"
 #include <atomic>
 #include <string>
 #include <vector>

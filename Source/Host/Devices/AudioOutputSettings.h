@@ -2,7 +2,7 @@
 // What is wanted of a device, and what it tells.
 #pragma once
 #include "Host/Devices/OutputMap.h"
-#include "Study/PinkNoise.h"
+#include "Stimuli/PinkNoise.h"
 #include <cstdint>
 #include <string>
 #include <vector>

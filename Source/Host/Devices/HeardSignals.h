@@ -4,8 +4,8 @@
 #include "Core/Actuators/GainRamp.h"
 #include "Host/Devices/AudioOutputSettings.h"
 #include "Host/Devices/OutputMap.h"
-#include "Session/Session.h"
-#include "Study/PinkNoise.h"
+#include "Live/Session/Session.h"
+#include "Stimuli/PinkNoise.h"
 #include <atomic>
 #include <juce_audio_basics/juce_audio_basics.h>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How many blocks were rendered, and how much of their time that took.
 #pragma once
-#include "Session/Session.h"
+#include "Live/Session/Session.h"
 #include <algorithm>
 #include <cstdint>
 #include <juce_core/juce_core.h>

@@ -2,8 +2,8 @@
 // Which session a device plays: its own, or one that it was lent; at which rate, and where a block of it
 // goes.
 #pragma once
-#include "Session/FeltOutput.h"
-#include "Session/Session.h"
+#include "Live/Session/FeltOutput.h"
+#include "Live/Session/Session.h"
 #include <atomic>
 #include <vector>
 

@@ -3,7 +3,7 @@
 // thread reads.
 #pragma once
 #include "Core/Nonblocking.h"
-#include "Session/Sink.h"
+#include "Live/Session/Sink.h"
 #include <algorithm>
 #include <atomic>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Who steps a live session's world: the message thread's timer, or a thread of its own.
 #pragma once
-#include "Session/Session.h"
+#include "Live/Session/Session.h"
 #include <atomic>
 #include <chrono>
 #include <juce_events/juce_events.h>

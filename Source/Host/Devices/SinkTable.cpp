@@ -3,8 +3,8 @@
 #include "Host/Devices/SinkTable.h"
 #include "Core/Limits.h"
 #include "Host/Devices/NoDevice.h"
-#include "Pads/PadOutput.h"
-#include "Session/BoardOutput.h"
+#include "Live/Pads/PadOutput.h"
+#include "Live/Session/BoardOutput.h"
 #include <algorithm>
 #include <array>
 

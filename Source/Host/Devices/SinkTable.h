@@ -2,7 +2,7 @@
 // What can be played beside a device, by its name: a row of the table each.
 #pragma once
 #include "Core/PhantomPanner.h"
-#include "Session/SinkSet.h"
+#include "Live/Session/SinkSet.h"
 #include <functional>
 #include <memory>
 #include <string>

@@ -2,7 +2,7 @@
 // Time tags and session time: what a sender's clock says, and when that is in the session.
 #pragma once
 #include "Host/Osc/OscPacket.h"
-#include "Session/FeltClock.h"
+#include "Live/Session/FeltClock.h"
 #include <cstdint>
 
 namespace physvib {

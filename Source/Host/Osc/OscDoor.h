@@ -5,9 +5,9 @@
 #include "Host/Osc/OscClock.h"
 #include "Host/Osc/OscSocket.h"
 #include "Host/Osc/PhoneSensors.h"
-#include "Scene/Sessions/InputLine.h"
-#include "Session/Messages/MessageRouter.h"
-#include "Session/Session.h"
+#include "Live/Documents/InputLine.h"
+#include "Live/Messages/MessageRouter.h"
+#include "Live/Session/Session.h"
 #include <functional>
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 // does that only for sockets of its own.
 #pragma once
 #include "Io/Result.h"
-#include "Scene/Sessions/PlainMessage.h"
+#include "Live/Documents/PlainMessage.h"
 #include <cstdint>
 #include <initializer_list>
 #include <span>

@@ -5,9 +5,9 @@
 #include "Host/Osc/OscDoor.h"
 #include "Host/Osc/OscReplies.h"
 #include "Host/Osc/OscSocket.h"
-#include "Session/FeltOutput.h"
-#include "Session/InputQueue.h"
-#include "Session/Sink.h"
+#include "Live/Session/FeltOutput.h"
+#include "Live/Session/InputQueue.h"
+#include "Live/Session/Sink.h"
 #include <atomic>
 #include <mutex>
 #include <optional>

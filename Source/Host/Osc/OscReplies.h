@@ -2,7 +2,7 @@
 // What may be sent back to a sender. Its address may be somebody else's: nobody is to get a flood from here
 // that he did not send.
 #pragma once
-#include "Session/Messages/ComplaintLimit.h"
+#include "Live/Messages/ComplaintLimit.h"
 #include <cstddef>
 #include <cstdint>
 #include <string>

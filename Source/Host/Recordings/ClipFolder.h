@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clips by their names below one folder: what a message may have read.
 #pragma once
-#include "Scene/Sessions/SessionLog.h"
-#include "Session/Messages/ClipSource.h"
+#include "Live/Documents/SessionLog.h"
+#include "Live/Messages/ClipSource.h"
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -6,8 +6,8 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
+#include "Live/Session/OfflineRender.h"
 #include "Scene/ActuatorFile.h"
-#include "Session/OfflineRender.h"
 #include "Wire/BoardSteps.h"
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "Measure/LoudestChannel.h"
 #include "Measure/RecordingFaults.h"
 #include "Measure/SlowPart.h"
-#include "Study/SeededRandom.h"
+#include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>

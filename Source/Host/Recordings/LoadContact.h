@@ -2,7 +2,7 @@
 // Recorded contacts from files: one channel, from the hit on, at a level that is known.
 #pragma once
 #include "Io/Result.h"
-#include "Session/ContactSounds.h"
+#include "Live/Session/ContactSounds.h"
 
 namespace physvib {
 

@@ -2,7 +2,7 @@
 // The recordings and clips of a saved session, loaded again.
 #pragma once
 #include "Io/Result.h"
-#include "Session/SessionRecordings.h"
+#include "Live/Session/SessionRecordings.h"
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A saved session as a WAV file.
 #pragma once
-#include "Session/SessionRender.h"
+#include "Live/Session/SessionRender.h"
 #include <string>
 
 namespace physvib {

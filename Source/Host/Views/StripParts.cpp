@@ -2,7 +2,7 @@
 // The meter's scale is the ceiling's way.
 #include "Host/Views/StripParts.h"
 #include "Host/Views/Palette.h"
-#include "Scene/Sessions/Mix.h"
+#include "Live/Documents/Mix.h"
 #include <cmath>
 
 namespace physvib {

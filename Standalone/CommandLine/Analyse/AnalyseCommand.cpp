@@ -3,8 +3,8 @@
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "Jobs/Analyse/Analysis.h"
-#include "Study/Statistics/RepeatedMeasures.h"
+#include "Lab/Analysis/Analysis.h"
+#include "Lab/Statistics/RepeatedMeasures.h"
 #include <algorithm>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A link's status as text.
 #include "CommandLine/Board/BoardStatus.h"
-#include "Session/BoardWords.h"
+#include "Live/Session/BoardWords.h"
 #include <iomanip>
 #include <iostream>
 

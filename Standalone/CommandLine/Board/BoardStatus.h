@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Waiting for a board, and what it says of itself.
 #pragma once
-#include "Session/BoardLink.h"
+#include "Live/Session/BoardLink.h"
 #include "System/Interrupt.h"
 #include <chrono>
 #include <string>

@@ -5,8 +5,8 @@
 #include "CommandLine/Measure/RecordingList.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Text/NumberText.h"
-#include "Pictures/StudyPictures.h"
-#include "Study/Coupling.h"
+#include "Lab/Pictures/StudyPictures.h"
+#include "Lab/Study/Coupling.h"
 #include <filesystem>
 #include <string>
 

@@ -10,9 +10,9 @@
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
-#include "Jobs/LayoutNamed.h"
 #include "Measure/ActuatorMeasurement.h"
 #include "Scene/ActuatorFile.h"
+#include "Scene/LayoutNamed.h"
 #include <cmath>
 #include <optional>
 #include <string>

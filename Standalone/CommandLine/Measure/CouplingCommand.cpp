@@ -5,8 +5,8 @@
 #include "CommandLine/Measure/RecordingList.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
-#include "Jobs/LayoutNamed.h"
-#include "Study/Files/CouplingFile.h"
+#include "Lab/Files/CouplingFile.h"
+#include "Scene/LayoutNamed.h"
 #include <map>
 #include <string>
 

@@ -9,9 +9,9 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NameList.h"
 #include "Io/Wav/WavSink.h"
-#include "Jobs/LayoutNamed.h"
+#include "Live/Session/OfflineRender.h"
 #include "Scene/EventsCsv.h"
-#include "Session/OfflineRender.h"
+#include "Scene/LayoutNamed.h"
 #include <algorithm>
 #include <filesystem>
 #include <iostream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names of sound devices, and one report.
 #include "CommandLine/Pads/DualSenseDevice.h"
-#include "Pads/DualSense.h"
-#include "Pads/GamePads.h"
+#include "Live/Pads/DualSense.h"
+#include "Live/Pads/GamePads.h"
 #include <chrono>
 #include <thread>
 

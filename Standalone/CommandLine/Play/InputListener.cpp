@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Polls standard input, cuts it into lines, looks for silence in them, and hands each to the session.
 #include "CommandLine/Play/InputListener.h"
-#include "Session/BoardLink.h"
+#include "Live/Session/BoardLink.h"
 #include "System/ExitCode.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"

@@ -4,11 +4,11 @@
 #pragma once
 #include "CommandLine/Play/LineCutter.h"
 #include "Host/Devices/AudioOutput.h"
-#include "Scene/Sessions/InputLine.h"
-#include "Session/InputQueue.h"
-#include "Session/Messages/ComplaintLimit.h"
-#include "Session/Messages/MessageRouter.h"
-#include "Session/Session.h"
+#include "Live/Documents/InputLine.h"
+#include "Live/Messages/ComplaintLimit.h"
+#include "Live/Messages/MessageRouter.h"
+#include "Live/Session/InputQueue.h"
+#include "Live/Session/Session.h"
 #include <atomic>
 #include <string>
 #include <thread>

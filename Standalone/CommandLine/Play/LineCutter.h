@@ -2,7 +2,7 @@
 // Cuts what arrives into lines; of one that is too long nothing is taken for another line, but that it names
 // silence.
 #pragma once
-#include "Scene/Sessions/InputLine.h"
+#include "Live/Documents/InputLine.h"
 #include <algorithm>
 #include <cstddef>
 #include <string>

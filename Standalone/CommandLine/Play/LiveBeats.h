@@ -4,7 +4,7 @@
 #include "Host/Devices/InputTap.h"
 #include "Host/Music/BeatDetector.h"
 #include "Host/Music/BeatStrikes.h"
-#include "Session/Session.h"
+#include "Live/Session/Session.h"
 #include <atomic>
 #include <cstdint>
 #include <memory>

@@ -11,7 +11,7 @@
 #include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include "Io/Text/NumberText.h"
-#include "Session/SessionJournal.h"
+#include "Live/Session/SessionJournal.h"
 #include "System/ExitCode.h"
 #include "System/Interrupt.h"
 #include "System/Process.h"

@@ -5,8 +5,8 @@
 #include "Host/Devices/SinkTable.h"
 #include "Host/Music/BeatStrikes.h"
 #include "Host/Osc/OscPort.h"
-#include "Session/Messages/ClipSource.h"
-#include "Session/Session.h"
+#include "Live/Messages/ClipSource.h"
+#include "Live/Session/Session.h"
 #include <optional>
 #include <string>
 

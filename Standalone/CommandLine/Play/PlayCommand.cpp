@@ -15,9 +15,9 @@
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/FileClash.h"
-#include "Pads/DualSense.h"
+#include "Live/Pads/DualSense.h"
+#include "Live/Session/SerialLine.h"
 #include "Scene/SceneEdits.h"
-#include "Session/SerialLine.h"
 #include <algorithm>
 #include <numbers>
 #include <string>

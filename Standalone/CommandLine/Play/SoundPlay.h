@@ -3,7 +3,7 @@
 #pragma once
 #include "Calls/LoadedRender.h"
 #include "CommandLine/Play/LivePlay.h"
-#include "Session/Messages/MessageRouter.h"
+#include "Live/Messages/MessageRouter.h"
 #include <string>
 #include <string_view>
 

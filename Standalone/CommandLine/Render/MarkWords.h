@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How many onsets were marked, in words.
 #pragma once
-#include "Session/OnsetMarks.h"
+#include "Live/Session/OnsetMarks.h"
 #include <string>
 
 namespace physvib {

@@ -8,9 +8,9 @@
 #include "CommandLine/Render/RenderOutputs.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
-#include "Session/HeardContacts.h"
-#include "Session/OfflineRender.h"
-#include "Session/SessionRender.h"
+#include "Live/Session/HeardContacts.h"
+#include "Live/Session/OfflineRender.h"
+#include "Live/Session/SessionRender.h"
 #include <algorithm>
 #include <iostream>
 #include <sstream>

@@ -2,9 +2,9 @@
 // Files first, then simulation, then what the options make of each collision.
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/ClipInput.h"
+#include "Live/Session/SessionRender.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/FileKind.h"
-#include "Session/SessionRender.h"
 #include <functional>
 
 namespace physvib {

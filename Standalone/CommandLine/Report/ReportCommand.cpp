@@ -5,8 +5,8 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Disk/FileClash.h"
-#include "Jobs/Report/ReportJob.h"
-#include "Jobs/Report/ThesisReport.h"
+#include "Lab/Report/ReportJob.h"
+#include "Lab/Report/ThesisReport.h"
 #include "Studies/StudyCalls.h"
 #include <string>
 #include <vector>

@@ -7,10 +7,10 @@
 #include "Core/SamplePeak.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Io/Wav/WavSink.h"
-#include "Jobs/LayoutNamed.h"
-#include "Jobs/MakeStimulus.h"
+#include "Lab/Study/MakeStimulus.h"
+#include "Live/Session/StimulusRender.h"
 #include "Pictures/RenderPicture.h"
-#include "Session/StimulusRender.h"
+#include "Scene/LayoutNamed.h"
 #include <filesystem>
 #include <optional>
 

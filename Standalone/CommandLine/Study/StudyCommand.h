@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib study`: protocols, and studies run without a window.
 #pragma once
-#include "Jobs/RenderJob.h"
+#include "Calls/RenderJob.h"
 #include <string>
 #include <vector>
 

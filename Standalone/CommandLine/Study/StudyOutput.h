@@ -2,7 +2,7 @@
 // What the study commands share: warnings, and files out.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
-#include "Jobs/Analyse/AnalysisFiles.h"
+#include "Lab/Analysis/AnalysisFiles.h"
 #include "System/ExitCode.h"
 #include <functional>
 #include <iostream>

@@ -7,8 +7,8 @@
 #include "Io/Provenance.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavFile.h"
+#include "Lab/Files/StudyFileLimits.h"
 #include "Scene/SceneFileLimits.h"
-#include "Study/Files/StudyFileLimits.h"
 #include <algorithm>
 #include <limits>
 

@@ -3,7 +3,7 @@
 // hash that it is kept under.
 #pragma once
 #include "Calls/RenderOptions.h"
-#include "Study/Files/SweepFile.h"
+#include "Lab/Files/SweepFile.h"
 #include <cstdint>
 #include <map>
 #include <string>

@@ -7,7 +7,7 @@
 #include "CommandLine/Sweep/Workers.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
-#include "Session/GrowingFile.h"
+#include "Live/Session/GrowingFile.h"
 #include "System/ExitCode.h"
 #include "System/Process.h"
 #include <chrono>

@@ -2,8 +2,8 @@
 // Tasks rendered, each by the road of `physvib render`, and kept.
 #pragma once
 #include "CommandLine/Sweep/SweepFolder.h"
+#include "CommandLine/Sweep/SweepJob.h"
 #include "CommandLine/Sweep/SweepPlan.h"
-#include "Jobs/SweepJob.h"
 #include <string>
 
 namespace physvib {

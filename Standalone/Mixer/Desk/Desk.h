@@ -2,6 +2,7 @@
 // What the mixer's window shows and changes: a live session on a device, its mix, the way back of edits.
 #pragma once
 #include "Host/Devices/SimulationDriver.h"
+#include "Live/Documents/SessionFile.h"
 #include "Mixer/Desk/DeskDevice.h"
 #include "Mixer/Desk/DeskExposure.h"
 #include "Mixer/Desk/DeskInputs.h"
@@ -13,7 +14,6 @@
 #include "Mixer/Desk/DeskWorld.h"
 #include "Mixer/Desk/RecentContacts.h"
 #include "Mixer/Desk/ToldMix.h"
-#include "Scene/Sessions/SessionFile.h"
 #include <juce_data_structures/juce_data_structures.h>
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The four-channel board beside the desk's device, and what is wrong with it.
 #pragma once
-#include "Session/BoardOutput.h"
+#include "Live/Session/BoardOutput.h"
 #include <juce_core/juce_core.h>
 #include <string>
 

@@ -2,7 +2,7 @@
 // Clips that are dropped on the desk: read beside M, struck as messages are.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
-#include "Session/Messages/MessageRouter.h"
+#include "Live/Messages/MessageRouter.h"
 #include <functional>
 #include <juce_core/juce_core.h>
 #include <juce_events/juce_events.h>

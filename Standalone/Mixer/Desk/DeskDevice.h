@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The device that the desk is felt on, the board and the controller beside it, and what is wrong with either.
 #pragma once
+#include "Live/Pads/PadOutput.h"
 #include "Mixer/Desk/DeskBoard.h"
 #include "Mixer/Desk/DeskListening.h"
-#include "Pads/PadOutput.h"
 #include <memory>
 
 namespace physvib {

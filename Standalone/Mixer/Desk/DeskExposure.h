@@ -4,7 +4,7 @@
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Scene/LayoutFile.h"
-#include "Study/Trial.h"
+#include "Stimuli/FeltLevel.h"
 
 namespace physvib {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Faders that are moved while the desk records become lanes over the time of the scene.
 #pragma once
-#include "Scene/Sessions/GainLane.h"
+#include "Live/Documents/GainLane.h"
 #include <cstddef>
 #include <vector>
 

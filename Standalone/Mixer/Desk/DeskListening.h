@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the desk's device plays for ears and machines, on outputs where no enchanter is.
 #pragma once
+#include "Live/Documents/Mix.h"
 #include "Mixer/Desk/DeskMoment.h"
-#include "Scene/Sessions/Mix.h"
 #include <functional>
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/ChannelMeters.h"
-#include "Session/SessionSetup.h"
+#include "Live/Session/SessionSetup.h"
 #include <array>
 #include <cstdint>
 #include <string>

@@ -4,7 +4,7 @@
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
-#include "Scene/Sessions/InputLine.h"
+#include "Live/Documents/InputLine.h"
 #include <functional>
 #include <juce_events/juce_events.h>
 #include <memory>

@@ -3,8 +3,8 @@
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Recordings/Recording.h"
-#include "Scene/Sessions/Mix.h"
-#include "Session/Session.h"
+#include "Live/Documents/Mix.h"
+#include "Live/Session/Session.h"
 #include <functional>
 #include <memory>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world of the desk: what is done to it, and the way back of every edit.
 #pragma once
+#include "Live/Documents/Mix.h"
+#include "Live/Session/Session.h"
 #include "Mixer/Desk/PaceWatch.h"
 #include "Scene/Drawing/SceneDrawing.h"
-#include "Scene/Sessions/Mix.h"
-#include "Session/Session.h"
 #include <cstdint>
 #include <functional>
 #include <juce_data_structures/juce_data_structures.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the mix to the session's controls.
 #include "Mixer/Desk/ToldMix.h"
-#include "Scene/Sessions/StripGroups.h"
+#include "Live/Documents/StripGroups.h"
 #include <algorithm>
 #include <limits>
 #include <memory>

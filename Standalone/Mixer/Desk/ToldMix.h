@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What of a mix its session plays by already.
 #pragma once
-#include "Scene/Sessions/Mix.h"
-#include "Session/Session.h"
+#include "Live/Documents/Mix.h"
+#include "Live/Session/Session.h"
 #include <array>
 #include <vector>
 

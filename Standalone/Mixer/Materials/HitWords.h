@@ -2,8 +2,8 @@
 // A hit in physical words.
 #pragma once
 #include "Core/CollisionEvent.h"
+#include "Live/Documents/Mix.h"
 #include "Mixer/Window/Parts.h"
-#include "Scene/Sessions/Mix.h"
 
 namespace physvib {
 

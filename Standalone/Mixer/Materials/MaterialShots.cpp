@@ -3,7 +3,7 @@
 #include "Mixer/Materials/MaterialShots.h"
 #include "Io/Wav/WavSink.h"
 #include "Mixer/Materials/MaterialsTab.h"
-#include "Study/SeededRandom.h"
+#include "Stimuli/SeededRandom.h"
 #include <cmath>
 #include <numbers>
 

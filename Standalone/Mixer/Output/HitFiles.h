@@ -3,7 +3,7 @@
 #pragma once
 #include "Formats/ClipFile.h"
 #include "Io/Result.h"
-#include "Scene/Sessions/Mix.h"
+#include "Live/Documents/Mix.h"
 #include <juce_core/juce_core.h>
 #include <string>
 #include <vector>

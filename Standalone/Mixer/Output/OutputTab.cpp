@@ -2,9 +2,9 @@
 // Choices of a device, and what it says of itself.
 #include "Mixer/Output/OutputTab.h"
 #include "Host/Devices/NoDevice.h"
+#include "Live/Pads/GamePads.h"
+#include "Live/Session/SerialLine.h"
 #include "Mixer/Window/Parts.h"
-#include "Pads/GamePads.h"
-#include "Session/SerialLine.h"
 
 namespace physvib {
 namespace {

@@ -3,7 +3,7 @@
 #include "Mixer/Strips/GroupView.h"
 #include "Host/Views/StripParts.h"
 #include "Io/Disk/FileLimits.h"
-#include "Scene/Sessions/StripGroups.h"
+#include "Live/Documents/StripGroups.h"
 #include <algorithm>
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // What the trials of a study say, over the whole window: the figures of `physvib analyse`, its warnings and
 // its picture.
 #pragma once
-#include "Jobs/Analyse/Analysis.h"
+#include "Lab/Analysis/Analysis.h"
 #include "Mixer/Window/TabPanel.h"
 
 namespace physvib {

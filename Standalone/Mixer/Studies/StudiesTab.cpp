@@ -5,11 +5,11 @@
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
+#include "Lab/Files/ProtocolFile.h"
 #include "Mixer/Studies/StudyLooks.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
 #include "Studies/StudyCheck.h"
-#include "Study/Files/ProtocolFile.h"
 
 namespace physvib {
 namespace {

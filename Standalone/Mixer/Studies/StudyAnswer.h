@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a participant answers with: one component for each kind of task.
 #pragma once
+#include "Lab/Study/Experiment.h"
 #include "Mixer/Studies/StudyWords.h"
 #include "Scene/LayoutFile.h"
-#include "Study/Experiment.h"
 #include <functional>
 #include <juce_gui_basics/juce_gui_basics.h>
 #include <memory>

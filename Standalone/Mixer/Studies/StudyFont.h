@@ -2,7 +2,7 @@
 // A typeface with the letters of a language: JUCE draws boxes for those that a typeface lacks, and looks for
 // no other one.
 #pragma once
-#include "Study/Files/Words.h"
+#include "Lab/Files/Words.h"
 #include <juce_gui_basics/juce_gui_basics.h>
 #include <optional>
 

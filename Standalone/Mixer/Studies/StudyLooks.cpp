@@ -3,7 +3,7 @@
 #include "Mixer/Studies/StudyLooks.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
-#include "Study/Files/ProtocolFile.h"
+#include "Lab/Files/ProtocolFile.h"
 #include <algorithm>
 
 namespace physvib {

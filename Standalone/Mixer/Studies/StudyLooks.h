@@ -3,7 +3,7 @@
 #pragma once
 #include "Host/Views/MaterialTexture.h"
 #include "Io/Result.h"
-#include "Study/Protocol.h"
+#include "Lab/Study/Protocol.h"
 #include <string>
 #include <vector>
 

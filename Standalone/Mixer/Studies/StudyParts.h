@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the screens for participants: large buttons, a field with its enchanters, arrow keys.
 #pragma once
+#include "Lab/Study/PhantomGrid.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/LayoutFile.h"
-#include "Study/PhantomGrid.h"
 
 namespace physvib {
 

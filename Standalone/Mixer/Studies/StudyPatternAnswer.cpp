@@ -3,7 +3,7 @@
 // Icons say the order by colour and number, the enchanter by place.
 #include "Mixer/Studies/StudyAnswer.h"
 #include "Mixer/Studies/StudyParts.h"
-#include "Study/PulsePattern.h"
+#include "Stimuli/PulsePattern.h"
 #include <map>
 
 namespace physvib {

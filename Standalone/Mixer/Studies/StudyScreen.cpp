@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From page to page; what keys do.
 #include "Mixer/Studies/StudyScreen.h"
-#include "Jobs/LayoutNamed.h"
+#include "Lab/Files/ProtocolFile.h"
 #include "Mixer/Window/Parts.h"
+#include "Scene/LayoutNamed.h"
 #include "Scene/SceneEdits.h"
-#include "Study/Files/ProtocolFile.h"
 
 namespace physvib {
 namespace {

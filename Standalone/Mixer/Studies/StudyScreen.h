@@ -3,7 +3,7 @@
 // what is kept is StudyInProgress' business: this is only somebody who answers.
 #pragma once
 #include "Host/Views/MaterialTexture.h"
-#include "Jobs/StudyRun.h"
+#include "Lab/Study/StudyRun.h"
 #include "Mixer/Studies/StudyAnswerPane.h"
 #include "Mixer/Studies/StudyMarkers.h"
 #include "Mixer/Studies/StudySound.h"

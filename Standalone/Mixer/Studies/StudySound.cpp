@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls first, then the strikes, a moment later.
 #include "Mixer/Studies/StudySound.h"
+#include "Live/Documents/StripGroups.h"
 #include "Mixer/Window/Parts.h"
-#include "Scene/Sessions/StripGroups.h"
 #include <algorithm>
 
 namespace physvib {

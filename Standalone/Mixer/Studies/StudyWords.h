@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a participant reads.
 #pragma once
-#include "Study/Files/Words.h"
-#include "Study/Protocol.h"
+#include "Lab/Files/Words.h"
+#include "Lab/Study/Protocol.h"
 #include <juce_core/juce_core.h>
 #include <set>
 

@@ -4,8 +4,8 @@
 #pragma once
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/Views/WorldView.h"
+#include "Live/Session/SessionJournal.h"
 #include "Mixer/Desk/Desk.h"
-#include "Session/SessionJournal.h"
 #include "Studies/StudyCalls.h"
 #include <filesystem>
 #include <memory>

@@ -4,7 +4,7 @@
 #include "Core/Limits.h"
 #include "Host/Devices/LikelyDevices.h"
 #include "Host/Devices/NoDevice.h"
-#include "Pads/PadOutput.h"
+#include "Live/Pads/PadOutput.h"
 #include <algorithm>
 #include <optional>
 

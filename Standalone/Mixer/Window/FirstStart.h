@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The first start: where the actuators hang, then each of them in turn: was it felt, and where?
 #pragma once
+#include "Live/Session/SerialLine.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
-#include "Session/SerialLine.h"
 #include <functional>
 #include <memory>
 #include <vector>

@@ -2,9 +2,9 @@
 // What the mixer keeps between its runs: settings, recent documents, and a copy of the session in case it
 // ends badly.
 #pragma once
+#include "Live/Documents/DeskLimits.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/RecoveryCopies.h"
-#include "Scene/Sessions/DeskLimits.h"
 #include <juce_gui_extra/juce_gui_extra.h>
 
 namespace physvib {

@@ -3,7 +3,7 @@
 // it does.
 #pragma once
 #include "Io/Disk/SystemFile.h"
-#include "Scene/Sessions/SessionFile.h"
+#include "Live/Documents/SessionFile.h"
 #include <filesystem>
 #include <string>
 #include <string_view>

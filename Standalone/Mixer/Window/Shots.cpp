@@ -3,13 +3,13 @@
 #include "Mixer/Window/Shots.h"
 #include "Host/Devices/NoDevice.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Live/Documents/StripGroups.h"
 #include "Mixer/Materials/MaterialShots.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Studies/StudyShots.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/SceneCatalogue.h"
-#include "Scene/Sessions/StripGroups.h"
 #include <functional>
 
 namespace physvib {

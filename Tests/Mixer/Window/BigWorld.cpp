@@ -3,9 +3,9 @@
 // other pictures and the end took, and what processor time of the window's own thread. ../big-world.sh runs
 // it; no test, since it measures times.
 #include "Host/MessageLoop.h"
+#include "Live/Session/ThreadTime.h"
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Window/MixerWindow.h"
-#include "Session/ThreadTime.h"
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

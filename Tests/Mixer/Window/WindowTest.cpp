@@ -4,13 +4,13 @@
 #include "../MixerTesting.h"
 #include "Host/FakeAudioDevice.h"
 #include "Host/Views/DisplayScale.h"
+#include "Live/Session/OfflineRender.h"
+#include "Live/Session/SessionRender.h"
 #include "Mixer/Materials/MaterialShots.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
-#include "Session/OfflineRender.h"
-#include "Session/SessionRender.h"
 #include "Support/FullDisk.h"
 #include <cmath>
 

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Perceptual resolutions in words and tables.
+#include "Lab/Analysis/AnalyseGrids.h"
+#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Pictures/StudyPictures.h"
+#include <cmath>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+constexpr std::size_t mostTiesTold = 20;
+
+/// "1+2 | 3 | 4" of {2, 1, 1}.
+std::string groupWords(const std::vector<std::size_t>& groups) {
+    std::string words;
+    std::size_t line = 1;
+    for (const std::size_t size : groups) {
+        if (line > 1) words += " | ";
+        for (std::size_t i = 0; i < size; ++i) words.append(i ? "+" : "").append(std::to_string(line++));
+    }
+    return words;
+}
+
+std::string sizeWords(const GridMerge& merge) {
+    return std::to_string(merge.columnGroups.size()) + " x " + std::to_string(merge.rowGroups.size());
+}
+
+std::string mergeWords(const GridMerge& merge) {
+    return "columns " + groupWords(merge.columnGroups) + "; rows " + groupWords(merge.rowGroups);
+}
+
+void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolution& resolution,
+          double threshold) {
+    out << printable(counts.condition) << ": ";
+    if (resolution.ties.empty()) {
+        out << "0 x 0\n  even the whole field does not reach " << numberText(threshold) << " %\n";
+        return;
+    }
+    out << sizeWords(resolution.ties.front()) << "\n  merge: " << mergeWords(resolution.ties.front()) << '\n';
+    for (std::size_t i = 1; i < std::min(resolution.ties.size(), mostTiesTold); ++i)
+        out << "  tie: " << sizeWords(resolution.ties[i]) << ", " << mergeWords(resolution.ties[i]) << '\n';
+    if (resolution.ties.size() > mostTiesTold)
+        out << "  and " << resolution.ties.size() - mostTiesTold << " more ties\n";
+    out << "  sum " << fixedNumber(counts.sum(), 2) << " %, standard deviation "
+        << fixedNumber(counts.standardDeviation(), 2) << '\n';
+}
+
+/// "21.6 +- 2.2 cells": what the same responses give when they are drawn again.
+std::string spreadWords(const CellSpread& spread) {
+    return fixedNumber(spread.mean, 1) + " +- " + fixedNumber(spread.deviation, 1) +
+           " cells (responses drawn again 200 times): sizes that differ by less are no finding";
+}
+
+void exportMerged(ExportTable& table, const PercentCounts& counts, const PerceptualResolution& resolution) {
+    if (resolution.ties.empty()) return;
+    const PercentCounts grid = merged(counts, resolution.ties.front());
+    for (std::size_t r = 0; r < grid.rows; ++r)
+        for (std::size_t c = 0; c < grid.columns; ++c) {
+            table.cell(grid.condition).cell(r + 1).cell(c + 1).cell(grid.at(r, c));
+            table.endRow();
+        }
+}
+
+void exportNormals(ExportTable& table, const ConditionResolution& made) {
+    for (std::size_t i = 0; i < made.normals.normals.size(); ++i) {
+        const PlaceNormal& n = made.normals.normals[i];
+        if (n.responses == 0) continue;
+        table.cell(made.condition)
+            .cell(i % made.normals.columns + 1)
+            .cell(i / made.normals.columns + 1)
+            .cell(n.responses);
+        for (const double number :
+             {n.meanX, n.meanY, n.varianceX, n.varianceY, n.covariance, made.counts.percent[i]})
+            table.cell(number);
+        table.cell(std::size_t{n.isBorrowed});
+        table.endRow();
+    }
+}
+
+void warnOfSum(const PercentCounts& counts, std::vector<std::string>& warnings) {
+    const double printed = 0.005 * static_cast<double>(counts.percent.size()); // each rounded to two decimals
+    if (std::abs(counts.sum() - 100.0) > printed + 1e-9)
+        warnings.push_back(printable(counts.condition) + ": percent counts sum to " +
+                           fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));
+}
+
+} // namespace
+
+AnalysisReport analyseResolution(const AnalysisJob& o) {
+    const auto data =
+        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readLocations(files); });
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    std::vector<ConditionResolution> made;
+    std::vector<PercentCounts> counts;
+    ExportTable table{"resolution", data.value.isSimulated,
+                      "condition,target_column,target_row,responses,mean_x,mean_y,variance_x,variance_y,"
+                      "covariance,percent,borrowed"};
+    for (const auto& condition : data.value.conditions) {
+        made.push_back(resolveCondition(condition.name.empty() ? "all trials" : condition.name,
+                                        condition.trials, o.thresholdPercent));
+        const auto& one = made.back();
+        for (const auto& words : one.normals.warnings)
+            report.warnings.push_back(printable(one.condition) + ": " + words);
+        if (!one.normals.fault.empty())
+            return {o.files.front() + ": " + printable(one.condition) + ": " + one.normals.fault};
+        counts.push_back(one.counts);
+        exportNormals(table, one);
+    }
+    for (std::size_t c = 0; c < made.size(); ++c) {
+        tell(out, made[c].counts, made[c].resolution, o.thresholdPercent);
+        if (!made[c].resolution.ties.empty())
+            out << "  by chance "
+                << spreadWords(cellSpread(data.value.conditions[c].trials, o.thresholdPercent)) << '\n';
+    }
+    Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
+    if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
+    report.words = out.str();
+    report.table = table.text();
+    report.counts = percentCountsCsv(counts, provenance);
+    report.picture = [made, words = pictureWords(o.files, data.value.isSimulated)] {
+        return resolutionPicture(made, words);
+    };
+    return report;
+}
+
+AnalysisReport analysePercentCounts(const AnalysisJob& o) {
+    const auto data =
+        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readPercentCounts(files); });
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    ExportTable table{"percent-counts", data.value.isSimulated, "condition,row,column,percent"};
+    std::vector<ConditionResolution> made;
+    for (const auto& condition : data.value.conditions) {
+        const PercentCounts& counts = condition.trials.front();
+        warnOfSum(counts, report.warnings);
+        made.push_back({counts.condition, {}, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
+        tell(out, counts, made.back().resolution, o.thresholdPercent);
+        out << "  by chance: shares do not say of how many responses they are; analyse resolution of the "
+               "trials does\n";
+        exportMerged(table, counts, made.back().resolution);
+    }
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [made, words = pictureWords(o.files, data.value.isSimulated)] {
+        return resolutionPicture(made, words);
+    };
+    return report;
+}
+
+} // namespace physvib

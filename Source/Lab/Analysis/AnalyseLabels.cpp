@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// Confusion matrices in words and tables.
+#include "Lab/Analysis/AnalyseLabels.h"
+#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Pictures/StudyPictures.h"
+#include "Lab/Statistics/Moments.h"
+#include "Lab/Study/InformationTransfer.h"
+#include "Lab/Study/Proportion.h"
+#include "Lab/Study/TactileIcons.h"
+#include "Stimuli/PulsePattern.h"
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+using Data = StudyData<IdentificationTrial>;
+
+Result<Data> readTrials(const AnalysisJob& o) {
+    auto data =
+        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readIdentification(files); });
+    if (!data || o.tolerance == 0) return data;
+    for (auto& condition : data.value.conditions) {
+        for (const auto& trial : condition.trials)
+            if (!parseGridCell(trial.stimulus))
+                return Failure{o.files.front() + ": --tolerance: expected grid labels r,c, found " +
+                               inQuotes(trial.stimulus)};
+        condition.trials = withTolerance(std::move(condition.trials), o.tolerance);
+    }
+    return data;
+}
+
+std::string bits(double value) { return fixedNumber(value, 2) + " bit"; }
+std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const InformationTransfer& it) {
+    std::vector<std::string> words;
+    const auto totals = matrix.stimulusTotals();
+    const auto [fewest, most] = std::ranges::minmax(totals);
+    if (fewest != most) {
+        const auto at = static_cast<std::size_t>(std::ranges::find(totals, fewest) - totals.begin());
+        words.push_back("stimuli were not presented equally often: " + printable(matrix.label(at)) + " " +
+                        std::to_string(fewest) + " times, others up to " + std::to_string(most));
+    }
+    if (matrix.responses() > matrix.stimuli())
+        words.push_back(
+            "responses that are no stimulus count as wrong: " + printable(matrix.label(matrix.stimuli())) +
+            (matrix.responses() > matrix.stimuli() + 1 ? " and others" : ""));
+    if (matrix.stimuli() == 1) words.push_back("only one stimulus: nothing can be transferred");
+    if (!it.canBeCorrected())
+        words.push_back(fixedNumber(it.trialsPerCell, 2) + " trials per cell, expected at least " +
+                        fixedNumber(trialsPerCellForCorrection, 0) +
+                        ": IT is biased upward and its correction overshoots; Fano's bound is given instead");
+    return words;
+}
+
+void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& matrix,
+          const InformationTransfer& it) {
+    const Proportion correct = proportion(matrix.correct(), matrix.trials());
+    out << indent << "trials: " << matrix.trials() << " (" << matrix.stimuli() << " stimuli)\n"
+        << indent << "percent correct: " << percent(correct.share) << " (95 % interval "
+        << percent(correct.least) << " to " << percent(correct.most) << ")\n"
+        << indent << "IT: " << bits(it.bits) << " of " << bits(it.mostBits) << '\n';
+    if (it.canBeCorrected())
+        out << indent << "corrected IT: " << bits(it.correctedBits()) << '\n';
+    else
+        out << indent << "IT bound: at least " << bits(it.leastBits) << " (Fano)\n";
+    out << indent << "2^IT: " << fixedNumber(std::exp2(it.bestBits()), 1) << '\n';
+}
+
+void exportMatrix(ExportTable& table, const std::string& condition, const ParticipantTransfer& own) {
+    const ConfusionMatrix& matrix = own.matrix;
+    for (std::size_t i = 0; i < matrix.stimuli(); ++i)
+        for (std::size_t j = 0; j < matrix.responses(); ++j) {
+            table.cell(condition)
+                .cell(own.participant)
+                .cell(matrix.label(i))
+                .cell(matrix.label(j))
+                .cell(std::size_t{matrix.count(i, j)});
+            table.endRow();
+        }
+}
+
+void exportTransfer(ExportTable& table, const std::string& condition, const ParticipantTransfer& own) {
+    const auto trials = static_cast<double>(own.matrix.trials());
+    table.cell(condition)
+        .cell(own.participant)
+        .cell(std::size_t{own.matrix.trials()})
+        .cell(100.0 * static_cast<double>(own.matrix.correct()) / trials)
+        .cell(own.transfer.bits);
+    if (own.transfer.canBeCorrected())
+        table.cell(own.transfer.correctedBits());
+    else
+        table.cell("");
+    table.endRow();
+}
+
+/// What participants transfer each by themselves: the mean in words, everyone in both tables.
+void tellAndExport(std::ostream& out, const std::string& indent,
+                   const StudyCondition<IdentificationTrial>& condition, ExportTable& counts,
+                   ExportTable& each) {
+    std::vector<double> transferred;
+    for (const auto& own : transferByParticipant(condition.trials)) {
+        exportMatrix(counts, condition.name, own);
+        exportTransfer(each, condition.name, own);
+        transferred.push_back(own.transfer.bestBits());
+    }
+    const Moments moments{transferred};
+    if (moments.n > 1)
+        out << indent << "IT of participants: mean " << bits(moments.mean) << ", standard error "
+            << bits(moments.standardError()) << ", " << moments.n << " participants\n";
+}
+
+std::string patternsOf(const ConfusionMatrix& matrix) {
+    int enchanters = 0;
+    for (std::size_t i = 0; i < matrix.stimuli(); ++i) {
+        const auto pattern = parsePatternLabel(matrix.label(i));
+        if (!pattern) return std::to_string(matrix.stimuli()) + " stimuli";
+        for (int k = 0; k < pattern->count; ++k)
+            enchanters = std::max(enchanters, pattern->enchanters[static_cast<std::size_t>(k)] + 1);
+    }
+    return std::to_string(matrix.stimuli()) + " patterns on " + std::to_string(enchanters) +
+           (enchanters == 1 ? " actuator" : " actuators");
+}
+
+std::string nameOr(const std::string& name, const char* other) { return name.empty() ? other : name; }
+
+} // namespace
+
+AnalysisReport analyseConfusion(const AnalysisJob& o) {
+    const auto data = readTrials(o);
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    ExportTable table{"confusion", data.value.isSimulated, "condition,participant,stimulus,response,count"};
+    ExportTable each{"confusion-participants", data.value.isSimulated,
+                     "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
+    std::vector<ConfusionPanel> panels;
+    for (const auto& condition : data.value.conditions) {
+        const ConfusionMatrix matrix{condition.trials};
+        const InformationTransfer it = informationTransfer(matrix);
+        const std::string prefix = condition.name.empty() ? "" : printable(condition.name) + ": ";
+        for (const auto& words : matrixWarnings(matrix, it)) report.warnings.push_back(prefix + words);
+        if (!condition.name.empty()) out << printable(condition.name) << '\n';
+        tell(out, condition.name.empty() ? "" : "  ", matrix, it);
+        tellAndExport(out, condition.name.empty() ? "" : "  ", condition, table, each);
+        panels.push_back({nameOr(condition.name, "all trials"), matrix, it});
+    }
+    report.words = out.str();
+    report.table = table.text();
+    report.participants = each.text();
+    report.picture = [panels, words = pictureWords(o.files, data.value.isSimulated)] {
+        return confusionPicture(panels, words);
+    };
+    return report;
+}
+
+AnalysisReport analyseIcons(const AnalysisJob& o) {
+    const auto data = readTrials(o);
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    out << o.meanings << " meanings need " << bits(bitsFor(o.meanings)) << '\n';
+    std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
+    for (const auto& condition : data.value.conditions)
+        matrices.emplace_back(condition.name, ConfusionMatrix{condition.trials});
+    std::ranges::stable_sort(matrices, {}, [](const auto& m) { return m.second.stimuli(); });
+    ExportTable table{"icons", data.value.isSimulated, "condition,stimulus,percent_correct"};
+    std::vector<IconPanel> panels;
+    for (const auto& [name, matrix] : matrices) {
+        const InformationTransfer it = informationTransfer(matrix);
+        const bool isEnough = it.bestBits() >= bitsFor(o.meanings);
+        out << printable(nameOr(name, "all trials")) << ": " << patternsOf(matrix) << ", "
+            << bits(it.bestBits()) << ": " << (isEnough ? "enough" : "too little") << '\n';
+        if (!isEnough || !panels.empty()) continue;
+        panels.push_back({nameOr(name, "all trials"), {}});
+        for (const std::size_t i : leastConfused(matrix, o.meanings)) {
+            const double share = shareCorrect(matrix, i);
+            out << "  " << printable(matrix.label(i)) << "  " << percent(share) << " % correct\n";
+            table.cell(name).cell(matrix.label(i)).cell(100.0 * share);
+            table.endRow();
+            panels.back().icons.push_back({matrix.label(i), share});
+        }
+    }
+    if (panels.empty())
+        report.error = o.files.front() + ": expected a condition that transfers " +
+                       bits(bitsFor(o.meanings)) + ", found none";
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [panels, words = pictureWords(o.files, data.value.isSimulated)] {
+        return iconPicture(panels, words);
+    };
+    return report;
+}
+
+} // namespace physvib

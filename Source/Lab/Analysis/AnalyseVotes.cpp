@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Shares and means in words and tables.
+#include "Lab/Analysis/AnalyseVotes.h"
+#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Pictures/StudyPictures.h"
+#include <algorithm>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+void tell(std::ostream& out, const ChoiceSummary& summary) {
+    out << wholeLabel(summary.condition) << ':';
+    for (const ChoiceShare& share : summary.shares)
+        out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' '
+            << percent(share.share) << " % (" << percent(share.least) << " to " << percent(share.most) << ')';
+    out << ", " << summary.trials << (summary.trials == 1 ? " trial of " : " trials of ")
+        << summary.participants << (summary.participants == 1 ? " participant" : " participants");
+    if (summary.p) out << ", signed ranks " << chanceWords(*summary.p);
+    out << '\n';
+}
+
+const char* kindWord(LevelTrial::Kind kind) {
+    if (kind == LevelTrial::Kind::staircase) return "threshold";
+    if (kind == LevelTrial::Kind::quest) return "threshold by QUEST+";
+    return kind == LevelTrial::Kind::adjustment ? "matched at" : "magnitude";
+}
+
+void tell(std::ostream& out, const LevelSummary& s) {
+    const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
+    out << wholeLabel(s.condition) << (s.stimulus.empty() ? "" : ", " + wholeLabel(s.stimulus)) << ": "
+        << kindWord(s.kind) << ' ' << fixedNumber(s.estimate, isMagnitude ? 2 : 1)
+        << (isMagnitude ? "" : " dB");
+    const bool isThreshold = s.kind == LevelTrial::Kind::staircase || s.kind == LevelTrial::Kind::quest;
+    if (s.deviation > 0.0)
+        out << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10" : " dB")
+            << (isThreshold ? " over participants)" : " over trials)");
+    if (s.halfInterval > 0.0)
+        out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to "
+            << fixedNumber(s.estimate + s.halfInterval, 1) << " dB";
+    out << ", " << s.trials << (s.trials == 1 ? " trial of " : " trials of ") << s.participants
+        << (s.participants == 1 ? " participant" : " participants");
+    if (s.kind == LevelTrial::Kind::staircase)
+        out << ", " << s.reversals << " reversals that a trial followed";
+    out << '\n';
+}
+
+} // namespace
+
+AnalysisReport analyseChoices(const AnalysisJob& o) {
+    const auto data =
+        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readChoices(files); });
+    if (!data) return {data.error};
+    const auto summaries = summariseChoices(data.value.conditions.front().trials);
+    ExportTable table{"choices", data.value.isSimulated,
+                      "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,"
+                      "participants_median_percent,p_signed_ranks"};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    if (summaries.front().participants == 1)
+        report.warnings.push_back("one participant, or no column participant: intervals are over trials, and "
+                                  "say nothing about other people");
+    if (summaries.front().shares.size() == 1)
+        report.warnings.push_back("every choice is " +
+                                  printable(summaries.front().shares.front().alternative) +
+                                  ": nothing to compare");
+    for (const auto& summary : summaries) {
+        tell(out, summary);
+        for (const auto& share : summary.shares) {
+            table.cell(summary.condition)
+                .cell(share.alternative)
+                .cell(std::size_t{share.hits})
+                .cell(std::size_t{summary.trials});
+            for (const double part : {share.share, share.least, share.most}) table.cell(100.0 * part);
+            table.cell(summary.participants).cell(100.0 * share.median);
+            if (summary.p)
+                table.cell(*summary.p);
+            else
+                table.cell("");
+            table.endRow();
+        }
+    }
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [summaries, words = pictureWords(o.files, data.value.isSimulated)] {
+        return choicePicture(summaries, words);
+    };
+    return report;
+}
+
+AnalysisReport analyseRatings(const AnalysisJob& o) {
+    const auto ratings =
+        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readRatings(files); });
+    if (!ratings) return {ratings.error};
+    const auto& [scales, data] = ratings.value;
+    const auto summaries = summariseRatings(data.conditions.front().trials);
+    ExportTable table{"ratings", data.isSimulated,
+                      "condition,scale,trials,participants,mean,standard_deviation,half_interval"};
+    AnalysisReport report{{}, data.isSimulated, data.warnings};
+    std::ostringstream out;
+    bool hasIntervals = false;
+    for (const auto& summary : summaries) {
+        hasIntervals |= std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; });
+        out << wholeLabel(summary.condition) << ": " << summary.trials
+            << (summary.trials == 1 ? " trial" : " trials");
+        for (std::size_t s = 0; s < scales.size(); ++s) {
+            out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
+            if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
+            table.cell(summary.condition).cell(scales[s]).cell(summary.trials).cell(summary.participants);
+            for (const double number : {summary.means[s], summary.deviations[s], summary.halfIntervals[s]})
+                table.cell(number);
+            table.endRow();
+        }
+        out << '\n';
+    }
+    if (hasIntervals) out << "+-: half of the 95 % interval over participants\n";
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [scales = scales, summaries, words = pictureWords(o.files, data.isSimulated)] {
+        return ratingPicture(scales, summaries, words);
+    };
+    return report;
+}
+
+AnalysisReport analyseLevels(const AnalysisJob& o) {
+    const auto data =
+        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readLevels(files); });
+    if (!data) return {data.error};
+    const auto summaries = summariseLevels(data.value.conditions.front().trials);
+    ExportTable table{
+        "levels", data.value.isSimulated,
+        "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation,half_interval"};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    for (const LevelSummary& s : summaries) {
+        tell(out, s);
+        if (s.flatRuns > 0)
+            report.warnings.push_back(printable(s.condition) + ": " + std::to_string(s.flatRuns) +
+                                      (s.flatRuns == 1 ? " staircase has" : " staircases have") +
+                                      " fewer than two reversals: the level of the last trial "
+                                      "stands for a threshold");
+        table.cell(kindWord(s.kind))
+            .cell(s.condition)
+            .cell(s.stimulus)
+            .cell(s.trials)
+            .cell(s.participants)
+            .cell(s.reversals)
+            .cell(s.estimate)
+            .cell(s.deviation)
+            .cell(s.halfInterval);
+        table.endRow();
+    }
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [summaries, words = pictureWords(o.files, data.value.isSimulated)] {
+        return levelPicture(summaries, words);
+    };
+    return report;
+}
+
+} // namespace physvib

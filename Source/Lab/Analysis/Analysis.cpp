@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// The list of all analyses, and which of them fit a table.
+#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/AnalyseFits.h"
+#include "Lab/Analysis/AnalyseGrids.h"
+#include "Lab/Analysis/AnalyseLabels.h"
+#include "Lab/Analysis/AnalyseTests.h"
+#include "Lab/Analysis/AnalyseVotes.h"
+#include "Lab/Files/TrialColumns.h"
+#include "Lab/Study/StudyTasks.h"
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace physvib {
+namespace {
+
+constexpr Analysis analyses[] = {
+    {Analysis::Kind::results, "confusion",
+     "stimulus,response per trial: percent correct and information transfer", analyseConfusion},
+    {Analysis::Kind::results, "resolution",
+     "pointing responses: normals, likelihood map, percent counts, perceptual resolution", analyseResolution},
+    {Analysis::Kind::results, "places",
+     "pointing at targets anywhere: constant and variable error, distance, gain", analysePlaces},
+    {Analysis::Kind::results, "percent-counts", "percent counts: the largest grid that merging makes of them",
+     analysePercentCounts},
+    {Analysis::Kind::results, "choices", "forced choices: shares of the alternatives", analyseChoices},
+    {Analysis::Kind::results, "ratings", "slider ratings: means by condition", analyseRatings},
+    {Analysis::Kind::results, "levels",
+     "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
+    {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least",
+     analyseIcons},
+    {Analysis::Kind::test, "anova", "analysis of variance with repeated measures", analyseAnova},
+    {Analysis::Kind::test, "friedman", "levels of a within-factor, by ranks", analyseFriedman},
+    {Analysis::Kind::test, "wilcoxon", "two levels of a within-factor, by signed ranks", analyseWilcoxon},
+    {Analysis::Kind::test, "mann-whitney", "two groups, by ranks", analyseMannWhitney},
+    {Analysis::Kind::test, "kruskal-wallis", "two or more groups, by ranks", analyseKruskalWallis},
+    {Analysis::Kind::test, "shapiro", "whether values may be normal (Shapiro-Wilk)", analyseShapiro},
+    {Analysis::Kind::test, "pairs", "every two levels, corrected for their number", analysePairs},
+    {Analysis::Kind::fit, "psychometric",
+     "psychometric functions of each participant, thresholds and JNDs over participants",
+     analysePsychometric},
+    {Analysis::Kind::fit, "power-law", "Stevens' exponent of magnitude estimations", analysePowerLaw},
+};
+
+static_assert(std::ranges::all_of(studyTasks,
+                                  [](const auto& task) {
+                                      return task.analysis.empty() ||
+                                             std::ranges::find(analyses, task.analysis, &Analysis::name) !=
+                                                 std::end(analyses);
+                                  }),
+              "every task's analysis is one of these");
+
+/// "trials of the task locate", or "columns of such trials" where a table names no task.
+std::string trialWordsOf(const CsvTable& table, const std::string& analysis) {
+    const auto task = table.column(trialColumns::task);
+    std::set<std::string> tasks;
+    for (const CsvRow& row : table.rows)
+        if (const StudyTaskDescription* const did = task ? studyTaskNamed(row.cells[*task]) : nullptr;
+            did != nullptr &&
+            (did->analysis == analysis || (analysis == "levels" && did->answer == AnswerKind::choice)))
+            tasks.emplace(did->name);
+    if (tasks.empty()) return "the columns of another kind of trials";
+    std::string words = tasks.size() == 1 ? "trials of the task" : "trials of the tasks";
+    for (const std::string& one : tasks) words.append(" ").append(one);
+    return words;
+}
+
+} // namespace
+
+std::span<const Analysis> allAnalyses() noexcept { return analyses; }
+
+std::vector<std::string> analysesFor(const CsvTable& table) {
+    std::set<std::string> found;
+    const auto has = [&](std::string_view column) { return table.column(column).has_value(); };
+    if (const auto task = table.column(trialColumns::task)) {
+        const auto phase = table.column(trialColumns::phase), correct = table.column("correct");
+        for (const CsvRow& row : table.rows) {
+            const StudyTaskDescription* const did = studyTaskNamed(row.cells[*task]);
+            if (did == nullptr) continue;
+            const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
+            const bool isAdapted =
+                did->answer == AnswerKind::choice && correct && !row.cells[*correct].empty();
+            if (isAdapted || did->analysis == "levels")
+                found.insert("levels"); // of trainings, too
+            else if (!isTraining)
+                found.emplace(did->analysis);
+        }
+    } else {
+        if (has("stimulus") && has("response")) found.insert("confusion");
+        const bool isGrid = has("target_column") && (has("target_row") || !has("target_x"));
+        if (isGrid && has("x"))
+            found.insert("resolution");
+        else if (has("target_x") && has("x"))
+            found.insert("places");
+        if (has("c1")) found.insert("percent-counts");
+        if (has("choice")) found.insert("choices");
+        if ((has("value") && has("stimulus")) || (has("level_db") && has("correct"))) found.insert("levels");
+        const bool hasScale =
+            std::ranges::any_of(table.columns, [](const auto& column) { return !trialColumns::has(column); });
+        if (found.empty() && has("participant") && (has("stimulus") || has("condition")) && hasScale)
+            found.insert("ratings");
+    }
+    std::vector<std::string> names;
+    for (const Analysis& analysis : analyses)
+        if (found.contains(std::string{analysis.name})) names.emplace_back(analysis.name);
+    return names;
+}
+
+namespace {
+
+/// Of a table that an analysis could not take: which trials it holds, and which call reads them. Empty if no
+/// analysis is known for them, or if it is this one's own kind and something else is wrong.
+std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
+    if (asked.kind == Analysis::Kind::test || job.files.empty() || job.made != nullptr) return {};
+    const auto text = readFile(job.files.front(), limits::maxTableBytes);
+    auto table = text ? readCsvTable(text.value, job.files.front(),
+                                     job.columns.empty() ? CsvHeader::named : CsvHeader::loose)
+                      : Result<CsvTable>{Failure{text.error}};
+    std::size_t leftOut = 0;
+    if (!table || !takeColumns(table.value, job.columns, leftOut).empty()) return {};
+    std::string words;
+    for (const std::string& name : analysesFor(table.value)) {
+        if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels") ||
+            (asked.name == "icons" && name == "confusion") ||
+            (asked.name == "places" && name == "resolution" && table.value.column("target_x")))
+            return {};
+        words.append(words.empty() ? "; the file has " : ", and ")
+            .append(trialWordsOf(table.value, name))
+            .append(", which `physvib analyse ")
+            .append(name)
+            .append("` reads");
+    }
+    return words;
+}
+
+} // namespace
+
+AnalysisReport analyse(const std::string& name, const AnalysisJob& job) {
+    const auto found = std::ranges::find(analyses, name, &Analysis::name);
+    if (found == std::end(analyses)) return AnalysisReport{"no analysis " + inQuotes(name)};
+    AnalysisReport report = found->run(job);
+    if (!report.error.empty()) report.error += otherKindWords(*found, job);
+    return report;
+}
+
+PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated) {
+    PictureWords words{{}, "physvib " PHYSVIB_VERSION, isSimulated};
+    words.source = std::filesystem::path{files.front()}.filename().string();
+    if (files.size() > 1) words.source += " and " + std::to_string(files.size() - 1) + " more";
+    return words;
+}
+
+} // namespace physvib

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// What analyses share: files in, words, and tables out.
+#pragma once
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Provenance.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/StudyCsv.h"
+#include "Lab/Pictures/StudyPictures.h"
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+inline std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
+
+inline std::string chanceWords(double p) { return p < 0.001 ? "p < 0.001" : "p = " + fixedNumber(p, 3); }
+
+/// A label of any length as it may be shown: of stimuli that differ at the end only, too.
+inline std::string wholeLabel(std::string_view label) {
+    constexpr std::size_t piece = 40; // as printable() takes without cutting
+    std::string words;
+    for (; label.size() > piece; label.remove_prefix(piece)) words += printable(label.substr(0, piece));
+    return words + printable(label);
+}
+
+/// What an analysis reads.
+struct StudySources {
+    std::vector<std::string> files;
+    std::vector<ColumnName> columns{}; ///< of another program's tables
+    /// tables by their names that are not on the disk (yet); they have our columns
+    const std::map<std::string, std::string>* made = nullptr;
+    bool operator==(const StudySources&) const = default;
+};
+
+/// Reads every file and gives the texts to `reader` at once.
+template <class Reader>
+auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t mostBytes = limits::maxTableBytes)
+    -> decltype(reader(std::vector<NamedText>{})) {
+    std::vector<std::string> texts(sources.files.size());
+    std::vector<NamedText> files;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const std::string& path = sources.files[i];
+        if (sources.made)
+            if (const auto found = sources.made->find(path); found != sources.made->end()) {
+                files.push_back({found->second, path});
+                continue;
+            }
+        auto text = readFile(path, mostBytes);
+        if (!text) return Failure{text.error};
+        texts[i] = std::move(text.value);
+        files.push_back({texts[i], path, sources.columns});
+    }
+    return reader(files);
+}
+
+/// What stands around a picture of these files' results.
+PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated);
+
+/// A table that grows cell by cell, for statistics packages.
+class ExportTable {
+public:
+    ExportTable(std::string_view kind, bool isSimulated, std::string_view header) {
+        Provenance provenance{PHYSVIB_VERSION, {{"analysis", std::string(kind)}}};
+        if (isSimulated) provenance.entries.emplace_back("observer", "simulated");
+        text_ = provenanceComment(provenance);
+        text_.append(header).append("\n");
+    }
+    ExportTable& cell(std::string_view words) {
+        separate();
+        appendCell(text_, words);
+        return *this;
+    }
+    ExportTable& cell(double number) {
+        separate();
+        appendNumber(text_, number);
+        return *this;
+    }
+    ExportTable& cell(std::size_t number) {
+        separate();
+        appendNumber(text_, number);
+        return *this;
+    }
+    void endRow() {
+        text_ += '\n';
+        isFirst_ = true;
+    }
+    const std::string& text() const { return text_; }
+
+private:
+    void separate() {
+        if (!isFirst_) text_ += ',';
+        isFirst_ = false;
+    }
+    std::string text_;
+    bool isFirst_ = true;
+};
+
+} // namespace physvib

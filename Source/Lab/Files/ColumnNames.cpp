@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Columns are found once, then every row is shortened to them.
+#include "Lab/Files/ColumnNames.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/TrialColumns.h"
+#include "Lab/Study/PercentCounts.h"
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+namespace physvib {
+
+namespace {
+
+/// "touch_x:0:1230" in its parts; a column's name that ends otherwise is all name.
+ColumnName withRange(std::string ours, std::string words) {
+    const std::size_t second = words.rfind(':'), first = second == std::string::npos || second == 0
+                                                             ? std::string::npos
+                                                             : words.rfind(':', second - 1);
+    if (first == std::string::npos || first == 0) return {std::move(ours), std::move(words)};
+    const auto from = parseNumber<double>(words.substr(first + 1, second - first - 1)),
+               to = parseNumber<double>(words.substr(second + 1));
+    if (!from || !to || *from == *to) return {std::move(ours), std::move(words)};
+    return {std::move(ours), words.substr(0, first), std::pair{*from, *to}};
+}
+
+/// Cells of a column as shares of its range; empty, or the first that is no number.
+std::string scale(CsvTable& table, std::size_t column, const std::pair<double, double>& range) {
+    for (CsvRow& row : table.rows) {
+        const auto number = parseNumber<double>(row.cells[column]);
+        if (!number) return table.fault(row, column, "a number");
+        row.cells[column] = numberText((*number - range.first) / (range.second - range.first));
+    }
+    return {};
+}
+
+/// True places along one axis also become numbers of lines, if they are few enough for a grid; empty, or what
+/// is wrong.
+std::string numberLines(CsvTable& table, std::string_view places, const char* lines) {
+    const auto column = table.column(places);
+    if (!column || table.column(lines)) return {};
+    std::set<double> values;
+    for (const CsvRow& row : table.rows) {
+        const auto place = parseNumber<double>(row.cells[*column]);
+        if (!place) return table.fault(row, *column, "a number");
+        values.insert(*place);
+    }
+    if (values.size() > mostGridLines) return {};
+    table.columns.emplace_back(lines);
+    for (CsvRow& row : table.rows)
+        row.cells.push_back(std::to_string(
+            1 + std::distance(values.begin(), values.find(*parseNumber<double>(row.cells[*column])))));
+    return {};
+}
+
+} // namespace
+
+Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words) {
+    std::vector<ColumnName> names;
+    for (const std::string& word : words) {
+        const std::size_t equals = word.find('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
+            return Failure{"expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found " +
+                           inQuotes(word)};
+        names.push_back(withRange(word.substr(0, equals), word.substr(equals + 1)));
+        if (std::ranges::count(names, names.back().ours, &ColumnName::ours) > 1)
+            return Failure{"expected each name once, found " + inQuotes(names.back().ours) + " twice"};
+    }
+    return names;
+}
+
+std::string unitFault(std::span<const ColumnName> names) {
+    for (const auto& [answered, truth] : {std::pair{"x", "target_x"}, {"y", "target_y"}}) {
+        const auto a = std::ranges::find(names, answered, &ColumnName::ours),
+                   t = std::ranges::find(names, truth, &ColumnName::ours);
+        if (a != names.end() && t != names.end() && a->range.has_value() != t->range.has_value())
+            return std::string{"--columns: expected a range of both "}
+                .append(answered)
+                .append(" and ")
+                .append(truth)
+                .append(", or of none of them, as they are compared");
+    }
+    return {};
+}
+
+std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut) {
+    if (names.empty()) return {};
+    std::vector<std::size_t> from;
+    std::vector<std::string> columns;
+    for (const ColumnName& name : names) {
+        const auto found = table.column(name.theirs);
+        if (!found) return table.name + ": expected a column " + printable(name.theirs) + ", found none";
+        from.push_back(*found);
+        columns.push_back(name.ours);
+    }
+    if (const auto observer = table.column(trialColumns::observer);
+        observer && std::ranges::find(columns, trialColumns::observer) == columns.end()) {
+        from.push_back(*observer);
+        columns.emplace_back(trialColumns::observer);
+    }
+    const auto isWhole = [&](const CsvRow& row) {
+        return std::ranges::none_of(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(names.size()),
+                                    [&](std::size_t c) { return row.cells[c].empty(); });
+    };
+    rowsLeftOut += std::erase_if(table.rows, [&](const CsvRow& row) { return !isWhole(row); });
+    for (CsvRow& row : table.rows) {
+        std::vector<std::string> cells;
+        for (const std::size_t c : from) cells.push_back(row.cells[c]);
+        row.cells = std::move(cells);
+    }
+    table.columns = std::move(columns);
+    if (table.rows.empty())
+        return table.name + ": expected rows with something in every named column, found none";
+    for (std::size_t c = 0; c < names.size(); ++c)
+        if (names[c].range)
+            if (std::string fault = scale(table, c, *names[c].range); !fault.empty()) return fault;
+    if (std::string fault = numberLines(table, "target_x", "target_column"); !fault.empty()) return fault;
+    return numberLines(table, "target_y", "target_row");
+}
+
+} // namespace physvib

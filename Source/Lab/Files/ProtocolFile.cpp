@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// The outer shape of a protocol file; its fields are read and written after the table in ProtocolFields.h.
+#include "Lab/Files/ProtocolFile.h"
+#include "Io/Disk/ContentHash.h"
+#include "Io/Disk/Embedded.h"
+#include "Io/Disk/FileClash.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Json/JsonText.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/LevelsFile.h"
+#include "Lab/Files/ProtocolFields.h"
+#include "Lab/Files/StudyFileLimits.h"
+#include "Lab/Files/ThesisVersions.h"
+#include "Lab/Files/TrialColumns.h"
+#include "Lab/Study/CallWords.h"
+#include "Scene/JsonReader.h"
+#include "Scene/JsonWriter.h"
+#include "Scene/SceneRanges.h"
+#include <algorithm>
+#include <iterator>
+
+namespace physvib {
+
+// Source/Lab/Protocols/*.json, in the order of their listing
+const std::vector<EmbeddedFile>& embeddedProtocols();
+
+namespace {
+
+constexpr const char* protocolVersionField = "physvib_protocol";
+
+Protocol readProtocolRoot(Json& root) {
+    checkVersion(JsonField(root, {}), protocolVersionField, protocolFormatVersion);
+    root.erase(protocolVersionField);
+    auto protocol = readFields<Protocol>(JsonField(root, {}));
+    if (const std::string fault = detail::checkFields("", protocol, 0); !fault.empty())
+        throw JsonError({}, fault);
+    if (const std::string fault = validate(protocol); !fault.empty()) throw JsonError({}, fault);
+    for (const std::string& scale : scalesOf(protocol))
+        if (trialColumns::has(scale))
+            throw JsonError({}, "scales: expected names that no other column of a trial file has, found " +
+                                    inQuotes(scale));
+    return protocol;
+}
+
+} // namespace
+
+namespace {
+
+/// Loads what the sessions' levels_file names; empty, or one line.
+std::string takeLevels(Protocol& protocol) {
+    const auto session =
+        std::ranges::find_if(protocol.sessions, [](const SessionPlan& s) { return !s.levelsFile.empty(); });
+    if (session == protocol.sessions.end()) return {};
+    const auto path = besideProtocol(protocol.folder, session->levelsFile);
+    const auto text = readFile(path, limits::maxTableBytes);
+    if (!text) return text.error;
+    auto levels = readStimulusLevels(text.value, path);
+    if (!levels) return levels.error;
+    protocol.levels = std::move(levels.value);
+    return levelsFault(protocol);
+}
+
+} // namespace
+
+Result<Protocol> readProtocol(std::string_view text, std::string_view name) {
+    return readJson(text, name, limits::maxProtocolFileBytes, readProtocolRoot);
+}
+
+Result<Protocol> loadProtocol(const std::filesystem::path& path) {
+    return loadText(path, limits::maxProtocolFileBytes, readProtocol);
+}
+
+std::string protocolJson(const Protocol& protocol) {
+    OrderedJson root = {{protocolVersionField, protocolFormatVersion}};
+    root.update(detail::fieldsJson(protocol, {}));
+    return jsonLines(root);
+}
+
+std::string protocolHash(const Protocol& protocol) {
+    return contentHash(protocolJson(protocol) +
+                       (protocol.levels.empty() ? std::string{} : stimulusLevelsCsv(protocol.levels, {})));
+}
+
+const std::vector<Protocol>& builtInProtocols() {
+    static const std::vector<Protocol> protocols = readEmbedded(embeddedProtocols(), readProtocol);
+    return protocols;
+}
+
+const std::vector<Protocol>& knownProtocols() {
+    static const std::vector<Protocol> known = [] {
+        std::vector<Protocol> all = builtInProtocols();
+        all.insert(all.end(), thesisVersions().begin(), thesisVersions().end());
+        return all;
+    }();
+    return known;
+}
+
+std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol) {
+    const auto& known = knownProtocols();
+    std::vector<ThesisDeviation> own;
+    if (std::ranges::find(known, protocol) == known.end()) return own;
+    const std::string_view name = protocol.name;
+    const bool isAsPublished = name.ends_with(thesisSuffix);
+    const std::string_view builtIn = isAsPublished ? name.substr(0, name.size() - thesisSuffix.size()) : name;
+    std::ranges::copy_if(thesisDeviations, std::back_inserter(own), [&](const ThesisDeviation& one) {
+        return one.protocol == builtIn && !(isAsPublished && one.edit != ThesisEdit::none);
+    });
+    return own;
+}
+
+std::string besideProtocol(const std::string& folder, const std::string& path) {
+    std::error_code none;
+    const auto beside = std::filesystem::path{folder} / path;
+    return !folder.empty() && std::filesystem::is_regular_file(beside, none) ? beside.string() : path;
+}
+
+std::string linkFault(const std::string& folder, const std::string& path) {
+    std::error_code none;
+    const std::string found = besideProtocol(folder, path), home = found == path ? std::string{} : folder;
+    if (!isPlainPath(path) || !std::filesystem::exists(found, none) || isWithin(home, found)) return {};
+    return found + ": expected a file in " + (home.empty() ? "the folder" : home) +
+           " or below, found a link that leads elsewhere";
+}
+
+namespace {
+
+/// The same of all that a protocol names but in its calls.
+std::string namedLinkFault(const Protocol& protocol) {
+    std::vector<std::string> paths{protocol.words};
+    for (const ConditionPlan& condition : protocol.conditions) paths.push_back(condition.layout);
+    for (const StudySoundFile& sound : protocol.sounds)
+        paths.push_back(sound.file); // pictures are a participant's: see the mixer's StudyLooks
+    for (const SessionPlan& session : protocol.sessions) paths.push_back(session.levelsFile);
+    for (const std::string& path : paths)
+        if (auto fault = linkFault(protocol.folder, path); !fault.empty()) return fault;
+    return {};
+}
+
+} // namespace
+
+Result<Protocol> findProtocol(const std::string& nameOrPath) {
+    if (isJsonPath(nameOrPath)) {
+        auto protocol = loadProtocol(nameOrPath);
+        if (!protocol) return protocol;
+        protocol.value.folder = std::filesystem::path{nameOrPath}.parent_path().string();
+        if (auto fault = namedLinkFault(protocol.value); !fault.empty()) return Failure{fault};
+        if (auto fault = takeLevels(protocol.value); !fault.empty()) return Failure{fault};
+        return protocol;
+    }
+    for (const Protocol& protocol : knownProtocols())
+        if (protocol.name == nameOrPath) return protocol;
+    return Failure{"no protocol " + inQuotes(nameOrPath) + " (see physvib study list)"};
+}
+
+} // namespace physvib

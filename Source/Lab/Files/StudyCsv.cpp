@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: MIT
+// One function per kind of study file; the rows come from StudyRows.
+#include "Lab/Files/StudyCsv.h"
+#include "Lab/Files/FactorSource.h"
+#include "Lab/Files/SharedParticipants.h"
+#include "Lab/Files/StudyFileLimits.h"
+#include "Lab/Files/StudyRows.h"
+#include "Lab/Study/QuestMethod.h"
+#include "Lab/Study/StimulusJob.h"
+#include "Lab/Study/Trial.h"
+#include <cmath>
+#include <set>
+
+namespace physvib {
+namespace {
+
+using detail::StudyFault;
+using detail::StudyRows;
+
+/// "c3" of "c" and 3.
+std::string numbered(std::string prefix, std::size_t number) {
+    appendNumber(prefix, number);
+    return prefix;
+}
+
+template <class Trial>
+std::vector<Trial>& conditionNamed(const StudyRows& rows, StudyData<Trial>& data, const std::string& name) {
+    const auto found = std::ranges::find(data.conditions, name, &StudyCondition<Trial>::name);
+    if (found != data.conditions.end()) return found->trials;
+    if (data.conditions.size() == limits::maxConditions)
+        throw StudyFault{rows.table().name + ": expected at most " + std::to_string(limits::maxConditions) +
+                         " conditions, found more"};
+    data.conditions.push_back({name, {}});
+    return data.conditions.back().trials;
+}
+
+template <class Trial>
+std::vector<std::string>& warningsOf(StudyData<Trial>& data) {
+    return data.warnings;
+}
+std::vector<std::string>& warningsOf(RatingData& ratings) { return ratings.data.warnings; }
+
+/// Runs `take(rows, data)` per file; what it throws becomes a Failure, and so do files without a trial that
+/// counts.
+template <class Data, class Take>
+Result<Data> readAll(std::span<const NamedText> files, Take take) {
+    Data data;
+    SharedParticipants shared;
+    try {
+        for (const NamedText& file : files) {
+            const StudyRows rows{file.text, file.name, file.columns};
+            if (std::string fault = shared.add(rows.table()); !fault.empty())
+                throw StudyFault{std::move(fault)};
+            const std::size_t taken = take(rows, data);
+            if (rows.leftOut() > 0)
+                warningsOf(data).push_back(rows.table().name +
+                                           ": rows left out, with nothing in one of the named columns: " +
+                                           std::to_string(rows.leftOut()));
+            if (taken == 0)
+                throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
+        }
+    } catch (const StudyFault& fault) {
+        return Failure{fault.message};
+    }
+    if (std::string note = shared.note(); !note.empty()) warningsOf(data).push_back(std::move(note));
+    return data;
+}
+
+/// A matrix of counts has a row and a column for each.
+void expectFewLabels(const std::string& file, const StudyData<IdentificationTrial>& data) {
+    std::set<std::string_view> labels;
+    for (const auto& condition : data.conditions)
+        for (const auto& trial : condition.trials) {
+            labels.insert(trial.stimulus);
+            labels.insert(trial.response);
+            if (labels.size() > limits::maxLabels)
+                throw StudyFault{file + ": expected at most " + std::to_string(limits::maxLabels) +
+                                 " different stimuli and responses, found more"};
+        }
+}
+
+std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTrial>& data) {
+    const auto stimulus = rows.required("stimulus"), response = rows.required("response");
+    const auto condition = rows.optional("condition"), participant = rows.optional("participant");
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0, missing = 0, firstMissing = 0;
+    rows.each(AnswerKind::label, [&](const CsvRow& row) {
+        ++taken;
+        if (row.cells[response].empty() && !rows.text(row, stimulus).empty()) {
+            if (missing++ == 0) firstMissing = row.line;
+            return;
+        }
+        conditionNamed(rows, data, StudyRows::textIf(row, condition))
+            .push_back({rows.text(row, stimulus), row.cells[response], StudyRows::textIf(row, participant)});
+    });
+    if (missing > 0)
+        data.warnings.push_back(rows.table().name + ":" + std::to_string(firstMissing) +
+                                ": no response; trials left out for that: " + std::to_string(missing));
+    expectFewLabels(rows.table().name, data);
+    return data.conditions.empty() ? 0 : taken;
+}
+
+std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data) {
+    for (const auto& [line, place] : {std::pair{"target_column", "target_x"}, {"target_row", "target_y"}})
+        if (!rows.optional(line) && rows.optional(place))
+            throw StudyFault{
+                rows.table().name + ": column " + place + ": expected at most " +
+                std::to_string(mostGridLines) +
+                " different places, found more; `physvib analyse places` takes targets on no grid"};
+    const auto column = rows.required("target_column"), row = rows.required("target_row"),
+               x = rows.required("x"), y = rows.required("y");
+    const auto condition = rows.optional("condition");
+    constexpr int most = static_cast<int>(mostGridLines);
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(AnswerKind::place, [&](const CsvRow& r) {
+        ++taken;
+        conditionNamed(rows, data, StudyRows::textIf(r, condition))
+            .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most),
+                        rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0)});
+    });
+    return taken;
+}
+
+/// What our own rows have instead of true places: a cell, and in the call the grid that it is of.
+struct OwnTargets {
+    std::size_t row, column, call;
+
+    static std::optional<OwnTargets> of(const StudyRows& rows) {
+        const auto row = rows.optional("target_row"), column = rows.optional("target_column"),
+                   call = rows.optional(trialColumns::render);
+        if (rows.optional("target_x") || !row || !column || !call) return std::nullopt;
+        return OwnTargets{*row, *column, *call};
+    }
+
+    FieldPlace placeIn(const StudyRows& rows, const CsvRow& r) const {
+        constexpr int most = static_cast<int>(mostGridLines);
+        const GridCell cell{rows.wholeNumber(r, row, 1, most), rows.wholeNumber(r, column, 1, most)};
+        const auto grid = gridOf(r.cells[call]);
+        if (!grid || cell.row > grid->rows || cell.column > grid->columns)
+            throw StudyFault{rows.table().fault(r, call, "a call with the --grid that the target is of")};
+        return grid->place(cell);
+    }
+};
+
+std::size_t takeOwnPlaces(const StudyRows& rows, const OwnTargets& targets, StudyData<PlaceTrial>& data) {
+    const auto x = rows.required("x"), y = rows.required("y");
+    const auto stimulus = rows.optional("stimulus"), condition = rows.optional("condition"),
+               participant = rows.optional("participant");
+    const std::string unit = "true places are those of the calls' grids, in shares of the field's width and "
+                             "height, y downwards; a distance counts both shares alike";
+    if (std::ranges::find(data.warnings, unit) == data.warnings.end()) data.warnings.push_back(unit);
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(AnswerKind::place, [&](const CsvRow& row) {
+        ++taken;
+        const FieldPlace truth = targets.placeIn(rows, row);
+        conditionNamed(rows, data, StudyRows::textIf(row, condition))
+            .push_back({StudyRows::textIf(row, participant), StudyRows::textIf(row, stimulus), truth.x,
+                        truth.y, rows.number(row, x, 0.0, 1.0), rows.number(row, y, 0.0, 1.0)});
+    });
+    return taken;
+}
+
+std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
+    if (const auto own = OwnTargets::of(rows)) return takeOwnPlaces(rows, *own, data);
+    constexpr double farthest = 1e9; // of any unit
+    const auto trueX = rows.required("target_x"), x = rows.required("x");
+    const auto trueY = rows.optional("target_y"), y = rows.optional("y"),
+               stimulus = rows.optional("stimulus"), condition = rows.optional("condition"),
+               participant = rows.optional("participant");
+    if (trueY.has_value() != y.has_value())
+        throw StudyFault{rows.table().name +
+                         ": expected both columns target_y and y, or none of them, found " +
+                         (y ? "y" : "target_y")};
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(AnswerKind::place, [&](const CsvRow& row) {
+        ++taken;
+        const auto number = [&](std::optional<std::size_t> column) {
+            return column ? rows.number(row, *column, -farthest, farthest) : 0.0;
+        };
+        PlaceTrial trial{
+            StudyRows::textIf(row, participant), {}, number(trueX), number(trueY), number(x), number(y)};
+        trial.target =
+            stimulus ? row.cells[*stimulus]
+                     : numberText(trial.trueX) + (trueY ? "," + numberText(trial.trueY) : std::string{});
+        conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back(std::move(trial));
+    });
+    return taken;
+}
+
+/// "condition stimulus" of what there is; the stimulus alone if all is one condition, as in a trial file.
+std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus,
+                   std::optional<std::size_t> condition) {
+    return stimulus ? row.cells[*stimulus] : StudyRows::textIf(row, condition);
+}
+
+std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
+    const auto named = rows.optional("choice");
+    const auto choice = named ? *named : rows.required("response");
+    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
+               participant = rows.optional("participant");
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(AnswerKind::choice, [&](const CsvRow& row) {
+        ++taken;
+        conditionNamed(rows, data, {})
+            .push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition),
+                        rows.text(row, choice)});
+    });
+    return taken;
+}
+
+std::vector<std::size_t> scaleColumns(const CsvTable& table) {
+    std::vector<std::size_t> scales;
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+        if (!trialColumns::has(table.columns[c])) scales.push_back(c);
+    return scales;
+}
+
+std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
+    const auto scales = scaleColumns(rows.table());
+    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
+               participant = rows.optional("participant");
+    std::vector<std::string> names;
+    for (const auto c : scales) names.push_back(rows.table().columns[c]);
+    if (names.empty())
+        throw StudyFault{rows.table().name + ": expected a column per rating scale, found none"};
+    if (!ratings.scales.empty() && ratings.scales != names)
+        throw StudyFault{rows.table().name + ": expected the scales of the files before"};
+    ratings.scales = names;
+    ratings.data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(AnswerKind::scores, [&](const CsvRow& row) {
+        ++taken;
+        RatingTrial trial{StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), {}};
+        for (const auto c : scales) trial.scores.push_back(rows.number(row, c, 0.0, 100.0));
+        conditionNamed(rows, ratings.data, {}).push_back(std::move(trial));
+    });
+    return taken;
+}
+
+/// Of a row by QUEST+; else none.
+const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
+    const auto column = rows.optional(trialColumns::quest);
+    if (!column || row.cells[*column].empty()) return nullptr;
+    if (!questPlan(row.cells[*column]))
+        throw StudyFault{rows.table().fault(row, *column, "the words of a QUEST+ session")};
+    return &row.cells[*column];
+}
+
+/// A row of one of the kinds, or none.
+std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
+    const auto tasks = rows.optional(trialColumns::task);
+    // other programs' tables have one kind
+    const std::optional<AnswerKind> answer = tasks                    ? answerOf(row.cells[*tasks])
+                                             : rows.optional("value") ? AnswerKind::number
+                                                                      : AnswerKind::choice;
+    LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")),
+                     StudyRows::textIf(row, rows.optional("condition")),
+                     rows.text(row, rows.required("stimulus"))};
+    if (answer == AnswerKind::level)
+        trial.kind = LevelTrial::Kind::adjustment;
+    else if (answer == AnswerKind::number)
+        trial.kind = LevelTrial::Kind::magnitude;
+    else if (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty())
+        return std::nullopt;
+    if (trial.kind == LevelTrial::Kind::staircase) {
+        trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
+        trial.session = StudyRows::textIf(row, rows.optional("session"));
+        if (const std::string* const quest = questWordsOf(rows, row)) {
+            trial.kind = LevelTrial::Kind::quest;
+            trial.value = rows.wholeNumber(row, rows.required("correct"), 0, 1);
+            trial.quest = *quest;
+        }
+    } else
+        trial.value = rows.number(row, rows.required("value"),
+                                  trial.kind == LevelTrial::Kind::magnitude ? leastEstimate : -mostEstimate,
+                                  mostEstimate);
+    return trial;
+}
+
+std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    const auto task = rows.optional(trialColumns::task);
+    if (!task && !rows.optional("value")) rows.required("correct");
+    for (const CsvRow& row : rows.table().rows) {
+        if (task && answerOf(row.cells[*task]) == AnswerKind::wish) continue; // it has no stimulus of its own
+        if (auto trial = levelTrial(rows, row)) {
+            ++taken;
+            conditionNamed(rows, data, {}).push_back(std::move(*trial));
+        }
+    }
+    return taken;
+}
+
+std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data,
+                             const LevelAnswerColumns& columns) {
+    constexpr double largestLevel = 1e6;
+    const auto measure = rows.required(columns.measure);
+    const auto level = detail::FactorSource::of(rows.table(), columns.level);
+    if (!level) rows.required(columns.level);
+    const auto condition = rows.optional("condition"), participant = rows.optional("participant");
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
+        if (row.cells[measure].empty()) return;
+        const auto at = parseNumber<double>(level->level(row));
+        if (!at || std::abs(*at) > largestLevel)
+            throw StudyFault{rows.table().fault(row, level->column,
+                                                level->expected() + " that is a number from -1e6 to 1e6")};
+        ++taken;
+        const double answer = columns.isMagnitude ? rows.number(row, measure, leastEstimate, mostEstimate)
+                                                  : rows.wholeNumber(row, measure, 0, 1);
+        conditionNamed(rows, data, StudyRows::textIf(row, condition))
+            .push_back({StudyRows::textIf(row, participant), *at, answer});
+    });
+    return taken;
+}
+
+/// Columns c1, c2, ... of the table, at least one.
+std::vector<std::size_t> countColumns(const StudyRows& rows) {
+    std::vector<std::size_t> columns;
+    for (std::size_t i = 1; i <= mostGridLines; ++i) {
+        const auto found = rows.optional(numbered("c", i));
+        if (!found) break;
+        columns.push_back(*found);
+    }
+    if (columns.empty()) rows.required("c1");
+    if (rows.optional(numbered("c", mostGridLines + 1)))
+        throw StudyFault{rows.table().name + ": expected at most " + std::to_string(mostGridLines) +
+                         " columns c1, c2, ..."};
+    return columns;
+}
+
+std::size_t takePercentCounts(const StudyRows& rows, StudyData<PercentCounts>& data) {
+    const auto condition = rows.required("condition"), row = rows.required("row");
+    const auto columns = countColumns(rows);
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(std::nullopt, [&](const CsvRow& r) {
+        ++taken;
+        auto& grids = conditionNamed(rows, data, rows.text(r, condition));
+        if (grids.empty()) grids.push_back({r.cells[condition], 0, columns.size(), {}});
+        PercentCounts& grid = grids.front();
+        const int next = static_cast<int>(++grid.rows);
+        if (grid.columns != columns.size())
+            throw StudyFault{rows.table().fault(r, condition, "as many columns as in the file before")};
+        if (grid.rows > mostGridLines)
+            throw StudyFault{
+                rows.table().fault(r, row, "at most " + std::to_string(mostGridLines) + " rows")};
+        if (rows.wholeNumber(r, row, 1, static_cast<int>(mostGridLines)) != next)
+            throw StudyFault{rows.table().fault(r, row, "row " + std::to_string(next) + " of the condition")};
+        for (const auto c : columns) grid.percent.push_back(rows.number(r, c, 0.0, 100.0));
+    });
+    return taken;
+}
+
+} // namespace
+
+Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files) {
+    return readAll<StudyData<IdentificationTrial>>(files, takeIdentification);
+}
+
+Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files) {
+    return readAll<StudyData<LocationTrial>>(files, takeLocations);
+}
+
+Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files) {
+    return readAll<StudyData<PlaceTrial>>(files, takePlaces);
+}
+
+Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) {
+    return readAll<StudyData<ChoiceTrial>>(files, takeChoices);
+}
+
+Result<RatingData> readRatings(std::span<const NamedText> files) {
+    return readAll<RatingData>(files, takeRatings);
+}
+
+Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files) {
+    return readAll<StudyData<LevelTrial>>(files, takeLevelTrial);
+}
+
+Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files,
+                                                const LevelAnswerColumns& columns) {
+    return readAll<StudyData<LevelAnswer>>(
+        files, [&](const StudyRows& rows, auto& data) { return takeLevelAnswers(rows, data, columns); });
+}
+
+Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files) {
+    return readAll<StudyData<PercentCounts>>(files, takePercentCounts);
+}
+
+std::string percentCountsCsv(std::span<const PercentCounts> counts, const Provenance& provenance) {
+    std::size_t columns = 0;
+    for (const auto& grid : counts) columns = std::max(columns, grid.columns);
+    std::string text = provenanceComment(provenance) + "condition,row";
+    for (std::size_t c = 1; c <= columns; ++c) text += numbered(",c", c);
+    text += '\n';
+    for (const auto& grid : counts)
+        for (std::size_t row = 0; row < grid.rows; ++row) {
+            appendCell(text, grid.condition);
+            text += numbered(",", row + 1);
+            for (std::size_t c = 0; c < columns; ++c)
+                text.append(",").append(c < grid.columns ? numberText(grid.at(row, c)) : "0");
+            text += '\n';
+        }
+    return text;
+}
+
+} // namespace physvib

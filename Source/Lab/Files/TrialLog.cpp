@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+// Rows out and in; the columns are in TrialColumns.h.
+#include "Lab/Files/TrialLog.h"
+#include "Io/Disk/FileClash.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/ProtocolFields.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Files/StudyRows.h"
+#include "Lab/Files/TrialColumns.h"
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+namespace columns = trialColumns;
+
+void appendPart(std::string& text, const std::string& part) {
+    text.append(text.empty() ? "" : "|").append(part);
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const auto& part : parts) appendPart(text, part);
+    return text;
+}
+
+/// To six digits: more is not measured.
+std::string levelText(double level) {
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, level, std::chars_format::general, 6).ptr};
+}
+
+/// Cells by the name of their column; a column without one stays empty.
+using Cells = std::map<std::string_view, std::string>;
+
+void addPlace(Cells& cells, const FieldPlace& place) {
+    cells["x"] = numberText(place.x);
+    cells["y"] = numberText(place.y);
+}
+
+void addApparatus(Cells& cells, const Answer& answer) {
+    const Apparatus& with = *answer.apparatus;
+    cells[columns::limiterDb] = levelText(answer.limiterDb);
+    cells[columns::masterDb] = levelText(with.masterDb);
+    cells[columns::noiseDb] = with.noiseDb ? levelText(*with.noiseDb) : std::string{columns::noNoise};
+    cells[columns::device] = with.device;
+    cells[columns::version] = with.version;
+}
+
+Cells cellsOf(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
+    const auto& [trial, answer] = record;
+    const SessionPlan& session = protocol.sessions[trial.session];
+    Cells cells{{"participant", participant.code},
+                {"observer", participant.observer},
+                {"condition", protocol.conditions[trial.condition].name},
+                {"session", session.name}};
+    cells["phase"] = session.isTraining ? columns::training : "main";
+    cells["trial"] = std::to_string(trial.number);
+    cells["task"] = describe(trial.task).name;
+    cells["stimulus"] = trial.stimulus;
+    cells["parts"] = joined(trial.parts);
+    cells[session.answer() == AnswerKind::choice ? "choice" : "response"] = answer.response;
+    if (const auto target = targetOf(protocol.conditions[trial.condition], trial)) {
+        cells["target_column"] = std::to_string(target->column);
+        cells["target_row"] = std::to_string(target->row);
+    }
+    if (answer.place) addPlace(cells, *answer.place);
+    if (session.answer() == AnswerKind::level || session.answer() == AnswerKind::number)
+        cells["value"] = numberText(answer.value);
+    if (const auto correct = isCorrect(protocol, record)) cells["correct"] = *correct ? "1" : "0";
+    cells["replays"] = std::to_string(answer.plays - 1);
+    cells["response_s"] = numberText(answer.seconds);
+    cells["level_db"] = numberText(trial.levelDb);
+    cells["render"] = callsOf(protocol, record);
+    if (session.quest) cells[columns::quest] = questWords(*session.quest, session.guessRate());
+    for (const FeltLevel& felt : answer.felt) {
+        appendPart(cells[columns::peakG], levelText(felt.peakG));
+        appendPart(cells[columns::rmsG], levelText(felt.rmsG));
+    }
+    if (answer.exposure) cells[columns::exposure] = levelText(*answer.exposure);
+    if (answer.apparatus) addApparatus(cells, answer);
+    for (std::size_t s = 0; s < answer.scores.size(); ++s)
+        cells[session.scales[s]] = numberText(answer.scores[s]);
+    return cells;
+}
+
+std::string headerOf(const std::vector<std::string>& names) {
+    std::string line;
+    for (const auto& name : names) {
+        if (!line.empty()) line += ',';
+        appendCell(line, name);
+    }
+    return line + "\n";
+}
+
+/// The columns of the header `line`, with its end: all of `names`, or those that older versions had; none:
+/// others.
+std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
+    for (const auto isNewer : {columns::isApparatus, columns::isMeasured}) {
+        if (line == headerOf(names)) return names;
+        std::erase_if(names, isNewer);
+    }
+    return line == headerOf(names) ? names : std::vector<std::string>{};
+}
+
+/// Reads the rows of a table back into records. Throws StudyFault.
+class RecordReader {
+public:
+    RecordReader(const detail::StudyRows& rows, const Protocol& protocol)
+        : rows_{rows}
+        , protocol_{protocol} {}
+
+    TrialRecord read(const CsvRow& row) const {
+        TrialRecord record;
+        Trial& trial = record.trial;
+        trial.condition = indexOf(row, "condition", protocol_.conditions);
+        trial.session = indexOf(row, "session", protocol_.sessions);
+        const SessionPlan& session = protocol_.sessions[trial.session];
+        trial.task = session.task;
+        trial.number = rows_.wholeNumber(row, rows_.required("trial"), 1, std::numeric_limits<int>::max());
+        trial.stimulus = cell(row, "stimulus");
+        trial.levelDb = rows_.number(row, rows_.required("level_db"), -1000.0, 1000.0);
+        record.answer.response = cell(row, session.answer() == AnswerKind::choice ? "choice" : "response");
+        record.answer.plays = 1 + rows_.wholeNumber(row, rows_.required("replays"), 0, 1'000'000);
+        record.answer.seconds = rows_.number(row, rows_.required("response_s"), 0.0, 1e9);
+        if (!cell(row, "x").empty())
+            record.answer.place = FieldPlace{rows_.number(row, rows_.required("x"), 0.0, 1.0),
+                                             rows_.number(row, rows_.required("y"), 0.0, 1.0)};
+        if (!cell(row, "value").empty())
+            record.answer.value = rows_.number(row, rows_.required("value"), -mostEstimate, mostEstimate);
+        if (const auto exposure = rows_.optional(columns::exposure);
+            exposure && !row.cells[*exposure].empty())
+            record.answer.exposure = rows_.number(row, *exposure, 0.0, 1e6);
+        readApparatus(row, record.answer);
+        for (const auto& scale : session.scales)
+            record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
+        return record;
+    }
+
+private:
+    void readApparatus(const CsvRow& row, Answer& answer) const {
+        if (!rows_.optional(columns::version) || cell(row, columns::version).empty()) return;
+        Apparatus& with = answer.apparatus.emplace();
+        with.version = cell(row, columns::version);
+        with.device = cell(row, columns::device);
+        with.masterDb = rows_.number(row, rows_.required(columns::masterDb), -1000.0, 1000.0);
+        if (cell(row, columns::noiseDb) != columns::noNoise)
+            with.noiseDb = rows_.number(row, rows_.required(columns::noiseDb), -1000.0, 0.0);
+        answer.limiterDb = rows_.number(row, rows_.required(columns::limiterDb), 0.0, 1000.0);
+    }
+    const std::string& cell(const CsvRow& row, std::string_view column) const {
+        return row.cells[rows_.required(column)];
+    }
+    template <class Item>
+    std::size_t indexOf(const CsvRow& row, std::string_view column, const std::vector<Item>& items) const {
+        const auto at = rows_.required(column);
+        const auto found = std::ranges::find(items, row.cells[at], &Item::name);
+        if (found == items.end())
+            throw detail::StudyFault{
+                rows_.table().fault(row, at, std::string("a ") + std::string(column) + " of the protocol")};
+        return static_cast<std::size_t>(found - items.begin());
+    }
+    const detail::StudyRows& rows_;
+    const Protocol& protocol_;
+};
+
+/// The first line without the version of the program, which may have changed since.
+std::string_view withoutVersion(std::string_view header) {
+    const auto line = header.substr(0, header.find('\n'));
+    return line.substr(std::min(line.find(" protocol="), line.size()));
+}
+
+/// The value of `key` in a line of provenance.
+std::string_view valueOf(std::string_view line, std::string_view key) {
+    const auto at = line.find(" " + std::string(key) + "=");
+    if (at == std::string_view::npos) return {};
+    const auto rest = line.substr(at + key.size() + 2);
+    return rest.substr(0, rest.find_first_of(" \n"));
+}
+
+/// What of the head is another, first things first.
+std::string headFault(std::string_view found, std::string_view expected) {
+    found = found.substr(0, found.find('\n'));
+    expected = expected.substr(0, expected.find('\n'));
+    for (const std::string_view key : {"protocol", "participant", "number", "observer", "seed"})
+        if (valueOf(found, key) != valueOf(expected, key))
+            return "expected trials of " + std::string(key) + " " +
+                   printable(std::string(valueOf(expected, key))) + ", found " +
+                   printable(std::string(valueOf(found, key)));
+    if (valueOf(found, "hash") == valueOf(expected, "hash"))
+        return "expected the columns of a trial file of this protocol, found others";
+    return "was begun with another version of the protocol " + std::string(valueOf(expected, "protocol")) +
+           " (hash " + printable(std::string(valueOf(found, "hash"))) + ", now " +
+           std::string(valueOf(expected, "hash")) +
+           "), so it does not go on: keep it, and begin anew in another folder";
+}
+
+} // namespace
+
+std::string trialHeader(const Protocol& protocol, const Participant& participant, std::string_view version) {
+    std::string text = provenanceComment({std::string(version),
+                                          {{"protocol", protocol.name},
+                                           {"hash", protocolHash(protocol)},
+                                           {"seed", std::to_string(protocol.seed)},
+                                           {"participant", participant.code},
+                                           {"number", std::to_string(participant.number)},
+                                           {"observer", participant.observer}}});
+    return text + headerOf(trialColumnsOf(protocol));
+}
+
+std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
+    std::vector<std::string> all(columns::names.begin(), columns::names.end());
+    for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
+    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); }))
+        all.emplace_back(columns::quest);
+    all.insert(all.end(), columns::measured.begin(), columns::measured.end());
+    all.insert(all.end(), columns::apparatus.begin(), columns::apparatus.end());
+    return all;
+}
+
+std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record,
+                     std::span<const std::string> names) {
+    const Cells cells = cellsOf(protocol, participant, record);
+    std::string row;
+    bool isFirst = true;
+    for (const auto& column : names) {
+        if (!std::exchange(isFirst, false)) row += ',';
+        if (const auto found = cells.find(column); found != cells.end()) appendCell(row, found->second);
+    }
+    return row + "\n";
+}
+
+Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol,
+                              const Participant& participant) {
+    const std::string header = trialHeader(protocol, participant, "");
+    TrialLog log;
+    log.columns = trialColumnsOf(protocol);
+    const std::size_t end = text.rfind('\n');
+    const std::string_view whole = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
+    constexpr std::string_view ours = "# physvib ";
+    const bool isOurs = text.starts_with(ours) || ours.starts_with(text);
+    if (isOurs && std::ranges::count(whole, '\n') < 2) return log; // not even a header: nothing to go on from
+    const std::size_t names = whole.find('\n') + 1, rows = whole.find('\n', names) + 1;
+    if (isOurs) log.columns = columnsIn(whole.substr(names, rows - names), log.columns);
+    if (!isOurs || withoutVersion(whole) != withoutVersion(header) || log.columns.empty())
+        return Failure{
+            std::string(name) + ":1: " +
+            (isOurs ? headFault(whole, header) : "expected a trial file of physvib, found something else")};
+    log.wholeBytes = whole.size();
+    if (rows == whole.size()) return log;
+    try {
+        const detail::StudyRows table{whole, name};
+        const RecordReader reader{table, protocol};
+        for (const CsvRow& row : table.table().rows) log.records.push_back(reader.read(row));
+    } catch (const detail::StudyFault& fault) {
+        return Failure{fault.message};
+    }
+    return log;
+}
+
+TrialLogFile::TrialLogFile(std::filesystem::path path, const Protocol& protocol, Participant participant,
+                           std::string_view version)
+    : path_{std::move(path)}
+    , protocol_{protocol}
+    , participant_{std::move(participant)} {
+    open(version);
+}
+
+void TrialLogFile::open(std::string_view version) {
+    file_ = SystemFile::grow(path_);
+    if (!file_.isOpen()) return failToWrite();
+    if (file_.lock() == SystemFile::Lock::others)
+        return fail("another program is writing it: the participant's study runs already");
+    const auto text = readFile(path_, limits::maxTableBytes);
+    auto log = text ? readTrialLog(text.value, path_.string(), protocol_, participant_)
+                    : Result<TrialLog>{Failure{text.error}};
+    if (!log) {
+        error_ = log.error;
+        return;
+    }
+    records_ = std::move(log.value.records);
+    columns_ = std::move(log.value.columns);
+    const std::size_t kept = log.value.wholeBytes;
+    if (kept < text.value.size() && !file_.resize(static_cast<std::int64_t>(kept))) return failToWrite();
+    std::error_code ignored;
+    if (kept == 0 && !(write(trialHeader(protocol_, participant_, version)) && sync()))
+        std::filesystem::remove(path_, ignored);
+    else
+        SystemFile::syncFolder(folderOf(path_));
+}
+
+bool TrialLogFile::write(const std::string& text) {
+    if (error_.empty() && !file_.append(text)) failToWrite();
+    return error_.empty();
+}
+
+bool TrialLogFile::sync() {
+    if (error_.empty() && !file_.sync()) failToWrite();
+    return error_.empty();
+}
+
+bool TrialLogFile::append(const TrialRecord& record) {
+    const bool isPerson = participant_.observer == Participant{}.observer;
+    return write(trialRow(protocol_, participant_, record, columns_)) && (!isPerson || sync());
+}
+
+} // namespace physvib

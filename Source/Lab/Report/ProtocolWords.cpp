@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// One sentence or clause per field, in the order of Lab/Files/ProtocolFields.h.
+#include "Lab/Report/ProtocolWords.h"
+#include "Core/RenderingMethod.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/ProtocolFields.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+/// "AF-FV-DRV: amplitude fixed, frequency varied, decay varied"; other names as they are.
+std::string inFull(const std::string& name) {
+    RenderingMethod method;
+    if (name == "SV") return "SV: the recorded contact";
+    if (!renderingMethodNamed(name, method)) return name;
+    const auto word = [](bool isFixed) { return std::string{isFixed ? "fixed" : "varied"}; };
+    return name + ": amplitude " + word(method.fixesAmplitude) + ", frequency " +
+           word(method.fixesFrequency) + ", decay " + word(method.fixesDecay);
+}
+
+/// The items' words, with `between` between them.
+template <class Items, class WordsOf>
+std::string joinedWords(const Items& items, const char* between, WordsOf wordsOf) {
+    std::string words;
+    for (std::size_t i = 0; i < items.size(); ++i) words.append(i ? between : "").append(wordsOf(items[i]));
+    return words;
+}
+
+std::string spoken(const std::string& words) { return "\u201c" + words + "\u201d"; }
+std::string secondsWords(double seconds) { return numberText(seconds) + " s"; }
+std::string dbWords(double db) { return numberText(db) + " dB"; }
+std::string rangeWords(double from, double to) { return "from " + numberText(from) + " to " + dbWords(to); }
+
+std::string setWords(const PatternSet& set) {
+    return "pulse patterns on " + std::to_string(set.enchanters) +
+           (set.enchanters == 1 ? " actuator" : " actuators") + ", pulses of " +
+           joinedWords(set.pulseSeconds, ", ", [](double s) { return numberText(s); }) + " s, " +
+           secondsWords(set.gapSeconds) + " apart";
+}
+
+std::string setWords(const GridSet& set) {
+    return "phantoms on a grid of " + std::to_string(set.columns) + " x " + std::to_string(set.rows) +
+           " (columns x rows), " +
+           (set.points == PhantomGrid::Points::corners ? "the outer points on the actuators"
+                                                       : "points in the middles of cells") +
+           ", law " + std::string(nameOf(set.law)) +
+           (set.exponent != 1.0 ? " with exponent " + numberText(set.exponent) : std::string{}) + ", " +
+           secondsWords(set.seconds);
+}
+
+std::string setWords(const CallSet& set) {
+    return "calls of physvib by " + joinedWords(set.factors, ", ", [](const StudyFactor& factor) {
+               return factor.name + " (" +
+                      joinedWords(factor.values, "; ",
+                                  [](const std::string& value) { return inFull(value); }) +
+                      ")";
+           });
+}
+
+std::string setWords(const WorldSet& set) {
+    std::string words =
+        "a world that is seen and felt" +
+        setWords(static_cast<const CallSet&>(set)).substr(std::string_view{"calls of physvib"}.size());
+    if (set.hasHands) words += "; the participant drags and tilts it";
+    if (set.displayScale > 0.0) words += "; shown at a scale of 1:" + numberText(set.displayScale);
+    return words;
+}
+
+std::string alternativeWords(const Alternative& one) {
+    return inFull(one.name) + (one.levelDb != 0.0 ? " at " + dbWords(one.levelDb) : std::string{});
+}
+
+std::string adjustmentWords(const Adjustment& plan) {
+    return "; " + plan.alternative + " is set " + rangeWords(plan.leastDb, plan.mostDb) + " in steps of " +
+           dbWords(plan.stepDb) + ", " +
+           (plan.startsAnywhere ? std::string{"starting anywhere in this range"}
+                                : "starting at " + dbWords(plan.startDb));
+}
+
+std::string staircaseWords(const StaircasePlan& plan) {
+    return "; staircase on " + plan.alternative + ": " + std::to_string(plan.down) +
+           " down, 1 up, starting at " + dbWords(plan.startDb) + " in steps of " + dbWords(plan.stepDb) +
+           ", halved at each reversal down to " + dbWords(plan.leastStepDb) + ", " +
+           rangeWords(plan.leastDb, plan.mostDb) + ", until " + std::to_string(plan.reversals) +
+           " reversals or " + std::to_string(plan.mostTrials) + " trials";
+}
+
+std::string questClause(const QuestMethod& plan) {
+    return "; QUEST+ on " + plan.alternative + ": psychometric function " +
+           std::string(psychometricShapeNames[static_cast<std::size_t>(plan.shape)]) + ", levels " +
+           rangeWords(plan.leastDb, plan.mostDb) + " in steps of " + dbWords(plan.stepDb) + ", widths " +
+           rangeWords(plan.leastWidthDb, plan.mostWidthDb) + ", lapse rate " + numberText(plan.lapse) +
+           ", until " + std::to_string(plan.trials) + " trials" +
+           (plan.deviationDb > 0.0
+                ? " or a standard deviation of the threshold of " + dbWords(plan.deviationDb)
+                : std::string{});
+}
+
+std::string scaleWords(const SessionPlan& session) {
+    std::string words = "; scales from 0 to 100: ";
+    for (std::size_t i = 0; i < session.scales.size(); ++i)
+        words.append(i ? ", " : "")
+            .append(session.scales[i])
+            .append(i < session.definitions.size() ? " (" + spoken(session.definitions[i]) + ")"
+                                                   : std::string{});
+    const auto anchor = [&](std::size_t i) {
+        return spoken(i < session.anchors.size() ? session.anchors[i] : std::string{usualAnchors[i]});
+    };
+    words += ", between " + anchor(0) + " and " + anchor(1);
+    return words + (session.showsNumbers ? ", with their numbers" : "");
+}
+
+} // namespace
+
+std::vector<std::string> protocolSentences(const Protocol& protocol) {
+    std::vector<std::string> sentences{
+        "Protocol " + protocol.name + (protocol.title.empty() ? std::string{} : ": " + protocol.title) + ".",
+        "Every participant does each session in each condition; the order of conditions is " +
+            std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + "."};
+    if (protocol.conditionBreakSeconds > 0.0)
+        sentences.push_back("A break of " + secondsWords(protocol.conditionBreakSeconds) +
+                            " lies before each condition but the first.");
+    sentences.push_back("Limit of a participant's exposure on one day: A(8) of " +
+                        numberText(protocol.exposureLimit) + " m/s^2 (ISO 5349-1).");
+    if (!protocol.words.empty())
+        sentences.push_back(
+            "Words of the participant's screens, unless others were chosen: " + protocol.words + ".");
+    for (const MaterialPictureFile& picture : protocol.pictures)
+        sentences.push_back("Bodies of " + picture.material +
+                            " are shown by a picture of the participant's own: " + picture.file + ".");
+    if (!protocol.closingQuestion.empty())
+        sentences.push_back("In the end, to be answered in one's own words: " +
+                            spoken(protocol.closingQuestion));
+    return sentences;
+}
+
+std::string conditionWords(const ConditionPlan& condition) {
+    std::string words = condition.name + (condition.group.empty() ? "" : " (group " + condition.group + ")") +
+                        ": " + std::visit([](const auto& set) { return setWords(set); }, condition.stimuli) +
+                        "; layout " + condition.layout;
+    if (callSetOf(condition.stimuli) == nullptr)
+        words += ", " +
+                 (condition.isAtResonance ? "the actuators' resonance"
+                                          : numberText(condition.frequencyHz) + " Hz") +
+                 ", " + numberText(condition.levelG) + " g";
+    return words;
+}
+
+std::string sessionWords(const SessionPlan& session) {
+    const StudyTaskDescription& task = describe(session.task);
+    std::string words = session.name;
+    if (session.isTraining)
+        words += task.analysis == "levels" ? " (training, counted among levels alone)"
+                                           : " (training, left out of analyses)";
+    words += ": task " + std::string(task.name);
+    if (!session.question.empty()) words += ", " + spoken(session.question);
+    words += "; order " + std::string(trialOrderNames[static_cast<std::size_t>(session.order)]);
+    if (session.repetitions > 1) words += ", " + std::to_string(session.repetitions) + " repetitions";
+    if (session.fewestTouches > 0) words += ", " + std::to_string(session.fewestTouches) + " touches";
+    if (session.bothOrders) words += ", both orders of the alternatives";
+    if (!session.alternatives.empty())
+        words += "; alternatives " + joinedWords(session.alternatives, ", ", alternativeWords);
+    if (!session.objects.empty())
+        words += "; objects " +
+                 joinedWords(session.objects, ", ", [](const std::string& object) { return object; });
+    if (!session.scales.empty()) words += scaleWords(session);
+    if (session.adjustment) words += adjustmentWords(*session.adjustment);
+    if (session.staircase) words += staircaseWords(*session.staircase);
+    if (session.quest) words += questClause(*session.quest);
+    if (!session.levelsFrom.empty()) words += "; levels from the session " + session.levelsFrom;
+    if (!session.levelsFile.empty()) words += "; levels from the file " + session.levelsFile;
+    if (session.leastSeconds > 0.0)
+        words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
+    if (session.mostPlays > 0) words += "; felt at most " + std::to_string(session.mostPlays) + " times";
+    if (session.breakBeforeSeconds > 0.0)
+        words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
+    if (session.breakEvery > 0 && session.breakSeconds > 0.0)
+        words += "; a break of " + secondsWords(session.breakSeconds) + " every " +
+                 std::to_string(session.breakEvery) + " trials";
+    return words;
+}
+
+std::vector<std::string> soundLines(const Protocol& protocol) {
+    std::vector<std::string> lines;
+    for (const StudySoundFile& sound : protocol.sounds)
+        lines.push_back(numberText(sound.frequencyHz) + " Hz: " + sound.file +
+                        (sound.file.starts_with("synthetic-") ? " (nobody recorded it)" : ""));
+    return lines;
+}
+
+} // namespace physvib

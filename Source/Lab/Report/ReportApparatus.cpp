@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// With what trials were felt, as their rows say: nothing is taken from what a protocol asks for.
+#include "Io/Text/NumberText.h"
+#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Files/TrialColumns.h"
+#include "Lab/Report/ReportSections.h"
+#include <algorithm>
+#include <map>
+
+namespace physvib {
+namespace {
+
+namespace columns = trialColumns;
+
+/// What was the same for some trials.
+struct Felt {
+    std::size_t trials = 0, limited = 0;
+    double mostLimitedDb = 0.0;
+};
+
+/// Device, master level, noise, version: what was the same, and of which trials.
+using Kinds = std::map<std::vector<std::string>, Felt>;
+
+bool isNoise(const std::string& cell) { return cell != columns::noNoise && !cell.empty(); }
+
+std::vector<std::string> sentencesOf(const Kinds& kinds) {
+    std::vector<std::string> sentences;
+    for (const auto& [kind, felt] : kinds) {
+        const bool hasNoise = isNoise(kind[2]);
+        sentences.push_back(
+            std::to_string(felt.trials) + " trials were felt through the device " + kind[0] +
+            " at a master level of " + kind[1] + " dB, " +
+            (hasNoise ? "with pink noise of " + kind[2] + " dB of full scale (root mean square)"
+                      : std::string{"without pink noise"}) +
+            "; " +
+            (felt.limited > 0 ? "the limiter lowered " + std::to_string(felt.limited) +
+                                    " of them, by at most " + fixedNumber(felt.mostLimitedDb, 1) + " dB."
+                              : std::string{"the limiter lowered none of them."}));
+    }
+    return sentences;
+}
+
+/// What a measuring microphone says, no row knows.
+void tellNoise(ReportBuilder& report, const Kinds& kinds) {
+    const std::string& noise = report.trials.facts.noise;
+    if (!noise.empty())
+        report.page.paragraph("Noise: " + noise);
+    else if (std::ranges::any_of(kinds, [](const auto& kind) { return isNoise(kind.first[2]); }))
+        report.page.note(
+            "to be filled in: the noise as the participants heard it, e.g. its level in dB(A) (--noise)");
+}
+
+} // namespace
+
+void tellApparatus(ReportBuilder& report) {
+    const CsvTable& all = report.trials.all;
+    const auto cell = [&](const CsvRow& row, std::string_view column) {
+        const auto at = all.column(column);
+        return at ? row.cells[*at] : std::string{};
+    };
+    report.page.subheading("Apparatus");
+    Kinds kinds;
+    std::size_t unknown = 0;
+    for (const CsvRow& row : all.rows) {
+        if (cell(row, columns::version).empty()) {
+            ++unknown;
+            continue;
+        }
+        Felt& felt = kinds[{cell(row, columns::device), cell(row, columns::masterDb),
+                            cell(row, columns::noiseDb), cell(row, columns::version)}];
+        const double db = parseNumber<double>(cell(row, columns::limiterDb)).value_or(0.0);
+        ++felt.trials;
+        felt.limited += db > 0.05 ? 1 : 0;
+        felt.mostLimitedDb = std::max(felt.mostLimitedDb, db);
+    }
+    if (unknown > 0)
+        report.page.note(std::to_string(unknown) +
+                         " trials do not say on which device, at which level and with which noise they were "
+                         "felt: nothing is claimed about that");
+    if (kinds.empty()) return tellNoise(report, kinds);
+    ExportTable table{"apparatus", report.isSimulated(),
+                      "device,master_db,noise_db,version,trials,trials_with_the_limiter,most_limiter_db"};
+    for (const auto& [kind, felt] : kinds) {
+        for (const std::string& word : kind) table.cell(word);
+        table.cell(felt.trials).cell(felt.limited).cell(felt.mostLimitedDb);
+        table.endRow();
+    }
+    report.addTable("apparatus.csv", table.text());
+    report.page.paragraph(
+        "Device, master level in dB, root mean square of the pink noise in dB of full scale (off: there was "
+        "none), version of the program, and by how much the limiter lowered what was felt.");
+    report.page.table(table.text(), "apparatus.csv");
+    for (const std::string& sentence : sentencesOf(kinds)) report.page.paragraph(sentence);
+    tellNoise(report, kinds);
+    if (kinds.size() > 1)
+        report.page.note("trials were felt with " + std::to_string(kinds.size()) +
+                         " different settings of the apparatus");
+}
+
+} // namespace physvib

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// The design as it was run: orders of conditions, and which differences so many participants can show.
+#include "Io/Text/NumberText.h"
+#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Files/TrialColumns.h"
+#include "Lab/Report/ReportSections.h"
+#include "Lab/Statistics/PowerSimulation.h"
+#include "Lab/Study/StudyTasks.h"
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace physvib {
+namespace {
+
+/// The conditions of each participant in the order of their first main trials; participants in the order of
+/// the files.
+using Orders = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+/// Trials that count, with their cells.
+template <class Take>
+void eachMainTrial(const CsvTable& all, Take take) {
+    const auto phase = all.column(trialColumns::phase), participant = all.column("participant"),
+               condition = all.column("condition");
+    for (const CsvRow& row : all.rows)
+        if (!phase || row.cells[*phase] != trialColumns::training)
+            take(participant ? row.cells[*participant] : std::string{},
+                 condition ? row.cells[*condition] : std::string{}, row);
+}
+
+Orders ordersOf(const CsvTable& all) {
+    Orders orders;
+    eachMainTrial(all, [&](const std::string& participant, const std::string& condition, const CsvRow&) {
+        auto found = std::ranges::find(orders, participant, &Orders::value_type::first);
+        if (found == orders.end()) found = orders.insert(orders.end(), {participant, {}});
+        if (std::ranges::find(found->second, condition) == found->second.end())
+            found->second.push_back(condition);
+    });
+    return orders;
+}
+
+std::string balanceWords(const Orders& orders, const std::set<std::string>& conditions) {
+    std::map<std::pair<std::string, std::size_t>, std::size_t> atPlace;
+    std::set<std::pair<std::string, std::string>> successions;
+    for (const auto& [participant, order] : orders)
+        for (std::size_t place = 0; place < order.size(); ++place) {
+            ++atPlace[{order[place], place}];
+            if (place > 0) successions.emplace(order[place - 1], order[place]);
+        }
+    std::size_t fewest = orders.size(), most = 0;
+    for (const std::string& condition : conditions)
+        for (std::size_t place = 0; place < conditions.size(); ++place) {
+            const std::size_t count = atPlace[{condition, place}];
+            fewest = std::min(fewest, count), most = std::max(most, count);
+        }
+    return "A condition was at one place of the order " + std::to_string(fewest) + " to " +
+           std::to_string(most) + " times; " + std::to_string(successions.size()) + " of " +
+           std::to_string(conditions.size() * (conditions.size() - 1)) +
+           " successions of two conditions occurred.";
+}
+
+std::set<std::string> orderedConditions(const Orders& orders) {
+    std::set<std::string> all;
+    for (const auto& [participant, order] : orders) all.insert(order.begin(), order.end());
+    return all;
+}
+
+/// Forced choices between two, at one level: trials per participant, the fewest; none if the study has no
+/// such trials.
+std::size_t choiceTrialsOf(const CsvTable& all) {
+    const auto task = all.column(trialColumns::task), choice = all.column("choice"),
+               correct = all.column("correct");
+    if (!choice) return 0;
+    std::map<std::string, std::size_t> counts;
+    std::set<std::string> alternatives;
+    eachMainTrial(all, [&](const std::string& participant, const std::string&, const CsvRow& row) {
+        if (row.cells[*choice].empty() || (task && answerOf(row.cells[*task]) != AnswerKind::choice) ||
+            (correct && !row.cells[*correct].empty()))
+            return;
+        ++counts[participant];
+        alternatives.insert(row.cells[*choice]);
+    });
+    if (counts.empty() || alternatives.size() != 2) return 0;
+    return std::ranges::min_element(counts, {}, [](const auto& count) { return count.second; })->second;
+}
+
+std::string orNever(std::optional<double> effect, int decimals) {
+    return effect ? fixedNumber(*effect, decimals) : std::string{"more than was tried"};
+}
+
+} // namespace
+
+void tellOrders(ReportBuilder& report) {
+    if (!report.trials.knowTasks()) return; // rows of other programs may be sorted
+    const Orders orders = ordersOf(report.trials.all);
+    const auto conditions = orderedConditions(orders);
+    if (conditions.size() < 2) return;
+    ExportTable table{"orders", report.isSimulated(), "participant,place,condition"};
+    for (const auto& [participant, order] : orders)
+        for (std::size_t place = 0; place < order.size(); ++place) {
+            table.cell(participant).cell(place + 1).cell(order[place]);
+            table.endRow();
+        }
+    report.addTable("orders.csv", table.text());
+    report.page.subheading("Orders of the conditions");
+    report.page.paragraph(balanceWords(orders, conditions));
+    report.page.table(table.text(), "orders.csv", 200, true);
+}
+
+void tellPower(ReportBuilder& report) {
+    const Orders orders = ordersOf(report.trials.all);
+    const std::size_t people = orders.size(), conditions = orderedConditions(orders).size();
+    if (people < 3) return;
+    report.page.heading("Power of the design as it was run");
+    const std::size_t pairs = std::max<std::size_t>(1, conditions * (conditions - 1) / 2);
+    const PairedPower power{people};
+    report.page.paragraph(
+        "By simulation (" + std::to_string(PairedPower::studies) + " studies of " + std::to_string(people) +
+        " participants, normal differences, seed 1): a paired t test at p < 0.05 finds a mean difference of "
+        "two conditions or stimuli in 80 % of the studies if it is at least d = " +
+        orNever(power.smallestEffect(0.8, 0.05), 2) + " of the differences' standard deviation" +
+        (pairs > 1
+             ? "; with Bonferroni's correction for " + std::to_string(pairs) + " pairs of conditions, d = " +
+                   orNever(power.smallestEffect(0.8, 0.05 / static_cast<double>(pairs)), 2)
+             : std::string{}) +
+        ". A smaller difference that was not found is no evidence that there is none.");
+    ExportTable table{"power", report.isSimulated(), "test,effect,power,power_corrected"};
+    for (const double effect : {0.2, 0.3, 0.5, 0.8, 1.0, 1.2, 1.5, 2.0}) {
+        table.cell("paired t, d")
+            .cell(effect)
+            .cell(power.at(effect, 0.05))
+            .cell(power.at(effect, 0.05 / static_cast<double>(pairs)));
+        table.endRow();
+    }
+    if (const std::size_t trials = choiceTrialsOf(report.trials.all); trials > 0) {
+        const SharePower shares{people, trials};
+        report.page.paragraph("Of forced choices between two (" + std::to_string(trials) +
+                              " trials of each participant, all with the same true share; signed ranks "
+                              "against one half at p < 0.05): a share of " +
+                              (shares.smallestShare(0.8)
+                                   ? fixedNumber(100.0 * *shares.smallestShare(0.8), 0) + " %"
+                                   : std::string{"more than 95 %"}) +
+                              " or more is found in 80 % of the studies. Participants who differ need more.");
+        for (const double share : {0.52, 0.55, 0.6, 0.65, 0.7, 0.8}) {
+            table.cell("signed ranks, share").cell(share).cell(shares.at(share)).cell("");
+            table.endRow();
+        }
+    }
+    report.addTable("power.csv", table.text());
+    report.page.table(table.text(), "power.csv");
+}
+
+} // namespace physvib

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// Identified labels: information transfer, percent correct, by condition and by stimulus.
+#include "Io/Charts/Charts.h"
+#include "Io/Text/NameList.h"
+#include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/ConditionAxes.h"
+#include "Lab/Report/ReportSections.h"
+#include "Lab/Statistics/Moments.h"
+#include "Lab/Study/InformationTransfer.h"
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+using Identified = StudyData<IdentificationTrial>;
+
+struct IdentifiedCondition {
+    std::string name;
+    ConfusionMatrix matrix;
+    InformationTransfer transfer;
+    std::vector<double> shares, bits; ///< of participants, in percent and bits
+};
+
+std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolerance) {
+    std::vector<IdentifiedCondition> all;
+    for (const auto& condition : data.conditions) {
+        const auto trials = tolerance == 0 ? condition.trials : withTolerance(condition.trials, tolerance);
+        const ConfusionMatrix matrix{trials};
+        IdentifiedCondition one{condition.name.empty() ? "all trials" : condition.name,
+                                matrix,
+                                informationTransfer(matrix),
+                                {},
+                                {}};
+        for (const auto& own : transferByParticipant(trials)) {
+            one.shares.push_back(100.0 * static_cast<double>(own.matrix.correct()) /
+                                 static_cast<double>(own.matrix.trials()));
+            one.bits.push_back(own.transfer.bestBits());
+        }
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+ChartValue withInterval(const std::vector<double>& values) {
+    const Moments moments{values};
+    return {moments.mean, moments.mean - moments.halfInterval(), moments.mean + moments.halfInterval()};
+}
+
+const IdentifiedCondition* named(const std::vector<IdentifiedCondition>& all, const std::string& name) {
+    const auto found = std::ranges::find(all, name, &IdentifiedCondition::name);
+    return found == all.end() ? nullptr : &*found;
+}
+
+/// A bar per condition; `value` gives it.
+template <class Value>
+std::vector<BarSeries> barsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all,
+                              Value value) {
+    std::vector<BarSeries> series;
+    for (std::size_t s = 0; s < axes.series.size(); ++s) {
+        series.push_back({axes.series[s], {}});
+        for (std::size_t g = 0; g < axes.groups.size(); ++g) {
+            const auto* const condition = named(all, axes.conditionOf(s, g));
+            series.back().bars.push_back(condition ? std::optional{value(*condition)} : std::nullopt);
+        }
+    }
+    return series;
+}
+
+/// Brackets of those pairs of groups that differ, and a mark in the legend if the two series do.
+void markPairs(BarChart& chart, const std::vector<TestLine>& lines, const ConditionAxes& axes) {
+    for (const TestLine& line : lines) {
+        const double p = line.pCorrected.value_or(line.p.value_or(1.0));
+        for (std::size_t a = 0; a < axes.groups.size(); ++a)
+            for (std::size_t b = 0; b < axes.groups.size(); ++b)
+                if (line.effect == axes.factors.back() + ": " + axes.groups[a] + " - " + axes.groups[b] &&
+                    p < 0.05)
+                    chart.brackets.push_back({a, b, significanceMark(p)});
+        if (axes.series.size() == 2 && line.effect.starts_with("condition.1: "))
+            chart.series.back().name += "  (" + line.effect.substr(13) + ": " + significanceMark(p) + ")";
+    }
+    std::ranges::stable_sort(chart.brackets, {}, [](const ChartBracket& b) {
+        return b.from > b.to ? b.from - b.to : b.to - b.from;
+    });
+}
+
+std::vector<double> ceilingsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all) {
+    std::vector<double> most;
+    for (std::size_t g = 0; g < axes.groups.size(); ++g) {
+        const auto* const condition = named(all, axes.conditionOf(0, g));
+        most.push_back(condition ? condition->transfer.mostBits : 0.0);
+    }
+    return most;
+}
+
+/// Grids by place, other stimuli as a confusion matrix.
+std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& condition,
+                          const std::vector<IdentificationTrial>& trials, int tolerance) {
+    std::vector<GridCell> cells;
+    int rows = 0, columns = 0;
+    for (std::size_t i = 0; i < condition.matrix.stimuli(); ++i) {
+        const auto cell = parseGridCell(condition.matrix.label(i));
+        if (!cell || cell->row > 16 || cell->column > 16) return {};
+        cells.push_back(*cell);
+        rows = std::max(rows, cell->row);
+        columns = std::max(columns, cell->column);
+    }
+    GridChart chart{{report.chartName(), condition.name + (tolerance ? ", 1 step of tolerance" : ""),
+                     report.isSimulated()},
+                    "row",
+                    "column",
+                    {},
+                    {},
+                    {}};
+    chart.most = 100.0;
+    chart.width = 225.0;
+    for (int r = 1; r <= rows; ++r) chart.rows.push_back(std::to_string(r));
+    for (int c = 1; c <= columns; ++c) chart.columns.push_back(std::to_string(c));
+    chart.values.resize(static_cast<std::size_t>(rows * columns));
+    chart.halfIntervals.resize(chart.values.size());
+    // stimulus, participant: hits, trials
+    std::map<std::string, std::map<std::string, std::pair<double, double>>> counts;
+    for (const auto& trial : trials) {
+        auto& [hits, all] = counts[trial.stimulus][trial.participant];
+        hits += trial.stimulus == trial.response;
+        all += 1.0;
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        std::vector<double> shares;
+        for (const auto& [participant, count] : counts[condition.matrix.label(i)])
+            shares.push_back(100.0 * count.first / count.second);
+        const auto at = static_cast<std::size_t>((cells[i].row - 1) * columns + cells[i].column - 1);
+        const Moments moments{shares};
+        chart.values[at] = moments.mean;
+        chart.halfIntervals[at] = moments.halfInterval();
+    }
+    return gridChart(chart);
+}
+
+std::string confusionChart(ReportBuilder& report, const IdentifiedCondition& condition) {
+    const ConfusionMatrix& matrix = condition.matrix;
+    GridChart chart{
+        {report.chartName(), condition.name, report.isSimulated()}, "stimulus", "response", {}, {}, {}};
+    for (std::size_t i = 0; i < matrix.stimuli(); ++i) chart.rows.push_back(matrix.label(i));
+    for (std::size_t j = 0; j < matrix.responses(); ++j) chart.columns.push_back(matrix.label(j));
+    const auto totals = matrix.stimulusTotals();
+    for (std::size_t i = 0; i < matrix.stimuli(); ++i)
+        for (std::size_t j = 0; j < matrix.responses(); ++j) {
+            const double share = 100.0 * matrix.count(i, j) / static_cast<double>(totals[i]);
+            chart.values.push_back(share > 0.0 ? std::optional{share} : std::nullopt);
+        }
+    chart.most = 100.0;
+    return gridChart(chart);
+}
+
+bool isGrid(const std::vector<IdentifiedCondition>& all) {
+    return std::ranges::all_of(all,
+                               [](const auto& c) { return parseGridCell(c.matrix.label(0)).has_value(); });
+}
+
+/// One criterion of what is correct: tables, tests, charts.
+void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance) {
+    const std::string suffix = tolerance ? "-tolerance-" + std::to_string(tolerance) : "",
+                      words = tolerance ? ", 1 step of tolerance" : "";
+    AnalysisJob options = report.optionsFor(trialsTable);
+    options.tolerance = tolerance;
+    report.page.subheading(tolerance ? "With one step of tolerance" : "Exact answers");
+    const AnalysisReport confusion = report.analysis("confusion", options, "confusion" + suffix + ".csv");
+    if (!confusion.error.empty()) return;
+    const std::string values = "identification" + suffix + ".csv";
+    report.addTable(values, confusion.participants);
+    const auto all = conditionsOf(data, tolerance);
+    std::vector<std::string> names;
+    for (const auto& condition : all) names.push_back(condition.name);
+    const ConditionAxes axes = ConditionAxes::of(names);
+    std::vector<TestLine> pairs;
+    if (axes.factors.size() == 2 && !tolerance)
+        report.page.paragraph("condition.1 and condition.2 are the parts of the conditions' names: " +
+                              listed(axes.series) + "; " + listed(axes.groups) + ".");
+    if (!axes.factors.empty()) {
+        AnalysisJob test = report.optionsFor(values);
+        test.measure = "percent_correct";
+        test.within = axes.factors;
+        report.test("anova", test, "anova-percent-correct" + suffix + ".csv");
+        test.correction = Correction::bonferroni;
+        pairs = report.test("pairs", test, "pairs-percent-correct" + suffix + ".csv");
+    }
+    const bool hasPeople = all.front().shares.size() > 1;
+    BarChart it{{report.chartName(), "Information transfer" + words, report.isSimulated()},
+                "condition",
+                "IT (bit)",
+                axes.groups,
+                barsOf(axes, all, [](const auto& c) {
+                    return ChartValue{c.transfer.bits, c.transfer.bits, c.transfer.bits};
+                })};
+    it.ceilings = ceilingsOf(axes, all);
+    it.ceilingWords = "most possible";
+    report.page.figure({barChart(it)}, "Information transfer of all participants' trials together" + words +
+                                           " (as thesis Fig. 3.11, 4.2): one estimate per condition, so it "
+                                           "has no interval. Dotted: log2 of the number of stimuli.");
+    if (hasPeople) {
+        it.frame = {report.chartName(), "Information transfer of participants" + words, report.isSimulated()};
+        it.series = barsOf(axes, all, [](const auto& c) { return withInterval(c.bits); });
+        report.page.figure({barChart(it)},
+                           "Mean of the participants' own information transfer" + words +
+                               ", 95 % intervals over participants. Few trials make everyone's too high: "
+                               "compare conditions of as many stimuli and trials only.");
+    }
+    BarChart pc{{report.chartName(), "Percent correct" + words, report.isSimulated()},
+                "condition",
+                "correct (%)",
+                axes.groups,
+                barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
+    pc.most = 100.0;
+    if (!pairs.empty()) markPairs(pc, pairs, axes);
+    report.page.figure({barChart(pc)},
+                       "Mean percent correct" + words +
+                           " (as thesis Fig. 3.12, 4.3), 95 % intervals over participants. Brackets and the "
+                           "legend: pairs of levels over the means of the other factor, t corrected by "
+                           "Bonferroni: *** p < 0.001, ** p < 0.01, * p < 0.05.");
+    std::vector<std::string> charts;
+    for (std::size_t c = 0; c < all.size(); ++c) {
+        const auto& trials = data.conditions[c].trials;
+        charts.push_back(isGrid(all)
+                             ? stimulusChart(report, all[c],
+                                             tolerance ? withTolerance(trials, tolerance) : trials, tolerance)
+                             : confusionChart(report, all[c]));
+    }
+    std::erase(charts, std::string{});
+    if (charts.empty()) return;
+    report.page.figure(
+        charts, isGrid(all)
+                    ? "Percent correct by place" + words +
+                          " (as thesis Fig. 4.4), with 95 % intervals over participants where there is room."
+                    : "Confusions: rows are stimuli, columns responses, darker is a larger share of the "
+                      "stimulus' trials. Where labels have no room every second, third ... is shown.");
+}
+
+} // namespace
+
+void tellIdentification(ReportBuilder& report) {
+    report.page.heading("Identification");
+    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const auto data = readIdentification({&file, 1});
+    if (!data) return report.page.note(data.error);
+    tellCriterion(report, data.value, 0);
+    const auto all = conditionsOf(data.value, 0);
+    const bool allGrids = std::ranges::all_of(all, [](const auto& c) {
+        for (std::size_t i = 0; i < c.matrix.stimuli(); ++i)
+            if (!parseGridCell(c.matrix.label(i))) return false;
+        return true;
+    });
+    if (allGrids) tellCriterion(report, data.value, 1);
+}
+
+} // namespace physvib

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Levels: thresholds with the functions behind them, matches, magnitudes.
+#include "Io/Charts/Charts.h"
+#include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Analysis/FitCharts.h"
+#include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/ReportSections.h"
+#include "Lab/Study/LevelTrials.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+/// The guess rate of a forced choice: 1 / alternatives.
+double guessOf(const ReportTrials& trials) {
+    if (trials.protocol)
+        for (const SessionPlan& session : trials.protocol->sessions)
+            if (session.adaptedAlternative() && session.alternatives.size() > 1)
+                return 1.0 / static_cast<double>(session.alternatives.size());
+    return trials.guess;
+}
+
+void tellThresholds(ReportBuilder& report) {
+    report.page.subheading("Psychometric functions");
+    AnalysisJob fit = report.optionsFor(trialsTable);
+    fit.model.guess = guessOf(report.trials);
+    if (const auto words = report.analysis("psychometric", fit, "psychometric.csv"); !words.error.empty())
+        return;
+    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
+    if (!data) return report.page.note(data.error);
+    const FitWords words = fitWords(report.trials.columns);
+    std::vector<std::string> charts;
+    for (const auto& condition : data.value.conditions)
+        charts.push_back(psychometricChart(
+            {report.chartName(), condition.name.empty() ? "Psychometric functions" : condition.name,
+             report.isSimulated()},
+            condition.trials, fit.model, words));
+    report.page.figure(
+        charts, "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+                    ". Circles: all participants' trials, larger where there were more; thin lines: the "
+                    "function of each participant; thick: their mean threshold and width. Dotted: mean "
+                    "threshold, shaded its 95 % interval over participants. The functions are logistic, with "
+                    "a guess rate of " +
+                    numberText(100.0 * fit.model.guess) + " % and lapse rates of up to " +
+                    numberText(100.0 * fit.model.lapseUpTo) + " %.");
+}
+
+void tellMagnitudes(ReportBuilder& report) {
+    report.page.subheading("Magnitudes");
+    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const auto data = readLevelAnswers({&file, 1}, {"stimulus", "value", true});
+    if (!data) return report.page.note("stimuli are no levels, so there is no power law: " + data.error);
+    const auto words = report.analysis("power-law", report.optionsFor(trialsTable), "power-law.csv");
+    if (!words.error.empty()) return;
+    std::vector<std::string> charts;
+    for (const auto& condition : data.value.conditions)
+        charts.push_back(
+            powerLawChart({report.chartName(), condition.name.empty() ? "Magnitudes" : condition.name,
+                           report.isSimulated()},
+                          condition.trials, "level"));
+    report.page.figure(charts,
+                       "Magnitude estimations: geometric means over participants with 95 % intervals, and "
+                       "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
+                       "their own geometric mean first, as everyone chooses a scale.");
+    AnalysisJob test = report.optionsFor(trialsTable);
+    test.measure = "value";
+    test.within = {"stimulus"};
+    report.test("friedman", test, "friedman-magnitudes.csv");
+    test.pairTest = PairTest::ranks;
+    test.correction = Correction::holm;
+    report.test("pairs", test, "pairs-magnitudes.csv", true);
+}
+
+/// "wood small" of "pair=wood size=small".
+std::string valuesOf(std::string_view stimulus) {
+    std::string words;
+    while (!stimulus.empty()) {
+        const std::string_view word = takeUntil(' ', stimulus);
+        words.append(words.empty() ? "" : " ").append(word.substr(word.find('=') + 1));
+    }
+    return words;
+}
+
+std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
+    BarChart chart{{report.chartName(), "Matched levels", report.isSimulated()},
+                   "stimulus",
+                   "level (dB)",
+                   {},
+                   {{"", {}}}};
+    for (const LevelSummary& s : summaries) {
+        if (s.kind != LevelTrial::Kind::adjustment) continue;
+        chart.groups.push_back(valuesOf(s.stimulus));
+        chart.series.front().bars.push_back(
+            ChartValue{s.estimate, s.estimate - s.halfInterval, s.estimate + s.halfInterval});
+    }
+    return chart.groups.size() < 2 ? std::string{} : barChart(chart);
+}
+
+/// Matches at the end of their range may lie beyond it.
+void tellEndsOfRanges(ReportBuilder& report) {
+    const CsvTable& all = report.trials.all;
+    const auto session = all.column("session"), value = all.column("value");
+    if (!report.trials.protocol || !session || !value) return;
+    for (const SessionPlan& plan : report.trials.protocol->sessions) {
+        std::size_t trials = 0, atEnd = 0;
+        for (const CsvRow& row : all.rows) {
+            if (!plan.adjustment || row.cells[*session] != plan.name) continue;
+            const auto db = parseNumber<double>(row.cells[*value]);
+            ++trials;
+            atEnd += db && (*db <= plan.adjustment->leastDb || *db >= plan.adjustment->mostDb);
+        }
+        if (atEnd == 0) continue;
+        report.page.note(std::to_string(atEnd) + " of " + std::to_string(trials) + " levels of the session " +
+                         plan.name + " were set to an end of their range, " +
+                         numberText(plan.adjustment->leastDb) + " to " + numberText(plan.adjustment->mostDb) +
+                         " dB: the match may lie beyond it");
+    }
+}
+
+} // namespace
+
+void tellLevels(ReportBuilder& report) {
+    report.page.heading("Levels");
+    if (!report.trials.knowTasks() && !report.trials.all.column("value")) {
+        report.page.note("the tables do not say how levels were chosen: functions are fitted to the answers, "
+                         "reversals are not looked for");
+        return tellThresholds(report);
+    }
+    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const auto data = readLevels({&file, 1});
+    if (!data) return report.page.note(data.error);
+    const auto& trials = data.value.conditions.front().trials;
+    const auto has = [&](LevelTrial::Kind kind) {
+        return std::ranges::any_of(trials, [=](const LevelTrial& trial) { return trial.kind == kind; });
+    };
+    if (const auto words = report.analysis("levels", report.optionsFor(trialsTable), "levels.csv");
+        !words.error.empty())
+        return;
+    tellEndsOfRanges(report);
+    if (const std::string chart = matchesChart(report, summariseLevels(trials)); !chart.empty())
+        report.page.figure(
+            {chart},
+            "Levels that were set until both were equally strong: means, 95 % intervals over participants.");
+    if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest)) tellThresholds(report);
+    if (has(LevelTrial::Kind::magnitude)) tellMagnitudes(report);
+}
+
+} // namespace physvib

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Elements, and the style that all of them share.
+#include "Lab/Report/ReportPage.h"
+#include "Io/Charts/Svg.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr std::string_view pageStyle = R"(
+@page { size: A4; margin: 16mm 14mm; }
+body { font: 15px/1.5 Georgia, "Times New Roman", serif; color: #1a1a1a; background: #fff; max-width: 720px; margin: 2em auto; padding: 0 1em; }
+h1, h2, h3, th, td, figcaption, .note, .mark { font-family: Helvetica, Arial, sans-serif; }
+h1 { font-size: 24px; line-height: 1.25; } h2 { font-size: 19px; margin-top: 2em; border-bottom: 1px solid #999; } h3 { font-size: 15.5px; margin-top: 1.6em; }
+pre { font: 12px/1.45 "DejaVu Sans Mono", Menlo, Consolas, monospace; background: #f5f5f5; border-left: 3px solid #888; padding: .6em .8em; white-space: pre-wrap; overflow-wrap: anywhere; }
+pre.call { border-left-color: #0072B2; }
+table { border-collapse: collapse; font-size: 11.5px; margin: .8em 0; max-width: 100%; } th, td { text-align: left; padding: 2px 6px; border-bottom: 1px solid #ddd; overflow-wrap: break-word; }
+th { border-bottom: 1.5px solid #222; vertical-align: bottom; } td.number { text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: normal; white-space: nowrap; }
+figure { margin: 1.4em 0; text-align: center; break-inside: avoid; } figure svg { max-width: 100%; height: auto; } figcaption { font-size: 12.5px; text-align: left; color: #333; margin-top: .4em; }
+.note { font-size: 13px; background: #fff6e0; border-left: 3px solid #E69F00; padding: .4em .8em; }
+.mark { font-weight: bold; color: #b00020; border: 2px solid #b00020; padding: .4em .8em; }
+.watermark { position: fixed; left: 0; right: 0; top: 45%; text-align: center; transform: rotate(-45deg); font: bold 88px Helvetica, Arial, sans-serif; color: #b00020; opacity: .07; pointer-events: none; }
+@media print { body { margin: 0; padding: 0; max-width: none; font-size: 10.5pt; } h2, h3 { break-after: avoid; } tr { break-inside: avoid; } details { display: none; } a { color: inherit; text-decoration: none; }
+  * { -webkit-print-color-adjust: exact; print-color-adjust: exact; } }
+)";
+
+/// "2.7e-06".
+std::string shortPower(double number) {
+    char digits[32];
+    return {digits,
+            std::to_chars(digits, digits + sizeof digits, number, std::chars_format::scientific, 1).ptr};
+}
+
+/// Four significant places for a reader; the file beside has all.
+std::string cellWords(const std::string& cell) {
+    const auto number = parseNumber<double>(cell);
+    if (!number || cell.find_first_of(".e") == std::string::npos) return cell;
+    const double size = std::abs(*number);
+    if (size > 0.0 && size < 0.0005) return shortPower(*number);
+    return fixedNumber(*number, size >= 100.0 ? 1 : size >= 1.0 ? 2 : 4);
+}
+
+/// Names of columns may break behind their underscores.
+std::string headHtml(const std::string& column) {
+    std::string out = "<th>";
+    for (const char c : markup(column)) {
+        out += c;
+        if (c == '_') out += "<wbr>";
+    }
+    return out.append("</th>");
+}
+
+std::string cellHtml(const std::string& cell) {
+    const bool isNumber = parseNumber<double>(cell).has_value();
+    return (isNumber ? "<td class=\"number\">" : "<td>") + markup(cellWords(cell)) + "</td>";
+}
+
+} // namespace
+
+ReportPage::ReportPage(std::string title, bool isSimulated, std::string mark)
+    : title_{std::move(title)}
+    , mark_{std::move(mark)}
+    , isSimulated_{isSimulated} {
+    if (isSimulated_ && mark_.empty())
+        mark_ = "SIMULATED: a simulated observer answered, not a person. No figure here says anything about "
+                "people.";
+}
+
+void ReportPage::element(std::string_view tag, std::string_view words) {
+    const std::string_view name = tag.substr(0, tag.find(' '));
+    body_.append("<").append(tag).append(">").append(markup(words)).append("</").append(name).append(">\n");
+}
+
+void ReportPage::heading(std::string_view words) { element("h2", words); }
+void ReportPage::subheading(std::string_view words) { element("h3", words); }
+void ReportPage::paragraph(std::string_view words) { element("p", words); }
+void ReportPage::notes(const std::vector<std::string>& lines) {
+    if (lines.empty()) return;
+    body_ += "<p class=\"note\">";
+    for (const std::string& line : lines) body_ += (&line == &lines.front() ? "" : "<br>\n") + markup(line);
+    body_ += "</p>\n";
+}
+void ReportPage::call(std::string_view words) { element("pre class=\"call\"", words); }
+
+void ReportPage::lines(std::string_view words) {
+    body_ += "<pre>";
+    while (!words.empty()) body_ += markup(takeUntil('\n', words)) + "\n";
+    body_ += "</pre>\n";
+}
+
+void ReportPage::list(const std::vector<std::string>& items) {
+    body_ += "<ul>\n";
+    for (const std::string& item : items) element("li", item);
+    body_ += "</ul>\n";
+}
+
+void ReportPage::link(std::string_view file, std::string_view words) {
+    body_ += "<p><a href=\"" + markup(file) + "\">" + markup(file) + "</a> " + markup(words) + "</p>\n";
+}
+
+void ReportPage::table(std::string_view csv, std::string_view file, std::size_t mostRows, bool isFolded) {
+    const auto read = readCsvTable(csv, file);
+    if (!read) return note(read.error);
+    if (isFolded) body_ += "<details><summary>" + markup(file) + "</summary>\n";
+    body_ += "<table>\n<tr>";
+    for (const std::string& column : read.value.columns) body_ += headHtml(column);
+    body_ += "</tr>\n";
+    for (std::size_t r = 0; r < std::min(mostRows, read.value.rows.size()); ++r) {
+        body_ += "<tr>";
+        for (const std::string& cell : read.value.rows[r].cells) body_ += cellHtml(cell);
+        body_ += "</tr>\n";
+    }
+    body_ += "</table>\n";
+    if (read.value.rows.size() > mostRows)
+        paragraph("and " + std::to_string(read.value.rows.size() - mostRows) + " more rows in " +
+                  std::string(file));
+    if (isFolded) body_ += "</details>\n";
+}
+
+void ReportPage::figure(const std::vector<std::string>& svgs, std::string_view caption) {
+    body_ += "<figure>\n";
+    for (const std::string& svg : svgs) body_ += svg;
+    body_ += "<figcaption><b>Figure " + std::to_string(++figures_) + "</b> " + markup(caption) +
+             "</figcaption>\n</figure>\n";
+}
+
+std::string ReportPage::html() const {
+    std::string out = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+                      "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+    out += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+           "'unsafe-inline'\">\n<title>" +
+           markup(title_) + (isSimulated_ ? " (simulated)" : "") + "</title>\n<style>" +
+           std::string(pageStyle) + "</style>\n</head>\n<body>\n<h1>" + markup(title_) + "</h1>\n";
+    if (isSimulated_) out += "<div class=\"watermark\" aria-hidden=\"true\">SIMULATED</div>\n";
+    if (!mark_.empty()) out += "<p class=\"mark\">" + markup(mark_) + "</p>\n";
+    return out + body_ + "</body>\n</html>\n";
+}
+
+} // namespace physvib

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// Places pointed at: responses and normals, perceived rows and columns, territories, percent counts.
+#include "Io/Charts/Charts.h"
+#include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/CountsChart.h"
+#include "Lab/Report/ReportSections.h"
+#include "Lab/Statistics/Moments.h"
+#include "Lab/Study/ResponseMap.h"
+#include <set>
+
+namespace physvib {
+namespace {
+
+struct PlacesOf {
+    std::string condition;
+    std::vector<LocationTrial> trials;
+    ConditionResolution resolution;
+};
+
+PlaceChart fieldOf(ReportBuilder& report, const PlacesOf& one) {
+    PlaceChart chart{{report.chartName(), one.condition, report.isSimulated()},
+                     one.resolution.normals.rows,
+                     one.resolution.normals.columns};
+    const auto& normals = one.resolution.normals.normals;
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        if (normals[i].responses > 0)
+            chart.ellipses.push_back({i, normals[i].meanX, normals[i].meanY, normals[i].varianceX,
+                                      normals[i].varianceY, normals[i].covariance});
+    return chart;
+}
+
+std::string responsesChart(ReportBuilder& report, const PlacesOf& one) {
+    PlaceChart chart = fieldOf(report, one);
+    for (const LocationTrial& trial : one.trials)
+        chart.places.push_back({static_cast<std::size_t>(trial.targetRow - 1) * chart.columns +
+                                    static_cast<std::size_t>(trial.targetColumn - 1),
+                                trial.x, trial.y});
+    return placeChart(chart);
+}
+
+std::string territoryChart(ReportBuilder& report, const PlacesOf& one) {
+    constexpr std::size_t columns = 164, rows = 85; // fine enough for a page; percent counts use every pixel
+    PlaceChart chart = fieldOf(report, one);
+    for (const std::uint16_t owner : likelihoodMap(one.resolution.normals, columns, rows))
+        chart.territory.push_back(owner);
+    chart.mapColumns = columns;
+    for (const PlaceEllipse& e : chart.ellipses) chart.labels.push_back({e.target, e.x, e.y});
+    chart.ellipses.clear();
+    return placeChart(chart);
+}
+
+/// Mean perceived place against the intended one, over participants. `isRow`: rows, else columns.
+std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std::vector<PlacesOf>& places,
+                           bool isRow) {
+    const auto participant = all.column("participant"), condition = all.column("condition"),
+               target = all.column(isRow ? "target_row" : "target_column"),
+               at = all.column(isRow ? "y" : "x"), phase = all.column("phase");
+    LineChart chart{{report.chartName(), isRow ? "Perceived row" : "Perceived column", report.isSimulated()},
+                    isRow ? "intended target row" : "intended target column",
+                    isRow ? "perceived, share of the height" : "perceived, share of the width",
+                    {}};
+    chart.width = 335.0;
+    chart.height = 330.0;
+    chart.yRange = {0.0, 1.0};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        std::map<int, std::map<std::string, std::vector<double>>> answers; // target, participant
+        for (const CsvRow& row : all.rows) {
+            if (phase && row.cells[*phase] == "training") continue;
+            if (condition && row.cells[*condition] != places[i].condition) continue;
+            const auto line = parseNumber<int>(row.cells[*target]);
+            const auto value = parseNumber<double>(row.cells[*at]);
+            if (line && value) answers[*line][participant ? row.cells[*participant] : ""].push_back(*value);
+        }
+        LineSeries series{places[i].condition, {}};
+        series.style = i;
+        for (const auto& [line, people] : answers) {
+            std::vector<double> means;
+            for (const auto& [who, values] : people) means.push_back(Moments(values).mean);
+            const Moments moments{means};
+            // so that intervals do not hide each other
+            const double offset =
+                0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1));
+            series.points.push_back({line + offset,
+                                     {moments.mean, moments.mean - moments.halfInterval(),
+                                      moments.mean + moments.halfInterval()}});
+        }
+        chart.series.push_back(std::move(series));
+    }
+    return lineChart(chart);
+}
+
+void testPlaces(ReportBuilder& report, const PlacesOf& one, bool hasConditions, bool isRow) {
+    AnalysisJob test = report.optionsFor(trialsTable);
+    test.measure = isRow ? "y" : "x";
+    if (hasConditions) test.where = {"condition=" + one.condition};
+    std::set<int> rows, columns;
+    for (const LocationTrial& trial : one.trials) {
+        rows.insert(trial.targetRow);
+        columns.insert(trial.targetColumn);
+    }
+    const std::string suffix =
+        (isRow ? "row" : "column") + (hasConditions ? "-" + fileWord(one.condition) : std::string{}) + ".csv";
+    if (rows.size() > 1) test.within.emplace_back("target_row");
+    if (columns.size() > 1) test.within.emplace_back("target_column");
+    if (test.within.empty()) return;
+    report.page.subheading((isRow ? "Perceived row" : "Perceived column") +
+                           (hasConditions ? ", " + one.condition : std::string{}));
+    report.test("anova", test, "anova-perceived-" + suffix);
+    test.within = {isRow ? "target_row" : "target_column"};
+    if ((isRow ? rows : columns).size() < 2) return;
+    test.correction = Correction::bonferroni;
+    report.test("pairs", test, "pairs-perceived-" + suffix, true);
+}
+
+} // namespace
+
+void tellPlaces(ReportBuilder& report) {
+    report.page.heading("Perceived places");
+    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const auto data = readLocations({&file, 1});
+    if (!data) return report.page.note(data.error);
+    AnalysisReport resolution =
+        report.analysis("resolution", report.optionsFor(trialsTable), "resolution.csv");
+    if (!resolution.error.empty()) return;
+    report.addTable("percent-counts.csv", resolution.counts);
+    std::vector<PlacesOf> places;
+    for (const auto& condition : data.value.conditions) {
+        const std::string name = condition.name.empty() ? "all trials" : condition.name;
+        places.push_back({name, condition.trials, resolveCondition(name, condition.trials)});
+    }
+    std::ranges::sort(places, {}, &PlacesOf::condition);
+    std::vector<std::string> responses, territories, counts, grids;
+    for (const PlacesOf& one : places) {
+        responses.push_back(responsesChart(report, one));
+        territories.push_back(territoryChart(report, one));
+        counts.push_back(
+            countsChart({report.chartName(), one.condition, report.isSimulated()}, one.resolution.counts));
+        const auto& ties = one.resolution.resolution.ties;
+        if (!ties.empty())
+            grids.push_back(
+                countsChart({report.chartName(),
+                             one.condition + ": " + std::to_string(ties.front().columnGroups.size()) + " x " +
+                                 std::to_string(ties.front().rowGroups.size()),
+                             report.isSimulated()},
+                            merged(one.resolution.counts, ties.front())));
+    }
+    report.page.figure(responses,
+                       "Every response (dots, coloured by target) and the normal distribution of each "
+                       "target's responses (ellipses of one standard deviation; as thesis Fig. 4.6).");
+    const auto& all = report.trials.all;
+    report.page.figure(
+        {perceivedChart(report, all, places, false), perceivedChart(report, all, places, true)},
+        "Mean perceived column and row against the intended one (as thesis Fig. 4.7), 95 % intervals over "
+        "participants.");
+    report.page.figure(territories, "The likeliest target of every place (Eq. 4.4, 4.5; as thesis Fig. 4.8). "
+                                    "Numbers, row,column of the target, stand at the mean of its responses; "
+                                    "where one lies in another's territory, it is not told apart.");
+    report.page.figure(counts, "Percent counts: the share of the field that each target is likeliest for (as "
+                               "thesis Fig. 4.9 a). Framed: below 1.42 %.");
+    if (!grids.empty())
+        report.page.figure(grids, "Neighbouring rows and columns merged until every cell reaches 1.42 % (as "
+                                  "thesis Fig. 4.9 b): the perceptual resolution, columns x rows.");
+    report.page.subheading("Do perceived places differ by target?");
+    report.page.paragraph("As thesis Table 4.1, but over participants: each participant's mean per target is "
+                          "one value. The thesis' degrees of freedom are those of single trials.");
+    const bool hasConditions = all.column("condition").has_value() && places.size() > 1;
+    for (const PlacesOf& one : places)
+        for (const bool isRow : {true, false}) testPlaces(report, one, hasConditions, isRow);
+}
+
+void tellPlaceErrors(ReportBuilder& report) {
+    report.page.heading("Perceived places");
+    report.page.paragraph(
+        "Targets on no grid, in the table's own units. Constant error: mean of answered minus true place. "
+        "Variable error: standard deviation around a target's own mean, both axes together. Gain: slope of "
+        "answered over true places; 1 is neither drawn together nor apart. Means over participants of their "
+        "means over targets; each target counts as much.");
+    report.analysis("places", report.optionsFor(trialsTable), "places.csv");
+}
+
+} // namespace physvib

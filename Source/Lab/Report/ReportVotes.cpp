@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+// Opinions: shares of forced choices, ratings on scales.
+#include "Io/Charts/Charts.h"
+#include "Io/Text/CsvText.h"
+#include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/ReportSections.h"
+#include "Lab/Statistics/Moments.h"
+#include "Lab/Study/Votes.h"
+#include <set>
+
+namespace physvib {
+namespace {
+
+/// Factors of conditions like "pair=wood size=small", each with its values in the order of the table; none if
+/// one has no such name.
+std::vector<std::pair<std::string, std::vector<std::string>>>
+factorsOf(const std::vector<ChoiceTrial>& trials) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> factors;
+    for (const ChoiceTrial& trial : trials)
+        for (std::string_view rest = trial.condition; !rest.empty();) {
+            const std::string_view word = takeUntil(' ', rest);
+            const std::size_t equals = word.find('=');
+            if (equals == std::string_view::npos) return {};
+            const std::string name{word.substr(0, equals)}, value{word.substr(equals + 1)};
+            auto found =
+                std::ranges::find(factors, name, &std::pair<std::string, std::vector<std::string>>::first);
+            if (found == factors.end()) found = factors.insert(factors.end(), {name, {}});
+            if (std::ranges::find(found->second, value) == found->second.end())
+                found->second.push_back(value);
+        }
+    return factors;
+}
+
+/// Whether a condition says `factor=value`.
+bool hasWord(std::string_view condition, const std::string& factor, const std::string& value) {
+    while (!condition.empty())
+        if (takeUntil(' ', condition) == factor + "=" + value) return true;
+    return false;
+}
+
+const ChoiceSummary* named(const std::vector<ChoiceSummary>& all, const std::string& name) {
+    const auto found = std::ranges::find(all, name, &ChoiceSummary::condition);
+    return found == all.end() ? nullptr : &*found;
+}
+
+ChartValue shareValue(const ChoiceShare& share) {
+    return {100.0 * share.share, 100.0 * share.least, 100.0 * share.most};
+}
+
+/// The p of all bars of a figure, corrected by Holm for their number.
+TestReport correctedOver(const std::vector<const ChoiceSummary*>& summaries) {
+    TestReport report;
+    for (const ChoiceSummary* summary : summaries) {
+        TestLine& line = report.lines.emplace_back();
+        line.effect = summary->condition;
+        line.p = summary->p;
+    }
+    correctForNumber(report, Correction::holm);
+    return report;
+}
+
+/// A bar per alternative and summary; the first alternative's bar is marked if two differ from one half.
+std::string shareChart(ReportBuilder& report, const std::string& title, const std::string& words,
+                       const std::vector<std::string>& groups,
+                       const std::vector<const ChoiceSummary*>& summaries) {
+    BarChart chart{{report.chartName(), title, report.isSimulated()}, words, "chosen (%)", groups, {}};
+    for (const ChoiceShare& share : summaries.front()->shares)
+        chart.series.push_back({share.alternative, {}});
+    const TestReport corrected = correctedOver(summaries);
+    for (std::size_t i = 0; i < summaries.size(); ++i)
+        for (std::size_t s = 0; s < chart.series.size(); ++s) {
+            chart.series[s].bars.push_back(shareValue(summaries[i]->shares[s]));
+            const auto& p = corrected.lines[i].pCorrected;
+            if (s == 0) chart.series[s].marks.push_back(p && *p < 0.05 ? significanceMark(*p) : "");
+        }
+    chart.most = 100.0;
+    chart.reference = {100.0 / static_cast<double>(chart.series.size()), "chance"};
+    return barChart(chart);
+}
+
+void tellChoiceTests(ReportBuilder& report,
+                     const std::vector<std::pair<std::string, std::vector<std::string>>>& factors,
+                     const std::string& alternative) {
+    AnalysisJob test = report.optionsFor(trialsTable);
+    test.measure = "choice=" + alternative;
+    for (const auto& [name, values] : factors)
+        if (values.size() > 1 && test.within.size() < mostWithinFactors) test.within.push_back(name);
+    if (test.within.empty()) return;
+    report.page.subheading("Do shares differ by factor?");
+    report.test("friedman", test, "friedman-choices.csv");
+    test.pairTest = PairTest::ranks;
+    test.correction = Correction::bonferroni;
+    report.test("pairs", test, "pairs-choices.csv");
+}
+
+/// Of two factors' combinations, over the levels of all others: mean share of the first alternative.
+std::string combinationChart(ReportBuilder& report, const std::vector<ChoiceTrial>& trials,
+                             const std::pair<std::string, std::vector<std::string>>& first,
+                             const std::pair<std::string, std::vector<std::string>>& second,
+                             const std::string& alternative) {
+    BarChart chart{{report.chartName(),
+                    "Chosen: " + alternative + ", by " + first.first + " and " + second.first,
+                    report.isSimulated()},
+                   second.first,
+                   "chosen (%)",
+                   second.second,
+                   {}};
+    for (const std::string& a : first.second) {
+        chart.series.push_back({first.first + " " + a, {}});
+        for (const std::string& b : second.second) {
+            std::vector<ChoiceTrial> chosen;
+            for (const ChoiceTrial& trial : trials) {
+                if (hasWord(trial.condition, first.first, a) && hasWord(trial.condition, second.first, b))
+                    chosen.push_back({trial.participant, "", trial.choice});
+            }
+            std::optional<ChartValue> bar;
+            for (const ChoiceSummary& summary : summariseChoices(chosen))
+                for (const ChoiceShare& share : summary.shares)
+                    if (share.alternative == alternative) bar = shareValue(share);
+            chart.series.back().bars.push_back(bar);
+        }
+    }
+    chart.most = 100.0;
+    chart.reference = {50.0, "chance"};
+    return barChart(chart);
+}
+
+// Ratings:
+
+struct RatedFactor {
+    const char* name;
+    const char* words;
+    const char* varied;
+    const char* fixed;
+};
+constexpr RatedFactor ratedFactors[] = {
+    {"A", "amplitude", "AV", "AF"}, {"F", "frequency", "FV", "FF"}, {"DR", "decay rate", "DRV", "DRF"}};
+
+const RatingSummary* rated(const std::vector<RatingSummary>& all, const std::string& name) {
+    const auto found = std::ranges::find(all, name, &RatingSummary::condition);
+    return found == all.end() ? nullptr : &*found;
+}
+
+ChartValue scoreOf(const RatingSummary& summary, std::size_t scale) {
+    const double mean = summary.means[scale], half = summary.halfIntervals[scale];
+    return {mean, mean - half, mean + half};
+}
+
+/// The three factors of the thesis' methods, a panel per scale, marked by the scale's analysis of variance.
+std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<std::string>& scales,
+                                      const std::vector<RatingSummary>& summaries,
+                                      const std::vector<std::vector<TestLine>>& tests) {
+    std::vector<std::string> charts;
+    for (std::size_t s = 0; s < scales.size(); ++s) {
+        BarChart chart{{report.chartName(), scales[s], report.isSimulated()},
+                       "",
+                       "mean score (0 to 100)",
+                       {},
+                       {{"varied", {}}, {"fixed", {}}}};
+        for (const RatedFactor& factor : ratedFactors) {
+            const auto *const varied = rated(summaries, factor.varied), *const fixed =
+                                                                            rated(summaries, factor.fixed);
+            if (!varied || !fixed) continue;
+            std::string mark;
+            for (const TestLine& line : tests[s])
+                if (line.effect == factor.name && line.p) mark.append(" ").append(significanceMark(*line.p));
+            chart.groups.push_back(factor.words + mark);
+            chart.series[0].bars.push_back(scoreOf(*varied, s));
+            chart.series[1].bars.push_back(scoreOf(*fixed, s));
+        }
+        chart.most = 100.0;
+        charts.push_back(barChart(chart));
+    }
+    return charts;
+}
+
+std::string conditionsChart(ReportBuilder& report, const std::vector<std::string>& scales,
+                            const std::vector<RatingSummary>& summaries,
+                            const std::set<std::string>& conditions) {
+    BarChart chart{{report.chartName(), "Mean scores", report.isSimulated()},
+                   "condition",
+                   "mean score (0 to 100)",
+                   {},
+                   {}};
+    for (const std::string& scale : scales) chart.series.push_back({scale, {}});
+    for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) { // AV-FV-DRV first
+        if (!conditions.contains(at->condition)) continue;
+        chart.groups.push_back(at->condition);
+        for (std::size_t s = 0; s < scales.size(); ++s) chart.series[s].bars.push_back(scoreOf(*at, s));
+    }
+    chart.most = 100.0;
+    return barChart(chart);
+}
+
+} // namespace
+
+void tellChoices(ReportBuilder& report) {
+    report.page.heading("Choices");
+    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const auto data = readChoices({&file, 1});
+    if (!data) return report.page.note(data.error);
+    if (const auto words = report.analysis("choices", report.optionsFor(trialsTable), "choices.csv");
+        !words.error.empty())
+        return;
+    const auto& trials = data.value.conditions.front().trials;
+    const auto summaries = summariseChoices(trials);
+    std::vector<std::string> groups{"all"};
+    std::vector<const ChoiceSummary*> chosen{&summaries.front()};
+    const auto factors = factorsOf(trials);
+    for (const auto& [name, values] : factors)
+        for (const std::string& value : values)
+            if (const auto* const summary = named(summaries, name + "=" + value);
+                summary && values.size() > 1) {
+                groups.push_back(value);
+                chosen.push_back(summary);
+            }
+    if (factors.empty())
+        for (std::size_t i = 1; i < std::min<std::size_t>(summaries.size(), 24); ++i) {
+            groups.push_back(summaries[i].condition);
+            chosen.push_back(&summaries[i]);
+        }
+    std::string names;
+    for (const auto& [name, values] : factors) names.append(names.empty() ? "all; by " : ", ").append(name);
+    report.page.figure(
+        {shareChart(report, "Shares of the alternatives", names.empty() ? "condition" : names, groups,
+                    chosen)},
+        "Mean of the participants' shares (as thesis Fig. 5.8, which has medians), 95 % intervals over "
+        "participants. Marks: signed ranks of the shares against one half, corrected by Holm for the bars of "
+        "this figure: * p < 0.05, ** p < 0.01, *** p < 0.001.");
+    if (summaries.front().shares.size() != 2) return;
+    const std::string alternative = summaries.front().shares.front().alternative;
+    tellChoiceTests(report, factors, alternative);
+    std::vector<std::pair<std::string, std::vector<std::string>>> several;
+    for (const auto& factor : factors)
+        if (factor.second.size() > 1) several.push_back(factor);
+    if (several.size() < 2) return;
+    report.page.figure(
+        {combinationChart(report, trials, several[several.size() - 2], several.back(), alternative)},
+        "Shares by two factors (as thesis Fig. 5.9), 95 % intervals over participants, within 0 and 100 %.");
+}
+
+void tellRatings(ReportBuilder& report) {
+    report.page.heading("Ratings");
+    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const auto data = readRatings({&file, 1});
+    if (!data) return report.page.note(data.error);
+    if (const auto words = report.analysis("ratings", report.optionsFor(trialsTable), "ratings.csv");
+        !words.error.empty())
+        return;
+    const auto& trials = data.value.data.conditions.front().trials;
+    const auto& scales = data.value.scales;
+    const auto summaries = summariseRatings(trials);
+    std::set<std::string> conditions;
+    for (const RatingTrial& trial : trials) conditions.insert(trial.condition);
+    const bool hasMethods = summaries.size() > conditions.size();
+    std::vector<std::vector<TestLine>> tests(scales.size());
+    for (std::size_t s = 0; s < scales.size() && conditions.size() > 1; ++s) {
+        AnalysisJob test = report.optionsFor(trialsTable);
+        test.measure = scales[s];
+        if (!hasMethods)
+            test.within = {report.trials.all.column("stimulus") ? "stimulus" : "condition"};
+        else
+            for (const RatedFactor& factor : ratedFactors)
+                if (rated(summaries, factor.varied) && rated(summaries, factor.fixed))
+                    test.within.emplace_back(factor.name);
+        report.page.subheading(scales[s]);
+        tests[s] = report.test("anova", test, "anova-" + fileWord(scales[s]) + ".csv");
+        if (hasMethods) continue;
+        test.correction = Correction::holm;
+        report.test("pairs", test, "pairs-" + fileWord(scales[s]) + ".csv", true);
+    }
+    if (hasMethods)
+        report.page.figure(
+            factorCharts(report, scales, summaries, tests),
+            "Mean scores by factor (as thesis Fig. 5.13), 95 % intervals over participants. Marks: main "
+            "effect in the analysis of variance of that scale (two levels each, so no pairs are to be "
+            "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05.");
+    report.page.figure({conditionsChart(report, scales, summaries, conditions)},
+                       "Mean scores by condition (as thesis Fig. 5.14), 95 % intervals over participants.");
+}
+
+} // namespace physvib

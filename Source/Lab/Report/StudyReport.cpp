@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Sections by what the trials are.
+#include "Lab/Report/StudyReport.h"
+#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Report/ReportScript.h"
+#include "Lab/Report/ReportSections.h"
+#include "Lab/Study/StudyTasks.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+struct Section {
+    std::string_view analysis;
+    void (*tell)(ReportBuilder&);
+};
+
+constexpr Section sections[] = {{"confusion", tellIdentification}, {"resolution", tellPlaces},
+                                {"places", tellPlaceErrors},       {"choices", tellChoices},
+                                {"ratings", tellRatings},          {"levels", tellLevels}};
+
+static_assert(std::ranges::all_of(studyTasks,
+                                  [](const auto& task) {
+                                      return task.analysis.empty() ||
+                                             std::ranges::find(sections, task.analysis, &Section::analysis) !=
+                                                 std::end(sections);
+                                  }),
+              "every task's analysis has its section");
+
+std::string firstLine(const ReportTrials& trials) {
+    Provenance provenance{PHYSVIB_VERSION, {{"report", "trials"}}};
+    for (const char* key : {"protocol", "hash", "seed"})
+        if (const std::string value = trials.common(key); !value.empty())
+            provenance.entries.emplace_back(key, value);
+    if (trials.isSimulated) provenance.entries.emplace_back("observer", "simulated");
+    return provenanceComment(provenance);
+}
+
+std::string titleOf(const ReportTrials& trials) {
+    if (trials.protocol) return "Report: " + trials.protocol->title;
+    const std::string name = trials.common("protocol");
+    return "Report: " + (name.empty() ? trials.files.front().name : name);
+}
+
+} // namespace
+
+StudyReport studyReport(const ReportTrials& trials) {
+    StudyReport made;
+    if (!trials.sharedNote.empty()) made.notes.push_back(trials.sharedNote);
+    ReportBuilder report{trials, titleOf(trials)};
+    report.addTable(trialsTable, trialsCsv(trials, firstLine(trials)));
+    tellParticipants(report);
+    tellProcedure(report);
+    const auto kinds = analysesFor(trials.all);
+    for (const Section& section : sections)
+        if (std::ranges::find(kinds, section.analysis) != kinds.end()) section.tell(report);
+    if (kinds.empty()) {
+        made.notes.emplace_back(
+            "no analysis is known for these trials: the report has their table and the participants only");
+        report.page.heading("Results");
+        report.page.note(made.notes.back());
+        report.page.table(report.tableText(trialsTable), trialsTable);
+    }
+    tellPower(report);
+    tellProvenance(report);
+    made.files = report.tables();
+    made.files["report.R"] = reportScript(report);
+    made.files["index.html"] = report.page.html();
+    for (const ReportTest& test : report.tests()) made.tests.push_back(test.call());
+    return made;
+}
+
+} // namespace physvib

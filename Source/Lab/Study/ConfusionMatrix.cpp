@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Labels in a stable order, counts in one block.
+#include "Lab/Study/ConfusionMatrix.h"
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+/// Cells by row and column, before all other labels by their bytes.
+struct LabelOrder {
+    static auto key(const std::string& label) {
+        const auto cell = parseGridCell(label);
+        return std::tuple{!cell, cell ? cell->row : 0, cell ? cell->column : 0, std::string_view{label}};
+    }
+    bool operator()(const std::string& a, const std::string& b) const { return key(a) < key(b); }
+};
+
+using Labels = std::set<std::string, LabelOrder>;
+
+bool takeNumber(std::string_view text, int& number) noexcept {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc{} && end == text.data() + text.size() && number > 0;
+}
+
+std::string_view trimmed(std::string_view text) noexcept {
+    while (text.starts_with(' ')) text.remove_prefix(1);
+    while (text.ends_with(' ')) text.remove_suffix(1);
+    return text;
+}
+
+} // namespace
+
+std::optional<GridCell> parseGridCell(std::string_view label) noexcept {
+    const std::size_t comma = label.find(',');
+    GridCell cell;
+    if (comma == std::string_view::npos) return std::nullopt;
+    if (!takeNumber(trimmed(label.substr(0, comma)), cell.row) ||
+        !takeNumber(trimmed(label.substr(comma + 1)), cell.column))
+        return std::nullopt;
+    return cell;
+}
+
+std::string gridLabel(const GridCell& cell) {
+    return std::to_string(cell.row) + "," + std::to_string(cell.column);
+}
+
+int manhattanDistance(const GridCell& a, const GridCell& b) noexcept {
+    return std::abs(a.row - b.row) + std::abs(a.column - b.column);
+}
+
+ConfusionMatrix::ConfusionMatrix(const std::vector<IdentificationTrial>& trials)
+    : trials_{trials.size()} {
+    Labels stimuli, others;
+    for (const auto& trial : trials) stimuli.insert(trial.stimulus);
+    for (const auto& trial : trials)
+        if (!stimuli.contains(trial.response)) others.insert(trial.response);
+    stimuli_ = stimuli.size();
+    labels_.assign(stimuli.begin(), stimuli.end());
+    labels_.insert(labels_.end(), others.begin(), others.end());
+    counts_.assign(stimuli_ * labels_.size(), 0);
+    for (const auto& trial : trials)
+        ++counts_[indexOf(trial.stimulus) * labels_.size() + indexOf(trial.response)];
+}
+
+std::size_t ConfusionMatrix::indexOf(const std::string& label) const {
+    const auto middle = labels_.begin() + static_cast<std::ptrdiff_t>(stimuli_);
+    auto found = std::lower_bound(labels_.begin(), middle, label, LabelOrder{});
+    if (found == middle || *found != label)
+        found = std::lower_bound(middle, labels_.end(), label, LabelOrder{});
+    return static_cast<std::size_t>(found - labels_.begin());
+}
+
+std::uint64_t ConfusionMatrix::correct() const noexcept {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < stimuli_; ++i) sum += count(i, i);
+    return sum;
+}
+
+std::vector<std::uint64_t> ConfusionMatrix::stimulusTotals() const {
+    std::vector<std::uint64_t> totals(stimuli_);
+    for (std::size_t i = 0; i < stimuli_; ++i)
+        for (std::size_t j = 0; j < responses(); ++j) totals[i] += count(i, j);
+    return totals;
+}
+
+std::vector<std::uint64_t> ConfusionMatrix::responseTotals() const {
+    std::vector<std::uint64_t> totals(responses());
+    for (std::size_t i = 0; i < stimuli_; ++i)
+        for (std::size_t j = 0; j < responses(); ++j) totals[j] += count(i, j);
+    return totals;
+}
+
+std::vector<IdentificationTrial> withTolerance(std::vector<IdentificationTrial> trials, int tolerance) {
+    for (auto& trial : trials) {
+        const auto target = parseGridCell(trial.stimulus), answer = parseGridCell(trial.response);
+        if (target && answer && manhattanDistance(*target, *answer) <= tolerance)
+            trial.response = trial.stimulus;
+    }
+    return trials;
+}
+
+} // namespace physvib

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Regularised least squares over complex amplitudes.
+#include "Lab/Study/Coupling.h"
+#include "Core/Decibels.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+using ComplexNumber = std::complex<double>;
+
+constexpr double leastLambda = 1e-9, mostLambda = 1e3; // of full scale squared: nothing, and a drive that is
+                                                       // nearly none
+constexpr double mismatchDb = 2.0, mismatchDegrees = 20.0;
+
+/// (C^H C + lambda)^-1 C^H, by elimination of all right sides at once: the matrix is positive definite for
+/// lambda > 0.
+CouplingMatrix drivesAt(const CouplingMatrix& c, double lambda) {
+    const std::size_t n = c.size, width = 2 * n;
+    std::vector<ComplexNumber> m(n * width);
+    const auto at = [&m, width](std::size_t i, std::size_t j) -> ComplexNumber& { return m[i * width + j]; };
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) {
+            for (std::size_t k = 0; k < n; ++k) at(i, j) += std::conj(c.at(k, i)) * c.at(k, j);
+            at(i, n + j) = std::conj(c.at(j, i));
+        }
+    for (std::size_t i = 0; i < n; ++i) at(i, i) += lambda;
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t r = i + 1; r < n; ++r) {
+            const ComplexNumber factor = at(r, i) / at(i, i);
+            for (std::size_t j = i; j < width; ++j) at(r, j) -= factor * at(i, j);
+        }
+    CouplingMatrix drives(n);
+    for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = n; i-- > 0;) {
+            ComplexNumber sum = at(i, n + j);
+            for (std::size_t k = i + 1; k < n; ++k) sum -= at(i, k) * drives.at(k, j);
+            drives.at(i, j) = sum / at(i, i);
+        }
+    return drives;
+}
+
+} // namespace
+
+ComplexAmplitudes CouplingMatrix::times(const ComplexAmplitudes& amplitudes) const {
+    ComplexAmplitudes sums(size);
+    for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t j = 0; j < size; ++j) sums[i] += at(i, j) * amplitudes[j];
+    return sums;
+}
+
+CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDecibels) {
+    const double limit = fromDecibels(mostDecibels);
+    const auto keeps = [limit](const CouplingMatrix& drives) { return strongestDrive(drives) <= limit; };
+    CouplingMatrix drives = drivesAt(coupling, leastLambda);
+    if (keeps(drives)) return drives;
+    double low = std::log(leastLambda), high = std::log(mostLambda);
+    for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (keeps(drivesAt(coupling, std::exp(middle))) ? high : low) = middle;
+    }
+    return drivesAt(coupling, std::exp(high));
+}
+
+// Seen from any direction, those gains drive most there that are 1 wherever they drive that way at all, and
+// else 0.
+double strongestDrive(const CouplingMatrix& drives) {
+    constexpr int directions = 360;
+    double most = 0.0;
+    for (int k = 0; k < directions; ++k) {
+        const ComplexNumber towards = std::polar(1.0, -2.0 * std::numbers::pi * k / directions);
+        for (std::size_t i = 0; i < drives.size; ++i) {
+            double sum = 0.0;
+            for (std::size_t j = 0; j < drives.size; ++j)
+                sum += std::max(0.0, (drives.at(i, j) * towards).real());
+            most = std::max(most, sum);
+        }
+    }
+    return most / std::cos(std::numbers::pi / directions); // the strongest may lie between two directions
+}
+
+double strayShare(const CouplingMatrix& coupling, const CouplingMatrix& drives) {
+    double power = 0.0;
+    for (std::size_t j = 0; j < coupling.size; ++j) {
+        ComplexAmplitudes column(coupling.size);
+        for (std::size_t i = 0; i < coupling.size; ++i) column[i] = drives.at(i, j);
+        const ComplexAmplitudes felt = coupling.times(column);
+        for (std::size_t i = 0; i < coupling.size; ++i) power += std::norm(felt[i] - (i == j ? 1.0 : 0.0));
+    }
+    return std::sqrt(power / static_cast<double>(coupling.size));
+}
+
+CouplingMatrix mismatched(CouplingMatrix coupling, SeededRandom& random) {
+    const auto upTo = [&random](double most) { return most * (2.0 * random.uniform() - 1.0); };
+    for (ComplexNumber& entry : coupling.entries) {
+        const double share = fromDecibels(upTo(mismatchDb));
+        entry *= std::polar(share, upTo(mismatchDegrees) * std::numbers::pi / 180.0);
+    }
+    return coupling;
+}
+
+CouplingDrives::CouplingDrives(const MeasuredCoupling& measured)
+    : frequenciesHz_{measured.frequenciesHz}
+    , channels_{measured.enchanters()} {
+    for (const CouplingMatrix& coupling : measured.matrices)
+        for (const ComplexNumber& entry : compensationMatrix(coupling).entries)
+            entries_.push_back({entry.real(), entry.imag()});
+}
+
+CouplingResidual residualOf(const MeasuredCoupling& measured) {
+    constexpr int draws = 20;
+    CouplingResidual worst;
+    const CouplingMatrix plain(measured.enchanters());
+    SeededRandom random(1, "coupling");
+    for (const CouplingMatrix& coupling : measured.matrices) {
+        const CouplingMatrix drives = compensationMatrix(coupling);
+        double before = 0.0, after = 0.0;
+        for (int draw = 0; draw < draws; ++draw) {
+            const CouplingMatrix truth = mismatched(coupling, random);
+            before += std::pow(strayShare(truth, plain), 2) / draws;
+            after += std::pow(strayShare(truth, drives), 2) / draws;
+        }
+        worst.plain = std::max(worst.plain, strayShare(coupling, plain));
+        worst.compensated = std::max(worst.compensated, strayShare(coupling, drives));
+        worst.mismatchedPlain = std::max(worst.mismatchedPlain, std::sqrt(before));
+        worst.mismatchedCompensated = std::max(worst.mismatchedCompensated, std::sqrt(after));
+        worst.strongestDrive = std::max(worst.strongestDrive, strongestDrive(drives));
+    }
+    return worst;
+}
+
+std::vector<double> attenuationRatios(std::span<const double> isolated, std::span<const double> reference) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < std::min(isolated.size(), reference.size()); ++i)
+        ratios.push_back(1.0 - isolated[i] / reference[i]);
+    return ratios;
+}
+
+double combinedAttenuation(std::span<const double> ratios) {
+    double sum = 0.0;
+    for (const double ratio : ratios) sum += ratio * ratio;
+    return std::sqrt(sum);
+}
+
+} // namespace physvib

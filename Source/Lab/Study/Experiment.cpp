@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// Conditions contain sessions, sessions contain trials; every choice of order comes from the seed.
+#include "Lab/Study/Experiment.h"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace physvib {
+namespace {
+
+bool isScore(double score) noexcept { return score >= 0.0 && score <= 100.0; }
+
+bool isOnField(const std::optional<FieldPlace>& place) noexcept {
+    return place && place->x >= 0.0 && place->x <= 1.0 && place->y >= 0.0 && place->y <= 1.0;
+}
+
+} // namespace
+
+TrialProgress::TrialProgress(const SessionPlan& session, const Trial& trial)
+    : session_{session}
+    , parts_(std::max<std::size_t>(1, trial.parts.size())) {}
+
+bool TrialProgress::canPlay(std::size_t part) const noexcept {
+    return part < parts_.size() && (session_.mostPlays == 0 || parts_[part].plays < session_.mostPlays);
+}
+
+void TrialProgress::played(std::size_t part) noexcept { ++parts_[part].plays; }
+
+void TrialProgress::spent(std::size_t part, double seconds) noexcept { parts_[part].seconds += seconds; }
+
+bool TrialProgress::canAnswer() const noexcept {
+    return std::ranges::all_of(
+        parts_, [this](const Part& p) { return p.plays > 0 && p.seconds >= session_.leastSeconds; });
+}
+
+int TrialProgress::plays() const noexcept {
+    return std::accumulate(parts_.begin(), parts_.end(), 0,
+                           [](int sum, const Part& p) { return sum + p.plays; });
+}
+
+Experiment::Experiment(const Protocol& protocol, Participant participant, bool explorersEnd)
+    : protocol_{protocol}
+    , participant_{std::move(participant)}
+    , explorersEnd_{explorersEnd}
+    , conditions_{conditionOrder(protocol, participant_.number)} {
+    beginSession();
+    advance();
+}
+
+SeededRandom Experiment::randomFor(const std::string& purpose) const {
+    const std::string& condition = protocol_.conditions[conditionIndex()].name;
+    return SeededRandom{static_cast<std::uint64_t>(protocol_.seed), std::to_string(participant_.number) +
+                                                                        "/" + condition + "/" + plan().name +
+                                                                        "/" + purpose};
+}
+
+void Experiment::beginSession() {
+    items_ = stimuliOf(protocol_.conditions[conditionIndex()]);
+    inSession_ = 0;
+    explored_.clear();
+    isEnded_ = false;
+    adaptive_.reset();
+    auto random = randomFor("order");
+    order_ = sessionOrder(plan(), items_.size(), random);
+    if (plan().adaptedAlternative()) adaptive_.emplace(plan());
+}
+
+bool Experiment::isSessionOver() const {
+    if (adaptive_) return adaptive_->isDone();
+    if (plan().answer() != AnswerKind::wish) return inSession_ >= static_cast<int>(order_.size());
+    return isEnded_ || (!explorersEnd_ && hasExplored());
+}
+
+bool Experiment::hasExplored() const {
+    return plan().fewestTouches > 0 ? inSession_ >= plan().fewestTouches : explored_.size() >= items_.size();
+}
+
+void Experiment::endSession() {
+    isEnded_ = true;
+    advance();
+}
+
+int Experiment::sessionTrials() const noexcept {
+    if (adaptive_) return adaptive_->trials();
+    return plan().answer() == AnswerKind::wish ? 0 : static_cast<int>(order_.size());
+}
+
+void Experiment::advance() {
+    trial_.reset();
+    while (isSessionOver()) {
+        if (++sessionAt_ == protocol_.sessions.size()) {
+            sessionAt_ = 0;
+            if (++conditionAt_ == conditions_.size()) return;
+        }
+        beginSession();
+    }
+    trial_ = nextTrial();
+}
+
+Trial Experiment::nextTrial() {
+    const SessionPlan& s = plan();
+    Trial trial;
+    trial.condition = conditionIndex();
+    trial.session = sessionAt_;
+    trial.number = inSession_ + 1;
+    trial.task = s.task;
+    const bool isNextCondition = conditionAt_ > 0 && sessionAt_ == 0;
+    if (inSession_ == 0)
+        trial.restSeconds =
+            std::max(s.breakBeforeSeconds, isNextCondition ? protocol_.conditionBreakSeconds : 0.0);
+    else if (s.breakEvery > 0 && inSession_ % s.breakEvery == 0)
+        trial.restSeconds = s.breakSeconds;
+    if (s.answer() == AnswerKind::wish) return trial;
+
+    auto random = randomFor("trial " + std::to_string(trial.number));
+    const bool isPlanned = !adaptive_;
+    const PlannedTrial planned = isPlanned ? order_[static_cast<std::size_t>(inSession_)]
+                                           : PlannedTrial{random.below(items_.size()), random.chance(0.5)};
+    trial.stimulus = items_[planned.stimulus].label;
+    if (!s.alternatives.empty()) addAlternatives(trial, planned.isSwapped);
+    if (!s.objects.empty()) {
+        trial.parts = s.objects;
+        random.shuffle(trial.parts);
+    }
+    return trial;
+}
+
+double Experiment::startOf(const Adjustment& a, int trial) const {
+    if (!a.startsAnywhere) return a.startDb;
+    const auto steps = static_cast<std::size_t>(std::floor((a.mostDb - a.leastDb) / a.stepDb + 1e-6));
+    return a.leastDb +
+           a.stepDb * static_cast<double>(randomFor("start " + std::to_string(trial)).below(steps + 1));
+}
+
+void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
+    const SessionPlan& s = plan();
+    std::vector<Alternative> buttons = s.alternatives;
+    if (isSwapped) std::ranges::reverse(buttons);
+    if (buttons.size() > 2 && s.answer() == AnswerKind::choice)
+        randomFor("buttons " + std::to_string(trial.number)).shuffle(buttons);
+    if (adaptive_) trial.levelDb = adaptive_->levelDb();
+    if (s.adjustment) trial.levelDb = startOf(*s.adjustment, trial.number);
+    const std::string moved = adaptive_      ? *s.adaptedAlternative()
+                              : s.adjustment ? s.adjustment->alternative
+                                             : std::string{};
+    for (const Alternative& button : buttons) {
+        double db = button.levelDb + (button.name == moved ? trial.levelDb : 0.0);
+        if (!s.levelsFrom.empty()) {
+            const auto from = std::ranges::find(protocol_.sessions, s.levelsFrom, &SessionPlan::name);
+            if (button.name == from->adjustment->alternative) {
+                trial.levelDb = adjustedDb(trial.condition, s.levelsFrom, trial.stimulus).value_or(0.0);
+                db += trial.levelDb;
+            }
+        }
+        if (const auto* set =
+                s.levelsFile.empty()
+                    ? nullptr
+                    : levelOf(protocol_.levels, protocol_.conditions[trial.condition].name, trial.stimulus);
+            set && set->alternative == button.name) {
+            trial.levelDb = set->levelDb;
+            db += set->levelDb;
+        }
+        trial.parts.push_back(button.name);
+        trial.partLevelsDb.push_back(db);
+    }
+}
+
+std::string Experiment::choiceRefusal(const Answer& answer) const {
+    const bool isThere = std::ranges::find(trial_->parts, answer.response) != trial_->parts.end();
+    return isThere ? "" : "expected one of the alternatives, found " + answer.response;
+}
+
+std::string Experiment::refusal(const Answer& answer) const {
+    const SessionPlan& s = session();
+    const auto isLabel = [&] {
+        return std::ranges::find(items_, answer.response, &StimulusItem::label) != items_.end();
+    };
+    if (answer.plays < 1) return "expected that the stimulus was felt";
+    if (!(answer.seconds >= 0.0)) return "expected a time from 0 s on";
+    switch (s.answer()) {
+    case AnswerKind::wish:
+        if (s.fewestTouches > 0) return isOnField(answer.place) ? "" : "expected a place on the field";
+        return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
+    case AnswerKind::label:
+        return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
+    case AnswerKind::place: return isOnField(answer.place) ? "" : "expected a place on the field";
+    case AnswerKind::choice: return choiceRefusal(answer);
+    case AnswerKind::scores:
+        return answer.scores.size() == s.scales.size() && std::ranges::all_of(answer.scores, isScore)
+                   ? ""
+                   : "expected a score from 0 to 100 per scale";
+    case AnswerKind::level:
+        return answer.value >= s.adjustment->leastDb && answer.value <= s.adjustment->mostDb
+                   ? ""
+                   : "expected a level within the adjustment's range";
+    case AnswerKind::number:
+        return answer.value >= leastEstimate && answer.value <= mostEstimate
+                   ? ""
+                   : "expected a number from 1e-12 to 1e12";
+    }
+    return "expected a task";
+}
+
+TrialRecord Experiment::take(Answer answer) {
+    TrialRecord record{std::move(*trial_), std::move(answer)};
+    if (plan().answer() == AnswerKind::wish) explored_.insert(record.answer.response);
+    if (plan().adjustment)
+        adjusted_[{record.trial.condition, plan().name}][record.trial.stimulus].push_back(
+            record.answer.value);
+    if (adaptive_) adaptive_->answer(record.answer.response == *plan().adaptedAlternative());
+    ++inSession_;
+    ++taken_;
+    advance();
+    return record;
+}
+
+std::string Experiment::redo(const TrialRecord& record) {
+    if (!isDone() && mayEnd() &&
+        (record.trial.condition != trial_->condition || record.trial.session != trial_->session))
+        endSession();
+    if (isDone()) return "expected no more trials";
+    const Trial& t = *trial_;
+    if (record.trial.condition != t.condition)
+        return "expected the condition " + protocol_.conditions[t.condition].name;
+    if (record.trial.session != t.session)
+        return "expected the session " + protocol_.sessions[t.session].name;
+    if (record.trial.number != t.number) return "expected trial " + std::to_string(t.number);
+    if (record.trial.stimulus != t.stimulus) return "expected the stimulus " + t.stimulus;
+    if (adaptive_ && record.trial.levelDb != t.levelDb)
+        return "expected the level " + std::to_string(t.levelDb) + " dB";
+    if (auto fault = refusal(record.answer); !fault.empty()) return fault;
+    take(record.answer);
+    return {};
+}
+
+std::optional<double> Experiment::adjustedDb(std::size_t condition, const std::string& session,
+                                             const std::string& stimulus) const {
+    const auto found = adjusted_.find({condition, session});
+    if (found == adjusted_.end()) return std::nullopt;
+    const auto values = found->second.find(stimulus);
+    if (values == found->second.end()) return std::nullopt;
+    return std::accumulate(values->second.begin(), values->second.end(), 0.0) /
+           static_cast<double>(values->second.size());
+}
+
+} // namespace physvib

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Reversals from the sequence of levels; means in dB or in logarithms.
+#include "Lab/Study/LevelTrials.h"
+#include "Lab/Statistics/Moments.h"
+#include "Lab/Study/QuestMethod.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+/// Levels at which a sequence turns round.
+std::vector<double> reversalsOf(const std::vector<double>& levels) {
+    std::vector<double> reversals;
+    double last = 0.0;
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+        const double change = levels[i + 1] - levels[i];
+        if (change == 0.0) continue;
+        if (change * last < 0.0) reversals.push_back(levels[i]);
+        last = change;
+    }
+    return reversals;
+}
+
+double meanOf(const std::vector<double>& values, std::size_t from = 0) {
+    double sum = 0.0;
+    for (std::size_t i = from; i < values.size(); ++i) sum += values[i];
+    return sum / static_cast<double>(values.size() - from);
+}
+
+bool isThreshold(LevelTrial::Kind kind) {
+    return kind == LevelTrial::Kind::staircase || kind == LevelTrial::Kind::quest;
+}
+
+bool isSame(const LevelSummary& s, const LevelTrial& t) {
+    return s.kind == t.kind && s.condition == t.condition &&
+           (isThreshold(t.kind) || s.stimulus == t.stimulus);
+}
+
+/// Numbers by their value, before all other labels by their bytes.
+auto labelKey(const std::string& label) {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), number);
+    const bool isNumber = error == std::errc{} && end == label.data() + label.size() && std::isfinite(number);
+    return std::tuple{!isNumber, isNumber ? number : 0.0, std::string_view{label}};
+}
+
+using Run = std::vector<const LevelTrial*>; // one participant's trials of a session
+
+double staircaseThreshold(const Run& run, LevelSummary& summary) {
+    std::vector<double> levels;
+    for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
+    const auto reversals = reversalsOf(levels);
+    summary.reversals += reversals.size();
+    summary.flatRuns += reversals.size() < 2 ? 1 : 0;
+    return reversals.size() < 2 ? levels.back() : meanOf(reversals, reversals.size() / 2);
+}
+
+double questThreshold(const Run& run, LevelSummary& summary) {
+    QuestPlus quest{*questPlan(run.front()->quest)};
+    for (const LevelTrial* trial : run) quest.answerAt(trial->levelDb, trial->value > 0.5);
+    // of the sum of thresholds
+    summary.halfInterval = std::hypot(summary.halfInterval, quest.thresholdHalfInterval(0.95));
+    return quest.estimate().threshold;
+}
+
+void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {
+    std::vector<double> thresholds;
+    for (const auto& [participant, trials] : participants) {
+        std::map<std::pair<std::string, std::string>, Run> sessions;
+        for (const LevelTrial* trial : trials) sessions[{trial->session, trial->quest}].push_back(trial);
+        std::vector<double> own;
+        for (const auto& [session, run] : sessions)
+            own.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary)
+                                                                  : staircaseThreshold(run, summary));
+        thresholds.push_back(meanOf(own));
+        summary.halfInterval /= static_cast<double>(own.size());
+    }
+    const Moments moments{thresholds};
+    summary.estimate = moments.mean;
+    summary.deviation = moments.deviation;
+    if (thresholds.size() > 1) summary.halfInterval = moments.halfInterval();
+}
+
+} // namespace
+
+std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials) {
+    std::vector<LevelSummary> summaries;
+    for (const LevelTrial& trial : trials)
+        if (std::ranges::none_of(summaries, [&](const auto& s) { return isSame(s, trial); }))
+            summaries.push_back({trial.kind, trial.condition, isThreshold(trial.kind) ? "" : trial.stimulus});
+    std::ranges::stable_sort(summaries, {}, [](const LevelSummary& s) {
+        return std::tuple{s.kind, std::string_view{s.condition}, labelKey(s.stimulus)};
+    });
+    for (LevelSummary& summary : summaries) {
+        std::map<std::string, Run> byParticipant;
+        std::vector<double> values;
+        for (const LevelTrial& trial : trials) {
+            if (!isSame(summary, trial)) continue;
+            byParticipant[trial.participant].push_back(&trial);
+            values.push_back(trial.kind == LevelTrial::Kind::magnitude ? std::log10(trial.value)
+                                                                       : trial.value);
+        }
+        summary.trials = values.size();
+        summary.participants = byParticipant.size();
+        if (isThreshold(summary.kind)) {
+            summariseThresholds(summary, byParticipant);
+            continue;
+        }
+        std::vector<double> means;
+        for (const auto& [participant, own] : byParticipant) {
+            std::vector<double> adjusted;
+            for (const LevelTrial* trial : own) adjusted.push_back(trial->value);
+            means.push_back(meanOf(adjusted));
+        }
+        if (summary.kind == LevelTrial::Kind::adjustment)
+            summary.halfInterval = Moments(means).halfInterval();
+        summary.deviation = Moments(values).deviation;
+        summary.estimate =
+            summary.kind == LevelTrial::Kind::magnitude ? std::pow(10.0, meanOf(values)) : meanOf(values);
+    }
+    return summaries;
+}
+
+} // namespace physvib

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+// What the parts of a protocol ask of each other, and the stimuli they name.
+#include "Lab/Study/Protocol.h"
+#include "Lab/Study/CallWords.h"
+#include "Lab/Study/Trial.h"
+#include <algorithm>
+#include <set>
+
+namespace physvib {
+namespace {
+
+constexpr double mostStimuli = 4096;     // of a condition; a session of them lasts a day
+constexpr double mostTrials = 100'000.0; // of a session in a condition; those of a week
+
+bool sharesNames(const auto& items, auto nameOf) {
+    std::set<std::string> names;
+    return !std::ranges::all_of(items, [&](const auto& item) { return names.insert(nameOf(item)).second; });
+}
+
+bool hasAlternative(const SessionPlan& s, const std::string& name) {
+    return std::ranges::find(s.alternatives, name, &Alternative::name) != s.alternatives.end();
+}
+
+bool isAdjustmentBefore(const Protocol& p, const SessionPlan& session) {
+    return std::ranges::any_of(p.sessions.data(), &session, [&](const SessionPlan& s) {
+        return s.name == session.levelsFrom && s.adjustment;
+    });
+}
+
+/// Adjustments and staircases start within their range.
+bool startsInside(const auto& plan) { return plan.leastDb <= plan.startDb && plan.startDb <= plan.mostDb; }
+
+/// Of the fields that only some tasks use.
+std::string taskFault(const SessionPlan& s) {
+    using Kind = AnswerKind;
+    const Kind answer = s.answer();
+    const bool compares = answer == Kind::choice || answer == Kind::level;
+    if (compares && s.alternatives.size() < 2)
+        return "alternatives: expected two or more, found " + std::to_string(s.alternatives.size());
+    if (!compares && !s.alternatives.empty())
+        return "alternatives: expected them of " + tasksThatAnswer({Kind::choice, Kind::level}) + " only";
+    if (sharesNames(s.alternatives, [](const auto& a) { return a.name; }))
+        return "alternatives: expected a name of its own for each";
+    if (s.bothOrders && (answer != Kind::choice || s.alternatives.size() != 2))
+        return "both_orders: expected it of two alternatives to choose from";
+    if ((answer == Kind::scores) == s.scales.empty())
+        return "scales: expected them of " + tasksThatAnswer({Kind::scores}) + ", and of no other";
+    if (!s.definitions.empty() && s.definitions.size() != s.scales.size())
+        return "definitions: expected one of each scale";
+    if (!s.anchors.empty() && s.anchors.size() != 2)
+        return "anchors: expected two, of the left end and of the right";
+    if (sharesNames(s.scales, [](const auto& scale) { return scale; }))
+        return "scales: expected a name of its own for each";
+    if (answer != Kind::scores && !s.objects.empty())
+        return "objects: expected them of " + tasksThatAnswer({Kind::scores}) + " only";
+    if ((answer == Kind::level) != s.adjustment.has_value())
+        return "adjustment: expected it of " + tasksThatAnswer({Kind::level}) + ", and of no other";
+    if (s.adjustment && !hasAlternative(s, s.adjustment->alternative))
+        return "adjustment.alternative: expected the name of an alternative";
+    if (s.adjustment && !startsInside(*s.adjustment))
+        return "adjustment: expected least_db <= start_db <= most_db";
+    if (s.staircase && !startsInside(*s.staircase))
+        return "staircase: expected least_db <= start_db <= most_db";
+    if (s.staircase && s.quest) return "quest: expected it or a staircase, found both";
+    if (const std::string* const adapted = s.adaptedAlternative()) {
+        const std::string method = s.staircase ? "staircase" : "quest";
+        if (answer != Kind::choice)
+            return method + ": expected it of " + tasksThatAnswer({Kind::choice}) + " only";
+        if (s.bothOrders) return method + ": expected alternatives in random order";
+        if (!hasAlternative(s, *adapted)) return method + ".alternative: expected the name of an alternative";
+    }
+    if (s.quest)
+        if (std::string fault = questFault(*s.quest); !fault.empty()) return "quest" + fault;
+    if (answer == Kind::wish && !s.isTraining)
+        return "task: expected " + std::string{describe(s.task).name} + " in a training session only";
+    if (answer != Kind::wish && s.fewestTouches > 0)
+        return "fewest_touches: expected it of " + tasksThatAnswer({Kind::wish}) + " only";
+    return {};
+}
+
+void replaceAll(std::string& words, const std::string& from, const std::string& to) {
+    for (std::size_t at = words.find(from); at != std::string::npos; at = words.find(from, at + to.size()))
+        words.replace(at, from.size(), to);
+}
+
+/// Of a name that is put into calls: it must not bring further names.
+bool isPlain(const std::string& value) { return value.find_first_of("{}") == std::string::npos; }
+
+std::string valuesFault(const CallSet& calls) {
+    for (const StudyFactor& factor : calls.factors)
+        if (!isPlain(factor.name) || !std::ranges::all_of(factor.values, isPlain))
+            return "factors: expected names and values without braces";
+    return {};
+}
+
+/// What a call's {alternative} and {object} may become.
+std::set<std::string> namedPartsOf(const Protocol& p, const CallSet& calls) {
+    const bool namesParts = calls.call.find("{alternative}") != std::string::npos ||
+                            calls.call.find("{object}") != std::string::npos;
+    return namesParts ? callPartsOf(p) : std::set<std::string>{""};
+}
+
+/// Empty, or what is wrong with the first call that a condition can make.
+std::string callsFault(const Protocol& p, const ConditionPlan& c, const CallSet& calls) {
+    if (std::string fault = valuesFault(calls); !fault.empty()) return fault;
+    if (!std::ranges::all_of(namedPartsOf(p, calls), isPlain))
+        return "call: expected alternatives and objects without braces";
+    return firstCallFault(p, c, [&p](const std::string& call) -> std::string {
+        if (std::string fault = callFault(call); !fault.empty()) return "call: " + fault;
+        const auto bytes = withSounds(p, call).size();
+        return bytes <= mostCallBytes ? std::string{}
+                                      : "call: expected at most " + std::to_string(mostCallBytes) +
+                                            " bytes with its recordings, found " + std::to_string(bytes);
+    });
+}
+
+std::string stimulusFault(const ConditionPlan& c, const SessionPlan& s) {
+    const bool isGrid = std::holds_alternative<GridSet>(c.stimuli);
+    if (stimulusCount(c) * s.repetitions > mostTrials)
+        return "stimuli: expected at most " + std::to_string(static_cast<int>(mostTrials)) +
+               " trials in session " + s.name;
+    if (s.answer() == AnswerKind::place && !isGrid)
+        return "stimuli: expected a grid, which the task " + std::string{describe(s.task).name} + " needs";
+    if (s.fewestTouches > 0 && !isGrid) return "stimuli: expected a grid, which free touches need";
+    return {};
+}
+
+std::string conditionFault(const Protocol& p, const ConditionPlan& c) {
+    if (!isPlainPath(c.layout)) return "layout: expected a name, or a file in the folder or below";
+    if (stimulusCount(c) > mostStimuli)
+        return "stimuli: expected at most " + std::to_string(static_cast<int>(mostStimuli)) + " of them";
+    for (const auto& s : p.sessions)
+        if (std::string fault = stimulusFault(c, s); !fault.empty()) return fault;
+    if (const auto* patterns = std::get_if<PatternSet>(&c.stimuli))
+        for (const double seconds : patterns->pulseSeconds)
+            if (parsePatternLabel(patternLabel({seconds, 1, {}}))->pulseSeconds != seconds)
+                return "pulse_s: expected whole milliseconds";
+    if (const CallSet* calls = callSetOf(c.stimuli)) {
+        if (sharesNames(calls->factors, [](const auto& f) { return f.name; }))
+            return "factors: expected a name of its own for each";
+        if (std::string fault = callsFault(p, c, *calls); !fault.empty()) return fault;
+        if (std::holds_alternative<WorldSet>(c.stimuli) && !calls->call.starts_with("render "))
+            return "call: expected render and a scene, which a world needs";
+    }
+    if (sharesNames(stimuliOf(c), [](const auto& item) { return item.label; }))
+        return "stimuli: expected no two of the same label";
+    return {};
+}
+
+std::vector<StimulusItem> itemsOf(const PatternSet& set) {
+    std::vector<StimulusItem> items;
+    for (const double seconds : set.pulseSeconds)
+        for (PulsePattern pattern : allPulsePatterns(set.enchanters)) {
+            // the combinations once per duration of ours
+            if (pattern.pulseSeconds != pulseDurationsSeconds.front()) continue;
+            pattern.pulseSeconds = seconds;
+            items.push_back({patternLabel(pattern), {}});
+        }
+    return items;
+}
+
+std::vector<StimulusItem> itemsOf(const GridSet& set) {
+    std::vector<StimulusItem> items;
+    for (const GridCell& cell : set.grid().cells()) items.push_back({gridLabel(cell), {}});
+    return items;
+}
+
+/// "pair=wood size=small"; the value alone if there is one factor.
+std::string labelOf(const StimulusItem& item) {
+    std::string label;
+    if (item.values.size() == 1) return item.values.front().second;
+    for (const auto& [name, value] : item.values)
+        label.append(label.empty() ? "" : " ").append(name).append("=").append(value);
+    return label;
+}
+
+std::vector<StimulusItem> itemsOf(const CallSet& set) {
+    std::vector<StimulusItem> items{{}};
+    for (const StudyFactor& factor : set.factors) {
+        std::vector<StimulusItem> longer;
+        for (const StimulusItem& item : items)
+            for (const std::string& value : factor.values) {
+                longer.push_back(item);
+                longer.back().values.emplace_back(factor.name, value);
+            }
+        items = std::move(longer);
+    }
+    for (StimulusItem& item : items) item.label = labelOf(item);
+    return items;
+}
+
+double countOf(const PatternSet& set) noexcept {
+    const double e = set.enchanters;
+    return static_cast<double>(set.pulseSeconds.size()) * (e + e * e + e * e * e);
+}
+double countOf(const GridSet& set) noexcept { return static_cast<double>(set.columns) * set.rows; }
+double countOf(const CallSet& set) noexcept {
+    double count = 1.0;
+    for (const auto& factor : set.factors) count *= static_cast<double>(factor.values.size());
+    return count;
+}
+
+} // namespace
+
+namespace {
+
+/// Every stimulus of a session with a file of levels has one there, of an alternative of its.
+std::string levelsFault(const Protocol& p, const SessionPlan& s) {
+    for (const ConditionPlan& c : p.conditions)
+        for (const StimulusItem& item : stimuliOf(c)) {
+            const StimulusLevel* const level = levelOf(p.levels, c.name, item.label);
+            if (level == nullptr)
+                return s.levelsFile + ": expected a level of " + c.name + ", " + item.label + ", found none";
+            if (!hasAlternative(s, level->alternative))
+                return s.levelsFile + ": expected levels of an alternative of session " + s.name +
+                       ", found " + level->alternative;
+        }
+    return {};
+}
+
+} // namespace
+
+std::string firstCallFault(const Protocol& p, const ConditionPlan& c,
+                           const std::function<std::string(const std::string& call)>& faultOf) {
+    const CallSet* const calls = callSetOf(c.stimuli);
+    if (calls == nullptr) return {};
+    const auto parts = namedPartsOf(p, *calls);
+    for (const StimulusItem& item : stimuliOf(c))
+        for (const std::string& part : parts)
+            if (std::string fault = faultOf(callOf(*calls, item, part, "0")); !fault.empty()) return fault;
+    return {};
+}
+
+std::string levelsFault(const Protocol& p) {
+    for (const SessionPlan& s : p.sessions)
+        if (!s.levelsFile.empty())
+            if (std::string fault = levelsFault(p, s); !fault.empty()) return fault;
+    return {};
+}
+
+std::string validate(const Protocol& p) {
+    const auto at = [](const char* list, std::size_t index, const std::string& fault) {
+        return std::string(list) + "[" + std::to_string(index) + "]." + fault;
+    };
+    if (!isPlainPath(p.words)) return "words: expected a name, or a file in the folder or below";
+    for (std::size_t i = 0; i < p.sounds.size(); ++i)
+        if (!isPlainPath(p.sounds[i].file))
+            return at("sounds", i,
+                      "file: expected a file in the folder or below, of plain characters; others are given "
+                      "with --sound");
+    for (std::size_t i = 0; i < p.pictures.size(); ++i) {
+        if (p.pictures[i].material.empty())
+            return at("pictures", i, "material: expected a word in a material's name, found none");
+        if (const auto path = picturePath(p.pictures[i], "P01");
+            !isPlainPath(path) || !path.ends_with(".png"))
+            return at("pictures", i, "file: expected a PNG file in the folder or below, of plain characters");
+    }
+    if (sharesNames(p.pictures, [](const auto& picture) { return picture.material; }))
+        return "pictures: expected a material of its own for each";
+    if (p.conditions.empty()) return "conditions: expected one or more, found none";
+    if (p.sessions.empty()) return "sessions: expected one or more, found none";
+    if (sharesNames(p.conditions, [](const auto& c) { return c.name; }))
+        return "conditions: expected a name of its own for each";
+    if (sharesNames(p.sessions, [](const auto& s) { return s.name; }))
+        return "sessions: expected a name of its own for each";
+    for (std::size_t i = 0; i < p.sessions.size(); ++i) {
+        const SessionPlan& s = p.sessions[i];
+        if (std::string fault = taskFault(s); !fault.empty()) return at("sessions", i, fault);
+        if (!s.levelsFile.empty()) {
+            if (!isPlainPath(s.levelsFile))
+                return at("sessions", i,
+                          "levels_file: expected a file in the folder or below, of plain characters");
+            if (s.answer() != AnswerKind::choice || s.adaptedAlternative() || !s.levelsFrom.empty())
+                return at("sessions", i,
+                          "levels_file: expected it of " + tasksThatAnswer({AnswerKind::choice}) +
+                              ", without another level");
+            if (std::ranges::any_of(p.sessions, [&](const SessionPlan& o) {
+                    return !o.levelsFile.empty() && o.levelsFile != s.levelsFile;
+                }))
+                return at("sessions", i, "levels_file: expected one file for all sessions");
+        }
+        if (!s.levelsFrom.empty() && !isAdjustmentBefore(p, s))
+            return at("sessions", i, "levels_from: expected an earlier session of the task adjust");
+    }
+    for (std::size_t i = 0; i < p.conditions.size(); ++i)
+        if (std::string fault = conditionFault(p, p.conditions[i]); !fault.empty())
+            return at("conditions", i, fault);
+    return {};
+}
+
+std::string picturePath(const MaterialPictureFile& picture, const std::string& participant) {
+    std::string path = picture.file;
+    replaceAll(path, "{participant}", participant);
+    return path;
+}
+
+std::vector<std::string> scalesOf(const Protocol& protocol) {
+    std::vector<std::string> scales;
+    for (const auto& session : protocol.sessions)
+        for (const auto& scale : session.scales)
+            if (std::ranges::find(scales, scale) == scales.end()) scales.push_back(scale);
+    return scales;
+}
+
+std::set<std::string> callPartsOf(const Protocol& p) {
+    std::set<std::string> parts;
+    for (const SessionPlan& s : p.sessions) {
+        for (const Alternative& a : s.alternatives) parts.insert(a.name);
+        parts.insert(s.objects.begin(), s.objects.end());
+    }
+    if (parts.empty()) parts.emplace();
+    return parts;
+}
+
+std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part,
+                   const std::string& levelDb) {
+    std::string words = set.call;
+    for (const auto& [name, value] : item.values) replaceAll(words, "{" + name + "}", value);
+    replaceAll(words, "{alternative}", part);
+    replaceAll(words, "{object}", part);
+    replaceAll(words, "{level_db}", levelDb);
+    return words;
+}
+
+std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition) {
+    return std::visit([](const auto& set) { return itemsOf(set); }, condition.stimuli);
+}
+
+double stimulusCount(const ConditionPlan& condition) noexcept {
+    return std::visit([](const auto& set) { return countOf(set); }, condition.stimuli);
+}
+
+} // namespace physvib

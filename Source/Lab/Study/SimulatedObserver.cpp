@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// One small model per task.
+#include "Lab/Study/SimulatedObserver.h"
+#include "Core/Decibels.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+/// To a multiple of 1/perUnit, in a way that prints short.
+double roundedTo(double value, double perUnit) { return std::round(value * perUnit) / perUnit; }
+
+/// True if a method's name says that this part varies: "AV" of AV-FF-DRV.
+bool varies(const std::string& label, const char* part) {
+    return ("-" + label + "-").find(std::string("-") + part + "-") != std::string::npos;
+}
+
+/// Means as printed; spreads between participants such that the printed tests are what so many participants
+/// give (ObserverTest reckons them again).
+ObserverSettings fittedToTheThesis(ObserverSettings settings) {
+    settings.placeBlur = 0.2073;
+    settings.ringBlur = 0.1524;
+    settings.blurSpread = 0.11;
+    settings.pulsePlaceConfusion = 0.0129; // 92.1 % of patterns right
+    settings.preferenceSpread = 0.15;
+    settings.amplitudeSpread = 10.2;
+    settings.frequencySpread = 14.7;
+    settings.decaySpread = 3.6;
+    return settings;
+}
+
+/// Who this participant is, by their number alone.
+ObserverSettings ofParticipant(ObserverSettings settings, const Protocol& protocol,
+                               const Participant& participant) {
+    SeededRandom random{static_cast<std::uint64_t>(protocol.seed),
+                        "observer/" + std::to_string(participant.number) + "/self"};
+    settings.placeBlur *= std::exp(settings.blurSpread * random.normal());
+    settings.ringBlur *= std::exp(settings.blurSpread * random.normal());
+    settings.firstAlternativePreference = std::clamp(
+        settings.firstAlternativePreference + settings.preferenceSpread * random.normal(), 0.0, 1.0);
+    settings.amplitudeScore += settings.amplitudeSpread * random.normal();
+    settings.frequencyScore += settings.frequencySpread * random.normal();
+    settings.decayScore += settings.decaySpread * random.normal();
+    return settings;
+}
+
+/// The level of what an adjustment is compared with.
+double comparedLevelDb(const SessionPlan& session) {
+    for (const Alternative& one : session.alternatives)
+        if (one.name != session.adjustment->alternative) return one.levelDb;
+    return 0.0;
+}
+
+} // namespace
+
+std::optional<ObserverSettings> observerNamed(std::string_view name) {
+    ObserverSettings settings;
+    settings.name = name;
+    if (name == "simulated") return settings;
+    if (name == "simulated-PHONE")
+        settings.placeBlur = 0.2073;
+    else if (name == "simulated-RING")
+        settings.placeBlur = 0.1524;
+    else if (name == "simulated-thesis")
+        return fittedToTheThesis(settings);
+    else
+        return std::nullopt;
+    return settings;
+}
+
+SimulatedObserver::SimulatedObserver(ObserverSettings settings, const Protocol& protocol,
+                                     const Participant& participant)
+    : settings_{ofParticipant(std::move(settings), protocol, participant)}
+    , protocol_{protocol}
+    , participant_{participant} {}
+
+Answer SimulatedObserver::answer(const Experiment& experiment) const {
+    const Trial& trial = experiment.trial();
+    const SessionPlan& session = experiment.session();
+    const ConditionPlan& condition = experiment.condition();
+    SeededRandom random{static_cast<std::uint64_t>(protocol_.seed),
+                        "observer/" + std::to_string(participant_.number) + "/" + condition.name + "/" +
+                            session.name + "/" + std::to_string(trial.number)};
+    Answer answer;
+    answer.plays =
+        1 + static_cast<int>(random.below(
+                session.mostPlays == 0 ? 3 : static_cast<std::size_t>(std::min(3, session.mostPlays))));
+    answer.seconds =
+        roundedTo(session.leastSeconds * static_cast<double>(std::max<std::size_t>(1, trial.parts.size())) +
+                      0.8 - 1.5 * std::log(1.0 - random.uniform()),
+                  1000.0);
+    switch (session.answer()) {
+    case AnswerKind::wish: answer.response = explored(experiment, random, answer); break;
+    case AnswerKind::label: answer.response = identified(condition, trial, random); break;
+    case AnswerKind::place:
+        answer.place =
+            feltPlace(std::get<GridSet>(condition.stimuli).grid().place(*targetOf(condition, trial)),
+                      blurOf(condition), random);
+        break;
+    case AnswerKind::choice: answer.response = chosen(session, trial, random); break;
+    case AnswerKind::scores:
+        for (std::size_t s = 0; s < session.scales.size(); ++s)
+            answer.scores.push_back(scored(trial, random));
+        break;
+    case AnswerKind::level:
+        answer.value =
+            std::clamp(roundedTo(comparedLevelDb(session) + settings_.levelNoiseDb * random.normal(),
+                                 1.0 / session.adjustment->stepDb),
+                       session.adjustment->leastDb, session.adjustment->mostDb);
+        break;
+    case AnswerKind::number:
+        answer.value = std::clamp(magnitude(condition, trial, random), leastEstimate, mostEstimate);
+        break;
+    }
+    return answer;
+}
+
+std::string SimulatedObserver::explored(const Experiment& experiment, SeededRandom& random,
+                                        Answer& answer) const {
+    if (experiment.session().fewestTouches > 0) {
+        answer.place = FieldPlace{roundedTo(random.uniform(), 1e4), roundedTo(random.uniform(), 1e4)};
+        return {};
+    }
+    const auto items = stimuliOf(experiment.condition());
+    return items[static_cast<std::size_t>(experiment.trial().number - 1) % items.size()].label;
+}
+
+std::string SimulatedObserver::identified(const ConditionPlan& condition, const Trial& trial,
+                                          SeededRandom& random) const {
+    if (const auto* patterns = std::get_if<PatternSet>(&condition.stimuli))
+        return patternLabel(feltPattern(*parsePatternLabel(trial.stimulus), *patterns, random));
+    if (const auto* set = std::get_if<GridSet>(&condition.stimuli)) {
+        const PhantomGrid grid = set->grid();
+        return gridLabel(
+            grid.nearest(feltPlace(grid.place(*targetOf(condition, trial)), blurOf(condition), random)));
+    }
+    const auto items = stimuliOf(condition); // of no known kind: taken for another one now and then
+    return random.chance(settings_.pulsePlaceConfusion) ? items[random.below(items.size())].label
+                                                        : trial.stimulus;
+}
+
+PulsePattern SimulatedObserver::feltPattern(PulsePattern pattern, const PatternSet& set,
+                                            SeededRandom& random) const {
+    const auto others = static_cast<std::size_t>(set.enchanters - 1);
+    for (int k = 0; k < pattern.count; ++k) {
+        int& place = pattern.enchanters[static_cast<std::size_t>(k)];
+        if (others > 0 && random.chance(settings_.pulsePlaceConfusion))
+            place = (place + 1 + static_cast<int>(random.below(others))) % set.enchanters;
+    }
+    if (set.pulseSeconds.size() > 1 && random.chance(settings_.durationConfusion)) {
+        const double played = pattern.pulseSeconds;
+        do pattern.pulseSeconds = set.pulseSeconds[random.below(set.pulseSeconds.size())];
+        while (pattern.pulseSeconds == played);
+    }
+    if (pattern.count > 1 && random.chance(settings_.numerosityConfusion)) --pattern.count;
+    return pattern;
+}
+
+double SimulatedObserver::blurOf(const ConditionPlan& condition) const noexcept {
+    if (condition.observerBlur > 0.0) return condition.observerBlur;
+    return settings_.ringBlur > 0.0 && condition.layout.starts_with("ring") ? settings_.ringBlur
+                                                                            : settings_.placeBlur;
+}
+
+FieldPlace SimulatedObserver::feltPlace(const FieldPlace& place, double blur, SeededRandom& random) const {
+    const auto felt = [&](double at, double offset) {
+        const double middle = 0.5 + (1.0 - settings_.pullToMiddle) * (at - 0.5) + offset;
+        return roundedTo(std::clamp(middle + blur * random.normal(), 0.0, 1.0), 1e6);
+    };
+    const double x = felt(place.x, settings_.offsetX);
+    return {x, felt(place.y, settings_.offsetY)};
+}
+
+/// The stronger of two levels that differ; else the first of the session's list by preference.
+std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& trial,
+                                      SeededRandom& random) const {
+    if (session.adaptedAlternative()) {
+        std::size_t strongest = 0;
+        double most = -1e9;
+        for (std::size_t i = 0; i < trial.parts.size(); ++i)
+            if (const double felt = trial.partLevelsDb[i] + settings_.levelNoiseDb * random.normal();
+                felt > most) {
+                most = felt;
+                strongest = i;
+            }
+        return trial.parts[strongest];
+    }
+    if (random.chance(settings_.firstAlternativePreference)) return session.alternatives.front().name;
+    return session.alternatives[1 + random.below(session.alternatives.size() - 1)].name;
+}
+
+double SimulatedObserver::scored(const Trial& trial, SeededRandom& random) const {
+    const double score = settings_.scoreBase + settings_.amplitudeScore * varies(trial.stimulus, "AV") +
+                         settings_.frequencyScore * varies(trial.stimulus, "FV") +
+                         settings_.decayScore * varies(trial.stimulus, "DRV") +
+                         settings_.scoreNoise * random.normal();
+    return std::round(std::clamp(score, 0.0, 100.0));
+}
+
+/// A power of the level, blurred by the same noise: Stevens' law with an exponent near one.
+double SimulatedObserver::magnitude(const ConditionPlan& condition, const Trial& trial,
+                                    SeededRandom& random) const {
+    double levelG = condition.levelG; // or what the stimulus is called after
+    std::from_chars(trial.stimulus.data(), trial.stimulus.data() + trial.stimulus.size(), levelG);
+    const double db =
+        toDecibels(std::max(levelG, 1e-6)) + trial.levelDb + settings_.levelNoiseDb * random.normal();
+    return std::max(0.01, roundedTo(10.0 * fromDecibels(0.9 * db), 100.0));
+}
+
+} // namespace physvib

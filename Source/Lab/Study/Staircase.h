@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Transformed up-down staircase: the level where so many correct answers in a row are as likely as not
+// (Levitt 1971).
+#pragma once
+#include "Lab/Study/Protocol.h"
+#include <algorithm>
+#include <vector>
+
+namespace physvib {
+
+class Staircase {
+public:
+    explicit Staircase(const StaircasePlan& plan)
+        : plan_{plan}
+        , levelDb_{plan.startDb}
+        , stepDb_{plan.stepDb} {}
+
+    double levelDb() const noexcept { return levelDb_; }
+    bool isDone() const noexcept {
+        return trials_ >= plan_.mostTrials || static_cast<int>(reversals_.size()) >= plan_.reversals;
+    }
+
+    void answer(bool isCorrect) {
+        ++trials_;
+        if (isCorrect && ++inARow_ < plan_.down) return;
+        inARow_ = 0;
+        const int direction = isCorrect ? -1 : 1;
+        if (lastDirection_ != 0 && direction != lastDirection_) {
+            reversals_.push_back(levelDb_);
+            stepDb_ = std::max(plan_.leastStepDb, 0.5 * stepDb_);
+        }
+        lastDirection_ = direction;
+        levelDb_ = std::clamp(levelDb_ + direction * stepDb_, plan_.leastDb, plan_.mostDb);
+    }
+
+    /// Mean level of the later half of the reversals; the present level before there are two.
+    double thresholdDb() const {
+        if (reversals_.size() < 2) return levelDb_;
+        const std::size_t first = reversals_.size() / 2;
+        double sum = 0.0;
+        for (std::size_t i = first; i < reversals_.size(); ++i) sum += reversals_[i];
+        return sum / static_cast<double>(reversals_.size() - first);
+    }
+    const std::vector<double>& reversals() const noexcept { return reversals_; }
+
+private:
+    StaircasePlan plan_;
+    double levelDb_, stepDb_;
+    int trials_ = 0, inARow_ = 0, lastDirection_ = 0;
+    std::vector<double> reversals_;
+};
+
+} // namespace physvib

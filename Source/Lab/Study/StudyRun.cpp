@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Experiment and trial file, step by step together.
+#include "Lab/Study/StudyRun.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Text/NumberText.h"
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+namespace physvib {
+namespace {
+
+/// By this machine's calendar: exposure is counted by the day.
+bool wasWrittenToday(const std::filesystem::path& path) {
+    using Clock = std::chrono::system_clock;
+    const auto dayOf = [](Clock::time_point moment) {
+        const std::time_t seconds = Clock::to_time_t(moment);
+        const std::tm* const day = std::localtime(&seconds);
+        return day != nullptr ? std::pair{day->tm_year, day->tm_yday} : std::pair{0, 0};
+    };
+    std::error_code fault;
+    const auto written = std::filesystem::last_write_time(path, fault);
+    return !fault &&
+           dayOf(std::chrono::time_point_cast<Clock::duration>(std::chrono::file_clock::to_sys(written))) ==
+               dayOf(Clock::now());
+}
+
+} // namespace
+
+bool isStudyCode(const std::string& code) noexcept {
+    const auto isPlain = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+               c == '_';
+    };
+    return code.size() <= 32 && std::ranges::all_of(code, isPlain);
+}
+
+std::string faultOf(const StudyRun& run) {
+    if (!isStudyCode(run.protocol.name))
+        return "name: expected letters, digits, - and _, as files are called after it";
+    if (!isStudyCode(run.participant.code))
+        return "participant: expected at most 32 letters, digits, - and _, found " +
+               inQuotes(run.participant.code);
+    return validate(run.protocol);
+}
+
+StudyInProgress::StudyInProgress(StudyRun run)
+    : run_{std::move(run)}
+    , path_{run_.trialFile()}
+    , isOfToday_{wasWrittenToday(path_)}
+    , log_{path_, run_.protocol, run_.participant, PHYSVIB_VERSION}
+    , experiment_{run_.protocol, run_.participant, run_.participant.observer == Participant{}.observer}
+    , error_{log_.error()} {
+    if (!error_.empty()) return;
+    for (const TrialRecord& record : log_.records()) {
+        const std::string fault = experiment_.redo(record);
+        if (fault.empty()) continue;
+        error_ = path_.string() + ": session " +
+                 printable(run_.protocol.sessions[record.trial.session].name) + ", trial " +
+                 std::to_string(record.trial.number) + ": " + fault;
+        return;
+    }
+    before_ = experiment_.trialsTaken();
+    if (isOfToday_ && before_ > 0) exposureToday_ = log_.records().back().answer.exposure.value_or(0.0);
+}
+
+std::string StudyInProgress::apparatusFault(const Apparatus& now) const {
+    if (log_.records().empty() || !log_.records().back().answer.apparatus) return {};
+    const Apparatus& before = *log_.records().back().answer.apparatus;
+    const auto noiseWords = [](const Apparatus& with) {
+        return with.noiseDb ? numberText(*with.noiseDb) + " dB" : std::string{"off"};
+    };
+    const auto differs = [&](const char* what, const std::string& was, const std::string& is) {
+        return path_.filename().string() + ": expected " + what + " as in the trials before, " + was +
+               ", found " + is + "; set it so, or begin anew in another folder";
+    };
+    if (before.device != now.device)
+        return differs("the device", inQuotes(before.device), inQuotes(now.device));
+    if (before.masterDb != now.masterDb)
+        return differs("the master level", numberText(before.masterDb) + " dB",
+                       numberText(now.masterDb) + " dB");
+    if (before.noiseDb != now.noiseDb) return differs("the pink noise", noiseWords(before), noiseWords(now));
+    return {};
+}
+
+std::string StudyInProgress::keepComment(const std::string& words) const {
+    AtomicFile file{std::filesystem::path{path_}.replace_extension(".comment.txt")};
+    file.write(run_.protocol.closingQuestion + "\n\n" + words + "\n");
+    return file.error().empty() ? file.commit() : file.error();
+}
+
+bool StudyInProgress::take(Answer answer) {
+    if (!error_.empty()) return false;
+    if (const std::string fault = experiment_.refusal(answer); !fault.empty()) return error_ = fault, false;
+    if (!log_.append(experiment_.take(std::move(answer))) || (experiment_.isDone() && !log_.sync()))
+        error_ = log_.error();
+    return error_.empty();
+}
+
+} // namespace physvib

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Fields of controls and panners, with their ranges.
+#include "Live/Documents/ControlJson.h"
+#include "Scene/LayoutJson.h"
+#include "Scene/SceneFileLimits.h"
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace physvib {
+namespace {
+
+constexpr double leastExponent = 1e-3, mostExponent = 100.0;
+
+int readChannel(const JsonField& field, int channels) {
+    const int found = field.wholeNumber();
+    if (found < 1 || found > channels)
+        field.fail("expected a channel from 1 to " + std::to_string(channels) + ", found " +
+                   std::to_string(found));
+    return found - 1;
+}
+
+void expectFields(const JsonField& json, std::vector<std::string_view> known, std::string_view other) {
+    known.push_back("control");
+    if (!other.empty()) known.push_back(other);
+    json.expectOnly(known);
+}
+
+} // namespace
+
+PhantomPanner readPanner(const JsonField& json, int channels) {
+    json.expectObject({"layout", "law", "exponent", "field_m", "grain_law"});
+    const auto layout = readLayoutFields(json["layout"]).geometry;
+    if (layout.count > channels)
+        json["layout"].fail("expected at most " + std::to_string(channels) +
+                            " actuators, as many as there are channels");
+    const JsonField field = json["field_m"];
+    if (field.arraySize() != 2) field.fail("expected [width, height]");
+    PhantomPanner panner{layout, panningLaws[json["law"].oneOf(panningLawNames)].law,
+                         json["exponent"].numberWithin(leastExponent, mostExponent),
+                         field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres),
+                         field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
+    // missing: as all else
+    if (json.has("grain_law"))
+        panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
+    return panner;
+}
+
+RenderControl readControl(const JsonField& json, int channels, std::string_view otherField) {
+    using Holds = ControlDescription::Holds;
+    json.expectObject();
+    const ControlDescription& one = controlTable[json["control"].oneOf(controlNames)];
+    RenderControl control;
+    control.kind = one.kind;
+    if (one.holds == Holds::nothing)
+        expectFields(json, {}, otherField);
+    else if (one.holds == Holds::panner) {
+        expectFields(json, {one.field}, otherField);
+        control.panner = readPanner(json[one.field], channels);
+    } else {
+        expectFields(json, {"channel", one.field}, otherField);
+        control.channel = readChannel(json["channel"], channels);
+        if (one.holds == Holds::truth)
+            control.value = json[one.field].truth() ? 1.0f : 0.0f;
+        else
+            control.value = static_cast<float>(json[one.field].numberWithin(one.least, one.most));
+    }
+    return control;
+}
+
+OrderedJson pannerJson(const PhantomPanner& panner) {
+    OrderedJson json{{"layout", OrderedJson::parse(layoutJson(describeLayout("", panner.layout())))},
+                     {"law", nameOf(panner.law())},
+                     {"exponent", panner.exponent()},
+                     {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
+    if (panner.grains() != Spread::layout) json["grain_law"] = nameOf(panner.grains());
+    return json;
+}
+
+OrderedJson controlJson(const RenderControl& control) {
+    using Holds = ControlDescription::Holds;
+    // no other is asked for
+    const auto one = std::ranges::find(controlTable, control.kind, &ControlDescription::kind);
+    OrderedJson json{{"control", one->name}};
+    if (one->holds == Holds::panner) json[one->field] = pannerJson(control.panner);
+    if (one->holds == Holds::number || one->holds == Holds::truth) json["channel"] = control.channel + 1;
+    if (one->holds == Holds::number) json[one->field] = static_cast<double>(control.value);
+    if (one->holds == Holds::truth) json[one->field] = control.value != 0.0f;
+    return json;
+}
+
+} // namespace physvib

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Number by number the lesser one, and a note of each.
+#include "Live/Documents/DeskLimits.h"
+#include "Io/Json/JsonText.h"
+#include "Io/Text/NumberText.h"
+#include "Live/Documents/MixJson.h"
+#include "Live/Documents/StripGroups.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+constexpr std::size_t mostTextBytes = 100'000; // 64 strips fill 8 kB
+
+class Notes {
+public:
+    void lower(double& value, double most, const std::string& what) {
+        if (value <= most) return;
+        add(what + ' ' + fixedNumber(value, 1) + " to " + fixedNumber(most, 1) + " dB");
+        value = most;
+    }
+    void add(const std::string& note) {
+        constexpr int mostNotes = 8; // more are not read
+        if (++count_ <= mostNotes) words_ += (words_.empty() ? "" : "; ") + note;
+    }
+    std::string words() const { return words_; }
+
+private:
+    std::string words_;
+    int count_ = 0;
+};
+
+/// How high the fader of a strip may be for it to be as loud as that, with its group and at the top of its
+/// lanes.
+double mostFaderDb(const Mix& mix, std::size_t strip, double mostDb) {
+    if (loudestDb(mix, strip) <= mostDb) return mostStripDb;
+    return mostDb <= leastStripDb ? leastStripDb
+                                  : std::clamp(mostDb - mostAddedDb(mix, strip), leastStripDb, mostStripDb);
+}
+
+void lowerStrip(const Strip* most, bool isSilentThere, double mostDb, Strip& strip, const std::string& label,
+                Notes& notes) {
+    if (most == nullptr) {
+        notes.add(label + " without output " + std::to_string(strip.output + 1));
+        strip.output = -1;
+        return;
+    }
+    notes.lower(strip.gainDb, mostDb, label + " gain");
+    notes.lower(strip.ceilingDb, most->ceilingDb, label + " ceiling");
+    if (!isSilentThere || strip.isMuted) return;
+    notes.add(label + " muted");
+    strip.isMuted = true;
+}
+
+} // namespace
+
+DeskLimits DeskLimits::of(const Mix& mix) {
+    std::vector<Strip> strips = feltStrips(mix);
+    for (std::size_t j = 0; j < strips.size(); ++j) strips[j].gainDb = loudestDb(mix, j);
+    return {mix.levelDb, strips};
+}
+
+std::string lowerTo(const DeskLimits& most, Mix& mix) {
+    Notes notes;
+    notes.lower(mix.levelDb, most.levelDb, "master");
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) {
+        Strip& strip = mix.strips[j];
+        if (strip.output < 0) continue;
+        const auto own = std::ranges::find(most.strips, strip.output, &Strip::output);
+        const bool isThere = own != most.strips.end();
+        lowerStrip(isThere ? &*own : nullptr,
+                   isThere && isSilent(most.strips, static_cast<std::size_t>(own - most.strips.begin())),
+                   isThere ? mostFaderDb(mix, j, own->gainDb) : leastStripDb, strip,
+                   mix.layout.enchanters[j].label, notes);
+    }
+    return notes.words();
+}
+
+std::string deskLimitsText(const DeskLimits& limits) {
+    return OrderedJson{{"level_db", limits.levelDb}, {"strips", stripsJson(limits.strips, Outputs::chosen)}}
+        .dump();
+}
+
+std::optional<DeskLimits> readDeskLimits(std::string_view text) {
+    auto read = readJson(text, "settings", mostTextBytes, [](const Json& root) {
+        const JsonField json{root, {}};
+        json.expectObject({"level_db", "strips"});
+        const JsonField strips = json["strips"];
+        return DeskLimits{json["level_db"].numberWithin(leastStripDb, 0.0),
+                          readStrips(strips, static_cast<int>(strips.arraySize()), Outputs::chosen)};
+    });
+    return read ? std::optional{std::move(read.value)} : std::nullopt;
+}
+
+} // namespace physvib

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Which of the kinds a line is; their fields are read where those of files are.
+#include "Live/Documents/InputLine.h"
+#include "Io/Json/JsonLines.h"
+#include "Io/Text/NumberText.h"
+#include "Live/Documents/ControlJson.h"
+#include "Scene/JsonReader.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+struct ActionLine {
+    Action action;
+};
+void visitFields(auto& v, FieldsOf<ActionLine>) { v.variant("input", &ActionLine::action, actionNames); }
+
+constexpr std::size_t mostNumbers = 1024; // of a list
+constexpr std::string_view silenceName = "silence", truthName = "on";
+
+void addNumbers(const JsonField& list, std::vector<double>& numbers, bool isPair) {
+    const std::size_t count = list.arraySize();
+    if (isPair && count != 2) list.fail("expected a pair of numbers");
+    if (count > mostNumbers) list.fail("expected at most " + std::to_string(mostNumbers) + " numbers");
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!isPair && list.item(i).isArray())
+            addNumbers(list.item(i), numbers, true);
+        else
+            numbers.push_back(list.item(i).number());
+    }
+}
+
+PlainValue readPlain(const JsonField& json) {
+    if (json.isNumber()) return json.number();
+    if (!json.isArray()) return json.text();
+    std::vector<double> numbers;
+    addNumbers(json, numbers, false);
+    return numbers;
+}
+
+PlainMessage readMessage(const JsonField& json) {
+    PlainMessage message{json["message"].text(), {}};
+    for (const std::string& name : json.names())
+        if (name != "message") message.values.push_back({name, readPlain(json[name])});
+    return message;
+}
+
+LineInput readLine(const JsonField& json, const std::vector<Material>& materials, int channels) {
+    json.expectObject();
+    if (json.has("message")) return readMessage(json);
+    if (!json.has("control")) {
+        ActionLine line;
+        detail::readValue(json, line, {}, materials);
+        return std::move(line.action);
+    }
+    if (!json["control"].is(silenceName)) return readControl(json, channels);
+    json.expectObject({"control", "on"});
+    return SilenceControl{json["on"].truth()};
+}
+
+constexpr std::string_view idName = "id";
+constexpr double mostId = 9'007'199'254'740'991; // above, not every whole number is one of JSON's
+
+bool isId(double number) { return std::abs(number) <= mostId && number == std::floor(number); }
+
+/// The number goes out of `root`, which is then as if it had none.
+std::optional<double> takeId(Json& root) {
+    if (!root.is_object() || !root.contains(idName)) return std::nullopt;
+    const JsonField field = JsonField(root, {})[idName];
+    const double id = field.number();
+    if (!isId(id))
+        field.fail("expected a whole number from -" + plainNumber(mostId) + " to " + plainNumber(mostId));
+    root.erase(std::string(idName));
+    return id;
+}
+
+/// Of a line that may be anything: the number behind the first "id".
+std::optional<double> idIn(std::string_view line) {
+    constexpr std::string_view key = "\"id\"", blank = " \t";
+    const auto at = line.find(key);
+    const auto colon = at == line.npos ? at : line.find_first_not_of(blank, at + key.size());
+    const auto begin =
+        colon == line.npos || line[colon] != ':' ? line.npos : line.find_first_not_of(blank, colon + 1);
+    if (begin == line.npos) return std::nullopt;
+    const auto id = parseNumber<double>(line.substr(begin, line.find_first_of(",} \t\r", begin) - begin));
+    return id && isId(*id) ? id : std::nullopt;
+}
+
+OrderedJson plainJson(const PlainValue& value) {
+    return std::visit([](const auto& plain) { return OrderedJson(plain); }, value);
+}
+
+bool isControl(const std::string& name) {
+    return name == silenceName || std::ranges::find(controlNames, name) != controlNames.end();
+}
+
+} // namespace
+
+std::string answerLine(const PlainMessage& answer) {
+    OrderedJson json{{"answer", answer.name}};
+    for (const NamedValue& value : answer.values) json[value.name] = plainJson(value.value);
+    return jsonLine(json);
+}
+
+InputLine readInputLine(std::string_view line, const std::vector<Material>& materials, int channels) {
+    std::optional<double> id = idIn(line);
+    InputLine read = [&]() -> InputLine {
+        try {
+            Json root = parseStrictly(line);
+            id = takeId(root);
+            return readLine(JsonField(root, {}), materials, channels);
+        } catch (const JsonError& error) {
+            return Failure{error.what()};
+        }
+    }();
+    read.id = id;
+    return read;
+}
+
+bool namesSilence(std::string_view text) noexcept {
+    constexpr char toLower = 'a' - 'A';
+    const auto isSame = [](char found, char wanted) { return (found | toLower) == wanted; };
+    const auto end = text.end();
+    return std::search(text.begin(), end, silenceName.begin(), silenceName.end(), isSame) != end;
+}
+
+// Names may be spelled with escapes. A control needs no scene; whether an input fits one is told in its turn.
+bool asksForSilence(std::string_view line) {
+    if (!namesSilence(line) && line.find('\\') == line.npos) return false;
+    const auto read = readInputLine(line, {}, 1);
+    if (const auto* silence = std::get_if<SilenceControl>(&read.value)) return silence->isOn;
+    std::string kinds;
+    try {
+        const Json root = parseStrictly(line);
+        for (const char* kind : {"control", "input", "message"})
+            if (root.is_object() && root.contains(kind) && root[kind].is_string())
+                kinds += root[kind].get_ref<const std::string&>() + '\n';
+    } catch (const JsonError&) {
+    }
+    return namesSilence(kinds.empty() ? line : kinds);
+}
+
+Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials,
+                                 int channels) {
+    if (!isControl(plain.name) && std::ranges::find(actionNames, plain.name) == actionNames.end())
+        return Failure{inQuotes(plain.name) + ": expected the name of a message, an input or a control"};
+    Json json{{isControl(plain.name) ? "control" : "input", plain.name}};
+    for (const NamedValue& value : plain.values) {
+        if (json.contains(value.name))
+            return Failure{plain.name + ": " + printable(value.name) + ": expected once"};
+        const auto* number = std::get_if<double>(&value.value);
+        if (number != nullptr && value.name == truthName)
+            json[value.name] = *number != 0.0;
+        else
+            json[value.name] = std::visit([](const auto& found) { return Json(found); }, value.value);
+    }
+    try {
+        return readLine(JsonField(json, {}), materials, channels);
+    } catch (const JsonError& error) {
+        return Failure{plain.name + ": " + error.what()};
+    }
+}
+
+} // namespace physvib

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// SDL's joysticks: a controller without a mapping has motors as well.
+#include "Live/Pads/GamePads.h"
+#include "Live/Pads/SdlLibrary.h"
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <mutex>
+#include <set>
+
+namespace physvib {
+namespace {
+
+constexpr std::uint32_t subsystems = SDL_INIT_JOYSTICK | SDL_INIT_GAMECONTROLLER;
+
+std::mutex openedMutex;
+std::set<std::int64_t> opened; // by this process; under the mutex
+
+/// SDL takes its list of devices under this lock; while one is asked for by its index, none comes or goes.
+class JoystickLock {
+public:
+    explicit JoystickLock(const SdlLibrary& sdl)
+        : sdl_{sdl} {
+        sdl_.LockJoysticks();
+    }
+    ~JoystickLock() { sdl_.UnlockJoysticks(); }
+    JoystickLock(const JoystickLock&) = delete;
+    JoystickLock& operator=(const JoystickLock&) = delete;
+
+private:
+    const SdlLibrary& sdl_;
+};
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// The first two bytes of a GUID say the bus, as Linux numbers them.
+PadBus busOf(const SDL_JoystickGUID& guid) {
+    const int bus = guid.data[0] | guid.data[1] << 8;
+    return bus == 0x03 ? PadBus::usb : bus == 0x05 ? PadBus::bluetooth : PadBus::other;
+}
+
+const char* profileOf(SDL_GameControllerType type) {
+    switch (type) {
+    case SDL_CONTROLLER_TYPE_XBOX360:
+    case SDL_CONTROLLER_TYPE_XBOXONE: return "pad-xbox";
+    case SDL_CONTROLLER_TYPE_PS3:
+    case SDL_CONTROLLER_TYPE_PS4:
+    case SDL_CONTROLLER_TYPE_PS5: return "pad-dualshock";
+    default: return "pad-generic";
+    }
+}
+
+GamePadInfo infoOf(const SdlLibrary& sdl, int index) {
+    GamePadInfo info;
+    const char* name = sdl.JoystickNameForIndex(index);
+    info.name = name ? name : "a controller without a name";
+    info.id = sdl.JoystickGetDeviceInstanceID(index);
+    info.bus = busOf(sdl.JoystickGetDeviceGUID(index));
+    const auto type =
+        sdl.IsGameController(index) ? sdl.GameControllerTypeForIndex(index) : SDL_CONTROLLER_TYPE_UNKNOWN;
+    info.profile = profileOf(type);
+    info.isDualSense = type == SDL_CONTROLLER_TYPE_PS5;
+    return info;
+}
+
+class SdlPad final : public GamePad {
+public:
+    SdlPad(const SdlLibrary& sdl, int index)
+        : sdl_{sdl}
+        , info_{infoOf(sdl, index)}
+        , joystick_{sdl.JoystickOpen(index)}
+        , controller_{sdl.IsGameController(index) ? sdl.GameControllerOpen(index) : nullptr} {
+        if (joystick_ == nullptr) return;
+        info_.hasMotors = sdl.JoystickHasRumble(joystick_);
+        info_.hasTriggers = sdl.JoystickHasRumbleTriggers(joystick_);
+        info_.hasAccelerometer = controller_ && sdl.GameControllerHasSensor(controller_, SDL_SENSOR_ACCEL);
+    }
+    ~SdlPad() override {
+        // who only looked leaves alone what others play
+        if (hasRumbled_) sdl_.JoystickRumble(joystick_, 0, 0, 0);
+        if (controller_) sdl_.GameControllerClose(controller_);
+        if (joystick_) sdl_.JoystickClose(joystick_);
+        const std::lock_guard lock{openedMutex};
+        opened.erase(info_.id);
+    }
+
+    bool isOpen() const { return joystick_ != nullptr; }
+    const GamePadInfo& info() const noexcept override { return info_; }
+    bool isAttached() override { return sdl_.JoystickGetAttached(joystick_); }
+    bool rumble(double low, double high) override {
+        hasRumbled_ = true;
+        const auto word = [](double command) {
+            return static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(command, 0.0, 1.0)));
+        };
+        const auto ms = low > 0.0 || high > 0.0 ? static_cast<std::uint32_t>(padTimeOut.count()) : 0u;
+        return sdl_.JoystickRumble(joystick_, word(low), word(high), ms) == 0;
+    }
+    bool acceleration(std::array<float, 3>& metresPerSecond2) override {
+        if (!info_.hasAccelerometer) return false;
+        if (!isSensing_)
+            isSensing_ = sdl_.GameControllerSetSensorEnabled(controller_, SDL_SENSOR_ACCEL, SDL_TRUE) == 0;
+        return isSensing_ && sdl_.GameControllerGetSensorData(controller_, SDL_SENSOR_ACCEL,
+                                                              metresPerSecond2.data(), 3) == 0;
+    }
+    bool sendEffect(const void* bytes, int size) override {
+        return controller_ && sdl_.GameControllerSendEffect(controller_, bytes, size) == 0;
+    }
+
+private:
+    const SdlLibrary& sdl_;
+    GamePadInfo info_;
+    SDL_Joystick* joystick_;
+    SDL_GameController* controller_;
+    bool isSensing_ = false, hasRumbled_ = false;
+};
+
+bool isWanted(const GamePadInfo& info, const std::string& name) {
+    return name == anyPad || lower(info.name).find(lower(name)) != std::string::npos;
+}
+
+bool take(std::int64_t id) {
+    const std::lock_guard lock{openedMutex};
+    return opened.insert(id).second;
+}
+
+// A host that uses SDL itself keeps what it has asked for.
+void giveHints(const SdlLibrary& sdl, GamePads::Driver driver) {
+    if (sdl.WasInit(SDL_INIT_JOYSTICK) != 0) return;
+    const auto hint = [&](const char* name, const char* value) {
+        sdl.SetHintWithPriority(name, value, SDL_HINT_DEFAULT);
+    };
+    sdl.SetMainReady();
+    hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    hint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
+#ifdef __linux__
+    // the kernel ends what a killed program played
+    hint(SDL_HINT_JOYSTICK_HIDAPI, driver == GamePads::Driver::sdl ? "1" : "0");
+#else
+    static_cast<void>(driver);
+#endif
+}
+
+} // namespace
+
+const char* busName(PadBus bus) noexcept {
+    return bus == PadBus::usb ? "usb" : bus == PadBus::bluetooth ? "bluetooth" : "other";
+}
+double mostCommandsPerSecond(PadBus bus) noexcept { return bus == PadBus::usb ? 125.0 : 30.0; }
+
+GamePads::GamePads(Driver driver)
+    : sdl_{sdlLibrary(fault_)} {
+    if (sdl_ == nullptr) return;
+    giveHints(*sdl_, driver);
+    const bool isFirst = sdl_->WasInit(SDL_INIT_JOYSTICK) == 0;
+    if (sdl_->InitSubSystem(subsystems) != 0) {
+        fault_ = std::string{"game controllers: "} + sdl_->GetError();
+        sdl_ = nullptr;
+    } else if (isFirst) { // nobody reads events
+        sdl_->JoystickEventState(SDL_IGNORE);
+        sdl_->GameControllerEventState(SDL_IGNORE);
+    }
+}
+
+GamePads::~GamePads() {
+    if (sdl_) sdl_->QuitSubSystem(subsystems);
+}
+
+void GamePads::update() {
+    if (sdl_) sdl_->JoystickUpdate();
+}
+
+std::vector<GamePadInfo> GamePads::list() {
+    std::vector<GamePadInfo> found;
+    if (sdl_ == nullptr) return found;
+    const JoystickLock lock{*sdl_};
+    for (int i = 0; i < sdl_->NumJoysticks(); ++i) {
+        const GamePadInfo info = infoOf(*sdl_, i);
+        if (!take(info.id)) {
+            found.push_back(info);
+            continue;
+        }
+        found.push_back(SdlPad{*sdl_, i}.info());
+    }
+    return found;
+}
+
+std::unique_ptr<GamePad> GamePads::open(const std::string& name) {
+    if (sdl_ == nullptr) return {};
+    const JoystickLock lock{*sdl_};
+    for (int i = 0; i < sdl_->NumJoysticks(); ++i) {
+        const GamePadInfo info = infoOf(*sdl_, i);
+        if (!isWanted(info, name) || !take(info.id)) continue;
+        auto pad = std::make_unique<SdlPad>(*sdl_, i);
+        if (pad->isOpen() && pad->info().hasMotors) return pad;
+    }
+    return {};
+}
+
+} // namespace physvib

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Strength is the standard deviation of the acceleration in short windows, beyond that of rest.
+#include "Live/Pads/PadTrial.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr double onSeconds = 0.75, restSeconds = 0.75, repeatSeconds = 0.1;
+constexpr double steadyFrom = 0.4;     // of a step; motors take 0.2 s
+constexpr double windowSeconds = 0.04; // some turns of the heavy motor
+constexpr double leastShare = 0.08;    // of the strongest: below it a motor does not turn
+constexpr double leastRatio = 4.0;     // of the strongest to rest: else nothing moved
+
+/// Variance of all axes together over [from, to); 0 of fewer than three samples.
+double variance(const PadStep& step, double from, double to) {
+    double sum = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double n = 0.0, mean = 0.0, squares = 0.0;
+        for (const PadStep::Sample& sample : step.samples) {
+            if (sample.seconds < from || sample.seconds >= to) continue;
+            const double value = static_cast<double>(sample.metresPerSecond2[axis]), before = value - mean;
+            mean += before / ++n;
+            squares += before * (value - mean);
+        }
+        if (n >= 3.0) sum += squares / n;
+    }
+    return sum;
+}
+
+class Strength {
+public:
+    explicit Strength(double restVariance)
+        : rest_{restVariance} {}
+    double operator()(const PadStep& step, double from, double to) const {
+        return std::sqrt(std::max(0.0, variance(step, from, to) - rest_));
+    }
+
+private:
+    double rest_;
+};
+
+/// The command at which a rising row of strengths passes `level`.
+double commandAt(double level, const std::vector<PadStep>& steps, const std::vector<double>& strengths) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (strengths[i] < level) continue;
+        if (i == 0) return steps[0].command * level / strengths[0];
+        return steps[i - 1].command + (steps[i].command - steps[i - 1].command) * (level - strengths[i - 1]) /
+                                          (strengths[i] - strengths[i - 1]);
+    }
+    return steps.back().command;
+}
+
+double rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
+
+} // namespace
+
+bool holdMotors(GamePad& pad, double low, double high, double seconds, const PadTrialTime& time) {
+    const double end = time.seconds() + seconds;
+    for (double next = 0.0; time.goesOn() && pad.isAttached(); time.tick()) {
+        if (time.seconds() >= end) return true;
+        if (time.seconds() < next) continue;
+        pad.rumble(low, high);
+        next = time.seconds() + repeatSeconds;
+    }
+    pad.rumble(0.0, 0.0);
+    return false;
+}
+
+Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTrialTime& time) {
+    std::vector<PadStep> steps;
+    std::array<float, 3> now{}, before{};
+    if (!pad.acceleration(now))
+        return Failure{
+            pad.info().name +
+            ": it does not tell its acceleration; DualSense, DualShock 4 and Switch controllers do"};
+    for (int tenth = 1; tenth <= 10; ++tenth) {
+        PadStep& step = steps.emplace_back();
+        step.command = tenth / 10.0;
+        step.onSeconds = onSeconds;
+        const double begin = time.seconds();
+        PadTrialTime listening = time;
+        listening.tick = [&] {
+            time.tick();
+            // a report is told once
+            if (pad.acceleration(now) && now != before) step.samples.push_back({time.seconds() - begin, now});
+            before = now;
+        };
+        const bool isWhole = holdMotors(pad, isHeavy ? step.command : 0.0, isHeavy ? 0.0 : step.command,
+                                        onSeconds, listening) &&
+                             holdMotors(pad, 0.0, 0.0, restSeconds, listening);
+        if (!isWhole)
+            return Failure{pad.isAttached() ? "ended before it was measured" : pad.info().name + " is gone"};
+    }
+    return steps;
+}
+
+Result<PadMotor> fitMotor(const std::vector<PadStep>& steps) {
+    if (steps.size() < 3) return Failure{"expected at least three steps"};
+    double rest = INFINITY;
+    for (const PadStep& step : steps)
+        rest =
+            std::min(rest, variance(step, step.onSeconds + 0.6 * restSeconds, step.onSeconds + restSeconds));
+    const Strength strength{rest};
+    std::vector<double> strengths;
+    for (const PadStep& step : steps)
+        strengths.push_back(
+            std::max(strengths.empty() ? 0.0 : strengths.back(), strength(step, steadyFrom, step.onSeconds)));
+    const double most = strengths.back();
+    if (!(most * most > leastRatio * leastRatio * rest) || !(most > 0.0))
+        return Failure{"nothing moved: is the controller lying on something soft?"};
+    PadMotor motor;
+    const auto turns = std::ranges::find_if(strengths, [&](double s) { return s >= leastShare * most; });
+    const auto first = static_cast<std::size_t>(turns - strengths.begin());
+    motor.threshold = first == 0 ? 0.0 : rounded(0.5 * (steps[first - 1].command + steps[first].command));
+    motor.half = std::clamp(rounded(commandAt(0.5 * most, steps, strengths)), motor.threshold + 0.01, 0.98);
+    motor.full = std::clamp(rounded(commandAt(0.98 * most, steps, strengths)), motor.half + 0.01, 1.0);
+    const PadStep& whole = steps.back();
+    const auto passes = [&](double from, auto isThere) {
+        for (double at = from; at < whole.onSeconds + restSeconds - windowSeconds; at += 0.002)
+            if (isThere(strength(whole, at - 0.5 * windowSeconds, at + 0.5 * windowSeconds)))
+                return at - from;
+        return restSeconds;
+    };
+    motor.riseSeconds = std::max(0.005, rounded(passes(0.0, [&](double s) { return s >= 0.9 * most; })));
+    motor.fallSeconds =
+        std::max(0.005, rounded(passes(whole.onSeconds, [&](double s) { return s <= 0.1 * most; })));
+    return motor;
+}
+
+} // namespace physvib

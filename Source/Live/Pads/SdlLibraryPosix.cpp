@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The dynamic linker of POSIX systems.
+#ifndef _WIN32
+#include "Live/Pads/SdlLibrary.h"
+#include <dlfcn.h>
+
+namespace physvib {
+
+void* openLibrary(const char* name) { return dlopen(name, RTLD_NOW | RTLD_LOCAL); }
+void* functionIn(void* library, const char* name) { return dlsym(library, name); }
+
+} // namespace physvib
+#endif

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+// The link's thread: search, greet, synchronise, send.
+#include "Live/Session/BoardLink.h"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
+constexpr std::int64_t helloEvery = 250 * ms, telemetryEvery = second, gainsEvery = second,
+                       searchEvery = second / 2;
+constexpr std::int64_t firstGainsAgain = 8 * ms;      // then after twice as long each time: silence is not a
+                                                      // second late where a line loses it
+constexpr std::int64_t givenUpAfter = 3 * second / 2; // a silent line is opened again
+constexpr std::int64_t tooOld = 50 * ms;              // a strike this late is not worth the line
+constexpr std::int64_t lineAhead = 4 * ms;   // in the system's buffers at most: the rest can still be thinned
+constexpr double marginMs = 4.0 + 3.0 + 2.1; // lineAhead, this thread's naps, one strike on the line
+constexpr std::int64_t longestAnswer = second; // no line delays an answer by more
+// nor does a clock that runs on differ by as much
+constexpr double restartFrames = limits::board::sampleRateHz;
+constexpr int crowded = 4; // from here on strikes go in the compact form
+
+/// Why nothing is sent to this board; empty: it is what this program plays on.
+std::string refusal(const wire::HelloReply& board) {
+    if (board.version < 1 || board.version > wire::protocolVersion)
+        return "expected a board of protocol 1 to " + std::to_string(wire::protocolVersion) + ", found " +
+               std::to_string(board.version);
+    if (board.channels != limits::board::channels || board.sampleRateHz != limits::board::sampleRateHz)
+        return "expected a board of " + std::to_string(limits::board::channels) + " channels at " +
+               std::to_string(limits::board::sampleRateHz) + " Hz, found " + std::to_string(board.channels) +
+               " at " + std::to_string(board.sampleRateHz) + " Hz";
+    if (board.watchdogMs > wire::defaultWatchdogMs || board.aheadFrames > limits::board::sampleRateHz)
+        return "expected a board that is silent " + std::to_string(wire::defaultWatchdogMs) +
+               " ms after its computer, and plays within a second";
+    return {};
+}
+
+constexpr std::size_t compactBytes = 16;   // of a strike in the compact form on the line
+constexpr std::int64_t earlyLeg = 40 * ms; // ahead: it can be sent later as well
+constexpr std::size_t legBytes = 36;       // of a leg
+constexpr double besidesMs = 3.0;          // of the line: pings, gains, the last strikes in the long form
+
+// The board's counter at a frame, or between two.
+std::uint32_t wrapped(double frame) {
+    return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(frame)));
+}
+
+constexpr std::int64_t lineNs(std::size_t bytes) {
+    return static_cast<std::int64_t>(bytes) * 10 * second / wire::lineBitsPerSecond;
+}
+
+} // namespace
+
+std::int64_t BoardLink::nowNs() noexcept {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+BoardLink::BoardLink(std::string port)
+    : wanted_{port == anyBoard ? std::string{} : std::move(port)}
+    , thread_{[this] { run(); }} {}
+
+BoardLink::~BoardLink() {
+    stop_ = true;
+    thread_.join();
+}
+
+void BoardLink::setGains(const std::array<double, limits::board::channels>& gains) {
+    wire::Gains message;
+    for (std::size_t j = 0; j < gains.size(); ++j)
+        message.gains[j] = static_cast<std::int16_t>(
+            std::clamp(std::nearbyint(gains[j] * limits::board::amplitudeUnit), -32768.0, 32767.0));
+    order([&](Orders& o) { o.gains = message; });
+}
+
+void BoardLink::follow(BoardSource* source) {
+    const std::scoped_lock lock{sourceMutex_};
+    source_ = source;
+}
+
+std::string BoardLink::awaitReady(const std::function<bool()>& goesOn) const {
+    for (const std::int64_t start = nowNs();; std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
+        const BoardLinkStatus now = status();
+        const std::int64_t waited = nowNs() - start;
+        if (now.state == State::ready && now.telemetry.good > 0) return {};
+        const bool isNobodyThere = now.port.empty() && !now.trouble.empty() && waited > 2 * second;
+        if (isNobodyThere || waited > 20 * second || !goesOn())
+            return now.trouble.empty() ? "no board answers" : now.trouble;
+    }
+}
+
+BoardLinkStatus BoardLink::status() const {
+    const std::scoped_lock lock{mutex_};
+    return published_;
+}
+
+void BoardLink::run() {
+    while (!stop_) {
+        if (!line_)
+            search();
+        else
+            receive();
+        if (line_ && now_.state == State::greeting)
+            greet();
+        else if (line_) {
+            obey();
+            if (line_) keepInTouch();
+        }
+        askSource();
+        sendStrikes();
+        publish();
+    }
+    if (line_ && now_.state != State::greeting) send(wire::StopAll{});
+}
+
+void BoardLink::askSource() {
+    const std::scoped_lock lock{sourceMutex_};
+    if (source_ != nullptr) source_->feed();
+}
+
+// Tries the next port, and gives it time to answer.
+void BoardLink::search() {
+    now_.state = State::searching;
+    if (nowNs() < nextSearchNs_) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        return;
+    }
+    nextSearchNs_ = nowNs() + searchEvery;
+    std::string path = wanted_;
+    if (path.empty()) {
+        auto ports = listSerialPorts();
+        std::stable_partition(ports.begin(), ports.end(), [](const auto& p) { return p.isLikelyBoard; });
+        if (ports.empty()) {
+            now_.trouble = "no serial port";
+            return;
+        }
+        path = ports[searched_++ % ports.size()].path;
+    }
+    line_ = openSerialLine(path, now_.trouble);
+    if (!line_) return;
+    now_.port = path;
+    now_.state = State::greeting;
+    heardNs_ = nowNs();
+    nextHelloNs_ = lineFreeNs_ = 0;
+    decoder_ = {};
+}
+
+void BoardLink::disconnect(const std::string& why) {
+    line_.reset();
+    clock_.clear();
+    now_.trouble = why;
+    now_.playOutMs = 0.0;
+    now_.state = State::searching;
+}
+
+void BoardLink::receive() {
+    std::array<std::uint8_t, 256> bytes;
+    const int n = line_->read(bytes, 1);
+    if (n < 0) return disconnect(now_.port + ": the line is gone");
+    for (int i = 0; i < n; ++i)
+        if (const auto payload = decoder_.feed(bytes[static_cast<std::size_t>(i)]); !payload.empty())
+            handle(payload);
+    if (nowNs() - heardNs_ > givenUpAfter) disconnect(now_.port + ": no answer");
+}
+
+void BoardLink::handle(std::span<const std::uint8_t> payload) {
+    heardNs_ = nowNs();
+    // the first of several
+    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting)
+        return meet(hello);
+    if (wire::Pong pong; wire::decode(payload, pong) && now_.state >= State::synchronising) return take(pong);
+    if (wire::Telemetry telemetry; wire::decode(payload, telemetry)) now_.telemetry = telemetry;
+    if (wire::SelfTestReply reply; wire::decode(payload, reply)) now_.selfTest = reply;
+}
+
+void BoardLink::meet(const wire::HelloReply& board) {
+    if (auto fault = refusal(board); !fault.empty()) return disconnect(now_.port + ": " + fault);
+    now_.board = board;
+    now_.trouble.clear();
+    nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // it may have been without power, and plays at its own
+                                                       // again
+    now_.state = State::synchronising;
+    sequence_ = 0xFF;
+    legEnds_.clear();
+    pingSentNs_.fill(0);
+    ++now_.connections;
+}
+
+// An answer to a ping that nobody sent, or that is answered already, says nothing of the clock.
+void BoardLink::take(const wire::Pong& pong) {
+    const std::int64_t sentNs = std::exchange(pingSentNs_[pong.id], 0);
+    if (sentNs == 0 || heardNs_ - sentNs > longestAnswer) return;
+    const double frames = clock_.unwrapped(pong.frame, pong.fraction);
+    if (!clock_.isEmpty() && std::abs(frames - clock_.frameAt(heardNs_)) > restartFrames)
+        return disconnect(now_.port + ": the board has started anew");
+    clock_.add(sentNs, frames, heardNs_);
+    if (clock_.isReady()) now_.state = State::ready;
+}
+
+void BoardLink::greet() {
+    if (nowNs() < nextHelloNs_) return;
+    nextHelloNs_ = nowNs() + helloEvery;
+    line_->write(std::array<std::uint8_t, 1>{0}); // ends what an earlier connection may have left
+    send(wire::Hello{});
+}
+
+void BoardLink::keepInTouch() {
+    const std::int64_t now = nowNs();
+    if (now >= nextPingNs_) {
+        nextPingNs_ = now + second / (clock_.isReady() ? wire::pingsPerSecond : wire::firstPingsPerSecond);
+        pingSentNs_[++pingId_] = now;
+        send(wire::Ping{pingId_});
+    }
+    if (line_ && now >= nextTelemetryNs_) {
+        nextTelemetryNs_ = now + telemetryEvery;
+        send(wire::TelemetryRequest{});
+    }
+    if (line_ && gains_ && now >= nextGainsNs_) {
+        nextGainsNs_ = now + gainsPauseNs_;
+        gainsPauseNs_ = std::min(2 * gainsPauseNs_, gainsEvery);
+        send(*gains_);
+    }
+}
+
+void BoardLink::obey() {
+    Orders orders;
+    {
+        const std::scoped_lock lock{mutex_};
+        std::swap(orders, orders_);
+    }
+    if (orders.stopAll) {
+        backlog_.clear();
+        for (BoardStrike waiting; strikes_.pop(waiting);) {
+        }
+        legEnds_.clear();
+        if (line_) send(wire::StopAll{});
+    }
+    if (orders.gains) gains_ = orders.gains, nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain;
+    if (orders.selfTest && line_) {
+        now_.selfTest.reset();
+        send(wire::SelfTest{});
+    }
+}
+
+bool BoardLink::isLineFree(std::int64_t now) const { return lineFreeNs_ - now < lineAhead; }
+
+bool BoardLink::takesLeg(std::int64_t dueNs) {
+    const std::int64_t now = nowNs();
+    if (!line_ || now_.state != State::ready || !playsLegs() || !isLineFree(now)) return false;
+    const std::uint32_t played = wrapped(clock_.frameAt(now));
+    std::erase_if(legEnds_, [=](std::uint32_t end) { return static_cast<std::int32_t>(end - played) <= 0; });
+    const std::size_t kept = dueNs - now > earlyLeg ? 2 : 0; // for a tone that begins meanwhile
+    if (legEnds_.size() + kept >= limits::board::maxLegs) return false;
+    const std::scoped_lock lock{mutex_};
+    return !orders_.stopAll; // it would be forgotten as soon as it is there
+}
+
+std::int64_t BoardLink::legReadyNs() const {
+    return std::max(nowNs(), lineFreeNs_) + lineNs(legBytes) + static_cast<std::int64_t>(1e6 * transitMs());
+}
+
+void BoardLink::sendLeg(const BoardLeg& leg, bool isCoarse) {
+    const std::uint32_t end = leg.frame + leg.frames, ready = wrapped(clock_.frameAt(legReadyNs()));
+    if (!isPlayable(leg) || static_cast<std::int32_t>(end - ready) <= 0) return refuseLeg();
+    legEnds_.push_back(end);
+    send(wire::Leg{++sequence_, leg});
+    ++now_.legs;
+    now_.coarseLegs += isCoarse ? 1 : 0;
+}
+
+void BoardLink::sendStrikes() {
+    for (BoardStrike strike; strikes_.pop(strike);) {
+        if (isPlayable(strike.event))
+            backlog_.push(strike);
+        else
+            ++now_.refused;
+    }
+    const std::int64_t now = nowNs();
+    while (!backlog_.empty() && backlog_.first().onsetNs < now - tooOld) {
+        backlog_.pop();
+        ++now_.refused;
+    }
+    const bool isReady = line_ && now_.state == State::ready;
+    if (isReady)
+        backlog_.keepTo({std::max(now, lineFreeNs_), lineNs(compactBytes),
+                         static_cast<std::int64_t>(1e6 * (transitMs() + besidesMs))});
+    while (line_ && isReady && !backlog_.empty() && isLineFree(now) &&
+           backlog_.first().onsetNs < now + sendAheadMs * ms) {
+        wire::Strike strike{++sequence_, backlog_.first().event};
+        strike.event.frame = wrapped(clock_.frameAt(backlog_.first().onsetNs));
+        if (backlog_.size() > crowded && wire::fitsCompact(strike.event))
+            send(wire::compact(strike));
+        else
+            send(strike);
+        backlog_.pop();
+        ++now_.sent;
+    }
+}
+
+double BoardLink::transitMs() const {
+    return 1e3 * clock_.worstDelaySeconds() + now_.board.aheadFrames * 1e3 / limits::board::sampleRateHz;
+}
+
+double BoardLink::playOutMs() const { return transitMs() + marginMs; }
+
+void BoardLink::publish() {
+    if (clock_.isReady()) now_.playOutMs = playOutMs();
+    now_.driftPpm = clock_.drift() * 1e6;
+    now_.thinned = backlog_.thinned() + strikes_.overflows();
+    now_.badFrames = decoder_.bad();
+    const std::scoped_lock lock{mutex_};
+    published_ = now_;
+}
+
+template <class Message>
+void BoardLink::send(const Message& message) {
+    std::array<std::uint8_t, wire::maxFrame> frame;
+    const std::size_t size = wire::encode(message, frame);
+    lineFreeNs_ = std::max(lineFreeNs_, nowNs()) + lineNs(size);
+    if (!line_->write({frame.data(), size})) disconnect(now_.port + ": the line is gone");
+}
+
+} // namespace physvib

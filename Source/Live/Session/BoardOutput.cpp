@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// From session time and a panner to onsets and four amplitudes.
+#include "Live/Session/BoardOutput.h"
+#include "Core/ClipNumber.h"
+#include "Live/Session/BoardWords.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+constexpr std::int64_t secondNs = 1'000'000'000;
+constexpr std::int64_t mostLateNs = 40'000'000; // a whole leg: nothing of it can be felt
+constexpr std::int64_t spareNs = 2'000'000; // with less to spare a leg is long, so that the next is not late
+
+} // namespace
+
+BoardOutput::BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds)
+    : link_{std::move(port)}
+    , latencySeconds_{latencySeconds}
+    , panner_{panner} {}
+
+std::string BoardOutput::awaitReady(const std::function<bool()>& goesOn) {
+    std::string fault = link_.awaitReady(goesOn);
+    const auto now = link_.status();
+    latencySeconds_ = std::max(latencySeconds_, now.playOutMs * 1e-3);
+    before_ = now.telemetry;
+    return fault;
+}
+
+void BoardOutput::follow(FeltOutput* device) {
+    if (device == device_) return;
+    link_.follow(nullptr);
+    device_ = device;
+    if (device == nullptr) return link_.stopAll();
+    setGains();
+    link_.follow(this);
+}
+
+void BoardOutput::made(const CollisionEvent& event) noexcept {
+    // the board has no recordings; a full queue counts what nobody takes
+    if (!isClip(event.frequencyHz)) events_.push(event);
+}
+
+SinkState BoardOutput::state() const {
+    SinkState state = sinkStateOf(link_.status());
+    state.lost += untold();
+    return state;
+}
+
+std::string BoardOutput::summary(const std::function<bool()>& goesOn) const {
+    return boardSummary(link_, before_, goesOn);
+}
+
+void BoardOutput::feed() {
+    if (const FeltMoment felt = device_->felt(); felt.steadyNs != 0) {
+        clock_.add(felt);
+        rateHz_ = felt.sampleRateHz;
+    }
+    if (clock_.isReady()) {
+        takeControls();
+        for (CollisionEvent event; events_.pop(event);) {
+            if (event.course.travelNs > 0 && isPlayable(event))
+                move(event);
+            else
+                strike(event);
+        }
+        takeSteps();
+        takeLegs();
+    }
+    setGains();
+}
+
+// A layout waits for the first event of its time, the others for the moment at which they are felt.
+void BoardOutput::takeControls() {
+    for (RenderControl control; controls_.pop(control);)
+        (control.kind == RenderControl::Kind::panner ? layouts_ : others_).push_back(control);
+    const std::int64_t now = BoardLink::nowNs();
+    const auto waits = std::find_if(others_.begin(), others_.end(),
+                                    [&](const auto& c) { return clock_.steadyAt(c.timeNs) > now; });
+    std::for_each(others_.begin(), waits, [this](const auto& c) { apply(c); });
+    others_.erase(others_.begin(), waits);
+}
+
+void BoardOutput::apply(const RenderControl& control) {
+    const auto channel = static_cast<std::size_t>(control.channel);
+    if (control.kind == RenderControl::Kind::stopAll) {
+        steps_.clear();
+        paths_.clear();
+        return link_.stopAll();
+    }
+    if (channel >= gains_.size()) return;
+    if (control.kind == RenderControl::Kind::gain) gains_[channel] = control.value;
+    if (control.kind == RenderControl::Kind::mute) muted_[channel] = control.value != 0.0f;
+}
+
+// Not before the link would send them: a path of a minute must not fill its queue.
+void BoardOutput::takeSteps() {
+    const std::int64_t until = BoardLink::nowNs() + BoardLink::sendAheadMs * 1'000'000;
+    for (BoardSteps& steps : steps_)
+        while (!steps.isOver() && clock_.steadyAt(steps.nextNs()) < until) strike(steps.take());
+    std::erase_if(steps_, [](const BoardSteps& steps) { return steps.isOver(); });
+}
+
+void BoardOutput::move(const CollisionEvent& event) {
+    const auto atOnce = std::count_if(paths_.begin(), paths_.end(),
+                                      [&](const BoardPath& path) { return path.endNs() > event.timeNs; });
+    const bool hasLegs =
+        link_.playsLegs() && atOnce < mostPaths && 2 * event.frequencyHz < limits::board::sampleRateHz;
+    if (hasLegs)
+        paths_.emplace_back(event, rateHz_);
+    else
+        steps_.emplace_back(event);
+}
+
+// Of all, the leg that is due first; as many as there is room for, and not before the link would send strikes
+// of that time.
+void BoardOutput::takeLegs() {
+    const std::int64_t now = BoardLink::nowNs();
+    std::erase_if(
+        paths_, [&](const BoardPath& path) { return path.isOver() && clock_.steadyAt(path.endNs()) < now; });
+    const auto dueNs = [](const BoardPath& path) { return path.isOver() ? INT64_MAX : path.nextNs(); };
+    for (;;) {
+        const auto first = std::min_element(
+            paths_.begin(), paths_.end(), [&](const auto& a, const auto& b) { return dueNs(a) < dueNs(b); });
+        if (first == paths_.end() || first->isOver()) return;
+        const std::int64_t due = clock_.steadyAt(first->nextNs());
+        if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.takesLeg(due)) sendLeg(*first);
+        // the line is gone, or others take it
+        else if (due < now - mostLateNs)
+            first->skip(), link_.refuseLeg();
+        else
+            return;
+    }
+}
+
+void BoardOutput::sendLeg(BoardPath& path) {
+    takeLayouts(path.nextNs());
+    for (const BoardPath& before : paths_) path.joinTo(before);
+    const auto frameAt = [&](std::int64_t sinceNs) {
+        return link_.frameAt(clock_.steadyAt(path.onsetNs() + sinceNs));
+    };
+    const BoardTime time{frameAt(0), frameAt(secondNs) - frameAt(0)};
+    const bool isHurried = clock_.steadyAt(path.nextNs()) < link_.legReadyNs() + spareNs;
+    const auto leg = path.next(
+        time, [this](const auto&... at) { return gainsAt(at...); }, isHurried);
+    if (!leg) return;
+    link_.sendLeg(*leg, path.isCoarse());
+    path.take();
+}
+
+void BoardOutput::setGains() {
+    std::array<double, limits::board::channels> wanted{};
+    for (std::size_t j = 0; j < wanted.size(); ++j)
+        if (!device_->isSilent() && !muted_[j]) wanted[j] = device_->level() * gains_[j];
+    if (wanted == sent_) return;
+    sent_ = wanted;
+    link_.setGains(wanted);
+}
+
+void BoardOutput::strike(const CollisionEvent& event) {
+    if (!isPlayable(event)) return; // as the renderer, which counts it
+    takeLayouts(event.timeNs);
+    link_.push({clock_.steadyAt(event.timeNs), boardEventOf(event, gainsAt(event, event.x, event.y))});
+}
+
+void BoardOutput::takeLayouts(std::int64_t timeNs) {
+    for (; !layouts_.empty() && layouts_.front().timeNs <= timeNs; layouts_.erase(layouts_.begin()))
+        panner_ = layouts_.front().panner;
+}
+
+PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event, double x, double y) const noexcept {
+    PhantomPanner::Gains gains{};
+    panner_.gainsAt(event, x, y, gains);
+    return {gains[0], gains[1], gains[2], gains[3]};
+}
+
+} // namespace physvib

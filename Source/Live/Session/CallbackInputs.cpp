@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Stamped with session time where they are born; what is for the world waits for whoever steps it.
+#include "Live/Session/CallbackInputs.h"
+#include <utility>
+#include <variant>
+
+namespace physvib {
+
+bool CallbackInputs::strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept {
+    event = shaping_(event);
+    event.timeNs = time_.nextBornNs(frame) + afterNs;
+    return strikes_.push(event);
+}
+
+bool CallbackInputs::control(RenderControl control, int frame) noexcept {
+    control.timeNs = time_.nextBornNs(frame);
+    return controls_.push(control);
+}
+
+bool CallbackInputs::silence(int frame) noexcept {
+    RenderControl control;
+    control.kind = RenderControl::Kind::silence;
+    control.timeNs = time_.nextRenderedNs(frame); // which leaves us now
+    control.untilNs = time_.nextNs(frame);
+    // strikes that come behind it stand before the world's
+    control.value = time_.isBornDirect() ? 1.0f : 0.0f;
+    return controls_.push(control);
+}
+
+bool CallbackInputs::perform(RenderInput input, int frame) noexcept {
+    input.timeNs = time_.nextNs(frame);
+    return inputs_.push(input);
+}
+
+void CallbackInputs::forget() noexcept {
+    for (CollisionEvent unplayed; strikes_.pop(unplayed);) {
+    }
+    for (RenderControl undone; controls_.pop(undone);) {
+    }
+    for (RenderInput undone; inputs_.pop(undone);) {
+    }
+    spawns_ = 0;
+    names_.fill({});
+}
+
+void CallbackInputs::handTo(SessionWorld& world) {
+    for (RenderInput input; inputs_.pop(input);) {
+        if (input.group == RenderInput::device) world.addInput(input.timeNs, input.hold);
+        if (input.group < 0 || input.group >= static_cast<int>(groups_.size())) continue;
+        for (Action action : groups_[static_cast<std::size_t>(input.group)]) {
+            const auto scale = [&input](Vector& v) { v = {v.x * input.scale, v.y * input.scale}; };
+            if (auto* impulse = std::get_if<ImpulseAction>(&action)) scale(impulse->newtonSeconds);
+            if (auto* spawn = std::get_if<SpawnAction>(&action)) {
+                scale(spawn->body.velocityMetresPerSecond);
+                addBody(world, input.timeNs, *spawn);
+            } else {
+                world.addInput(input.timeNs, std::move(action));
+            }
+        }
+    }
+}
+
+// Each is a body of its own; the oldest makes room.
+void CallbackInputs::addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action) {
+    std::string& name = names_[spawns_ % names_.size()];
+    if (!name.empty()) world.addInput(timeNs, RemoveAction{name});
+    name = action.body.name += " #" + std::to_string(++spawns_);
+    world.addInput(timeNs, std::move(action));
+}
+
+} // namespace physvib

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Resampled.
+#include "Live/Session/ContactSounds.h"
+#include "Core/SamplePeak.h"
+#include <algorithm>
+#include <samplerate.h>
+
+namespace physvib {
+namespace {
+
+/// `ratio` times as many samples; empty if there is no memory.
+std::vector<float> converted(const std::vector<float>& in, double ratio) {
+    constexpr double most = 256.0; // of the converter at a time: a recording may have 100 Hz
+    if (ratio > most) return converted(converted(in, most), ratio / most);
+    if (1.0 / ratio > most) return converted(converted(in, 1.0 / most), ratio * most);
+    std::vector<float> out(
+        std::max<std::size_t>(1, static_cast<std::size_t>(ratio * static_cast<double>(in.size()))));
+    SRC_DATA data{};
+    data.data_in = in.data();
+    data.input_frames = static_cast<long>(in.size());
+    data.data_out = out.data();
+    data.output_frames = static_cast<long>(out.size());
+    data.src_ratio = ratio;
+    return src_simple(&data, SRC_SINC_BEST_QUALITY, 1) == 0 ? out : std::vector<float>{};
+}
+
+/// At that rate, with the same peak.
+std::vector<float> resampled(const ContactRecording& recording, int rateHz) {
+    if (recording.sampleRateHz == rateHz) return recording.samples;
+    auto out = converted(recording.samples, static_cast<double>(rateHz) / recording.sampleRateHz);
+    if (const float before = peakOf(recording.samples), after = peakOf(out); after > 0.0f)
+        for (float& x : out) x *= before / after;
+    return out;
+}
+
+} // namespace
+
+std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordings) {
+    std::vector<RecordingFile> files;
+    for (const ContactRecording& recording : recordings) files.push_back(recording.file);
+    return files;
+}
+
+std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings) {
+    std::vector<std::string> notes;
+    for (const ContactRecording& recording : recordings)
+        if (!recording.note.empty() && std::ranges::find(notes, recording.note) == notes.end())
+            notes.push_back(recording.note);
+    return notes;
+}
+
+ContactSounds::ContactSounds(const std::vector<ContactRecording>& recordings, int sampleRateHz) {
+    for (const ContactRecording& recording : recordings)
+        samples_.push_back(resampled(recording, sampleRateHz));
+    for (std::size_t i = 0; i < recordings.size(); ++i)
+        contacts_.push_back({recordings[i].frequencyHz, samples_[i]});
+}
+
+} // namespace physvib

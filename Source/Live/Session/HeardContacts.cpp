@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// One place, or two ears.
+#include "Live/Session/HeardContacts.h"
+
+namespace physvib {
+
+namespace {
+
+// As loud wherever it is.
+PhantomPanner betweenEars(double fieldWidthMetres, double fieldHeightMetres) noexcept {
+    const EnchanterLayout ears{1.0, 1.0, 2, {{{0.0, 0.5}, {1.0, 0.5}}}};
+    return {ears, PanningLaw::energy, 1.0, fieldWidthMetres, fieldHeightMetres};
+}
+
+} // namespace
+
+struct HeardContacts::Source {
+    HeardContacts& heard;
+    bool pop(CollisionEvent& event) noexcept { return heard.events_.pop(event); }
+    bool pop(RenderControl& control) noexcept {
+        Change change;
+        if (!heard.changes_.pop(change)) return false;
+        control.timeNs = change.timeNs;
+        control.kind =
+            change.fieldWidthMetres > 0.0 ? RenderControl::Kind::panner : RenderControl::Kind::stopAll;
+        if (control.kind == RenderControl::Kind::panner)
+            control.panner = betweenEars(change.fieldWidthMetres, change.fieldHeightMetres);
+        return true;
+    }
+};
+
+RendererSettings HeardContacts::settingsAt(int sampleRateHz) {
+    const EnchanterLayout here{1.0, 1.0, 1, {}};
+    return {.sampleRateHz = sampleRateHz, .panner = {here, PanningLaw::linear, 1.0, 1.0, 1.0}};
+}
+
+void HeardContacts::prepare(int sampleRateHz) {
+    RendererSettings settings = settingsAt(sampleRateHz);
+    if (ears_ > 1) settings.panner = betweenEars(field_.fieldWidthMetres(), field_.fieldHeightMetres());
+    renderer_->prepare(settings);
+    setContacts(sampleRateHz);
+    for (CollisionEvent unplayed; events_.pop(unplayed);) {
+    }
+    for (Change undone; changes_.pop(undone);) {
+    }
+}
+
+void HeardContacts::moveTo(int sampleRateHz, std::int64_t frame) {
+    renderer_->moveTo(sampleRateHz, frame);
+    setContacts(sampleRateHz);
+}
+
+void HeardContacts::setContacts(int sampleRateHz) {
+    contacts_ = {recordings_, sampleRateHz};
+    renderer_->setContacts({contacts_.contacts(), true});
+}
+
+void HeardContacts::render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
+    Source source{*this};
+    renderer_->render(source, out, frames);
+    for (PlayedEvent told; renderer_->played().pop(told);) {
+    } // the enchanters' renderer has told of them
+}
+
+} // namespace physvib

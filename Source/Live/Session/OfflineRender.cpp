@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The list as the source of an offline render.
+#include "Live/Session/OfflineRender.h"
+#include "Core/OfflineLoop.h"
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace physvib {
+
+namespace {
+
+template <class T>
+bool popFront(std::span<const T>& rest, T& item) noexcept {
+    if (rest.empty()) return false;
+    item = rest.front();
+    rest = rest.subspan(1);
+    return true;
+}
+
+struct ListSource {
+    std::span<const CollisionEvent> events;
+    std::span<const RenderControl> controls;
+    OnsetMarks* marks;
+    bool pop(CollisionEvent& event) noexcept { return popFront(events, event); }
+    bool pop(RenderControl& control) noexcept { return popFront(controls, control); }
+    void struck(const CollisionEvent& event, std::int64_t frame) noexcept {
+        if (marks != nullptr) marks->strike(event, frame);
+    }
+};
+
+} // namespace
+
+RenderStatus renderOffline(std::span<const CollisionEvent> events, const OfflineSettings& settings,
+                           const BlockConsumer& consume) {
+    const auto renderer = std::make_unique<HapticRenderer>();
+    if (!renderer->prepare(settings.renderer)) return {};
+    renderer->setContacts(settings.contacts);
+    const auto channels = static_cast<std::size_t>(settings.renderer.outputs());
+    const auto block = static_cast<std::size_t>(settings.blockFrames);
+    std::vector<float> samples(channels * block);
+    std::vector<float*> out(channels);
+    for (std::size_t j = 0; j < channels; ++j) out[j] = samples.data() + j * block;
+
+    ListSource source{events, settings.controls, settings.marks};
+    std::vector<float> pulses(settings.marks != nullptr ? block : 0);
+    std::vector<const float*> withMarks(channels + 1, pulses.data());
+    if (settings.marks != nullptr) settings.marks->prepare(settings.renderer.sampleRateHz, 0);
+    renderFromStart(*renderer, source, out.data(), static_cast<int>(channels), settings.frames,
+                    settings.blockFrames, [&](const float* const* at, int n) {
+                        if (settings.marks == nullptr) return consume(at, n);
+                        settings.marks->render(pulses.data(), n);
+                        std::copy_n(at, channels, withMarks.begin());
+                        return consume(withMarks.data(), n);
+                    });
+    return renderer->status();
+}
+
+} // namespace physvib

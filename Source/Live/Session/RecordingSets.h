@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// The recordings that a session has played, each set once at each rate, and the clips that it keeps.
+#pragma once
+#include "Core/ClipNumber.h"
+#include "Live/Session/ContactSounds.h"
+#include <algorithm>
+#include <deque>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// A clip, at each rate that was asked for.
+class ClipSound {
+public:
+    ClipSound(ContactRecording clip)
+        : clip_{std::move(clip)} {}
+
+    bool isAt(int sampleRateHz) const {
+        return std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz) != sounds_.end();
+    }
+
+    /// Takes long at first. Lives as long as this object, wherever it is moved.
+    std::span<const float> at(int sampleRateHz) {
+        auto known = std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz);
+        if (known == sounds_.end())
+            known = sounds_.insert(sounds_.end(), AtRate{sampleRateHz, {{clip_}, sampleRateHz}});
+        return known->sounds.contacts().front().samples;
+    }
+
+    /// The most that it has at any of these rates, or as it was read.
+    double samplesAt(const std::vector<int>& rates) const {
+        const double most = rates.empty() ? 0.0 : *std::ranges::max_element(rates);
+        return static_cast<double>(clip_.samples.size()) * std::max(1.0, most / clip_.sampleRateHz);
+    }
+
+private:
+    struct AtRate {
+        int sampleRateHz;
+        ContactSounds sounds;
+    };
+    ContactRecording clip_;
+    std::vector<AtRate> sounds_;
+};
+
+/// All there were: R may still know any. One thread at a time; Session guards it by its input mutex.
+class RecordingSets {
+public:
+    /// What a renderer takes of them at that rate, and of the clips, also of those that are added later; it
+    /// lives as long as this object. Where there are no recordings, events that are no clips play their mode.
+    RecordedContacts at(int sampleRateHz, const std::vector<ContactRecording>& recordings) {
+        const auto known = std::ranges::find_if(sets_, [&](const Set& set) {
+            return set.sampleRateHz == sampleRateHz && set.recordings == recordings;
+        });
+        if (known != sets_.end()) return known->played();
+        Set& set = sets_.emplace_back(Set{recordings, sampleRateHz, {recordings, sampleRateHz}, {}});
+        const auto sounds = set.sounds.contacts();
+        set.contacts.assign(sounds.begin(), sounds.end());
+        for (int k = 0; k < mostClips; ++k) set.contacts.push_back({clipFrequencyHz(k), {}});
+        for (std::size_t k = 0; k < clips_.size(); ++k) fill(set, k);
+        return set.played();
+    }
+
+    /// Of the lists that there are.
+    std::vector<int> rates() const {
+        std::vector<int> all;
+        for (const Set& set : sets_) all.push_back(set.sampleRateHz);
+        return all;
+    }
+
+    const std::deque<ClipSound>& clips() const noexcept { return clips_; }
+
+    /// One more, as clip clips().size(), less than mostClips; quickly, if it is at all rates(). R may be
+    /// looking through any list: it reads the names of the places for clips, which stay, and the samples of
+    /// this one only for a strike that is told to it after this call.
+    void add(ClipSound clip) {
+        clips_.push_back(std::move(clip));
+        for (Set& set : sets_) fill(set, clips_.size() - 1);
+    }
+
+private:
+    struct Set {
+        std::vector<ContactRecording> recordings;
+        int sampleRateHz;
+        ContactSounds sounds; // at that rate
+        std::vector<RecordedContact> contacts;
+        RecordedContacts played() const noexcept { return {contacts, recordings.empty()}; }
+    };
+
+    void fill(Set& set, std::size_t number) {
+        set.contacts[set.recordings.size() + number].samples = clips_[number].at(set.sampleRateHz);
+    }
+
+    std::deque<Set> sets_;
+    std::deque<ClipSound> clips_;
+};
+
+} // namespace physvib

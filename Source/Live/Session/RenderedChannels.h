@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The channels that a session renders: the actuators', behind them what is heard of each hit, and last the
+// marks of onsets.
+#pragma once
+#include "Core/ClipNumber.h"
+#include "Live/Session/HeardContacts.h"
+#include "Live/Session/OnsetMarks.h"
+#include "Live/Session/SessionSetup.h"
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <memory>
+
+namespace physvib {
+
+/// Part of a session; the actuators' own are rendered elsewhere.
+class RenderedChannels {
+public:
+    /// How many tell what is heard of each hit, in sync with the actuators: 0, 1, or left and right.
+    int heard() const noexcept { return heard_ ? heard_->ears() : 0; }
+
+    /// Of the last one: a pulse at each onset. Neither gains nor ceilings nor delays act on it. Null: there
+    /// is none.
+    const OnsetMarks* marks() const noexcept { return marks_.get(); }
+
+    int count() const noexcept { return actuators_ + heard() + (marks_ ? 1 : 0); }
+
+    /// The largest that a sample of an actuator's channel has been allowed to be while the limiter is on. Any
+    /// thread.
+    float ceiling(int channel) const noexcept {
+        return ceilings_[static_cast<std::size_t>(channel)].load(std::memory_order_relaxed);
+    }
+
+private:
+    friend class Session;
+    friend class Scheduler;
+
+    explicit RenderedChannels(const SessionSetup& setup)
+        : actuators_{setup.channels}
+        , heard_{setup.contactSound
+                     ? std::make_unique<HeardContacts>(*setup.contactSound, setup.ears, setup.panner)
+                     : nullptr}
+        , marks_{setup.marks ? std::make_unique<OnsetMarks>(*setup.marks) : nullptr} {
+        std::ranges::copy(setup.ceilings, ceilings_.begin());
+    }
+
+    /// One thread at a time.
+    void raiseCeiling(int channel, float to) noexcept {
+        if (channel < 0 || channel >= actuators_) return;
+        auto& most = ceilings_[static_cast<std::size_t>(channel)];
+        most = std::max(most.load(), to);
+    }
+
+    /// The first sample, silence; the same at another rate, where the actuators' renderer is at `rendered`.
+    /// M, not while rendering.
+    void prepare(int sampleRateHz, std::int64_t firstFrame) {
+        if (heard_) heard_->prepare(sampleRateHz);
+        if (marks_) marks_->prepare(sampleRateHz, firstFrame);
+    }
+    void moveTo(int sampleRateHz, std::int64_t rendered, std::int64_t nextFrame) {
+        if (heard_) heard_->moveTo(sampleRateHz, rendered);
+        if (marks_) marks_->prepare(sampleRateHz, nextFrame);
+    }
+
+    /// What the actuators' renderer was given, and what it plays from which frame on. R, wait-free.
+    void tell(const CollisionEvent& event) noexcept {
+        if (heard_ && !isClip(event.frequencyHz)) heard_->tell(event);
+    }
+    void tell(const RenderControl& control) noexcept {
+        if (heard_) heard_->tell(control);
+    }
+    void struck(const CollisionEvent& event, std::int64_t frame) noexcept {
+        if (marks_) marks_->strike(event, frame);
+    }
+
+    /// Those behind the actuators', after them. R, wait-free.
+    void render(float* const* out, int frames) noexcept {
+        if (heard_) heard_->render(out + actuators_, frames);
+        if (marks_) marks_->render(out[count() - 1], frames);
+    }
+
+    std::uint64_t lost() const noexcept { return heard_ ? heard_->lost() : 0; }
+
+    const int actuators_;
+    const std::unique_ptr<HeardContacts> heard_;
+    const std::unique_ptr<OnsetMarks> marks_;
+    std::array<std::atomic<float>, limits::maxEnchanters> ceilings_;
+};
+
+} // namespace physvib

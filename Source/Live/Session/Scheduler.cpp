@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// What comes from outside while a session plays: inputs, controls, recordings, strikes, and the log of it
+// all.
+#include "Live/Session/Scheduler.h"
+#include "Core/ClipNumber.h"
+#include "Io/Disk/FileLimits.h"
+#include "Live/Documents/StripGroups.h"
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace physvib {
+
+Scheduler::Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world,
+                     RenderedChannels& channels, SinkSet& sinks)
+    : setup_{setup}
+    , isLogged_{setup.log != LogUse::none}
+    , time_{time}
+    , world_{world}
+    , channels_{channels}
+    , sinks_{sinks}
+    , played_{setup.recordings} {}
+
+void Scheduler::prepare() {
+    for (RenderControl undone; controls_.pop(undone);) {
+    }
+    check_.reset();
+    log_ = {};
+    panner_ = setup_.panner;
+    lastControlNs_ = 0;
+    stops_.clear();
+    nextStopNs_ = never;
+    followedSceneNs_ = -1;
+    followedGains_.fill(std::numeric_limits<float>::quiet_NaN());
+    if (!isLogged_) return;
+    if (!played_.empty()) log_.recordings.push_back({0, filesOf(played_)});
+    log_.clips = clips_;
+}
+
+Result<std::int64_t> Scheduler::take(Input input) {
+    const std::lock_guard lock{mutex_};
+    const bool mayWait =
+        std::holds_alternative<Strikes>(input.what) || std::holds_alternative<Stop>(input.what);
+    if (!mayWait && input.timeNs != Input::now)
+        return Failure{"expected strikes or a stop at a time of their own; anything else acts now"};
+    return std::visit([&](auto& what) { return take(what, input.timeNs); }, input.what);
+}
+
+Result<std::int64_t> Scheduler::take(Action& action, std::int64_t) {
+    for (;;) { // again if a new take began since the check
+        std::size_t number = 0;
+        const auto scene = world_.scene(number);
+        if (!check_ || checkedTake_ != number)
+            check_.emplace(*scene,
+                           setup_.log == LogUse::document ? sceneLimits::maxLiveInputs : InputCheck::endless);
+        checkedTake_ = number;
+        if (std::string fault = check_->take(action); !fault.empty()) return Failure{std::move(fault)};
+        if (world_.addInput(number, action)) return time_.nowNs();
+    }
+}
+
+Result<std::int64_t> Scheduler::take(RenderControl& control, std::int64_t) {
+    postDueStops(time_.nowNs());
+    control.timeNs = toldNs();
+    if (!post(control)) return Failure{"too many controls at once"};
+    return control.timeNs;
+}
+
+// At its own time, which is not before that of any other.
+bool Scheduler::post(RenderControl& control) {
+    control.timeNs = std::max(control.timeNs, lastControlNs_); // a stop ahead may have been told before
+    if (!controls_.push(control)) return false;
+    lastControlNs_ = control.timeNs;
+    sinks_.posted(control);
+    if (control.kind == RenderControl::Kind::ceiling) channels_.raiseCeiling(control.channel, control.value);
+    if (control.kind == RenderControl::Kind::panner) panner_ = control.panner;
+    if (control.kind == RenderControl::Kind::gain && control.channel >= 0 &&
+        control.channel < limits::maxEnchanters)
+        followedGains_[static_cast<std::size_t>(control.channel)] = std::numeric_limits<float>::quiet_NaN();
+    if (!isLogged_) return true;
+    if (control.kind == RenderControl::Kind::panner)
+        log_.panners.push_back({control.timeNs, control.panner});
+    else
+        log_.channels.push_back({control.timeNs, control.kind, control.channel, control.value});
+    return true;
+}
+
+Result<std::int64_t> Scheduler::take(PlayedRecordings& wanted, std::int64_t) {
+    RenderControl control;
+    control.timeNs = toldNs();
+    if (wanted.recordings == played_) return control.timeNs;
+    control.kind = RenderControl::Kind::recordings;
+    control.recordings = recordings_.at(time_.law().sampleRateHz, wanted.recordings);
+    if (!controls_.push(control)) return Failure{"too many controls at once"};
+    played_ = std::move(wanted.recordings);
+    if (isLogged_) log_.recordings.push_back({control.timeNs, filesOf(played_)});
+    return control.timeNs;
+}
+
+Result<std::int64_t> Scheduler::take(const Strikes& strikes, std::int64_t timeNs) {
+    const auto isFit = [&](const CollisionEvent& e) {
+        return isPlayable(e) && (strikes.canBeStopped || e.timeNs < limits::maxTimeNs / 2);
+    };
+    if (!std::ranges::all_of(strikes.events, isFit)) return Failure{"expected strikes that can be played"};
+    const std::int64_t start = timeNs == Input::now ? toldNs() : timeNs;
+    std::vector<CollisionEvent> events{strikes.events.begin(), strikes.events.end()};
+    for (CollisionEvent& event : events) event.timeNs += start;
+    if (strikes.canBeStopped) {
+        if (!world_.schedule(events))
+            return Failure{"too many strikes wait: at most " + std::to_string(WaitingStrikes::most)};
+        return start;
+    }
+    world_.strike(events);
+    if (isLogged_) std::ranges::move(events, std::back_inserter(log_.strikes));
+    return start;
+}
+
+Result<std::int64_t> Scheduler::take(const Stop&, std::int64_t timeNs) {
+    if (stops_.size() == mostStops) return Failure{"too many stops wait"};
+    const std::int64_t now = time_.nowNs();
+    timeNs = std::max(timeNs, toldNs());
+    world_.forgetScheduled(timeNs, now);
+    stops_.insert(std::ranges::upper_bound(stops_, timeNs), timeNs);
+    postDueStops(now);
+    return timeNs;
+}
+
+// Those whose time has come by then: a control of a later time must not be logged before them.
+void Scheduler::postDueStops(std::int64_t untilNs) {
+    RenderControl stop;
+    stop.kind = RenderControl::Kind::stopAll;
+    while (!stops_.empty() && stops_.front() <= untilNs) {
+        stop.timeNs = stops_.front();
+        if (!post(stop)) break; // the queue is full: with the next call
+        stops_.erase(stops_.begin());
+    }
+    nextStopNs_ = stops_.empty() ? never : stops_.front();
+}
+
+void Scheduler::takeDueStops() {
+    const std::int64_t now = time_.nowNs();
+    if (nextStopNs_ > now) return;
+    const std::lock_guard lock{mutex_};
+    postDueStops(now);
+}
+
+Result<std::int64_t> Scheduler::take(Lanes& lanes, std::int64_t) {
+    followed_ = std::move(lanes.mix);
+    follows_ = followed_ != nullptr;
+    followedSceneNs_ = -1;
+    return time_.nowNs();
+}
+
+// As a fader that is moved, at the time of the step: logged, so that what was felt is rendered again whatever
+// becomes of the lane.
+void Scheduler::followLanes() {
+    if (!follows_.load(std::memory_order_relaxed)) return;
+    const std::lock_guard lock{mutex_};
+    const std::int64_t sceneNs = world_.sceneNs(),
+                       steppedNs = world_.steppedNs_.load(std::memory_order_acquire);
+    const std::size_t take = world_.take();
+    if (!followed_ || (sceneNs == followedSceneNs_ && take == followedTake_))
+        return; // others may have it while the world stands still
+    postDueStops(steppedNs);
+    for (std::size_t j = 0; j < followed_->strips.size(); ++j) {
+        if (!hasLane(*followed_, j)) continue;
+        Strip now = followed_->strips[j];
+        now.gainDb = gainDbAt(*followed_, j, static_cast<double>(sceneNs) * 1e-9);
+        RenderControl control{std::max<std::int64_t>(0, steppedNs - time_.leadNs()),
+                              RenderControl::Kind::gain,
+                              static_cast<int>(j),
+                              channelGain(now),
+                              {}};
+        if (control.value == followedGains_[j]) continue;
+        if (!post(control)) return; // the queue is full: with the next call
+        followedGains_[j] = control.value;
+    }
+    followedSceneNs_ = sceneNs;
+    followedTake_ = take;
+}
+
+bool Scheduler::hasRoomFor(std::span<const ClipSound> channels) const {
+    const auto rates = recordings_.rates();
+    double samples = 0.0;
+    const auto add = [&](const ClipSound& sound) { samples += sound.samplesAt(rates); };
+    std::ranges::for_each(channels, add);
+    std::ranges::for_each(recordings_.clips(), add);
+    return samples <= limits::maxRecordingSamples && clips_.size() + channels.size() <= mostClips;
+}
+
+// Brought to a rate without the mutex: that takes long.
+std::optional<int> Scheduler::keepClip(std::span<const ContactRecording> channels) {
+    std::vector<ClipSound> sounds(channels.begin(), channels.end());
+    for (std::vector<int> rates;;) {
+        for (ClipSound& sound : sounds) std::ranges::for_each(rates, [&](int rate) { sound.at(rate); });
+        const std::lock_guard lock{mutex_};
+        const auto isFirst = [&](const ClipFile& kept) {
+            return kept.channel == 0 && kept.file.path == channels[0].file.path &&
+                   kept.file.hash == channels[0].file.hash;
+        };
+        const auto known = std::ranges::find_if(clips_, isFirst);
+        if (known != clips_.end()) return static_cast<int>(known - clips_.begin());
+        if (!hasRoomFor(sounds)) return std::nullopt;
+        rates = recordings_.rates();
+        if (!std::ranges::all_of(rates, [&](int rate) { return sounds.back().isAt(rate); })) continue;
+        for (ClipSound& sound : sounds) recordings_.add(std::move(sound));
+        return logClip(channels);
+    }
+}
+
+// The number of the first.
+int Scheduler::logClip(std::span<const ContactRecording> channels) {
+    const int first = static_cast<int>(clips_.size());
+    for (int j = 0; j < std::ssize(channels); ++j) {
+        ClipFile& file = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
+        file.file.frequencyHz = clipFrequencyHz(first + j);
+        if (isLogged_) log_.clips.push_back(file);
+    }
+    return first;
+}
+
+PhantomPanner Scheduler::panner() const {
+    const std::lock_guard lock{mutex_};
+    return panner_;
+}
+
+std::int64_t Scheduler::readLog(SessionLog& log) {
+    const std::lock_guard lock{mutex_};
+    const std::int64_t now = time_.nowNs();
+    if (!isLogged_) return now;
+    postDueStops(now);
+    const auto move = [](auto& from, auto& to) {
+        std::ranges::move(from, std::back_inserter(to));
+        from.clear();
+    };
+    move(log_.panners, log.panners);
+    move(log_.channels, log.channels);
+    move(log_.recordings, log.recordings);
+    move(log_.clips, log.clips);
+    move(log_.strikes, log.strikes);
+    return world_.moveLog(log);
+}
+
+} // namespace physvib

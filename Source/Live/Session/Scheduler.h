@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The one way of all inputs from outside: checked, given a time, logged, and handed to the world or to the
+// renderer.
+#pragma once
+#include "Core/EventQueue.h"
+#include "Io/Result.h"
+#include "Live/Documents/SessionLog.h"
+#include "Live/Session/Input.h"
+#include "Live/Session/RecordingSets.h"
+#include "Live/Session/RenderedChannels.h"
+#include "Live/Session/WorldRunner.h"
+#include "Scene/World/InputCheck.h"
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace physvib {
+
+/// Part of a session, which describes what these do. Its mutex is taken before the world's.
+class Scheduler {
+public:
+    /// All outlive it.
+    Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world, RenderedChannels& channels,
+              SinkSet& sinks);
+
+    Result<std::int64_t> take(Input input);
+    std::optional<int> keepClip(std::span<const ContactRecording> channels);
+    PhantomPanner panner() const;
+    std::int64_t readLog(SessionLog& log);
+
+    /// What lanes say of the world's time is told to the renderer. D.
+    void followLanes();
+
+    /// Stops whose time has come are told to the renderer. Any thread but R in a realtime block.
+    void takeDueStops();
+
+    /// The next control for the renderer; false: none. R, wait-free.
+    bool pop(RenderControl& control) noexcept { return controls_.pop(control); }
+
+private:
+    friend class Session;
+    static constexpr std::int64_t never = INT64_MAX;
+    static constexpr std::size_t mostStops = 256;
+
+    // The mutex is held.
+    void prepare();
+    RecordedContacts contactsAt(int sampleRateHz) { return recordings_.at(sampleRateHz, played_); }
+    Result<std::int64_t> take(Action& action, std::int64_t timeNs);
+    Result<std::int64_t> take(RenderControl& control, std::int64_t timeNs);
+    Result<std::int64_t> take(PlayedRecordings& recordings, std::int64_t timeNs);
+    Result<std::int64_t> take(const Strikes& strikes, std::int64_t timeNs);
+    Result<std::int64_t> take(const Stop&, std::int64_t timeNs);
+    Result<std::int64_t> take(Lanes& lanes, std::int64_t timeNs);
+    std::int64_t toldNs() const noexcept { return std::max<std::int64_t>(0, time_.nowNs() - time_.leadNs()); }
+    bool post(RenderControl& control);
+    void postDueStops(std::int64_t untilNs);
+    bool hasRoomFor(std::span<const ClipSound> channels) const;
+    int logClip(std::span<const ContactRecording> channels);
+
+    const SessionSetup& setup_;
+    const bool isLogged_;
+    const Timeline& time_;
+    WorldRunner& world_;
+    RenderedChannels& channels_;
+    SinkSet& sinks_;
+    EventQueue<RenderControl, 256> controls_;
+    std::atomic<std::int64_t> nextStopNs_{never}; // the first of stops_; to be read without the mutex
+    std::atomic<bool> follows_{false};            // there is a mix; the same
+
+    mutable std::mutex mutex_; // guards what follows, and the producer's side of controls_
+    std::optional<InputCheck> check_;
+    std::size_t checkedTake_ = 0;
+    RecordingSets recordings_;
+    std::vector<ContactRecording> played_; // of these
+    std::vector<ClipFile> clips_;          // as they are in recordings_
+    SessionLog log_;                       // without takes, of what has not been read
+    PhantomPanner panner_;
+    std::int64_t lastControlNs_ = 0;
+    std::vector<std::int64_t> stops_; // ahead, in time order
+    std::shared_ptr<const Mix> followed_;
+    std::array<float, limits::maxEnchanters> followedGains_{}; // as told last; not a number: by somebody else
+    std::int64_t followedSceneNs_ = -1;                        // up to there
+    std::size_t followedTake_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Beginning and going on, and rendering L behind.
+#include "Live/Session/Session.h"
+#include <algorithm>
+#include <array>
+
+namespace physvib {
+
+// Realtime: what has been queued. Non-realtime, the world is ours and is stepped until `endNs`.
+struct Session::Source {
+    Session& session;
+    RenderMode mode;
+    FrameClock clock;
+    std::int64_t nextFrame, endNs; // of the renderer; of the block
+    bool pop(CollisionEvent& event) noexcept {
+        if (!session.callback_.popStrike(event) && !popOfWorld(event)) return false;
+        session.channels_.tell(event);
+        return true;
+    }
+    bool popOfWorld(CollisionEvent& event) noexcept {
+        if (mode == RenderMode::offline) return session.world_.popOrStep(event, endNs);
+        if (!session.world_.pop(event)) return false;
+        session.leastMarginFrames_ =
+            std::min(session.leastMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
+        return true;
+    }
+    bool pop(RenderControl& control) noexcept {
+        if (!session.callback_.popControl(control) && !session.scheduler_.pop(control)) return false;
+        session.channels_.tell(control);
+        return true;
+    }
+    void struck(const CollisionEvent& event, std::int64_t frame) noexcept {
+        session.channels_.struck(event, frame);
+    }
+    const float* const* added(std::int64_t frame, int frames) noexcept {
+        return session.callback_.added_ ? session.callback_.added_->at(frame, frames) : nullptr;
+    }
+};
+
+Session::Session(const SessionSetup& setup)
+    : setup_{setup}
+    , renderer_{std::make_unique<HapticRenderer>()}
+    , channels_{setup_}
+    , callback_{time_, setup_}
+    , world_{setup_, time_, callback_, sinks_}
+    , scheduler_{setup_, time_, world_, channels_, sinks_} {}
+
+void Session::prepare(int sampleRateHz, int maxBlockFrames) {
+    const std::scoped_lock lock{scheduler_.mutex_, world_.mutex_};
+    renderer_->prepare({.sampleRateHz = sampleRateHz,
+                        .channels = setup_.channels,
+                        .panner = setup_.panner,
+                        .limiterEnabled = setup_.limiterEnabled,
+                        .ceilings = setup_.ceilings,
+                        .modes = setup_.modes,
+                        .equalised = setup_.equalised});
+    renderer_->setContacts(scheduler_.contactsAt(sampleRateHz));
+    channels_.prepare(sampleRateHz, -renderer_->latencyFrames());
+    const ClockLaw law = lawAt(sampleRateHz, maxBlockFrames);
+    // the renderer begins with the first block where something may be felt in it
+    setTime(law, setup_.direct == Direct::born ? law.playOutFrames() - law.limiterFrames : 0);
+    world_.prepare();
+    callback_.forget();
+    scheduler_.prepare();
+    leastMarginFrames_ = noMargin;
+}
+
+ClockLaw Session::lawAt(int sampleRateHz, int maxBlockFrames) const {
+    return {sampleRateHz,
+            maxBlockFrames,
+            setup_.stepsPerSecond,
+            setup_.longestGapSeconds,
+            HapticRenderer::latencyFramesAt(sampleRateHz),
+            sinks_.latencySeconds()};
+}
+
+void Session::resume(int sampleRateHz, int maxBlockFrames) {
+    const std::scoped_lock lock{scheduler_.mutex_, world_.mutex_};
+    const FrameClock clock{sampleRateHz};
+    world_.resume(clock);
+    setTime(lawAt(sampleRateHz, maxBlockFrames), clock.at(time_.nowNs()).frame);
+    const auto rendered =
+        std::max<std::int64_t>(0, time_.framesRendered() - time_.playOutFrames() + time_.law().limiterFrames);
+    renderer_->moveTo(sampleRateHz, rendered);
+    channels_.moveTo(sampleRateHz, rendered, rendered - renderer_->latencyFrames());
+    renderer_->setContacts(scheduler_.contactsAt(sampleRateHz)); // recordings that sound stop
+}
+
+int Session::advance(const StepWatch& goesOn) {
+    scheduler_.takeDueStops();
+    const int steps = world_.advance(goesOn);
+    scheduler_.followLanes();
+    return steps;
+}
+
+// The world first: whoever steps it must not take what is added for a stall.
+void Session::startLater(std::int64_t frames) noexcept {
+    if (frames <= 0) return;
+    time_.lengthen(frames);
+    if (setup_.direct != Direct::born) return;
+    world_.restart(frames);
+    time_.setFrames(time_.framesRendered() + frames);
+}
+
+void Session::wait(int frames) noexcept {
+    world_.beginBlock(RenderMode::realtime);
+    time_.waitFrames(frames);
+}
+
+void Session::wait(float* const* unfelt, int frames) noexcept {
+    const std::int64_t start = time_.playOutFrames() - renderer_->latencyFrames(),
+                       next = time_.framesRendered() - start;
+    if (next >= 0) { // else it has not begun
+        Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, next, time_.nowNs()};
+        renderer_->render(source, unfelt, frames);
+        channels_.render(unfelt, frames);
+    }
+    time_.lengthen(-frames);
+}
+
+// The renderer's own output lags by the limiter's frames, which are part of L: it starts that much earlier.
+void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
+    const bool begins = world_.beginBlock(mode);
+    const std::int64_t done = begins ? time_.tellFrames(frames) : 0,
+                       start = time_.playOutFrames() - renderer_->latencyFrames();
+    const int silent = begins ? static_cast<int>(std::clamp<std::int64_t>(start - done, 0, frames)) : frames;
+    std::array<float*, limits::maxEnchanters + 3> rest{};
+    for (int j = 0; j < channels_.count(); ++j) {
+        std::fill_n(out[j], silent, 0.0f);
+        rest[static_cast<std::size_t>(j)] = out[j] + silent;
+    }
+    if (!begins) return;
+    const int left = frames - silent;
+    const std::int64_t endNs = time_.sessionNs(done + frames);
+    Source source{*this, mode, FrameClock{time_.law().sampleRateHz}, done + silent - start, endNs};
+    const auto renderRest = [&] {
+        if (left > 0) renderer_->render(source, rest.data(), left);
+    };
+    if (mode == RenderMode::offline) {
+        scheduler_.takeDueStops();
+        world_.runOffline(endNs, renderRest);
+    } else {
+        renderRest();
+    }
+    if (left > 0) channels_.render(rest.data(), left);
+    status_.write({renderer_->status(), endNs, leastMarginFrames_, callback_.refused() + channels_.lost()});
+}
+
+} // namespace physvib

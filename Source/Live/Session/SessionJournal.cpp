@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Two files that grow, and what becomes of the first.
+#include "Live/Session/SessionJournal.h"
+#include "Io/Disk/ReadFile.h"
+#include "Scene/SceneFileLimits.h"
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace physvib {
+
+namespace {
+
+constexpr std::chrono::milliseconds period{500}; // half of what a kill may cost
+
+SavedSession headOf(const SessionSetup& setup) {
+    return {setup.run(), setup.panner, setup.channels,  setup.limiterEnabled, setup.ceilings, 0,
+            {},          {},           setup.equalised, setup.shaping};
+}
+
+} // namespace
+
+SessionJournal::SessionJournal(std::filesystem::path path, Session& session, const SessionSetup& setup,
+                               const Provenance& provenance)
+    : path_{std::move(path)}
+    , eventsPath_{std::filesystem::path{path_}.replace_extension(".events.csv")}
+    , session_{session}
+    , hasKinds_{isAnyRough(setup.scene.materials)}
+    , lines_{headOf(setup), std::filesystem::absolute(path_).parent_path()} {
+    begin(fieldOf(setup.panner), provenance);
+    if (!error_.empty()) return;
+    write({});
+    thread_ = std::thread{[this] { run(); }};
+    session_.sinks().attach(*this);
+}
+
+SessionJournal::~SessionJournal() {
+    session_.sinks().detach(*this);
+    if (thread_.joinable()) end(session_.status().sessionNs);
+}
+
+// Either can be made before the other is touched.
+void SessionJournal::begin(FieldSize field, const Provenance& provenance) {
+    AtomicFile session{path_}, events{eventsPath_};
+    session.write(lines_.head());
+    events.write(eventsCsvHead(provenance, field, hasKinds_));
+    for (AtomicFile* file : {&session, &events})
+        if (error_.empty()) error_ = file->error();
+    for (AtomicFile* file : {&events, &session})
+        if (error_.empty()) error_ = file->commit();
+    if (!error_.empty()) return;
+    file_.open(path_);
+    events_.open(eventsPath_);
+    whole_.emplace(path_);
+    for (const std::string& error : {file_.error(), events_.error(), whole_->error()})
+        if (error_.empty()) error_ = error;
+}
+
+void SessionJournal::played(const PlayedEvent& played, int) {
+    const std::lock_guard lock{mutex_};
+    played_.push_back(played.event);
+}
+
+std::string SessionJournal::news() const {
+    const std::lock_guard lock{mutex_};
+    return news_;
+}
+
+void SessionJournal::run() {
+    std::unique_lock lock{mutex_};
+    while (!ends_.wait_for(lock, period, [this] { return isEnding_; })) {
+        lock.unlock();
+        write({});
+        lock.lock();
+    }
+}
+
+void SessionJournal::write(std::optional<std::int64_t> endNs) {
+    std::vector<CollisionEvent> played;
+    {
+        const std::lock_guard lock{mutex_};
+        played.swap(played_);
+    }
+    const std::int64_t toldNs = session_.readLog(log_);
+    file_.append(lines_.take(log_, endNs.value_or(toldNs)));
+    std::string rows;
+    for (CollisionEvent event : played) {
+        if (rows_++ >= limits::maxEventRows) break;
+        // a late one was played after others, and must not come before them
+        event.timeNs = lastNs_ = std::max(lastNs_, event.timeNs);
+        appendEventRow(rows, event, hasKinds_);
+    }
+    events_.append(rows);
+    tell();
+}
+
+void SessionJournal::tell() {
+    std::string news;
+    for (const GrowingFile* file : {&file_, &events_})
+        if (news.empty()) news = file->error();
+    const bool isHeldUp = !news.empty();
+    if (news.empty() && wasHeldUp_) news = path_.string() + ": can be written again, and nothing is missing";
+    wasHeldUp_ = isHeldUp;
+    if (news.empty() && !lines_.full().empty())
+        news = path_.string() + ": is full (" + lines_.full() + "): the session is kept up to " +
+               std::to_string(lines_.toldNs() / 1'000'000'000) + " s, and plays on";
+    if (news.empty() && rows_ > limits::maxEventRows)
+        news = eventsPath_.string() + ": is full (" + std::to_string(limits::maxEventRows) +
+               " rows), and the session plays on";
+    if (news.empty()) return;
+    const std::lock_guard lock{mutex_};
+    news_ = std::move(news);
+}
+
+void SessionJournal::end(std::int64_t sessionNs) {
+    if (!thread_.joinable()) return;
+    {
+        const std::lock_guard lock{mutex_};
+        isEnding_ = true;
+    }
+    ends_.notify_one();
+    thread_.join();
+    write(sessionNs);
+}
+
+std::string SessionJournal::finish(std::size_t mostBytes) {
+    events_.sync();
+    file_.sync();
+    std::error_code none;
+    if (std::filesystem::file_size(path_, none) > mostBytes) return fault();
+    const auto text = readFile(path_, limits::maxSessionFileBytes);
+    if (!text) return text.error;
+    const auto session = readSession(text.value, path_.string());
+    if (!session) return session.error;
+    whole_->write(sessionJson(session.value));
+    if (const std::string& error = whole_->commit(); !error.empty())
+        return error + "; the session is there as it was kept while it played, and renders";
+    return fault();
+}
+
+} // namespace physvib

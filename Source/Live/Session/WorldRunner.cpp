@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// Stepping and handing over; a state waits for whoever steps the world.
+#include "Live/Session/WorldRunner.h"
+#include "Scene/SceneValidation.h"
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <thread>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr int posesTries = 8; // a millisecond apart: most steps are shorter, and a picture may wait so long
+
+} // namespace
+
+WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, CallbackInputs& callback,
+                         SinkSet& sinks)
+    : setup_{setup}
+    , time_{time}
+    , callback_{callback}
+    , sinks_{sinks}
+    , world_{setup.run(), setup.shaping, setup.log != LogUse::none}
+    , state_{std::make_shared<const Scene>(setup.scene), setup.seed} {
+    made_.reserve(1024); // of a step; more are rare
+    world_.start(0, state_.scene, state_.seed);
+    showPoses();
+}
+
+std::string WorldRunner::setState(SessionState state) {
+    if (std::string fault = validate(*state.scene); !fault.empty()) return fault;
+    const std::lock_guard lock{stateMutex_};
+    if (state == state_) return {};
+    state_ = std::move(state);
+    isNew_ = true;
+    return {};
+}
+
+SessionState WorldRunner::state() const {
+    const std::lock_guard lock{stateMutex_};
+    return state_;
+}
+
+void WorldRunner::prepare() {
+    restartFrame_ = -1;
+    takeUp();
+    world_.forget(time_.nowNs());
+    made_.clear();
+    handed_ = 0;
+    waiting_ = {};
+    begun_.clear();
+    for (CollisionEvent unplayed; queue_.pop(unplayed);) {
+    }
+    steppedNs_ = time_.nowNs();
+    tellScene();
+    slippedNs_ = 0;
+    slowness_ = 1;
+    stepsWanted_ = 0;
+    offline_ = false;
+    isDriven_ = false;
+    drops_ = world_.drops();
+    showPoses();
+}
+
+void WorldRunner::resume(const FrameClock& clock) {
+    catchUp(); // what the old L allowed for, the new one may not
+    if (restartFrame_ >= 0) restartFrame_ = clock.at(time_.sessionNs(restartFrame_)).frame;
+}
+
+int WorldRunner::advance(const StepWatch& goesOn) {
+    const std::lock_guard lock{mutex_};
+    if (offline_.load(std::memory_order_acquire)) return 0;
+    isDriven_.store(true, std::memory_order_release);
+    takeUp();
+    const int steps = catchUp(goesOn);
+    if (isShown_.load(std::memory_order_relaxed)) showPoses();
+    return steps;
+}
+
+int WorldRunner::catchUp(const StepWatch& goesOn) {
+    const std::int64_t now = time_.nowNs();
+    if (const std::int64_t lag = now - world_.timeNs(); lag > time_.longestLagNs()) {
+        slippedNs_ += lag - time_.law().safeLagNs();
+        world_.standStill(lag - time_.law().safeLagNs());
+    }
+    takeDue(now);
+    callback_.handTo(world_); // what R did until `now` is in the queue: it came before the frames were told
+    int steps = 0;
+    for (; world_.timeNs() < now && (steps == 0 || !goesOn || goesOn(world_.timeNs())); ++steps) {
+        moveWorld(now);
+        handOver(); // the next block may begin before the last step
+    }
+    handOver();
+    return steps;
+}
+
+// One step; or none, where the world stands still. It is before `untilNs`.
+void WorldRunner::moveWorld(std::int64_t untilNs) {
+    const int slowness = this->slowness();
+    const bool isStill = slowness == 0 && stepsWanted_.load(std::memory_order_relaxed) == 0;
+    if (isStill) return world_.standStill(untilNs - world_.timeNs());
+    if (slowness == 0) stepsWanted_.fetch_sub(1, std::memory_order_relaxed);
+    const std::int64_t before = world_.timeNs();
+    world_.step(made_);
+    drops_.store(world_.drops(), std::memory_order_relaxed);
+    if (slowness > 1) world_.standStill((slowness - 1) * (world_.timeNs() - before));
+}
+
+// Starts a new take if one is wanted, which it is until that returns.
+void WorldRunner::takeUp() {
+    const std::int64_t frame = restartFrame_.exchange(-1, std::memory_order_acquire);
+    const std::lock_guard lock{stateMutex_};
+    if (frame < 0 && !isNew_) return;
+    world_.start(frame < 0 ? time_.nowNs() : time_.sessionNs(frame), state_.scene, state_.seed);
+    isNew_ = false;
+    tellScene();
+    showPoses();
+}
+
+// Queues what has been made; true if nothing is left.
+bool WorldRunner::handOver() {
+    for (; handed_ < made_.size() && queue_.push(made_[handed_]); ++handed_) sinks_.made(made_[handed_]);
+    if (handed_ < made_.size()) return false;
+    made_.clear();
+    handed_ = 0;
+    tellScene();
+    steppedNs_.store(world_.timeNs(), std::memory_order_release);
+    return true;
+}
+
+void WorldRunner::tellScene() noexcept {
+    sceneNs_.store(world_.sceneNs(), std::memory_order_relaxed);
+    take_.store(world_.takeCount(), std::memory_order_relaxed);
+}
+
+void WorldRunner::takeDue(std::int64_t untilNs) {
+    std::vector<CollisionEvent> due;
+    waiting_.take(untilNs, due);
+    std::ranges::transform(due, std::back_inserter(made_), setup_.shaping);
+    if (setup_.log != LogUse::none) std::ranges::move(due, std::back_inserter(begun_));
+}
+
+bool WorldRunner::beginBlock(RenderMode mode) noexcept {
+    if (mode == RenderMode::realtime)
+        offline_.store(false, std::memory_order_release);
+    else
+        isDriven_.store(true, std::memory_order_release);
+    return isDriven_.load(std::memory_order_acquire);
+}
+
+void WorldRunner::beginOffline(std::int64_t endNs) {
+    offline_.store(true, std::memory_order_release);
+    takeUp();
+    takeDue(endNs);
+    callback_.handTo(world_);
+}
+
+// Whenever the queue runs dry.
+bool WorldRunner::popOrStep(CollisionEvent& event, std::int64_t endNs) {
+    while (!queue_.pop(event)) {
+        const bool hasMore = !handOver() || world_.timeNs() < endNs;
+        if (!hasMore) return queue_.pop(event);
+        if (world_.timeNs() < endNs) moveWorld(endNs);
+    }
+    return true;
+}
+
+// Whoever asks has seen the new take begin: what he does acts in it, and is not lost with the old one.
+std::shared_ptr<const Scene> WorldRunner::scene(std::size_t& take) {
+    const std::lock_guard lock{mutex_};
+    const std::int64_t restart = restartFrame_.load(std::memory_order_acquire);
+    if (restart < 0 || time_.sessionNs(restart) <= time_.nowNs()) takeUp();
+    take = world_.takeCount();
+    return world_.take().scene;
+}
+
+bool WorldRunner::addInput(std::size_t take, Action& action) {
+    const std::lock_guard lock{mutex_};
+    if (take != world_.takeCount()) return false;
+    world_.addInput(time_.nowNs(), std::move(action));
+    return true;
+}
+
+void WorldRunner::strike(std::span<const CollisionEvent> events) {
+    const std::lock_guard lock{mutex_};
+    std::ranges::transform(events, std::back_inserter(made_), setup_.shaping);
+    handOver();
+}
+
+bool WorldRunner::schedule(std::span<const CollisionEvent> events) {
+    const std::lock_guard lock{mutex_};
+    if (!waiting_.add(events)) return false;
+    takeDue(time_.nowNs());
+    handOver();
+    return true;
+}
+
+void WorldRunner::forgetScheduled(std::int64_t fromNs, std::int64_t nowNs) {
+    const std::lock_guard lock{mutex_};
+    takeDue(nowNs);
+    handOver();
+    waiting_.forget(fromNs);
+}
+
+std::int64_t WorldRunner::moveLog(SessionLog& log) {
+    const std::lock_guard lock{mutex_};
+    std::ranges::move(begun_, std::back_inserter(log.strikes));
+    begun_.clear();
+    world_.moveLog(log.takes);
+    return std::min(time_.nowNs(), world_.timeNs());
+}
+
+SessionSize WorldRunner::size() const {
+    const std::lock_guard lock{mutex_};
+    SessionSize size = world_.size();
+    size.strikes = waiting_.size();
+    return size;
+}
+
+void WorldRunner::showPoses() const {
+    const std::lock_guard lock{shownMutex_};
+    world_.readPoses(shown_);
+    shownNs_ = world_.timeNs();
+}
+
+// Who draws a world that is too much has the poses of its last whole step, and is not kept waiting.
+std::int64_t WorldRunner::readPoses(std::vector<BodyPose>& poses) const {
+    std::unique_lock lock{mutex_, std::try_to_lock};
+    for (int k = 0; !lock && k < posesTries && !isShown_.load(std::memory_order_relaxed); ++k) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        (void)lock.try_lock();
+    }
+    isShown_.store(!lock, std::memory_order_relaxed);
+    if (lock) {
+        world_.readPoses(poses);
+        return world_.timeNs();
+    }
+    const std::lock_guard shown{shownMutex_};
+    poses = shown_;
+    return shownNs_;
+}
+
+} // namespace physvib

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is wrong with a render before any file is read.
+#include "Calls/RenderJob.h"
+#include "Io/Disk/NameEnding.h"
+#include <algorithm>
+#include <concepts>
+
+namespace physvib {
+
+static_assert(std::equality_comparable<RenderJob>);
+
+std::string RenderJob::methodName() const {
+    const auto name = nameOf(method);
+    return playsRecordings ? "SV" : std::string{name.begin(), name.end()};
+}
+
+namespace {
+
+/// What is wrong with the movie's file or its length.
+std::string movieFault(const RenderJob& o) {
+    constexpr double longestMovieSeconds = 600.0; // its pictures wait in memory, or beside it on the disk
+    if (auto fault = endingFault(o.moviePath, {".webp", ".gif", ".mp4"}); !fault.empty())
+        return "--movie: " + fault;
+    return o.seconds <= longestMovieSeconds ? std::string{} : "--movie: expected --seconds of at most 600";
+}
+
+} // namespace
+
+std::string sceneFault(const RenderJob& o) {
+    if (o.playsRecordings && o.sounds.empty()) return "--method SV: expected a --sound for each material";
+    if (!o.playsRecordings && !o.sounds.empty() && o.contactSound.empty())
+        return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
+    if (o.playsRecordings && o.isRemapped) return std::string{recordingsHaveNoFrequency};
+    if (o.playsRecordings && o.isWeighted) return std::string{recordingsHaveNoWeight};
+    if (!o.sounds.empty() && (o.isRemapped || o.method.fixesFrequency))
+        return "--sound: expected hits at their material's own frequency, found " +
+               (o.isRemapped ? "--remap" : "--method " + o.methodName());
+    if (o.isRemapped && o.actuator == "none")
+        return "--remap: expected an --actuator, whose band is to be used";
+    return {};
+}
+
+std::string renderInputFault(const RenderJob& o) {
+    if (o.scene.empty() == o.fromEvents.empty())
+        return "render: give either a scene or --from-events EVENTS.csv";
+    if (!o.settings.empty() && o.scene.empty()) return "--set: only a scene has variables";
+    if (o.interfaceVolts > 0.0 && o.actuator == "none")
+        return "--interface-volts: expected an --actuator, whose drive limit is to be met";
+    if (!o.moviePath.empty())
+        if (const std::string fault = movieFault(o); !fault.empty()) return fault;
+    if (!o.coupling.empty() && o.playsRecordings)
+        return "--coupling: expected a --method of modes; a recording has no one frequency";
+    return sceneFault(o);
+}
+
+std::string renderFault(const RenderJob& o) {
+    const std::string fault = renderInputFault(o);
+    if (!o.pad.empty() && o.wavPath.empty()) return "--pad: expected --out MOTORS.csv";
+    if (fault.empty() && o.explains && o.scene.empty())
+        return "--explain: expected a scene, whose contacts are counted";
+    if (!fault.empty() || o.explains || !std::ranges::all_of(o.writtenPaths(), &std::string::empty))
+        return fault;
+    return "render: nothing to write; give --out, --events, --picture, --movie, --pattern, --contact-sound "
+           "or --marker";
+}
+
+} // namespace physvib

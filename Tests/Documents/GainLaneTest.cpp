@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Lanes are lines between points, bounded as faders are; groups act on their strips, and nothing that a file
+// brings is louder.
+#include "Live/Documents/DeskLimits.h"
+#include "Live/Documents/StripGroups.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace physvib {
+namespace {
+
+Mix four() {
+    Mix mix;
+    mix.layout = presetLayout("phone4");
+    mix.resizeStrips();
+    return mix;
+}
+
+TEST(GainLane, IsALineBetweenItsPointsAndHoldsAtItsEnds) {
+    const GainLane lane{{1.0, 0.0}, {3.0, -20.0}, {4.0, -60.0}};
+    EXPECT_EQ(laneDbAt(lane, 0.0), 0.0);
+    EXPECT_EQ(laneDbAt(lane, 2.0), -10.0);
+    EXPECT_EQ(laneDbAt(lane, 2.001), -10.0) << "in steps of a fader";
+    EXPECT_EQ(laneDbAt(lane, 9.0), -60.0);
+    EXPECT_EQ(laneDbAt({{1.0, -12.0}, {3.0, 0.0}}, 0.0), -12.0) << "before its first point, too";
+    EXPECT_EQ(laneDbAt({}, 9.0), 0.0);
+    EXPECT_EQ(sumDb({-60.0, 6.0}), leastStripDb) << "silence stays silence";
+    EXPECT_EQ(sumDb({5.0, 5.0}), mostStripDb);
+}
+
+TEST(GainLane, SparesPointsThatNobodyFeels) {
+    GainLane drawn;
+    for (int i = 0; i <= 3000; ++i) drawn.push_back({0.01 * i, -10.0 + 10.0 * std::sin(0.002 * i)});
+    const GainLane kept = thinned(drawn);
+    EXPECT_LT(kept.size(), 60u);
+    for (const GainPoint& point : drawn) EXPECT_NEAR(laneDbAt(kept, point.seconds), point.db, 0.31);
+    std::mt19937 random{1};
+    GainLane noise;
+    for (int i = 0; i < 9000; ++i) noise.push_back({0.01 * i, -static_cast<double>(random() % 60)});
+    EXPECT_LE(thinned(noise).size(), mostGainPoints);
+    EXPECT_EQ(thinned({{1.0, -3.0}, {2.0, -3.0}}).size(), 1u);
+}
+
+TEST(StripGroups, AFaderAndAMuteActOnTheirStripsAlone) {
+    Mix mix = four();
+    mix.strips[1].group = mix.strips[2].group = addGroup(mix, "Left hand");
+    mix.groups[0].gainDb = -6.0;
+    mix.strips[2].gainDb = -3.0;
+    EXPECT_EQ(feltStrips(mix)[0].gainDb, 0.0);
+    EXPECT_EQ(feltStrips(mix)[1].gainDb, -6.0);
+    EXPECT_EQ(feltStrips(mix)[2].gainDb, -9.0);
+    mix.groups[0].isMuted = true;
+    EXPECT_FALSE(mix.isSilent(0));
+    EXPECT_TRUE(mix.isSilent(1));
+    EXPECT_TRUE(isSilent(feltStrips(mix), 2));
+    mix.groups[0].isMuted = false;
+    mix.groups[0].lane = {{0.0, 0.0}, {1.0, -10.0}};
+    mix.strips[2].lane = {{0.0, -1.0}};
+    EXPECT_EQ(gainDbAt(mix, 2, 1.0), -20.0);
+    EXPECT_EQ(gainDbAt(mix, 0, 1.0), 0.0);
+    EXPECT_TRUE(hasLane(mix, 1));
+    EXPECT_FALSE(hasLane(mix, 0));
+}
+
+TEST(StripGroups, WhoLeavesAGroupIsFeltAsBefore) {
+    Mix mix = four();
+    const int other = addGroup(mix, freeGroupName(mix)), group = addGroup(mix, freeGroupName(mix));
+    EXPECT_EQ(mix.groups[0].name, "Left hand");
+    EXPECT_EQ(mix.groups[1].name, "Right hand");
+    mix.strips[0].group = other;
+    mix.strips[3].group = group;
+    mix.strips[3].lane = {{0.0, -2.0}, {2.0, -4.0}};
+    mix.groups[1] = {"Right hand", -6.0, true, {{1.0, 0.0}, {3.0, -8.0}}};
+    const Mix before = mix;
+    removeGroup(mix, 1);
+    EXPECT_EQ(mix.strips[3].group, -1);
+    EXPECT_EQ(mix.strips[0].group, 0);
+    EXPECT_TRUE(mix.strips[3].isMuted);
+    for (double t = 0.0; t < 4.0; t += 0.1)
+        EXPECT_NEAR(gainDbAt(mix, 3, t), gainDbAt(before, 3, t), 0.35) << t;
+    const int last = addGroup(mix, "Back");
+    mix.strips[2].group = last;
+    removeGroup(mix, 0);
+    EXPECT_EQ(mix.strips[0].group, -1);
+    EXPECT_EQ(mix.strips[2].group, 0) << "those behind it move up";
+}
+
+TEST(StripGroups, NothingThatAGroupOrALaneAddsIsLouderThanTheDesk) {
+    Mix own = four(), asked = four();
+    own.strips[0].gainDb = own.strips[1].gainDb = -10.0;
+    asked.strips[0].group = addGroup(asked, "loud");
+    asked.groups[0].gainDb = 6.0;
+    asked.strips[0].gainDb = 6.0;
+    asked.strips[1].lane = {{0.0, -40.0}, {9.0, 5.0}};
+    asked.strips[2].lane = {{0.0, -40.0}};
+    EXPECT_EQ(lowerTo(DeskLimits::of(own), asked), "A gain 6.0 to -16.0 dB; B gain 0.0 to -15.0 dB");
+    EXPECT_EQ(loudestDb(asked, 0), -10.0);
+    EXPECT_EQ(loudestDb(asked, 1), -10.0);
+    Mix again = asked;
+    EXPECT_EQ(lowerTo(DeskLimits::of(asked), again), "") << "a desk allows what it plays";
+    EXPECT_EQ(DeskLimits::of(asked).strips[2].gainDb, -40.0);
+    Mix lane = four();
+    lane.strips[3].group = addGroup(lane, "lane");
+    lane.groups[0].lane = {{0.0, -40.0}, {9.0, 5.0}};
+    EXPECT_EQ(loudestDb(lane, 3), 5.0) << "a group's lane counts as a strip's";
+    EXPECT_EQ(lowerTo(DeskLimits::of(four()), lane), "D gain 0.0 to -5.0 dB");
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Lines of what hands do: the fields of a scene's script, without a time.
+#include "Live/Documents/InputLine.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+const std::vector<Material> materials{{"wood", 850.0, 0.4, 0.6, 349.0, 107.0}};
+
+Action read(const std::string& line) {
+    const auto input = readInputLine(line, materials, 4);
+    EXPECT_TRUE(input) << input.error;
+    return input && std::holds_alternative<Action>(input.value) ? std::get<Action>(input.value) : Action{};
+}
+std::string faultOf(const std::string& line) { return readInputLine(line, materials, 4).error; }
+
+TEST(InputLine, AHandHoldsABodyAndLetsItGo) {
+    EXPECT_EQ(
+        read(R"({"input": "grip", "body": "pen", "to_m": [2, 1.5], "point_m": [0, 0.1], "over_s": 0.02})"),
+        (Action{GripAction{"pen", Vector{2.0, 1.5}, Vector{0.0, 0.1}, 0.02}}));
+    EXPECT_EQ(read(R"({"input": "grip", "body": "pen"})"), (Action{GripAction{"pen", {}, {}}}));
+    EXPECT_EQ(faultOf(R"({"input": "grip", "to_m": [2, 1]})"), "field \"body\" is missing");
+    EXPECT_EQ(faultOf(R"({"input": "grip", "body": "pen", "to_m": [2]})"),
+              "to_m: expected 2 numbers, found 1 items");
+}
+
+TEST(InputLine, ASurfaceBecomesRough) {
+    EXPECT_EQ(
+        read(R"({"input": "texture", "material": "wood", "grain_m": 0.008, "grain_pattern": "regular"})"),
+        (Action{TextureAction{0, 0.008, 1.0, GrainPattern::regular}}));
+    EXPECT_EQ(read(R"({"input": "texture", "material": "wood"})"), (Action{TextureAction{0}})) << "smooth";
+    EXPECT_NE(faultOf(R"({"input": "texture", "material": "glass"})"), "");
+}
+
+TEST(InputLine, ItsNumberIsReadFromAnyLineWhereItStands) {
+    const auto idOf = [](const std::string& line) { return readInputLine(line, materials, 4).id; };
+    for (const char* taken :
+         {R"({"message": "status", "id": 7})", R"({"id": 7, "input": "tilt", "angle_rad": 0.1})",
+          R"({"control": "silence", "on": true, "id":7})",
+          R"({"control": "gain", "channel": 1, "value": 1, "id": 7.0})"}) {
+        EXPECT_EQ(faultOf(taken), "") << taken;
+        EXPECT_EQ(idOf(taken), 7.0) << taken;
+    }
+    for (const char* refused :
+         {R"({"control": "gain", "channel": 9, "value": 1, "id": 7})", R"({"message": "strike", "id": 7)",
+          R"("id" :	7, and more)", R"({"id": 7, "id": 8})", R"({"message": "status", "id": 7}})",
+          R"({"nothing": 1, "id": 7})"}) {
+        EXPECT_NE(faultOf(refused), "") << refused;
+        EXPECT_EQ(idOf(refused), 7.0) << refused;
+    }
+    for (const char* none :
+         {R"({"message": "status"})", R"({"message": "status", "id": 1.5})",
+          R"({"message": "status", "id": "7"})", R"({"message": "status", "id": null})",
+          R"({"message": "status", "id": 1e300})", R"({"message": "status", "id)", R"({"id")", R"("id": )",
+          R"({"input": "spawn", "body": {"id": 7}})", R"({"message": "clip", "file": "\"id\": 7"})", ""})
+        EXPECT_FALSE(idOf(none)) << none;
+    EXPECT_EQ(faultOf(R"({"message": "status", "id": 1.5})"),
+              "id: expected a whole number from -9007199254740991 to 9007199254740991");
+    EXPECT_EQ(std::get<PlainMessage>(readInputLine(R"({"message": "status", "id": 7})", materials, 4).value),
+              (PlainMessage{"status", {}}))
+        << "it is none of its values";
+}
+
+TEST(InputLine, WhatNamesSilenceAndIsNoOffInItsRightFormAsksForIt) {
+    for (const char* asks :
+         {R"({"control": "silence", "on": true})", R"({"control": "silence", "on": true, "id": 7})",
+          R"({"control": "silence"})", R"({"control": "silence", "on": "true"})",
+          R"({"control": "silence", "on": 0})", R"({"control": "silence", "on": false, "why": 1})",
+          R"({"control": "silence", "on": false, "on": false})",
+          R"({"control": "silence", "on": false, "id": "a"})", R"({"control": "Silence", "on": false})",
+          R"({"control": "\u0073ilence"})", R"({"control": ["silence"]})", R"({"message": "silence"})",
+          R"({"message": "stop", "control": "silence"})", R"({"control": "silence", "on": fal)", "SILENCE",
+          R"("silence")"})
+        EXPECT_TRUE(asksForSilence(asks)) << asks;
+    for (const char* other :
+         {R"({"control": "silence", "on": false})", R"({"id": 7, "control": "silence", "on": false})",
+          R"({"message": "clip", "file": "silence.wav"})",
+          R"({"input": "impulse", "body": "silence", "impulse_ns": [0, 1]})",
+          R"({"input": "remove", "body": "silence"})", R"({"input": "spawn", "body": {"name": "silence"}})",
+          R"({"control": "gain", "channel": 3, "silence": 1})", R"({"control": "sil)", ""})
+        EXPECT_FALSE(asksForSilence(other)) << other;
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Sessions from anywhere: what is out of range is named by its place, not taken for something else.
+#include "Live/Documents/SessionFile.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/ReadFile.h"
+#include "Support/FileTesting.h"
+#include "TestPlaces.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+/// The corpus' session with another piece.
+std::string sessionWith(const std::string& from, const std::string& to) {
+    std::string text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Fuzz/corpus/session/two-takes.json", 10'000).value;
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+}
+
+std::string faultWith(const std::string& from, const std::string& to) {
+    return readSession(sessionWith(from, to), "s.json").error;
+}
+
+TEST(SessionFile, AStrikeThatWouldHoldACoilAtDirectCurrentIsNamed) {
+    const auto fault = [](const std::string& sound) {
+        return faultWith("\"channels\": 2,",
+                         "\"channels\": 2, \"strikes\": [{\"time_s\": 0.01, " + sound +
+                             ", \"amplitude\": 1, \"x_m\": 0, \"y_m\": 0, \"duration_s\": 60}],");
+    };
+    EXPECT_EQ(fault("\"frequency_hz\": 5, \"decay_per_s\": 0"), "");
+    EXPECT_EQ(fault("\"frequency_hz\": 2, \"decay_per_s\": 1"), "");
+    EXPECT_EQ(fault("\"frequency_hz\": 2, \"decay_per_s\": 0"),
+              "s.json: strikes[0].frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, "
+              "found 2 Hz");
+}
+
+TEST(SessionFile, AnEqualiserOutOfRangeIsNamed) {
+    const auto fault = [](const std::string& resonator, const std::string& band) {
+        return faultWith("\"channels\": 2,", "\"channels\": 2, \"equalised\": [null, {" + resonator +
+                                                 ", \"band_hz\": " + band + "}],");
+    };
+    EXPECT_EQ(fault("\"resonance_hz\": 200, \"q\": 10", "[50, 400]"), "");
+    EXPECT_EQ(fault("\"resonance_hz\": 1e30, \"q\": 10", "[50, 400]"),
+              "s.json: equalised[1].resonance_hz: expected 1 to 20000, found 1e+30");
+    EXPECT_EQ(fault("\"resonance_hz\": 200, \"q\": 1e9", "[50, 400]"),
+              "s.json: equalised[1].q: expected 0.05 to 1000, found 1e+09");
+    EXPECT_EQ(fault("\"resonance_hz\": 200, \"q\": 10", "[5e-324, 400]"),
+              "s.json: equalised[1].band_hz[0]: expected 1 to 20000, found 5e-324");
+}
+
+TEST(SessionFile, ALayoutWithoutExtentIsNamed) {
+    EXPECT_EQ(faultWith("\"extent_m\": [0.12, 0.06]", "\"extent_m\": [5e-324, 0.06]"),
+              "s.json: panning.layout.extent_m[0]: expected 0.001 to 1e+06, found 5e-324");
+    EXPECT_EQ(faultWith("\"full_scale_g\": 1", "\"full_scale_g\": 5e-324"),
+              "s.json: panning.layout.enchanters[0].full_scale_g: expected 1e-06 to 1e+06, found 5e-324");
+}
+
+TEST(SessionFile, ItsTakesAreBoundedByTheirBodies) {
+    const std::string last = "{ \"start_s\": 1.6, \"world_end_s\": 3.4, \"seed\": 2 }";
+    std::string spawning =
+        "{ \"start_s\": 1.6, \"world_end_s\": 1.6, \"seed\": 2, \"scene\": { \"name\": \"many\", "
+        "\"field_m\": [4, 2], \"materials\": [{ \"name\": \"wood\", \"density_kg_per_m2\": 850, "
+        "\"friction\": 0.4, \"restitution\": 0.6, \"frequency_hz\": 80, \"decay_per_s\": 30 }], \"bodies\": "
+        "[], \"script\": [{ \"time_s\": 0, \"times\": 4000, \"every_s\": 1, "
+        "\"input\": \"spawn\", \"body\": { \"name\": \"ball\", \"position_m\": [2, 1], \"fixtures\": [{ "
+        "\"shape\": \"circle\", \"radius_m\": 0.2, \"material\": \"wood\" }] } }] } }";
+    std::string takes = spawning;
+    for (int i = 0; i < 260; ++i) takes += ", " + last;
+    EXPECT_EQ(faultWith(last, takes), "s.json: takes: expected at most 1000000 bodies in all takes");
+}
+
+class SessionFileInAFolder : public FolderTest {
+protected:
+    std::string faultOfRecording(const std::string& file, const std::string& hash) const {
+        const std::string recording = "{\"frequency_hz\": 80, \"file\": \"" + file + "\"" +
+                                      (hash.empty() ? "" : ", \"hash\": \"" + hash + "\"") + "}";
+        EXPECT_EQ(writeFile(folder / "s.json",
+                            sessionWith("\"channels\": 2,",
+                                        "\"channels\": 2, \"recordings\": [{\"time_s\": 0, \"files\": [" +
+                                            recording + "]}],")),
+                  "");
+        return loadSession(folder / "s.json").error;
+    }
+};
+
+TEST_F(SessionFileInAFolder, AFileElsewhereIsReadByItsHashOnly) {
+    EXPECT_EQ(faultOfRecording("a.wav", ""), "");
+    EXPECT_EQ(faultOfRecording("below/a.wav", ""), "");
+    EXPECT_EQ(faultOfRecording("synthetic-3", ""), "");
+    EXPECT_EQ(faultOfRecording("../a.wav", "0123456789abcdef"), "")
+        << "as --save writes what was played from there";
+    const std::string why = "s.json: recordings: expected a hash for a file that is not in the session's "
+                            "folder or below, found none for ";
+    EXPECT_EQ(faultOfRecording("../a.wav", ""), (folder / "").string() + why + "\"../a.wav\"");
+    EXPECT_EQ(faultOfRecording("b/../../a.wav", ""), (folder / "").string() + why + "\"b/../../a.wav\"");
+    EXPECT_EQ(faultOfRecording("/etc/passwd", ""), (folder / "").string() + why + "\"/etc/passwd\"");
+}
+
+} // namespace
+} // namespace physvib
