@@ -9,7 +9,11 @@ namespace physvib {
 namespace {
 
 using namespace test;
-using State = BoardLinkStatus::State;
+/// Of the one sink that is wanted; not ready while there is none.
+SinkState beside(Desk& desk) {
+    const auto states = desk.rig().sinkStates();
+    return states.empty() ? SinkState{} : states.front();
+}
 
 juce::Button* buttonOf(juce::Component& window, const juce::String& words) {
     for (auto* child : window.getChildren())
@@ -24,12 +28,9 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     const auto boardText = [&] { return find(window.view(), "Board state")->getDescription(); };
-    const auto state = [&] {
-        return window.desk().device().board() ? window.desk().device().board()->state : State::searching;
-    };
     EXPECT_TRUE(runUntil([&] { return boardText().contains("Board: none"); }));
     window.view().tabs().choose("Output");
-    auto* ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Board"));
+    auto* ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Four-channel board"));
     ASSERT_NE(ports, nullptr);
     ports->setSelectedItemIndex(ports->getNumItems() - 1); // another port
     juce::AlertWindow* asked = nullptr;
@@ -41,9 +42,8 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     ASSERT_NE(buttonOf(*asked, "Connect"), nullptr);
     buttonOf(*asked, "Connect")->triggerClick();
 
-    ASSERT_TRUE(runUntil([&] { return state() == State::ready; }));
-    ASSERT_TRUE(
-        runUntil([&] { return window.desk().device().board()->sent > 5 && board.last("sound") > 0; }));
+    ASSERT_TRUE(runUntil([&] { return beside(window.desk()).isReady; }));
+    ASSERT_TRUE(runUntil([&] { return beside(window.desk()).sent > 5 && board.last("sound") > 0; }));
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
     ASSERT_TRUE(runUntil([&] { return window.desk().trouble().isEmpty(); })) << window.desk().trouble();
 
@@ -52,21 +52,20 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
         return window.desk().trouble().contains(board.port()) && window.desk().trouble().contains("is gone");
     })) << window.desk().trouble();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("not there"); }));
-    EXPECT_NE(state(), State::ready);
-    ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Board"));
+    EXPECT_FALSE(beside(window.desk()).isReady);
+    ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Four-channel board"));
     ASSERT_NE(ports, nullptr);
     EXPECT_TRUE(ports->isShowing()) << "the tab in which it was chosen";
     EXPECT_TRUE(ports->getText().contains(juce::String{board.port()}))
         << "what is wanted, though it is not there: " << ports->getText();
 
     board.start();
-    ASSERT_TRUE(runUntil([&] { return state() == State::ready; }));
-    const auto sent = window.desk().device().board()->sent;
+    ASSERT_TRUE(runUntil([&] { return beside(window.desk()).isReady; }));
+    const auto sent = beside(window.desk()).sent;
     ASSERT_TRUE(runUntil([&] {
-        return window.desk().device().board()->sent > sent + 3 && window.desk().trouble().isEmpty();
+        return beside(window.desk()).sent > sent + 3 && window.desk().trouble().isEmpty();
     })) << window.desk().trouble();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
-    EXPECT_EQ(window.desk().device().board()->connections, 2u);
 }
 
 TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {
@@ -74,11 +73,11 @@ TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     DeviceChoice choice = noDevice;
-    choice.board = board.port();
+    choice.sinks = {{"BOARD", board.port()}};
     window.view().setFirstStart(std::make_unique<FirstStart>(
         window.desk(), std::vector<FeltChoice>{{"Four-channel board", choice, 4, true}}));
     window.view().firstStart()->onBeside = [&](const DeviceChoice& chosen) {
-        window.desk().device().onBoardWanted(chosen);
+        window.desk().device().onSinksWanted(chosen);
     };
     ASSERT_TRUE(window.view().keyPressed(juce::KeyPress{juce::KeyPress::returnKey})) << "one key";
     ASSERT_TRUE(runUntil(
@@ -91,10 +90,11 @@ TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {
 }
 
 TEST(MixerBoard, ThatDoesNotAnswerIsTold) {
-    Desk desk{onlyNoDevice(), {noDevice.name, 48000, 128, "/nowhere/port"}};
+    Desk desk{onlyNoDevice(), {noDevice.name, 48000, 128, {{"BOARD", "/nowhere/port"}}}};
     EXPECT_TRUE(runUntil([&] {
-        return desk.look(), desk.trouble() ==
-                                "The board at /nowhere/port does not answer; it is looked for twice a second";
+        return desk.look(),
+               desk.trouble().startsWith(
+                   "The board at /nowhere/port does not answer; it is looked for twice a second (");
     })) << desk.trouble();
     EXPECT_TRUE(desk.look().device.isRunning) << "the device plays on";
 }

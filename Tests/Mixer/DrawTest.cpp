@@ -259,13 +259,12 @@ TEST(FirstStart, TheInterfaceComesFirstAndNoDeviceLast) {
                                                "no device"}));
 }
 
-TEST(FirstStart, ABoardIsOfferedBeforeControllersAndOtherSerialPortsAreNot) {
-    const auto choices =
-        feltChoices(onlyNoDevice(), {"DualSense"},
-                    {{"/dev/ttyS0", "serial port", false}, {"/dev/ttyACM0", "ST-Link", true}});
+TEST(FirstStart, ABoardIsOfferedBeforeControllers) {
+    const auto choices = feltChoices(onlyNoDevice(), {{&kindOf({"PAD", {}}), {"DualSense"}},
+                                                      {&kindOf({"BOARD", {}}), {"/dev/ttyACM0", "ST-Link"}}});
     ASSERT_EQ(choices.size(), 3U);
     EXPECT_EQ(choices[0].title, "Four-channel board: /dev/ttyACM0  ST-Link");
-    EXPECT_EQ(choices[0].device.board, "/dev/ttyACM0");
+    EXPECT_EQ(choices[0].device.sinks, (std::vector<SinkName>{{"BOARD", "/dev/ttyACM0"}}));
     EXPECT_EQ(choices[0].outputs, 4);
     EXPECT_TRUE(choices[1].title.startsWith("Game controller"));
     EXPECT_EQ(choices[2].outputs, 0) << "no device at last";

@@ -2,12 +2,9 @@
 // A session without a world of its own on a device and sinks beside it, with a message thread for it: what a
 // program that has none is lent.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/SinkTable.h"
-#include "Live/Session/Session.h"
+#include "Host/Rig/Rig.h"
 #include <atomic>
 #include <future>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -24,43 +21,33 @@ struct LiveStatus {
     std::string trouble;
 };
 
-/// What it plays on, and what it keeps.
-struct LiveSettings {
-    SessionSetup setup;
-    AudioOutputSettings output;
-    Sinks sinks{};          ///< ready
-    std::string savePath{}; ///< of the session as a file, beside which a list of its events stands; empty:
-                            ///< none
-};
-
 /// One at a time in a process. Made and ended on any thread, the same for each.
 class Live {
 public:
-    explicit Live(LiveSettings settings);
+    explicit Live(RigSettings settings)
+        : settings_{std::move(settings)} {}
     ~Live() { end(); }
     Live(const Live&) = delete;
     Live& operator=(const Live&) = delete;
 
-    /// Empty, or one line with the reason; waits for the device.
+    /// Empty, or one line with the reason; waits for the device and what is beside it.
     std::string open();
 
     /// Silent, and closed; empty, or why the session is not saved whole. Waits for both.
     std::string end();
 
     /// Any thread, after open().
-    Session& session() noexcept { return session_; }
-    AudioOutput& output() noexcept { return *output_; }
+    Session& session() noexcept { return rig_->session(); }
+    AudioOutput& output() noexcept { return rig_->output(); }
     LiveStatus status() const;
     double longestGapSeconds() const noexcept { return settings_.setup.longestGapSeconds; }
 
 private:
     class Watch;
     void run(std::promise<std::string> opened);
-    void play(std::promise<std::string>& opened);
 
-    const LiveSettings settings_;
-    Session session_;
-    std::optional<AudioOutput> output_; // of the message thread
+    const RigSettings settings_;
+    std::optional<Rig> rig_; // of the message thread, which nobody else's call outlasts
     std::atomic<bool> isEnding_{false};
     mutable std::mutex statusMutex_;
     LiveStatus status_;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <physvib/Version.h>
 
 using namespace physvib;
 using namespace physvib::api;
@@ -56,7 +57,7 @@ SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& ren
     setup.channels = renderer.outputs();
     setup.panner = renderer.panner;
     setup.limiterEnabled = renderer.limiterEnabled;
-    setup.log = s.save[0] == '\0' ? LogUse::none : LogUse::stream;
+    setup.log = LogUse::none;
     return setup;
 }
 
@@ -92,15 +93,13 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
         const std::lock_guard lock{openMutex()};
         if (openName != 0)
             return fail(PHYSVIB_ERROR_FULL, "live: expected the one that is open to be closed before");
-        LiveSettings all{setupOf(taken, wanted), {}, {}, taken.save};
+        RigSettings all{.setup = setupOf(taken, wanted), .sinks = outputs.sinks, .savePath = taken.save};
+        all.provenance = {PHYSVIB_VERSION, {{"session", all.savePath}}};
         all.output.device = outputs.device;
         all.output.sampleRateHz = taken.rate_hz;
         all.output.blockFrames = taken.block_frames;
         all.output.level = gainOf(taken.level_db);
         all.output.enchanters = wanted.panner.channels();
-        const auto goesOn = [] { return true; };
-        if (const auto fault = openSinks(outputs.sinks, all.setup.panner, goesOn, all.sinks); !fault.empty())
-            return fail(PHYSVIB_ERROR_DEVICE, fault);
         auto live = std::make_unique<Live>(std::move(all));
         if (const std::string error = live->open(); !error.empty()) return fail(PHYSVIB_ERROR_DEVICE, error);
         openName = lives().add(std::move(live));

@@ -11,34 +11,50 @@
 namespace physvib {
 namespace {
 
-struct SinkKind {
-    std::string_view name;
-    int channels;             // 0: as many as there are
-    std::string_view tooMany; // more enchanters than that
-    std::unique_ptr<Sink> (*make)(const std::string& where, const PhantomPanner& panner);
-};
+std::vector<SinkPlace> serialPorts() {
+    std::vector<SinkPlace> places;
+    for (const SerialPortName& port : listSerialPorts())
+        places.push_back({port.path, port.description, port.isLikelyBoard});
+    return places;
+}
 
-const std::array sinkKinds{
-    SinkKind{"BOARD", limits::board::channels, "board: expected at most four actuators",
-             [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
-                 return std::make_unique<BoardOutput>(where, panner);
-             }},
+std::vector<SinkPlace> gamePads() {
+    std::vector<SinkPlace> places;
+    for (const GamePadInfo& pad : GamePads{}.list())
+        if (std::ranges::find(places, pad.name, &SinkPlace::where) == places.end())
+            places.push_back({pad.name, {}, pad.hasMotors});
+    return places;
+}
+
+const std::array kinds{
+    SinkKind{
+        "BOARD", "Four-channel board", "It plays the first four actuators beside the device (Docs/board.md)",
+        "board", anyBoard, "the first that answers", "Serial port", limits::board::channels,
+        "board: expected at most four actuators", true, serialPorts,
+        [](const std::string& where, const PhantomPanner& panner, bool isAwaited) -> std::unique_ptr<Sink> {
+            return std::make_unique<BoardOutput>(where, panner,
+                                                 isAwaited ? 0.0 : BoardOutput::usualLatencySeconds);
+        }},
     SinkKind{"PAD",
-             0,
+             "Game controller",
+             "Its two motors follow all hits, felt together with the device (Docs/pads.md)",
+             "controller",
+             anyPad,
+             "the first that is there",
              {},
-             [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
+             2,
+             {},
+             false,
+             gamePads,
+             [](const std::string& where, const PhantomPanner& panner, bool) -> std::unique_ptr<Sink> {
                  return std::make_unique<PadOutput>(where, panner);
              }},
 };
 
-const SinkKind& kindOf(const SinkName& sink) {
-    return *std::ranges::find(sinkKinds, std::string_view{sink.kind}, &SinkKind::name);
-}
-
 // Where the last sink of `text` begins; npos: there is none.
 std::size_t lastSink(std::string_view text, const SinkKind*& kind) {
     std::size_t last = text.npos;
-    for (const SinkKind& one : sinkKinds) {
+    for (const SinkKind& one : kinds) {
         const std::string mark = std::string(one.name) + ":";
         const std::size_t behind = text.rfind("+" + mark),
                           at = behind == text.npos && text.starts_with(mark) ? 0 : behind;
@@ -48,6 +64,12 @@ std::size_t lastSink(std::string_view text, const SinkKind*& kind) {
 }
 
 } // namespace
+
+std::span<const SinkKind> sinkKinds() noexcept { return kinds; }
+
+const SinkKind& kindOf(const SinkName& sink) noexcept {
+    return *std::ranges::find(kinds, std::string_view{sink.kind}, &SinkKind::name);
+}
 
 OutputNames::OutputNames(std::string_view text) {
     const SinkKind* kind = nullptr;
@@ -63,7 +85,7 @@ OutputNames::OutputNames(std::string_view text) {
 
 std::string channelFault(const std::vector<SinkName>& sinks, int channels) {
     for (const SinkName& sink : sinks)
-        if (const SinkKind& kind = kindOf(sink); kind.channels > 0 && channels > kind.channels)
+        if (const SinkKind& kind = kindOf(sink); !kind.tooMany.empty() && channels > kind.actuators)
             return std::string(kind.tooMany);
     return {};
 }
@@ -74,7 +96,8 @@ std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& 
         return "expected at most " + std::to_string(mostNamedSinks) + " outputs beside the device, found " +
                std::to_string(wanted.size());
     for (const SinkName& sink : wanted) {
-        opened.push_back(kindOf(sink).make(sink.where, panner));
+        opened.push_back(kindOf(sink).make(sink.where, panner, goesOn != nullptr));
+        if (!goesOn) continue;
         if (auto fault = opened.back()->awaitReady(goesOn); !fault.empty()) return fault;
     }
     return {};

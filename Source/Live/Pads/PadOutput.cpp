@@ -205,6 +205,7 @@ SinkState PadOutput::state() const {
     state.name = "controller";
     state.isReady = pad_ != nullptr;
     state.sent = counts_.events;
+    state.playsClips = false;
     state.lost = motors_.lost() + events_.overflows() + controls_.overflows();
     state.trouble = troubleNow();
     state.where = pad_ ? pad_->info().name + " (" + busName(pad_->info().bus) + "): " + profile_.name +

@@ -4,6 +4,7 @@
 #include "Core/ClipNumber.h"
 #include "Live/Session/BoardWords.h"
 #include <algorithm>
+#include <cmath>
 
 namespace physvib {
 namespace {
@@ -15,7 +16,8 @@ constexpr std::int64_t spareNs = 2'000'000; // with less to spare a leg is long,
 } // namespace
 
 BoardOutput::BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds)
-    : link_{std::move(port)}
+    : port_{port}
+    , link_{std::move(port)}
     , latencySeconds_{latencySeconds}
     , panner_{panner} {}
 
@@ -23,6 +25,7 @@ std::string BoardOutput::awaitReady(const std::function<bool()>& goesOn) {
     std::string fault = link_.awaitReady(goesOn);
     const auto now = link_.status();
     latencySeconds_ = std::max(latencySeconds_, now.playOutMs * 1e-3);
+    isAwaited_ = true;
     before_ = now.telemetry;
     return fault;
 }
@@ -42,7 +45,7 @@ void BoardOutput::made(const CollisionEvent& event) noexcept {
 }
 
 SinkState BoardOutput::state() const {
-    SinkState state = sinkStateOf(link_.status());
+    SinkState state = sinkStateOf(link_.status(), port_, isAwaited_ ? HUGE_VAL : latencySeconds_);
     state.lost += untold();
     return state;
 }

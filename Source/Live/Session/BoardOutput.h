@@ -23,6 +23,9 @@ namespace physvib {
 /// Works on L while it follows a device.
 class BoardOutput final : public Sink, private BoardSource {
 public:
+    /// For a board that is not waited for: the link needs 20 to 40 ms. More than that is told as trouble.
+    static constexpr double usualLatencySeconds = 0.05;
+
     /// The board at `port`, or anyBoard; `panner`: the session's, of at most four. It has to know what it
     /// plays `latencySeconds` before, or as long as the link says when it is ready. M.
     BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds = 0.0);
@@ -57,8 +60,10 @@ private:
     // of each, the leg that sounds and the next
     static constexpr std::ptrdiff_t mostPaths = limits::board::maxLegs / 2;
 
+    const std::string port_; // as it is wanted
     BoardLink link_;
     double latencySeconds_;
+    bool isAwaited_ = false;                  // so that is what the board needs
     wire::Telemetry before_;                  // when it became ready: a board counts on from call to call
     EventQueue<CollisionEvent, 1024> events_; // in session time, as the renderer gets them; L reads
     EventQueue<RenderControl, 256> controls_;

@@ -39,17 +39,34 @@ std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
     return facts;
 }
 
+// Without a port of its own the link tries one after the other: what it says of each would only flicker.
+std::string troubleOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
+    if (s.state == State::ready) {
+        if (s.playOutMs <= 1e3 * latencySeconds) return {};
+        return "The board needs its strikes more than " + fixedNumber(1e3 * latencySeconds, 0) +
+               " ms before they are felt: some come late there";
+    }
+    const bool wasReady = s.connections > 0;
+    if (port == anyBoard)
+        return wasReady ? "The board is gone; it is looked for on every serial port"
+                        : "No board answers on any serial port";
+    return "The board at " + port + (wasReady ? " is gone" : " does not answer") +
+           "; it is looked for twice a second" + (s.trouble.empty() ? "" : " (" + s.trouble + ")");
+}
+
 } // namespace
 
-SinkState sinkStateOf(const BoardLinkStatus& s) {
-    return {"board",
-            s.state == State::ready,
-            limits::board::channels,
-            s.sent,
-            s.thinned + s.refused,
-            s.trouble,
-            whereItPlays(s),
-            factsOf(s)};
+SinkState sinkStateOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
+    SinkState state{"board",
+                    s.state == State::ready,
+                    limits::board::channels,
+                    s.sent,
+                    s.thinned + s.refused,
+                    troubleOf(s, port, latencySeconds),
+                    whereItPlays(s),
+                    factsOf(s)};
+    state.playsClips = false;
+    return state;
 }
 
 std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,

@@ -8,8 +8,9 @@
 
 namespace physvib {
 
-/// Any thread, as what follows.
-SinkState sinkStateOf(const BoardLinkStatus& board);
+/// Of a board that is wanted at `port`, and is told strikes so long before they are felt. Any thread, as what
+/// follows.
+SinkState sinkStateOf(const BoardLinkStatus& board, const std::string& port, double latencySeconds);
 
 /// Lines on what was sent and played since `before`, as soon as the board has told it, or a moment later.
 std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,

@@ -34,6 +34,7 @@ struct SinkState {
     std::string trouble{};            ///< one line; empty: all is well
     std::string where{};              ///< what it plays on, or how far it is, in a line
     std::vector<Fact> facts{};
+    bool playsClips = true; ///< and recordings
 };
 
 class Sink {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Session, driver, device, sinks, recorder, journal and listener for the length of a call.
+// A rig and its inputs for the length of a call.
 #include "CommandLine/Play/LivePlay.h"
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/Play/LiveBeats.h"
@@ -7,11 +7,8 @@
 #include "CommandLine/Play/SoundPlay.h"
 #include "CommandLine/Render/MarkWords.h"
 #include "Host/Devices/NoDevice.h"
-#include "Host/Devices/SimulationDriver.h"
 #include "Host/Recordings/ClipFolder.h"
-#include "Host/Recordings/PlayedRecorder.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Session/SessionJournal.h"
 #include "System/ExitCode.h"
 #include "System/Interrupt.h"
 #include "System/Process.h"
@@ -33,11 +30,8 @@ namespace {
 // the call.
 class Watch final : private juce::Timer {
 public:
-    Watch(Session& session, AudioOutput& output, PlayedRecorder* recorder, OscPort* osc,
-          const InputListener* listener, double seconds)
-        : session_{session}
-        , output_{output}
-        , recorder_{recorder}
+    Watch(Rig& rig, OscPort* osc, const InputListener* listener, double seconds)
+        : rig_{rig}
         , osc_{osc}
         , listener_{listener}
         , endNs_{std::llround(seconds * 1e9)} {
@@ -45,10 +39,9 @@ public:
     }
     ~Watch() override { stopTimer(); }
 
-    /// What has been played and not yet told; how many all in all.
-    std::uint64_t drain() {
-        for (PlayedEvent e; session_.played().pop(e); ++played_)
-            session_.sinks().played(e, output_.sampleRateHz());
+    /// Nothing is played any more; how many collisions were.
+    std::uint64_t stop() {
+        rig_.stop([this](const PlayedEvent&) { ++played_; });
         return played_;
     }
 
@@ -56,8 +49,8 @@ private:
     static constexpr int milliseconds = 20;
 
     void timerCallback() override {
-        drain();
-        const SessionStatus status = session_.status();
+        rig_.takePlayed([this](const PlayedEvent&) { ++played_; });
+        const SessionStatus status = rig_.session().status();
         if (++ticks_ % (1000 / milliseconds) == 0) everySecond(status);
         const bool hasEnded = listener_ && listener_->hasEnded();
         if (interrupted || hasEnded || status.sessionNs >= endNs_ || isLeft())
@@ -73,11 +66,8 @@ private:
     void everySecond(const SessionStatus& status) {
         stillSeconds_ = status.sessionNs == lastNs_ ? stillSeconds_ + 1 : 0;
         lastNs_ = status.sessionNs;
-        std::string trouble = output_.maintain();
-        for (const SinkState& sink : session_.sinks().states())
-            if (trouble.empty()) trouble = sink.trouble;
-        if (trouble.empty() && recorder_) trouble = recorder_->error();
-        if (!interrupted) report(trouble); // else the device was not waited for
+        rig_.maintain();
+        if (!interrupted) report(rig_.trouble()); // else the device was not waited for
         if (osc_) oscReport_.tellWrong(osc_->status().counts);
         tellUnread();
         static const bool isTerminal = isErrorTerminal();
@@ -85,18 +75,18 @@ private:
     }
 
     void show(const SessionStatus& status) {
-        const AudioOutputStatus o = output_.status();
-        const double rate = output_.sampleRateHz() / 1e3;
+        const AudioOutputStatus o = rig_.output().status();
+        const double rate = rig_.output().sampleRateHz() / 1e3;
         const auto margin = status.leastMarginFrames == noMargin ? 0 : status.leastMarginFrames;
         char words[200];
         std::snprintf(words, sizeof words,
                       "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  "
                       "%llu dropped%s   ",
                       static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
-                      static_cast<double>(session_.timeline().playOutFrames()) / rate,
+                      static_cast<double>(rig_.session().timeline().playOutFrames()) / rate,
                       static_cast<double>(margin) / rate, status.render.liveModes,
                       static_cast<unsigned long long>(status.render.late),
-                      static_cast<unsigned long long>(session_.world().drops() + status.render.untold),
+                      static_cast<unsigned long long>(rig_.session().world().drops() + status.render.untold),
                       o.guardGain < 1.0f ? "  guard acts" : "");
         std::cerr << words << std::flush;
     }
@@ -112,9 +102,7 @@ private:
         lastTrouble_ = trouble;
     }
 
-    Session& session_;
-    AudioOutput& output_;
-    PlayedRecorder* recorder_;
+    Rig& rig_;
     OscPort* osc_;
     const InputListener* listener_;
     std::int64_t endNs_;
@@ -125,7 +113,9 @@ private:
     std::string lastTrouble_;
 };
 
-void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
+void summarise(Rig& rig, std::uint64_t played) {
+    const Session& session = rig.session();
+    AudioOutput& output = rig.output();
     const SessionStatus status = session.status();
     const RenderStatus& r = status.render;
     const AudioOutputStatus o = output.status();
@@ -153,22 +143,33 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
         std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
 }
 
-/// What each has done, on stdout; empty, or what is wrong with the first that does not play.
-std::string summarise(const Sinks& sinks) {
-    std::string trouble;
-    for (const auto& sink : sinks) {
-        std::cout << sink->summary([] { return !interrupted; });
-        const SinkState state = sink->state();
-        if (trouble.empty() && !state.isReady)
-            trouble = state.trouble.empty() ? "the " + state.name + " is gone" : state.trouble;
-    }
-    return trouble;
+void summariseRecording(const PlayedRecorder& recording, const std::string& path) {
+    if (!recording.isWhole())
+        std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
+    if (recording.framesLost() > 0)
+        std::cerr << "physvib: warning: frames missing in the recording: " << recording.framesLost() << '\n';
+    if (recording.beginsSeconds())
+        std::cout << path << "  begins at session time " << fixedNumber(*recording.beginsSeconds(), 6)
+                  << " s\n";
 }
 
-std::unique_ptr<SimulationDriver> makeDriver(const LivePlay& wanted, Session& session) {
-    if (wanted.ownThread)
-        return std::make_unique<ThreadDriver>(session, wanted.setup.stepsPerSecond, &interrupted);
-    return std::make_unique<MessageTimerDriver>(session, &interrupted);
+void summariseBeats(std::uint64_t beats, const InputTap& heard) {
+    std::cout << beats << " beats heard\n";
+    if (heard.piecesLost() > 0)
+        std::cerr << "physvib: warning: sound was lost on its way to the beats: " << heard.piecesLost()
+                  << " times\n";
+}
+
+std::unique_ptr<OscPort> makeOsc(const LivePlay& wanted, Rig& rig, MessageRouter& messages,
+                                 const ClipFolder& clips) {
+    if (!wanted.osc.port && wanted.osc.receiver.empty()) return nullptr;
+    const auto act = [&rig](const LineInput& input, const OscOrigin&) {
+        return actOn(input, rig.session(), rig.output(), SilenceHolder::osc);
+    };
+    auto osc = std::make_unique<OscPort>(wanted.osc, rig.session(), messages, rig.output(),
+                                         OscHooks{act, {}, clips});
+    if (osc->error().empty() && osc->port() != 0) tellPort(wanted.osc, osc->status().address);
+    return osc;
 }
 
 } // namespace
@@ -177,93 +178,40 @@ std::string playLive(LivePlay wanted) {
     const juce::ScopedJuceInitialiser_GUI juce; // the message loop
     heedInterrupts();
     sayWithoutWaiting();
-    Sinks sinks; // outlive the session
-    const auto goesOn = [] { return !interrupted; };
-    if (auto error = openSinks(wanted.sinks, wanted.setup.panner, goesOn, sinks); !error.empty())
-        return error;
-    wanted.setup.log = wanted.savePath.empty() ? LogUse::none : LogUse::stream;
-    Session session{wanted.setup};
-    for (const auto& sink : sinks) session.sinks().attach(*sink);
-    std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
-    std::optional<SessionJournal> journal;
-    const auto inputs = wanted.beats ? std::make_unique<InputTap>() : nullptr; // outlives the output as well
-    AudioOutput output{session, audioDeviceTypesAndNone, &interrupted};
-    wanted.output.tap = inputs.get();
-    if (auto error = output.open(wanted.output); !error.empty()) return interrupted ? "" : error;
-    if (!wanted.recordPath.empty()) {
-        recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
-        if (!recording->error().empty()) return recording->error();
-        recording->tellBeginning(session.timeline().playOutFrames());
-        session.sinks().attach(*recording);
-    }
-    if (!wanted.savePath.empty()) {
-        const Provenance provenance{PHYSVIB_VERSION,
-                                    {{"scene", wanted.setup.scene.name}, {"session", wanted.savePath}}};
-        journal.emplace(wanted.savePath, session, wanted.setup, provenance);
-        if (!journal->error().empty()) return journal->error();
-    }
+    Rig rig{wanted.rig, audioDeviceTypesAndNone, &interrupted};
+    if (auto error = rig.open(); !error.empty()) return interrupted ? "" : error;
+    MessageRouter messages{rig.session()};
+    if (wanted.sound)
+        if (auto error = beginSound(wanted, rig.session(), messages); !error.empty()) return error;
     std::uint64_t played = 0, beats = 0;
     std::optional<OscStatus> told;
-    std::string saved, recorded; // each, whatever becomes of the other
-    bool isWhole = true;
-    MessageRouter messages{session};
-    if (wanted.sound)
-        if (auto error = beginSound(wanted, session, messages); !error.empty()) return error;
     {
-        const Following together{session.sinks(), output};
-        const auto driver = makeDriver(wanted, session);
+        rig.start();
         std::optional<LiveBeats> heard;
-        if (wanted.beats) heard.emplace(session, *inputs, *wanted.beats, wanted.beatSensitivity);
+        if (wanted.beats) heard.emplace(rig.session(), *rig.inputs(), *wanted.beats, wanted.beatSensitivity);
         std::optional<InputListener> listener;
         const ClipFolder clips{wanted.clips};
-        if (wanted.listens) listener.emplace(session, output, messages, clips, wanted.keepsPlaying);
-        std::optional<OscPort> osc;
-        if (wanted.osc.port || !wanted.osc.receiver.empty()) {
-            osc.emplace(wanted.osc, session, messages, output,
-                        OscHooks{[&](const LineInput& input, const OscOrigin&) {
-                                     return actOn(input, session, output, SilenceHolder::osc);
-                                 },
-                                 {},
-                                 clips});
-            if (!osc->error().empty()) return "OSC: " + osc->error();
-            if (osc->port() != 0) tellPort(wanted.osc, osc->status().address);
-        }
+        if (wanted.listens)
+            listener.emplace(rig.session(), rig.output(), messages, clips, wanted.keepsPlaying);
+        const auto osc = makeOsc(wanted, rig, messages, clips);
+        if (osc && !osc->error().empty()) return "OSC: " + osc->error();
         {
-            Watch watch{session,
-                        output,
-                        recording ? &*recording : nullptr,
-                        osc ? &*osc : nullptr,
-                        listener ? &*listener : nullptr,
-                        wanted.seconds};
+            Watch watch{rig, osc.get(), listener ? &*listener : nullptr, wanted.seconds};
             juce::MessageManager::getInstance()->runDispatchLoop();
-            isWhole = !recording || recording->isWhole();
-            output.stop();
-            played = watch.drain();
+            played = watch.stop();
         }
-        // rows that wait, then what may take long or hang
-        if (journal) journal->end(session.status().sessionNs);
-        if (recording) recorded = recording->finish();
-        listener.reset();
         if (osc) told = osc->status();
-        osc.reset(); // whoever goes on sending does not hold up the end
-        if (journal) saved = interrupted ? journal->finish(SessionJournal::quickBytes) : journal->finish();
-        if (!isWhole) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
-        beats = heard ? heard->beats() : 0;
-        if (told) summariseOsc(*told);
-    }
-    summarise(session, output, played);
-    if (inputs) std::cout << beats << " beats heard\n";
-    if (inputs && inputs->piecesLost() > 0)
-        std::cerr << "physvib: warning: sound was lost on its way to the beats: " << inputs->piecesLost()
-                  << " times\n";
-    if (recording && recording->framesLost() > 0)
-        std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
-    const std::string trouble = summarise(sinks);
-    if (recording && recording->beginsSeconds())
-        std::cout << wanted.recordPath << "  begins at session time "
-                  << fixedNumber(*recording->beginsSeconds(), 6) << " s\n";
-    output.close();
-    return !saved.empty() ? saved : !recorded.empty() ? recorded : trouble;
+        if (heard) beats = heard->beats();
+    } // whoever goes on sending does not hold up the end
+    const std::string unsaved = rig.finish(interrupted);
+    if (told) summariseOsc(*told);
+    summarise(rig, played);
+    if (rig.inputs()) summariseBeats(beats, *rig.inputs());
+    std::string trouble;
+    std::cout << rig.summary(trouble);
+    if (rig.recording()) summariseRecording(*rig.recording(), wanted.rig.recordPath);
+    rig.close();
+    return !unsaved.empty() ? unsaved : trouble;
 }
 
 } // namespace physvib

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A session live on a device until its time is over or the user interrupts, with all that goes along.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/SinkTable.h"
 #include "Host/Music/BeatStrikes.h"
 #include "Host/Osc/OscPort.h"
+#include "Host/Rig/Rig.h"
 #include "Live/Messages/ClipSource.h"
 #include "Live/Session/Session.h"
 #include <optional>
@@ -13,15 +12,10 @@
 namespace physvib {
 
 struct LivePlay {
-    SessionSetup setup;
-    AudioOutputSettings output;
-    std::vector<SinkName> sinks; ///< to be felt together with the device
-    bool ownThread = false;      ///< steps the world; else the message thread's timer
+    RigSettings rig;
     double seconds = 10.0;
-    std::string recordPath;          ///< WAV; empty: none
-    std::string savePath;            ///< session as JSON; empty: none
     bool listens = false;            ///< to standard input, line by line (see readInputLine)
-    std::optional<BeatVoices> beats; ///< what is heard at output.inputs is struck so
+    std::optional<BeatVoices> beats; ///< what is heard at rig.output.inputs is struck so
     double beatSensitivity = 0.0;
     OscSettings osc;
     std::string clips = ".";           ///< folder from which messages may have clips read

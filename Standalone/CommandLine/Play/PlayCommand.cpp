@@ -299,20 +299,22 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
                                     std::to_string(setup.channels) + "), found \"" + o.ceilings + "\"");
     OscSettings osc = o.osc;
     osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
-    LivePlay wanted{setup,
-                    settings,
-                    outputs.sinks,
-                    o.driver == "thread",
-                    o.scene.seconds,
-                    o.recordPath,
-                    o.savePath,
-                    o.listens,
-                    {},
-                    o.beats.sensitivity,
-                    osc,
-                    o.clips};
-    wanted.keepsPlaying = o.keepsPlaying;
-    wanted.sound = std::move(sound);
+    setup.log = LogUse::none;
+    LivePlay wanted{
+        .rig = {.setup = setup,
+                .output = settings,
+                .sinks = outputs.sinks,
+                .ownThread = o.driver == "thread",
+                .recordPath = o.recordPath,
+                .savePath = o.savePath,
+                .provenance = {PHYSVIB_VERSION, {{"scene", setup.scene.name}, {"session", o.savePath}}}},
+        .seconds = o.scene.seconds,
+        .listens = o.listens,
+        .beatSensitivity = o.beats.sensitivity,
+        .osc = osc,
+        .clips = o.clips,
+        .keepsPlaying = o.keepsPlaying,
+        .sound = std::move(sound)};
     if (!settings.inputs.empty()) wanted.beats = voices.value;
     const std::string error = playLive(std::move(wanted));
     return error.empty() ? exitDone : leave(exitFailed, error);

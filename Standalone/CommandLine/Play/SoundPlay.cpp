@@ -57,7 +57,7 @@ std::string soundFault(const LoadedClip& sound, const LoadedRender& job) {
 }
 
 std::string beginSound(LivePlay& wanted, const Session& session, MessageRouter& messages) {
-    PlainMessage message{"clip", {{"file", wanted.setup.scene.name}}};
+    PlainMessage message{"clip", {{"file", wanted.rig.setup.scene.name}}};
     if (hasOneEach(*wanted.sound)) message.values.push_back({"law", "alone"});
     const auto read = [&](const std::string&) { return Result<LoadedClip>{std::move(*wanted.sound)}; };
     const auto begun = messages.take(message, nullptr, read);

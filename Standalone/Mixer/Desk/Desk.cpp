@@ -34,6 +34,10 @@ SessionSetup setupOf(const Mix& mix) {
     return setup;
 }
 
+RigSettings rigOf(const Mix& mix, const DeviceChoice& device) {
+    return {.setup = setupOf(mix), .sinks = device.sinks, .awaitsSinks = false};
+}
+
 } // namespace
 
 Mix Desk::firstMix() { return shakeTheBox(); }
@@ -60,13 +64,13 @@ private:
 
 Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     : mix_{std::move(mix)}
-    , session_{setupOf(mix_)}
-    , device_{session_, std::move(types), mix_, [this] { sendChangeMessage(); }}
-    , recording_{session_, output(), mix_, [this] { sendChangeMessage(); }}
+    , rig_{rigOf(mix_, device), types}
+    , device_{rig_, std::move(types), mix_, [this] { sendChangeMessage(); }}
+    , recording_{session(), output(), mix_, [this] { sendChangeMessage(); }}
     , undo_{1000, 30}
-    , world_{session_, mix_, undo_, [this](bool isShown) { edited(isShown); }}
+    , world_{session(), mix_, undo_, [this](bool isShown) { edited(isShown); }}
     , told_{mix_.panner()}
-    , strikes_{session_,
+    , strikes_{session(),
                output(),
                mix_,
                world_,
@@ -77,23 +81,21 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     mostEnchanters_ = mix_.count();
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
-    session_.sinks().attach(signals_.tap());
-    device_.connectBoard(device.board);
-    device_.connectPad(device.pad);
+    session().sinks().attach(signals_.tap());
+    const auto fault = rig_.connectSinks();
     open(device);
-    told_.follow(session_, mix_);
-    told_.tell(session_, mix_);
+    if (!fault.empty()) report(utf8(fault));
+    told_.follow(session(), mix_);
+    told_.tell(session(), mix_);
     edits_ = 0;
-    session_.sinks().follow(&output());
-    driver_ = std::make_unique<ThreadDriver>(session_, stepsPerSecond);
+    rig_.start();
 }
 
 Desk::~Desk() {
     output().stop();
     recording_.keep(); // before what may hang
     inputs_.close();
-    driver_.reset();
-    device_.close();
+    rig_.close();
 }
 
 void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
@@ -111,8 +113,8 @@ void Desk::apply(const Mix& next) {
     if (mix_.scene != before.scene || mix_.seed != before.seed) beginWorld(mix_.scene == before.scene);
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
-    told_.follow(session_, mix_);
-    told_.tell(session_, mix_);
+    told_.follow(session(), mix_);
+    told_.tell(session(), mix_);
     if (!mix_.strips.empty() &&
         !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))
         if (const auto error = device_.assign(); !error.empty()) report(utf8(error));
@@ -159,8 +161,8 @@ void Desk::detach(int enchanter) {
 
 const SavedSession& Desk::saved() {
     saved_.channels = mostEnchanters_;
-    saved_.lengthNs = session_.status().sessionNs;
-    session_.readLog(saved_.log);
+    saved_.lengthNs = session().status().sessionNs;
+    session().readLog(saved_.log);
     saved_.mix = mix_;
     return saved_;
 }
@@ -184,7 +186,7 @@ std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
 }
 
 void Desk::watchOutput() {
-    told_.tell(session_, mix_); // what found no room before
+    told_.tell(session(), mix_); // what found no room before
     if (isSilent_ != output().isSilent()) showSilence();
     device_.maintain();
     if (const auto trouble = device_.trouble(); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
@@ -201,7 +203,7 @@ void Desk::beginWorld(bool isSameScene) {
 }
 
 void Desk::setSlowness(int slowness) {
-    session_.world().setSlowness(slowness);
+    session().world().setSlowness(slowness);
     sendChangeMessage();
 }
 
@@ -212,8 +214,10 @@ void Desk::edited(bool isShown) {
 
 void Desk::takeFelt(const Result<std::string>& note) {
     if (!note) return report(utf8(note.error));
-    juce::StringArray news{utf8(note.value),
-                           device_.board() ? "The board plays no clips: it is felt on the device alone" : ""};
+    const auto mute = device_.withoutClips();
+    juce::StringArray news{
+        utf8(note.value),
+        mute.isEmpty() ? "" : "The " + mute + " plays no clips: it is felt on the device alone"};
     news.removeEmptyStrings();
     if (!news.isEmpty()) tell(news.joinIntoString("; "));
     edited();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the mixer's window shows and changes: a live session on a device, its mix, the way back of edits.
 #pragma once
-#include "Host/Devices/SimulationDriver.h"
+#include "Host/Rig/Rig.h"
 #include "Live/Documents/SessionFile.h"
 #include "Mixer/Desk/DeskDevice.h"
 #include "Mixer/Desk/DeskExposure.h"
@@ -50,15 +50,16 @@ public:
     const SavedSession& saved(); ///< the session until now: rendered again it is what was played
     void restart(std::uint32_t seed);
     void setSlowness(int slowness); ///< see WorldRunner
-    Session& session() noexcept { return session_; }
-    const Session& session() const noexcept { return session_; }
+    Rig& rig() noexcept { return rig_; }
+    Session& session() noexcept { return rig_.session(); }
+    const Session& session() const noexcept { return rig_.session(); }
     DeskWorld& world() noexcept { return world_; }
     const DeskWorld& world() const noexcept { return world_; }
     DeskStrikes& strikes() noexcept { return strikes_; }
     DeskDevice& device() noexcept { return device_; }
     const DeskDevice& device() const noexcept { return device_; }
-    AudioOutput& output() noexcept { return device_.output(); }
-    const AudioOutput& output() const noexcept { return device_.output(); }
+    AudioOutput& output() noexcept { return rig_.output(); }
+    const AudioOutput& output() const noexcept { return rig_.output(); }
     DeskInputs& inputs() noexcept { return inputs_; }
     DeskRecording& recording() noexcept { return recording_; }
     const DeskRecording& recording() const noexcept { return recording_; }
@@ -93,12 +94,11 @@ private:
     void takeFelt(const Result<std::string>& note);
 
     Mix mix_;
-    Session session_;
+    Rig rig_;
     DeskSignals signals_;
     DeskDevice device_;
-    DeskExposure exposure_{device_.output()};
+    DeskExposure exposure_{rig_.output()};
     DeskRecording recording_;
-    std::unique_ptr<SimulationDriver> driver_;
     juce::UndoManager undo_;
     DeskWorld world_;
     juce::String trouble_, deviceTrouble_; // shown; the device's of the last look

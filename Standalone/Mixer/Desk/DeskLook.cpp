@@ -5,11 +5,11 @@
 namespace physvib {
 
 DeskMoment Desk::look() {
-    const WorldRunner& world = session_.world();
+    const WorldRunner& world = session().world();
     signals_.follow(world.take(), 1e-9 * static_cast<double>(world.sceneNs()) - device_.playOutSeconds(),
                     world.slowness());
     const float loudest = signals_.read(now_, mix_.count());
-    now_.session = session_.status();
+    now_.session = session().status();
     now_.device = output().status();
     exposure_.update();
     now_.dailyExposure = exposure_.daily();
@@ -24,7 +24,7 @@ DeskMoment Desk::look() {
     for (std::size_t j = 0; j < static_cast<std::size_t>(mix_.count()); ++j)
         now_.meters.isConnected[j] = mix_.strips[j].output >= 0;
     now_.masterPeak = isSilent_ ? 0.0f : loudest * masterGain(mix_);
-    now_.sessionNs = session_.world().readPoses(now_.poses);
+    now_.sessionNs = session().world().readPoses(now_.poses);
     now_.aheadNs = static_cast<std::int64_t>(1e9 * device_.playOutSeconds());
     watchOutput();
     if (const auto words = world_.tooMuch(now_.session.sessionNs, now_.sessionNs, now_.poses);
@@ -36,12 +36,11 @@ DeskMoment Desk::look() {
 }
 
 void Desk::takePlayed() {
-    for (PlayedEvent played; session_.played().pop(played);) {
-        session_.sinks().played(played, output().sampleRateHz());
+    rig_.takePlayed([this](const PlayedEvent& played) {
         hits_.push_back(played.event);
         recent_.add(played.event);
         recording_.take(played);
-    }
+    });
 }
 
 } // namespace physvib

@@ -3,6 +3,7 @@
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/ChannelMeters.h"
+#include "Host/Devices/SinkTable.h"
 #include "Live/Session/SessionSetup.h"
 #include <array>
 #include <cstdint>
@@ -30,11 +31,22 @@ struct DeviceChoice {
     std::string name;     ///< type:name
     int sampleRateHz = 0; ///< 0: as it stands
     int blockFrames = 0;
-    std::string board{};        ///< serial port of a four-channel board beside it, anyBoard; empty: none
+    std::vector<SinkName> sinks{}; ///< beside it
     std::vector<int> monitor{}; ///< its outputs for the left and the right ear, from 0; empty: nobody listens
     double monitorDb = safeContactDb; ///< as ListeningSettings::contactDb
     int marker = -1;                  ///< its output for marks, from 0; -1: none
-    std::string pad{};                ///< game controller beside it: anyPad or part of its name; empty: none
+
+    /// Of the wanted one of that kind; empty: none is.
+    std::string placeOf(const SinkKind& kind) const {
+        for (const SinkName& sink : sinks)
+            if (sink.kind == kind.name) return sink.where;
+        return {};
+    }
+    /// From now on that one of that kind; empty: none.
+    void want(const SinkKind& kind, const std::string& where) {
+        std::erase_if(sinks, [&](const SinkName& sink) { return sink.kind == kind.name; });
+        if (!where.empty()) sinks.push_back({std::string{kind.name}, where});
+    }
 };
 
 } // namespace physvib

@@ -2,8 +2,6 @@
 // Choices of a device, and what it says of itself.
 #include "Mixer/Output/OutputTab.h"
 #include "Host/Devices/NoDevice.h"
-#include "Live/Pads/GamePads.h"
-#include "Live/Session/SerialLine.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {
@@ -14,7 +12,7 @@ constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevels{0, -5, -10, -15, -20, -25, -30, -40, -50};
 constexpr int noneId = 1, levelId = 100; // of the lists of outputs and levels: an output's, or a pair's, and
                                          // a level in dB below it
-constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
+constexpr int noSinkId = 1, anySinkId = 2, otherSinkId = 3, firstSinkId = 4; // of the list of a kind of sink
 
 struct Cell {
     juce::Label& name;
@@ -22,7 +20,7 @@ struct Cell {
     int width;
 };
 
-void placeRow(juce::Rectangle<int>& area, std::initializer_list<Cell> cells) {
+void placeRow(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
     area.removeFromTop(10);
     auto names = area.removeFromTop(18), row = area.removeFromTop(rowHeight);
     for (const Cell& cell : cells) {
@@ -35,17 +33,33 @@ void placeRow(juce::Rectangle<int>& area, std::initializer_list<Cell> cells) {
 
 } // namespace
 
+struct OutputTab::SinkChoice {
+    explicit SinkChoice(const SinkKind& of)
+        : kind{of} {
+        caption(name, kind.title.data());
+        box.setTitle(kind.title.data());
+        box.setTooltip(kind.about.data());
+    }
+    const SinkKind& kind;
+    juce::Label name{};
+    juce::ComboBox box{};
+    std::vector<std::string> places{};
+};
+
+OutputTab::~OutputTab() = default;
+
 OutputTab::OutputTab(Desk& desk)
     : desk_{desk} {
     setTitle("Output");
     caption(deviceName_, "Device");
     caption(rateName_, "Rate");
     caption(blockName_, "Block");
-    caption(boardName_, "Four-channel board");
-    caption(padName_, "Game controller");
-    pad_.setTitle("Game controller");
-    pad_.setTooltip("Its two motors follow all hits, felt together with the device (Docs/pads.md)");
-    pad_.onChange = [this] { usePad(); };
+    for (const SinkKind& kind : sinkKinds()) {
+        auto& sink = *sinks_.emplace_back(std::make_unique<SinkChoice>(kind));
+        sink.box.onChange = [this, &sink] { choose(sink); };
+        addAndMakeVisible(sink.name);
+        addAndMakeVisible(sink.box);
+    }
     caption(monitorName_, "Monitor: what is felt, on headphones");
     caption(monitorLevelName_, "Monitor level");
     caption(marksName_, "Trigger output");
@@ -61,8 +75,6 @@ OutputTab::OutputTab(Desk& desk)
     for (auto* box : {&monitor_, &monitorLevel_}) box->onChange = [this] { chooseMonitor(); };
     marks_.onChange = [this] { chooseMarks(); };
     prepareOsc();
-    board_.setTitle("Board");
-    board_.onChange = [this] { connectBoard(); };
     device_.setTitle("Device");
     rate_.setTitle("Rate");
     block_.setTitle("Block");
@@ -74,10 +86,10 @@ OutputTab::OutputTab(Desk& desk)
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &deviceName_, &device_,           scan_.get(),    &rateName_,  &rate_,  &blockName_,
-             &block_,      &boardName_,        &board_,        &padName_,   &pad_,   &oscName_,
-             &osc_,        &hitsName_,         &hits_,         &phoneName_, &phone_, &monitorName_,
-             &monitor_,    &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_})
+             &deviceName_, &device_,      scan_.get(), &rateName_,         &rate_,         &blockName_,
+             &block_,      &oscName_,     &osc_,       &hitsName_,         &hits_,         &phoneName_,
+             &phone_,      &monitorName_, &monitor_,   &monitorLevelName_, &monitorLevel_, &marksName_,
+             &marks_,      &facts_})
         addAndMakeVisible(c);
     takeMix();
 }
@@ -88,56 +100,55 @@ void OutputTab::visibilityChanged() {
 
 void OutputTab::scan() {
     found_ = listAudioDevices(desk_.device().types());
-    listPorts();
-    listPads();
+    for (const auto& sink : sinks_) list(*sink);
     isScanned_ = true;
     takeMix();
 }
 
 // The one that is wanted stands there even if it does not.
-void OutputTab::listPorts() {
-    const auto& wanted = desk_.device().choice().board;
-    ports_.clear();
-    board_.clear(juce::dontSendNotification);
-    board_.addItem("none", noBoardId);
-    board_.addItem("the first that answers", anyBoardId);
-    const auto add = [this](const std::string& path, const std::string& about) {
-        board_.addItem(utf8(path) + "  " + utf8(about), firstPortId + static_cast<int>(ports_.size()));
-        ports_.push_back(path);
+void OutputTab::list(SinkChoice& sink) {
+    const auto wanted = desk_.device().choice().placeOf(sink.kind);
+    sink.places.clear();
+    sink.box.clear(juce::dontSendNotification);
+    sink.box.addItem("none", noSinkId);
+    sink.box.addItem(sink.kind.anyWords.data(), anySinkId);
+    const auto add = [&sink](const SinkPlace& place) {
+        sink.box.addItem(utf8(place.where) +
+                             (place.about.empty() ? juce::String{} : "  " + utf8(place.about)),
+                         firstSinkId + static_cast<int>(sink.places.size()));
+        sink.places.push_back(place.where);
     };
-    for (const auto& port : listSerialPorts()) add(port.path, port.description);
-    if (!wanted.empty() && wanted != anyBoard && std::ranges::find(ports_, wanted) == ports_.end())
-        add(wanted, "");
-    board_.addItem("another port" + juce::String::charToString(0x2026), otherPortId);
-    const auto at = std::ranges::find(ports_, wanted);
-    board_.setSelectedId(wanted.empty()       ? noBoardId
-                         : wanted == anyBoard ? anyBoardId
-                                              : firstPortId + static_cast<int>(at - ports_.begin()),
-                         juce::dontSendNotification);
+    for (const SinkPlace& place : sink.kind.places()) add(place);
+    if (!wanted.empty() && wanted != sink.kind.any &&
+        std::ranges::find(sink.places, wanted) == sink.places.end())
+        add({wanted});
+    if (!sink.kind.other.empty())
+        sink.box.addItem("another" + juce::String::charToString(0x2026), otherSinkId);
+    const auto at = std::ranges::find(sink.places, wanted);
+    sink.box.setSelectedId(wanted.empty() ? noSinkId
+                           : wanted == sink.kind.any
+                               ? anySinkId
+                               : firstSinkId + static_cast<int>(at - sink.places.begin()),
+                           juce::dontSendNotification);
 }
 
-// The one that is wanted stands there even if it does not.
-void OutputTab::listPads() {
-    const auto& wanted = desk_.device().choice().pad;
-    pads_ = {"", anyPad};
-    for (const GamePadInfo& info : GamePads{}.list())
-        if (std::ranges::find(pads_, info.name) == pads_.end()) pads_.push_back(info.name);
-    if (std::ranges::find(pads_, wanted) == pads_.end()) pads_.push_back(wanted);
-    pad_.clear(juce::dontSendNotification);
-    for (int id = 1; const auto& name : pads_)
-        pad_.addItem(name.empty()     ? juce::String{"none"}
-                     : name == anyPad ? juce::String{"the first that is there"}
-                                      : utf8(name),
-                     id++);
-    pad_.setSelectedId(1 + static_cast<int>(std::ranges::find(pads_, wanted) - pads_.begin()),
-                       juce::dontSendNotification);
+void OutputTab::choose(SinkChoice& sink) {
+    const SinkKind& kind = sink.kind;
+    const int id = sink.box.getSelectedId();
+    if (id != otherSinkId)
+        return use(kind, id == anySinkId     ? std::string{kind.any}
+                         : id >= firstSinkId ? sink.places[static_cast<std::size_t>(id - firstSinkId)]
+                                             : std::string{});
+    list(sink); // shows what is still so
+    ask(kind.title.data(), kind.other.data(), utf8(desk_.device().choice().placeOf(kind)),
+        [this, &kind](const juce::String& where) { use(kind, where.toStdString()); });
 }
 
-void OutputTab::usePad() {
+void OutputTab::use(const SinkKind& kind, const std::string& where) {
     DeviceChoice choice = desk_.device().choice();
-    choice.pad = pads_[static_cast<std::size_t>(std::max(0, pad_.getSelectedItemIndex()))];
-    if (choice.pad != desk_.device().choice().pad && desk_.device().onBoardWanted)
-        desk_.device().onBoardWanted(choice);
+    if (choice.placeOf(kind) == where || !desk_.device().onSinksWanted) return;
+    choice.want(kind, where);
+    desk_.device().onSinksWanted(choice);
 }
 
 void OutputTab::open() {
@@ -150,14 +161,6 @@ void OutputTab::open() {
     choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
     desk_.open(choice);
     takeMix();
-}
-
-void OutputTab::connectBoard() {
-    const int id = board_.getSelectedId();
-    if (id == otherPortId) return askPort();
-    useBoard(id == anyBoardId    ? std::string{anyBoard}
-             : id >= firstPortId ? ports_[static_cast<std::size_t>(id - firstPortId)]
-                                 : std::string{});
 }
 
 // Pairs as headphones have them; where enchanters are, it says whose place would be taken.
@@ -220,12 +223,6 @@ juce::String OutputTab::heardWords() const {
     return words;
 }
 
-void OutputTab::askPort() {
-    listPorts(); // shows what is still so
-    ask("Four-channel board", "Serial port", utf8(desk_.device().choice().board),
-        [this](const juce::String& port) { useBoard(port.toStdString()); });
-}
-
 void OutputTab::ask(const juce::String& title, const juce::String& what, const juce::String& now,
                     std::function<void(const juce::String&)> use) {
     auto* window = new juce::AlertWindow{title, {}, juce::MessageBoxIconType::NoIcon, this};
@@ -240,13 +237,6 @@ void OutputTab::ask(const juce::String& title, const juce::String& what, const j
                 if (answer == 1 && safe != nullptr && words.isNotEmpty()) use(words);
             }),
         true);
-}
-
-void OutputTab::useBoard(const std::string& port) {
-    DeviceChoice choice = desk_.device().choice();
-    choice.board = port;
-    if (choice.board != desk_.device().choice().board && desk_.device().onBoardWanted)
-        desk_.device().onBoardWanted(choice);
 }
 
 std::vector<Fact> OutputTab::sinkFacts() const {
@@ -279,9 +269,11 @@ void OutputTab::takeMix() {
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
     listHeard();
     showOsc();
-    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &padName_, &oscName_, &hitsName_,
-                        &phoneName_, &monitorName_, &monitorLevelName_, &marksName_})
+    for (auto* label : {&deviceName_, &rateName_, &blockName_, &oscName_, &hitsName_, &phoneName_,
+                        &monitorName_, &monitorLevelName_, &marksName_})
         label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (const auto& sink : sinks_)
+        sink->name.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
 void OutputTab::refresh(const DeskMoment& moment) {
@@ -335,11 +327,12 @@ void OutputTab::resized() {
     scan_->setBounds(row.removeFromRight(90));
     row.removeFromRight(gap);
     device_.setBounds(row);
-    const int all = area.getWidth() - 2 * gap, quarter = all / 4, fifth = all / 5;
-    placeRow(area, {{rateName_, rate_, quarter},
-                    {blockName_, block_, quarter},
-                    {boardName_, board_, quarter},
-                    {padName_, pad_, quarter - gap}});
+    const int all = area.getWidth() - 2 * gap, fifth = all / 5;
+    std::vector<Cell> first{{rateName_, rate_, 0}, {blockName_, block_, 0}};
+    for (const auto& sink : sinks_) first.push_back({sink->name, sink->box, 0});
+    const int cells = static_cast<int>(first.size());
+    for (Cell& cell : first) cell.width = (area.getWidth() - (cells - 1) * gap) / cells;
+    placeRow(area, first);
     placeRow(area, {{oscName_, osc_, 2 * fifth},
                     {hitsName_, hits_, 2 * fifth - gap},
                     {phoneName_, phone_, fifth + gap}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the enchanters are fed from: device, rate, block and the delay that follows from them; the board, a
-// game controller.
+// Where the enchanters are fed from: device, rate, block and the delay that follows from them; what plays
+// beside it.
 #pragma once
 #include "Mixer/Output/FactList.h"
 #include "Mixer/Window/TabPanel.h"
@@ -10,6 +10,7 @@ namespace physvib {
 class OutputTab final : public Tab {
 public:
     explicit OutputTab(Desk& desk);
+    ~OutputTab() override;
     void takeMix() override;
     void refresh(const DeskMoment& moment) override;
     void resized() override;
@@ -22,12 +23,10 @@ private:
     void open();
 
     Desk& desk_;
-    void connectBoard();
-    void askPort();
-    void useBoard(const std::string& port);
-    void listPorts();
-    void listPads();
-    void usePad();
+    struct SinkChoice;
+    void list(SinkChoice& choice);
+    void choose(SinkChoice& choice);
+    void use(const SinkKind& kind, const std::string& where);
     void prepareOsc();
     void listen();
     void chooseReceiver();
@@ -42,13 +41,13 @@ private:
     void chooseMarks();
     juce::String heardWords() const;
 
-    juce::ComboBox device_, rate_, block_, board_, pad_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
-    juce::Label deviceName_, rateName_, blockName_, boardName_, padName_, oscName_, hitsName_, phoneName_,
-        monitorName_, monitorLevelName_, marksName_;
+    juce::ComboBox device_, rate_, block_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
+    juce::Label deviceName_, rateName_, blockName_, oscName_, hitsName_, phoneName_, monitorName_,
+        monitorLevelName_, marksName_;
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;
-    std::vector<std::string> ports_, pads_;
+    std::vector<std::unique_ptr<SinkChoice>> sinks_; // one per row of the table
     bool isScanned_ = false;
 };
 

@@ -61,8 +61,9 @@ Result<FeltStimulus> StudySound::make(Desk& desk, const TrialJob& job, const std
 
 std::string StudySound::refusal(const Desk& desk, const FeltStimulus& stimulus) {
     const int wanted = stimulus.layout.geometry.count, there = desk.mix().count();
-    if (!stimulus.recordings.empty() && desk.device().board())
-        return "--method SV: expected a mixer without the board, which plays no recordings";
+    if (const auto mute = desk.device().withoutClips(); !stimulus.recordings.empty() && mute.isNotEmpty())
+        return "--method SV: expected a mixer without the " + mute.toStdString() +
+               ", which plays no recordings";
     if (wanted <= there) return {};
     return stimulus.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " +
            std::to_string(there);

@@ -16,8 +16,9 @@ constexpr std::int64_t fadeNs = 100'000'000; // longer than whatever rings takes
 
 std::string StudyWorld::refusal(const Desk& desk, const FeltWorld& world) {
     const int wanted = world.layout.geometry.count, there = desk.mix().count();
-    if (desk.device().board())
-        return "a world: expected a mixer without the board, which follows one session only";
+    if (const auto beside = desk.session().sinks().states(); !beside.empty())
+        return "a world: expected a mixer without the " + beside.front().name +
+               ", which follows one session only";
     if (wanted <= there) return {};
     return world.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " +
            std::to_string(there);

@@ -4,7 +4,6 @@
 #include "Core/Limits.h"
 #include "Host/Devices/LikelyDevices.h"
 #include "Host/Devices/NoDevice.h"
-#include "Live/Pads/PadOutput.h"
 #include <algorithm>
 #include <optional>
 
@@ -13,7 +12,7 @@ namespace {
 
 constexpr int mostRows = 6;
 constexpr int lookMs = 100,
-              mostLooks = 50; // for a board or controller to come: greeting and clock take half a second,
+              mostLooks = 50; // for a sink to come: greeting and clock of a board take half a second,
                               // Bluetooth one
 
 juce::String outputsText(int outputs) {
@@ -28,8 +27,15 @@ void keepTo(int outputs, Mix& mix) {
     mix.resizeStrips();
 }
 
-std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads,
-                                    const std::vector<SerialPortName>& ports) {
+std::vector<SinkOffer> likelySinks() {
+    std::vector<SinkOffer> offers;
+    for (const SinkKind& kind : sinkKinds())
+        for (SinkPlace& place : kind.places())
+            if (place.isLikely) offers.push_back({&kind, std::move(place)});
+    return offers;
+}
+
+std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<SinkOffer>& offers) {
     const auto devices = byLikelihood(listAudioDevices(types));
     std::vector<FeltChoice> many, few, all;
     for (const auto& device : devices) {
@@ -43,21 +49,14 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
     }
     std::optional<FeltChoice> ears; // of sound devices alone
     if (const auto& heard = few.empty() ? many : few; !heard.empty()) ears = heard.front();
-    for (const SerialPortName& port : ports) {
-        if (!port.isLikelyBoard) continue; // else it is anything: a modem, or a screen
-        FeltChoice choice{"Four-channel board: " + utf8(port.path + "  " + port.description),
+    for (const auto& [kind, place] : offers) { // nothing but the sink plays
+        FeltChoice choice{utf8(std::string{kind->title} + ": " + place.where) +
+                              (place.about.empty() ? juce::String{} : "  " + utf8(place.about)),
                           {std::string{noDeviceType} + ":" + noDeviceName},
-                          limits::board::channels,
+                          kind->actuators,
                           true};
-        choice.device.board = port.path;
-        many.insert(many.begin(), std::move(choice)); // whoever plugs one in means it
-    }
-    for (const std::string& pad : pads) {
-        // nothing but the controller plays
-        FeltChoice choice{
-            "Game controller: " + utf8(pad), {std::string{noDeviceType} + ":" + noDeviceName}, 2, true};
-        choice.device.pad = pad;
-        many.push_back(std::move(choice));
+        choice.device.want(*kind, place.where);
+        many.insert(kind->isMeant ? many.begin() : many.end(), std::move(choice));
     }
     if (ears && ears->outputs >= 2) {
         ears->title = "Headphones: " + utf8(ears->device.name);

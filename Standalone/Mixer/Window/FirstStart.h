@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The first start: where the actuators hang, then each of them in turn: was it felt, and where?
 #pragma once
-#include "Live/Session/SerialLine.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
 #include <functional>
@@ -15,14 +14,21 @@ struct FeltChoice {
     juce::String title;
     DeviceChoice device;
     int outputs = 0;
-    bool isBeside = false; ///< a board or a controller: the session begins anew with it
+    bool isBeside = false; ///< a sink: the session begins anew with it
     bool isHeard = false;  ///< on headphones at its first two outputs; no actuator plays there
 };
 
-/// Audio devices, four-channel boards, game controllers and no device; the likely one first. M; asks the
-/// system, which takes a while.
-std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads,
-                                    const std::vector<SerialPortName>& ports);
+/// Something that can be played on beside a device.
+struct SinkOffer {
+    const SinkKind* kind;
+    SinkPlace place;
+};
+
+/// All that can be told to be one. M; asks the system, which takes a while.
+std::vector<SinkOffer> likelySinks();
+
+/// Audio devices, what can be played on beside one, and no device; the likely one first. M; as likelySinks().
+std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<SinkOffer>& offers);
 
 /// No more actuators than there are outputs: those of a preset. M.
 void keepTo(int outputs, Mix& mix);
@@ -37,15 +43,15 @@ public:
     FirstStart(Desk& desk, std::vector<FeltChoice> choices);
 
     std::function<void(bool hasChosen)> onEnd;
-    std::function<void(const DeviceChoice&)> onBeside; ///< the window plays a board or a controller beside a
-                                                       ///< device, and goes on with test()
+    std::function<void(const DeviceChoice&)> onBeside; ///< the window plays a sink beside a device, and goes
+                                                       ///< on with test()
 
     void choose(int index);
     int chosen() const noexcept { return chosen_; }
     void playHere();        ///< what is chosen: opens it, and the test begins
     void listen();          ///< what is felt is heard on what is open
     void test(int outputs); ///< of as many actuators as there are outputs, four at most, from a low level; a
-                            ///< board or controller is waited for
+                            ///< sink is waited for
     void pulse();           ///< of the one that is tested, again
     void felt();            ///< where it is drawn; the next one
     void feltAt(double shareX, double shareY); ///< there: it moves, and the next one

@@ -37,14 +37,14 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
         device.isNotEmpty()
             ? device.toStdString()
             : settings.getValue("device", juce::String{noDeviceType} + ":" + noDeviceName).toStdString(),
-        settings.getIntValue("rate"), settings.getIntValue("block"),
-        settings.getValue("board").toStdString()};
+        settings.getIntValue("rate"), settings.getIntValue("block")};
     if (const int left = settings.getIntValue("monitor-left"), right = settings.getIntValue("monitor-right");
         left > 0 && right > 0)
         device_.monitor = {left - 1, right - 1};
     device_.monitorDb = settings.getDoubleValue("monitor-db", safeContactDb);
     device_.marker = settings.getIntValue("marker") - 1;
-    device_.pad = settings.getValue("controller").toStdString();
+    for (const SinkKind& kind : sinkKinds())
+        device_.want(kind, settings.getValue(kind.setting.data()).toStdString());
     dragged_->setEnding(std::max(0, hitEndings().indexOf(settings.getValue("clip-ending"))));
     setUsingNativeTitleBar(true);
     const bool endedBadly = !files_.copies().leftBehind().empty();
@@ -103,10 +103,10 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
     savedEdits_ = desk_->edits();
     view_->topBar().onMenu = [this](juce::Component& from) { showMenu(from); };
     view_->topBar().onRecord = [this] { record(); };
-    desk_->device().onBoardWanted =
+    desk_->device().onSinksWanted =
         [safe = juce::Component::SafePointer<MixerWindow>{this}](const DeviceChoice& choice) {
             juce::MessageManager::callAsync([safe, choice] { // the tab that asked goes with its desk
-                if (safe != nullptr) safe->useBoard(choice);
+                if (safe != nullptr) safe->useSinks(choice);
             });
         };
     view_->topBar().onOpenScene = [this] { import("Scene"); };
@@ -135,26 +135,21 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
     if (wasAsked) offerRecovery();
 }
 
-void MixerWindow::useBoard(const DeviceChoice& choice) {
+void MixerWindow::useSinks(const DeviceChoice& choice) {
     askThen([this, choice] {
         device_ = choice;
-        files_.settings().setValue("board", utf8(choice.board));
-        files_.settings().setValue("controller", utf8(choice.pad));
+        for (const SinkKind& kind : sinkKinds())
+            files_.settings().setValue(kind.setting.data(), utf8(choice.placeOf(kind)));
         const bool isFirst = view_->firstStart() != nullptr;
         play(Mix{desk_->mix()}, document_);
-        if (isFirst) return testBeside(choice.board.empty() ? 2 : limits::board::channels);
+        if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // where it was chosen
     });
 }
 
 // ---- the first start, and what is there instead of what was used
 
-void MixerWindow::showFirstStart() {
-    std::vector<std::string> pads;
-    for (const GamePadInfo& pad : GamePads{}.list())
-        if (pad.hasMotors) pads.push_back(pad.name);
-    addFirstStart(feltChoices(types_, pads, listSerialPorts()));
-}
+void MixerWindow::showFirstStart() { addFirstStart(feltChoices(types_, likelySinks())); }
 
 FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
     auto card = std::make_unique<FirstStart>(*desk_, std::move(choices));
@@ -167,7 +162,7 @@ FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
     };
     card->onBeside = [this](const DeviceChoice& choice) {
         files_.settings().setValue(chosenSetting, true);
-        if (desk_->device().onBoardWanted) desk_->device().onBoardWanted(choice);
+        if (desk_->device().onSinksWanted) desk_->device().onSinksWanted(choice);
     };
     FirstStart& shown = *card;
     view_->setFirstStart(std::move(card));
@@ -236,7 +231,7 @@ Mix MixerWindow::firstMix() {
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
     if (settings.getBoolValue("monitor-offered") || desk_->device().outputs() != 2 ||
-        !device_.board.empty() || !device_.monitor.empty())
+        !device_.sinks.empty() || !device_.monitor.empty())
         return;
     settings.setValue("monitor-offered", true);
     desk_->tell("This device has two outputs. With headphones there, what is felt can be heard: choose "

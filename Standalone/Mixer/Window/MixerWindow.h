@@ -70,7 +70,7 @@ private:
     void tellLowered(const std::string& lowered, const Mix& asked);
     void takeAsked();
     DeskLimits limits() const { return desk_ ? DeskLimits::of(desk_->mix()) : files_.limits(); }
-    void useBoard(const DeviceChoice& choice);
+    void useSinks(const DeviceChoice& choice);
     void saveTo(const juce::File& file);
     void askThen(std::function<void()> goOn);
     void chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving,

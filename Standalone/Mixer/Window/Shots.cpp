@@ -21,7 +21,7 @@ struct State {
     int width, height;
     double seconds; // until the picture is taken
     std::function<void(Desk&, MixerView&)> reach;
-    std::string board{}; // serial port of one that is wanted
+    std::vector<SinkName> sinks{}; // beside the device
 };
 
 AudioDeviceTypes onlyNoDevice() {
@@ -125,7 +125,12 @@ std::vector<State> mixerStates() {
              d.device().listening().monitor({4, 5}, safeContactDb), d.device().listening().mark(7),
                  v.tabs().choose("Output");
          }},
-        {"board", 1440, 900, 4.5, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }, "/dev/ttyACM0"},
+        {"board",
+         1440,
+         900,
+         4.5,
+         [](Desk&, MixerView& v) { v.tabs().choose("Output"); },
+         {{"BOARD", "/dev/ttyACM0"}}},
         {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
         {"lanes", 1440, 900, 6.0, showLanes},
         {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},
@@ -177,7 +182,7 @@ juce::String takeShot(const juce::File& file, const juce::String& name, const ju
     const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
     if (state == states().end())
         return "--state: expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
-    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->board}};
+    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->sinks}};
     MixerView view{desk};
     view.setSize(size.isEmpty() ? state->width : wide, size.isEmpty() ? state->height : high);
     state->reach(desk, view);
