@@ -38,6 +38,7 @@ step() {
         arm64) Tests/arm64.sh $bin/physvib-render ;;
         windows) Tests/windows.sh $bin/physvib-render ;;
         fresh) Tests/fresh-machine.sh ;;
+        no-lab) Tests/House/no-lab.sh build/no-lab ;;
         pages) Tests/fresh-machine.sh --pages ;;
         pads) /usr/bin/python3 Tests/Pads/judge.py $bin/physvib build/release/Tests/Pads/libphysvib-plug-in.so 600 ;;
         packages) Tests/Release/bare-debian.sh ;;
