@@ -89,7 +89,7 @@ TEST(Stimulus, PhantomsFollowTheLawAtEveryPointOfTheGrid) {
                                 gains[j] *
                                     std::sin(2.0 * std::numbers::pi * 205.0 * static_cast<double>(n) / 48000),
                                 1e-6)
-                        << gridLabel(cell);
+                        << point;
         }
 }
 
