@@ -163,7 +163,7 @@ TEST(PluginState, WhatIsWrongIsNamed) {
 
 TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never written again: hosts keep such
                                                      // states for years
-    const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Scene/plugin-state-1.json", 1'000'000);
+    const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Documents/plugin-state-1.json", 1'000'000);
     ASSERT_TRUE(text) << text.error;
     const auto read = readPluginState(text.value, "f");
     ASSERT_TRUE(read) << read.error;

@@ -179,7 +179,7 @@ TEST(PluginMix, EnchantersThatComeGetTheLowestCeiling) {
 }
 
 TEST(PluginMix, ANewInstanceAndAChunkOfVersion1SoundAsWithoutAMix) {
-    const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Scene/plugin-state-1.json", 1'000'000);
+    const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Documents/plugin-state-1.json", 1'000'000);
     ASSERT_TRUE(text) << text.error;
     TestHost host;
     host.plugin->setStateInformation(text.value.data(), static_cast<int>(text.value.size()));
