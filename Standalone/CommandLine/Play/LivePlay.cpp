@@ -114,7 +114,7 @@ private:
 };
 
 void summarise(Rig& rig, std::uint64_t played) {
-    const Session& session = rig.session();
+    Session& session = rig.session();
     AudioOutput& output = rig.output();
     const SessionStatus status = session.status();
     const RenderStatus& r = status.render;

@@ -14,8 +14,8 @@ namespace physvib {
 struct LivePlay {
     RigSettings rig;
     double seconds = 10.0;
-    bool listens = false;            ///< to standard input, line by line (see readInputLine)
-    std::optional<BeatVoices> beats; ///< what is heard at rig.output.inputs is struck so
+    bool listens = false;              ///< to standard input, line by line (see readInputLine)
+    std::optional<BeatVoices> beats{}; ///< what is heard at rig.output.inputs is struck so
     double beatSensitivity = 0.0;
     OscSettings osc;
     std::string clips = ".";           ///< folder from which messages may have clips read
