@@ -327,7 +327,7 @@ void OutputTab::resized() {
     scan_->setBounds(row.removeFromRight(90));
     row.removeFromRight(gap);
     device_.setBounds(row);
-    const int all = area.getWidth() - 2 * gap, fifth = all / 5;
+    const int all = area.getWidth() - 2 * gap, quarter = all / 4, fifth = all / 5;
     std::vector<Cell> first{{rateName_, rate_, 0}, {blockName_, block_, 0}};
     for (const auto& sink : sinks_) first.push_back({sink->name, sink->box, 0});
     const int cells = static_cast<int>(first.size());
