@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: MIT
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Writes PhysVib.jucer into the build folder: the Projucer's project of the plug-in of one bus, from the targets that it links. A test
 # (House.JucerIsTheGenerated) compares it with the one at the top level; copy it there when files have come or gone.
 
