@@ -16,12 +16,6 @@ struct BodyFacts {
     bool isEnabled = true;
 };
 
-/// Velocity of a body.
-struct BodyMotion {
-    Vector2 metresPerSecond;
-    float radiansPerSecond = 0.0F; ///< counter-clockwise
-};
-
 /// Asked for few bodies, and only when something has happened to them, so nothing is copied for those at
 /// rest. Each method: M, within a step or right after it, for a body that is in the world.
 class BodyReader {

@@ -2,30 +2,12 @@
 // The bodies of a world that somebody tells us of, since we cannot look into it.
 #pragma once
 #include "Contacts/BodyReader.h"
+#include "Contacts/ContactFeed.h"
 #include "Contacts/IntegerMap.h"
-#include <cmath>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 namespace physvib {
-
-/// What is told of a body, once.
-struct FedBody {
-    double massKg = 0.0;                ///< 0: what strikes it does not move it (a floor, a wall, a platform)
-    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; 0: blows
-                                        ///< are taken as if they went through the centre
-    double gravityScale = 1.0;          ///< how much of the world's gravity pulls it
-};
-
-/// What is wrong with it, and what was expected; empty if it can be used. Any thread.
-inline std::string_view faultOf(const FedBody& body) noexcept {
-    constexpr auto isMass = [](double value) { return value >= 0.0 && value <= 1.0e12; }; // not NaN
-    if (!isMass(body.massKg)) return "mass: expected 0 to 10^12 kg";
-    if (!isMass(body.inertiaKgSquareMetres)) return "inertia: expected 0 to 10^12 kg m^2";
-    if (!(std::abs(body.gravityScale) <= 1.0e6)) return "gravity scale: expected -10^6 to 10^6";
-    return {};
-}
 
 /// Bodies by numbers (>= 0) of the engine's side. M only.
 class FedBodies final : public BodyReader {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which points of a pair that touches were there in the step before, by their numbers or by their places.
 #pragma once
+#include "Contacts/ContactFeed.h"
 #include "Contacts/Vector2.h"
 #include <cmath>
 #include <cstdint>
@@ -13,9 +14,7 @@ namespace physvib {
 /// only when it outgrows what it has had.
 class FedPoints {
 public:
-    static constexpr std::int32_t none = -1; ///< of a point: it is not told apart from others of its pair; of
-                                             ///< a chain: empty
-    static constexpr std::int32_t byPlace = -2; ///< of a point of an engine that does not number them
+    static constexpr std::int32_t none = -1; ///< of a chain: empty
 
     /// The points of one pair, kept by the pair.
     struct Chain {
@@ -30,7 +29,8 @@ public:
         for (std::int32_t at = chain.before; at != none && !isOld;
              at = before_[static_cast<std::size_t>(at)].next) {
             const Point& point = before_[static_cast<std::size_t>(at)];
-            isOld = id == byPlace ? across(point.place - place, normal) <= withinMetres : point.id == id;
+            isOld = id == FedContact::byPlace ? across(point.place - place, normal) <= withinMetres
+                                              : point.id == id;
         }
         now_.push_back({place, id, chain.now});
         chain.now = static_cast<std::int32_t>(now_.size()) - 1;

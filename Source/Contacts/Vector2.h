@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A vector in the plane, in the single precision that 2D physics engines compute with.
+// A vector in the plane, in the single precision that 2D physics engines compute with, and a body's motion
+// there.
 #pragma once
 #include <cmath>
 
@@ -21,6 +22,12 @@ struct Vector2 {
 
     /// The same vector, turned by 90 degrees counter-clockwise.
     Vector2 turnedLeft() const noexcept { return {-y, x}; }
+};
+
+/// Velocity of a body.
+struct BodyMotion {
+    Vector2 metresPerSecond;
+    float radiansPerSecond = 0.0F; ///< counter-clockwise
 };
 
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // When events are struck, and how far a part of a block may reach.
 #include "Core/HapticRenderer.h"
+#include "Core/Modes/ModeIncrements.h"
 #include <algorithm>
 #include <cmath>
 

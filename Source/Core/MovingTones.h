@@ -8,7 +8,7 @@
 #include "Core/CollisionEvent.h"
 #include "Core/FadingVoices.h"
 #include "Core/FrameClock.h"
-#include "Core/Modes/ModeIncrements.h"
+#include "Core/Trigonometry.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -31,22 +31,7 @@ public:
     }
 
     /// From `onset` on, until `closeFrame`. False if too many sound at once.
-    bool strike(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {
-        Voice* const voice = voices_.add(onset.frame);
-        if (voice == nullptr) return false;
-        voice->event = event;
-        voice->leadFrames = onset.leadFrames;
-        voice->phaseIncrement = phaseIncrementOf(event.frequencyHz, rate_);
-        voice->decayIncrement = decayIncrementOf(event.decayPerSecond, rate_);
-        voice->phase = phaseAfter(event.frequencyHz * static_cast<double>(event.course.sinceNs) * 1e-9);
-        voice->level = static_cast<double>(
-            event.amplitude *
-            shareLeft(event.decayPerSecond, static_cast<double>(event.course.sinceNs) * 1e-9));
-        const std::int64_t life = lifeFramesOf(voice->decayIncrement);
-        voice->end = voice->closeFrame =
-            std::min({closeFrame, VoiceTime::never, life < VoiceTime::never ? onset.frame + life : life});
-        return true;
-    }
+    bool strike(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
 
     void fadeAll(std::int64_t frame) noexcept { voices_.fadeAll(frame); }
     int count() const noexcept { return voices_.count(); }

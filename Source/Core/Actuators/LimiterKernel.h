@@ -8,12 +8,10 @@
 namespace physvib {
 
 /// Each channel has a line: from `front` on the frames of this part, then padding; before it `latency`
-/// delayed ones.
+/// delayed ones. Lines and `front` are a multiple of the widest vector.
 struct LimiterLines {
-    static constexpr std::size_t padding = 16; ///< floats of the widest vector; lines and `front` are a
-                                               ///< multiple of it
-    const float* const* in = nullptr;          ///< may be `out`
-    float* const* out = nullptr;               ///< each from frame `first` on
+    const float* const* in = nullptr; ///< may be `out`
+    float* const* out = nullptr;      ///< each from frame `first` on
     std::size_t first = 0, frames = 0, channels = 0;
     float* lines = nullptr;
     float* const* kept = nullptr; ///< if given, where what comes in is written as well; null: nowhere

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sliding minimum, linear release, moving average, delayed multiply.
 #include "Core/Actuators/LinkedLimiter.h"
+#include "Core/Actuators/LimiterKernel.h"
 #include "Core/Modes/TileKernel.h"
 #include <algorithm>
 #include <bit>

@@ -10,7 +10,6 @@
 // gain for the ceiling of its own time.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
-#include "Core/Actuators/LimiterKernel.h"
 #include "Core/Limits.h"
 #include "Core/Modes/InstructionSet.h"
 #include "Core/Storage.h"
@@ -18,6 +17,9 @@
 #include <cstdint>
 
 namespace physvib {
+
+struct LimiterKernel;
+struct LimiterLines;
 
 /// R only, but for prepare: M.
 class LinkedLimiter {
@@ -76,8 +78,8 @@ private:
     int window_ = 1;
     bool enabled_ = true;
     std::int64_t releaseStep_ = unit;
-    static constexpr std::size_t step = LimiterLines::padding,
-                                 floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
+    static constexpr std::size_t step = 16, // floats of the widest vector
+        floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
     // of latencyFrames(), whole vectors
     std::size_t front() const noexcept {
         return (static_cast<std::size_t>(window_) + step - 2) / step * step;

@@ -3,7 +3,7 @@
 // directions in which decaying sinusoids of low frequency lie. Nested: a mode of rank 8 uses the first 8
 // of 32.
 #pragma once
-#include "Core/Modes/TileKernel.h"
+#include "Core/Modes/TileLayers.h"
 
 namespace physvib {
 

@@ -2,6 +2,7 @@
 // Striking, merging, gating, stealing and retiring of modes.
 #include "Core/Modes/ModeBank.h"
 #include "Core/Modes/ModeIncrements.h"
+#include "Core/Modes/ModeTable.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -12,10 +12,10 @@
 #include "Core/CollisionEvent.h"
 #include "Core/FrameClock.h"
 #include "Core/Modes/ModeIndex.h"
-#include "Core/Modes/ModeTable.h"
 #include "Core/Modes/ModeTiles.h"
 #include "Core/Storage.h"
 #include "Core/TimeOrdered.h"
+#include "Core/Trigonometry.h"
 #include <array>
 #include <cstdint>
 

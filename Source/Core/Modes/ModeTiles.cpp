@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Packing rows, making tiles, adding strikes.
 #include "Core/Modes/ModeTiles.h"
+#include "Core/Modes/LowRankBasis.h"
+#include "Core/Modes/TileKernel.h"
 
 namespace physvib {
 
@@ -11,6 +13,8 @@ const TileKernel* tileKernel(InstructionSet) noexcept { return nullptr; }
 bool isAvailable(InstructionSet set) noexcept {
     return set == InstructionSet::best || set == InstructionSet::scalar || tileKernel(set) != nullptr;
 }
+
+InstructionSet ModeTiles::set() const noexcept { return isOn() ? kernel_->set : InstructionSet::scalar; }
 
 bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcept {
     static const LowRankBasis basis;

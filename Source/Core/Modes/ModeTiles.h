@@ -7,14 +7,17 @@
 // renders that layer again and leaves the bits of the other alone (Docs/decisions/0002).
 #pragma once
 #include "Core/Modes/InstructionSet.h"
-#include "Core/Modes/LowRankBasis.h"
-#include "Core/Modes/TileKernel.h"
+#include "Core/Modes/TileLayers.h"
 #include "Core/Storage.h"
+#include "Core/Trigonometry.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
 namespace physvib {
+
+class LowRankBasis;
+struct TileKernel;
 
 /// What a slot's mode is, as far as tiles need it. Powers: 64 of each, double precision, for as long as the
 /// mode lives.
@@ -35,7 +38,7 @@ public:
     /// False: no memory for them.
     bool prepare(int channels, InstructionSet set, int slotsMost) noexcept;
     bool isOn() const noexcept { return kernel_ != nullptr; }
-    InstructionSet set() const noexcept { return isOn() ? kernel_->set : InstructionSet::scalar; }
+    InstructionSet set() const noexcept;
 
     void add(int slot, const TileMode& mode) noexcept;
     void remove(int slot) noexcept;
