@@ -15,12 +15,6 @@
 
 namespace physvib {
 
-/// Every field of `object` after a table: its own, unless told. Throws JsonError.
-template <class T, class Table = T>
-void readTable(const JsonField& json, T& object);
-template <class T, class Table = T>
-OrderedJson writeTable(const T& object);
-
 /// The value of a field of that kind.
 template <class Kind>
 auto readAs(const JsonField& json, const Kind& kind) {

@@ -4,6 +4,7 @@
 #pragma once
 #include <functional>
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,12 @@ namespace physvib {
 /// visitFields(v, FieldsOf<T>{}) calls v once per field of T, in the order in which they are written.
 template <class T>
 struct FieldsOf {};
+
+/// Every field of `object` after a table: its own, unless told. Throws JsonError. FieldJson.h has them.
+template <class T, class Table = T>
+void readTable(const class JsonField& json, T& object);
+template <class T, class Table = T>
+nlohmann::ordered_json writeTable(const T& object);
 
 /// Whether a file may leave a field out. What is left out has the struct's default.
 struct Need {

@@ -92,9 +92,9 @@ void visitFields(auto& v, FieldsOf<SceneNote>) {
 }
 
 NoteRule readNote(const JsonField& json, const Scene& scene) {
-    json.expectObject();
     SceneNote note{{}, &scene};
-    note.rule.kind = static_cast<NoteKind>(json["do"].oneOf(noteKindNames));
+    json.expectObject();
+    if (json.has("do")) note.rule.kind = static_cast<NoteKind>(json["do"].oneOf(noteKindNames));
     readTable(json, note);
     const auto isThere = std::ranges::find(scene.bodies, note.rule.object, &BodyDescription::name);
     if (note.rule.kind == NoteKind::push && isThere == scene.bodies.end())
