@@ -3,7 +3,7 @@
 #include "Lab/Analysis/AnalyseGrids.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/AnalysisFiles.h"
-#include "Lab/Pictures/StudyPictures.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include <cmath>
 #include <sstream>
 
@@ -86,6 +86,15 @@ void warnOfSum(const PercentCounts& counts, std::vector<std::string>& warnings) 
                            fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));
 }
 
+ChartFrame frameOf(const ConditionResolution& one, const std::vector<std::string>& charts, bool isSimulated) {
+    return {chartName(charts.size()), one.condition, isSimulated};
+}
+
+void addCounts(std::vector<std::string>& charts, const ConditionResolution& one, bool isSimulated) {
+    charts.push_back(countsChart(frameOf(one, charts, isSimulated), one.counts));
+    if (!one.resolution.ties.empty()) charts.push_back(mergedChart(frameOf(one, charts, isSimulated), one));
+}
+
 } // namespace
 
 AnalysisReport analyseResolution(const AnalysisJob& o) {
@@ -121,8 +130,15 @@ AnalysisReport analyseResolution(const AnalysisJob& o) {
     report.words = out.str();
     report.table = table.text();
     report.counts = percentCountsCsv(counts, provenance);
-    report.picture = [made, words = pictureWords(o.files, data.value.isSimulated)] {
-        return resolutionPicture(made, words);
+    report.picture = [made, conditions = data.value.conditions, isSimulated = report.isSimulated] {
+        std::vector<std::string> charts;
+        for (std::size_t c = 0; c < made.size(); ++c) {
+            const auto frame = [&] { return frameOf(made[c], charts, isSimulated); };
+            charts.push_back(responsesChart(frame(), made[c], conditions[c].trials));
+            charts.push_back(territoryChart(frame(), made[c]));
+            addCounts(charts, made[c], isSimulated);
+        }
+        return chartSheet(charts);
     };
     return report;
 }
@@ -138,7 +154,7 @@ AnalysisReport analysePercentCounts(const AnalysisJob& o) {
     for (const auto& condition : data.value.conditions) {
         const PercentCounts& counts = condition.trials.front();
         warnOfSum(counts, report.warnings);
-        made.push_back({counts.condition, {}, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
+        made.push_back({counts.condition, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
         tell(out, counts, made.back().resolution, o.thresholdPercent);
         out << "  by chance: shares do not say of how many responses they are; analyse resolution of the "
                "trials does\n";
@@ -146,8 +162,10 @@ AnalysisReport analysePercentCounts(const AnalysisJob& o) {
     }
     report.words = out.str();
     report.table = table.text();
-    report.picture = [made, words = pictureWords(o.files, data.value.isSimulated)] {
-        return resolutionPicture(made, words);
+    report.picture = [made, isSimulated = report.isSimulated] {
+        std::vector<std::string> charts;
+        for (const ConditionResolution& one : made) addCounts(charts, one, isSimulated);
+        return chartSheet(charts);
     };
     return report;
 }

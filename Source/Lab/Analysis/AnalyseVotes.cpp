@@ -3,7 +3,7 @@
 #include "Lab/Analysis/AnalyseVotes.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/AnalysisFiles.h"
-#include "Lab/Pictures/StudyPictures.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include <algorithm>
 #include <sstream>
 
@@ -46,6 +46,13 @@ void tell(std::ostream& out, const LevelSummary& s) {
     out << '\n';
 }
 
+template <class Summary>
+std::vector<const Summary*> pointersTo(const std::vector<Summary>& summaries) {
+    std::vector<const Summary*> pointers;
+    for (const Summary& summary : summaries) pointers.push_back(&summary);
+    return pointers;
+}
+
 } // namespace
 
 AnalysisReport analyseChoices(const AnalysisJob& o) {
@@ -83,8 +90,11 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
     }
     report.words = out.str();
     report.table = table.text();
-    report.picture = [summaries, words = pictureWords(o.files, data.value.isSimulated)] {
-        return choicePicture(summaries, words);
+    report.picture = [summaries, isSimulated = report.isSimulated] {
+        std::vector<std::string> groups;
+        for (const ChoiceSummary& summary : summaries) groups.push_back(summary.condition);
+        return sharesChart({chartName(0), "Shares of the alternatives", isSimulated}, "condition", groups,
+                           pointersTo(summaries));
     };
     return report;
 }
@@ -117,8 +127,8 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
     if (hasIntervals) out << "+-: half of the 95 % interval over participants\n";
     report.words = out.str();
     report.table = table.text();
-    report.picture = [scales = scales, summaries, words = pictureWords(o.files, data.isSimulated)] {
-        return ratingPicture(scales, summaries, words);
+    report.picture = [scales = scales, summaries, isSimulated = report.isSimulated] {
+        return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, pointersTo(summaries));
     };
     return report;
 }
@@ -153,8 +163,8 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
     }
     report.words = out.str();
     report.table = table.text();
-    report.picture = [summaries, words = pictureWords(o.files, data.value.isSimulated)] {
-        return levelPicture(summaries, words);
+    report.picture = [summaries, isSimulated = report.isSimulated] {
+        return chartSheet(levelCharts(summaries, isSimulated));
     };
     return report;
 }

@@ -144,11 +144,4 @@ AnalysisReport analyse(const std::string& name, const AnalysisJob& job) {
     return report;
 }
 
-PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated) {
-    PictureWords words{{}, "physvib " PHYSVIB_VERSION, isSimulated};
-    words.source = std::filesystem::path{files.front()}.filename().string();
-    if (files.size() > 1) words.source += " and " + std::to_string(files.size() - 1) + " more";
-    return words;
-}
-
 } // namespace physvib

@@ -7,7 +7,6 @@
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Pictures/StudyPictures.h"
 #include <map>
 #include <string>
 #include <string_view>
@@ -56,9 +55,6 @@ auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t most
     }
     return reader(files);
 }
-
-/// What stands around a picture of these files' results.
-PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated);
 
 /// A table that grows cell by cell, for statistics packages.
 class ExportTable {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Identified labels: information transfer, percent correct, by condition and by stimulus.
-#include "Io/Charts/Charts.h"
 #include "Io/Text/NameList.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ConditionAxes.h"
 #include "Lab/Report/ReportSections.h"
@@ -43,7 +43,7 @@ std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolera
 
 ChartValue withInterval(const std::vector<double>& values) {
     const Moments moments{values};
-    return {moments.mean, moments.mean - moments.halfInterval(), moments.mean + moments.halfInterval()};
+    return ChartValue::around(moments.mean, moments.halfInterval());
 }
 
 const IdentifiedCondition* named(const std::vector<IdentifiedCondition>& all, const std::string& name) {
@@ -104,8 +104,7 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
         rows = std::max(rows, cell->row);
         columns = std::max(columns, cell->column);
     }
-    GridChart chart{{report.chartName(), condition.name + (tolerance ? ", 1 step of tolerance" : ""),
-                     report.isSimulated()},
+    GridChart chart{report.frame(condition.name + (tolerance ? ", 1 step of tolerance" : "")),
                     "row",
                     "column",
                     {},
@@ -133,22 +132,6 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
         chart.values[at] = moments.mean;
         chart.halfIntervals[at] = moments.halfInterval();
     }
-    return gridChart(chart);
-}
-
-std::string confusionChart(ReportBuilder& report, const IdentifiedCondition& condition) {
-    const ConfusionMatrix& matrix = condition.matrix;
-    GridChart chart{
-        {report.chartName(), condition.name, report.isSimulated()}, "stimulus", "response", {}, {}, {}};
-    for (std::size_t i = 0; i < matrix.stimuli(); ++i) chart.rows.push_back(matrix.label(i));
-    for (std::size_t j = 0; j < matrix.responses(); ++j) chart.columns.push_back(matrix.label(j));
-    const auto totals = matrix.stimulusTotals();
-    for (std::size_t i = 0; i < matrix.stimuli(); ++i)
-        for (std::size_t j = 0; j < matrix.responses(); ++j) {
-            const double share = 100.0 * matrix.count(i, j) / static_cast<double>(totals[i]);
-            chart.values.push_back(share > 0.0 ? std::optional{share} : std::nullopt);
-        }
-    chart.most = 100.0;
     return gridChart(chart);
 }
 
@@ -185,30 +168,22 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
         pairs = report.test("pairs", test, "pairs-percent-correct" + suffix + ".csv");
     }
     const bool hasPeople = all.front().shares.size() > 1;
-    BarChart it{{report.chartName(), "Information transfer" + words, report.isSimulated()},
-                "condition",
-                "IT (bit)",
-                axes.groups,
-                barsOf(axes, all, [](const auto& c) {
-                    return ChartValue{c.transfer.bits, c.transfer.bits, c.transfer.bits};
-                })};
+    BarChart it{report.frame("Information transfer" + words), "condition", "IT (bit)", axes.groups,
+                barsOf(axes, all, [](const auto& c) { return ChartValue::around(c.transfer.bits); })};
     it.ceilings = ceilingsOf(axes, all);
     it.ceilingWords = "most possible";
     report.page.figure({barChart(it)}, "Information transfer of all participants' trials together" + words +
                                            " (as thesis Fig. 3.11, 4.2): one estimate per condition, so it "
                                            "has no interval. Dotted: log2 of the number of stimuli.");
     if (hasPeople) {
-        it.frame = {report.chartName(), "Information transfer of participants" + words, report.isSimulated()};
+        it.frame = report.frame("Information transfer of participants" + words);
         it.series = barsOf(axes, all, [](const auto& c) { return withInterval(c.bits); });
         report.page.figure({barChart(it)},
                            "Mean of the participants' own information transfer" + words +
                                ", 95 % intervals over participants. Few trials make everyone's too high: "
                                "compare conditions of as many stimuli and trials only.");
     }
-    BarChart pc{{report.chartName(), "Percent correct" + words, report.isSimulated()},
-                "condition",
-                "correct (%)",
-                axes.groups,
+    BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
     pc.most = 100.0;
     if (!pairs.empty()) markPairs(pc, pairs, axes);
@@ -223,7 +198,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
         charts.push_back(isGrid(all)
                              ? stimulusChart(report, all[c],
                                              tolerance ? withTolerance(trials, tolerance) : trials, tolerance)
-                             : confusionChart(report, all[c]));
+                             : confusionChart(report.frame(all[c].name), all[c].matrix));
     }
     std::erase(charts, std::string{});
     if (charts.empty()) return;

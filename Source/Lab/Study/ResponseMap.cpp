@@ -175,8 +175,7 @@ ConditionResolution resolveCondition(std::string condition, const std::vector<Lo
                                      double thresholdPercent) {
     ConditionResolution made{std::move(condition), responseNormals(trials), {}, {}, {}};
     if (!made.normals.fault.empty()) return made;
-    made.map = likelihoodMap(made.normals);
-    made.counts = percentCounts(made.normals, made.map, made.condition);
+    made.counts = percentCounts(made.normals, likelihoodMap(made.normals), made.condition);
     made.resolution = perceptualResolution(made.counts, thresholdPercent);
     return made;
 }
