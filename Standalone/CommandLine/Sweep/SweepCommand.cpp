@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace physvib {
@@ -24,8 +23,6 @@ struct SweepOptions {
     std::vector<std::string> slurmWords;
 };
 
-constexpr int mostJobs = 1024;
-
 /// "K/N".
 std::optional<SweepPart> partOf(const std::string& words) {
     if (words.empty()) return SweepPart{};
@@ -35,11 +32,6 @@ std::optional<SweepPart> partOf(const std::string& words) {
                parts = parseNumber<std::uint64_t>(std::string_view{words}.substr(slash + 1));
     if (!number || !parts || *number < 1 || *number > *parts) return std::nullopt;
     return SweepPart{*number, *parts};
-}
-
-int jobsOf(const SweepOptions& o) {
-    return o.job.jobs > 0 ? o.job.jobs
-                          : std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, mostJobs);
 }
 
 std::string inTasks(std::uint64_t tasks) { return std::to_string(tasks) + (tasks == 1 ? " task" : " tasks"); }
@@ -86,7 +78,7 @@ int submit(const SweepPlan& plan, const SweepFolder& folder, const SweepOptions&
 }
 
 int render(const SweepPlan& plan, const SweepFolder& folder, const SweepOptions& o) {
-    const SweepTally tally = runSweepTasks(plan, folder, o.job.part, jobsOf(o));
+    const SweepTally tally = runSweepTasks(plan, folder, o.job.part);
     if (tally.failed > 0)
         return leave(exitFailed, inTasks(tally.failed) + " failed, the first: " + tally.fault);
     if (!o.part.empty()) {
@@ -107,14 +99,15 @@ void declareSweep(OptionTable& command, SweepOptions& o) {
              "the folder: index.csv, a row per task; tasks, a file for each that is done. The same call goes "
              "on where it was cut off")
         .as("FOLDER");
-    command.add("--jobs", o.job.jobs, "renders at once; all processors unless told").in(1, mostJobs);
     command.add("--wav", o.job.keepsWavs, "keep each task's samples as well");
     command.add("--events", o.job.keepsEvents, "keep each task's event list as well");
     command.add("--plan,--dry-run", o.plans,
                 "only say how many tasks there are and how many are done, and the first of them");
     command.add("--gather", o.gathers, "only write the index of what is done");
     command
-        .add("--part", o.part, "only every N-th task, from the K-th on, and no index: for several machines")
+        .add(
+            "--part", o.part,
+            "only every N-th task, from the K-th on, and no index: for several processes or machines at once")
         .as("K/N");
     command.add("--slurm", o.submits, "write an array of jobs for Slurm and submit it with sbatch");
     command
@@ -152,9 +145,7 @@ int runSweep(SweepOptions& o) {
 } // namespace
 
 Command sweepCommand() {
-    return commandOf("sweep",
-                     "many renders of a design as a table of numbers, on all processors or a cluster",
-                     declareSweep, runSweep);
+    return commandOf("sweep", "many renders of a design as a table of numbers", declareSweep, runSweep);
 }
 
 } // namespace physvib

@@ -14,7 +14,6 @@ struct SweepPart {
 
 struct SweepJob {
     std::string design, folder; ///< its path; all that is written lies in the folder
-    int jobs = 0;               ///< renders at once; 0: as many as there are processors for this program
     bool keepsWavs = false, keepsEvents = false;
     SweepPart part;
     bool operator==(const SweepJob&) const = default;

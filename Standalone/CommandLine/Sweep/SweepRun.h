@@ -13,8 +13,8 @@ struct SweepTally {
     std::string fault; ///< of the first that failed: its call, and why
 };
 
-/// Renders what `folder` does not have yet, in so many processes, and waits for what others are rendering in
-/// it. M only.
-SweepTally runSweepTasks(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& part, int jobs);
+/// Renders what `folder` does not have yet, one task after the other, and waits for what other programs are
+/// rendering in it. M only.
+SweepTally runSweepTasks(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& part);
 
 } // namespace physvib
