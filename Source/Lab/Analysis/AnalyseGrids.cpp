@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Perceptual resolutions in words and tables.
-#include "Lab/Analysis/AnalyseGrids.h"
-#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include <cmath>
@@ -58,8 +57,7 @@ void exportMerged(ExportTable& table, const PercentCounts& counts, const Percept
     const PercentCounts grid = merged(counts, resolution.ties.front());
     for (std::size_t r = 0; r < grid.rows; ++r)
         for (std::size_t c = 0; c < grid.columns; ++c) {
-            table.cell(grid.condition).cell(r + 1).cell(c + 1).cell(grid.at(r, c));
-            table.endRow();
+            table.cell(grid.condition).cell(r + 1).cell(c + 1).cell(grid.at(r, c)).endRow();
         }
 }
 
@@ -74,8 +72,7 @@ void exportNormals(ExportTable& table, const ConditionResolution& made) {
         for (const double number :
              {n.meanX, n.meanY, n.varianceX, n.varianceY, n.covariance, made.counts.percent[i]})
             table.cell(number);
-        table.cell(std::size_t{n.isBorrowed});
-        table.endRow();
+        table.cell(std::size_t{n.isBorrowed}).endRow();
     }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Confusion matrices in words and tables.
-#include "Lab/Analysis/AnalyseLabels.h"
-#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Statistics/Moments.h"
@@ -76,8 +75,8 @@ void exportMatrix(ExportTable& table, const std::string& condition, const Partic
                 .cell(own.participant)
                 .cell(matrix.label(i))
                 .cell(matrix.label(j))
-                .cell(std::size_t{matrix.count(i, j)});
-            table.endRow();
+                .cell(std::size_t{matrix.count(i, j)})
+                .endRow();
         }
 }
 
@@ -87,12 +86,9 @@ void exportTransfer(ExportTable& table, const std::string& condition, const Part
         .cell(own.participant)
         .cell(std::size_t{own.matrix.trials()})
         .cell(100.0 * static_cast<double>(own.matrix.correct()) / trials)
-        .cell(own.transfer.bits);
-    if (own.transfer.canBeCorrected())
-        table.cell(own.transfer.correctedBits());
-    else
-        table.cell("");
-    table.endRow();
+        .cell(own.transfer.bits)
+        .cell(own.transfer.canBeCorrected() ? std::optional{own.transfer.correctedBits()} : std::nullopt)
+        .endRow();
 }
 
 /// What participants transfer each by themselves: the mean in words, everyone in both tables.
@@ -119,8 +115,8 @@ std::string patternsOf(const ConfusionMatrix& matrix) {
         for (int k = 0; k < pattern->count; ++k)
             enchanters = std::max(enchanters, pattern->enchanters[static_cast<std::size_t>(k)] + 1);
     }
-    return std::to_string(matrix.stimuli()) + " patterns on " + std::to_string(enchanters) +
-           (enchanters == 1 ? " actuator" : " actuators");
+    return std::to_string(matrix.stimuli()) + " patterns on " +
+           counted(static_cast<std::size_t>(enchanters), "actuator");
 }
 
 std::string nameOr(const std::string& name, const char* other) { return name.empty() ? other : name; }
@@ -181,8 +177,7 @@ AnalysisReport analyseIcons(const AnalysisJob& o) {
         for (const std::size_t i : leastConfused(matrix, o.meanings)) {
             const double share = shareCorrect(matrix, i);
             out << "  " << printable(matrix.label(i)) << "  " << percent(share) << " % correct\n";
-            table.cell(name).cell(matrix.label(i)).cell(100.0 * share);
-            table.endRow();
+            table.cell(name).cell(matrix.label(i)).cell(100.0 * share).endRow();
             icons.emplace_back(matrix.label(i), ChartValue::around(100.0 * share));
         }
     }

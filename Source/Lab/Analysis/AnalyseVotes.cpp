@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shares and means in words and tables.
-#include "Lab/Analysis/AnalyseVotes.h"
-#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include <algorithm>
@@ -15,8 +14,7 @@ void tell(std::ostream& out, const ChoiceSummary& summary) {
     for (const ChoiceShare& share : summary.shares)
         out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' '
             << percent(share.share) << " % (" << percent(share.least) << " to " << percent(share.most) << ')';
-    out << ", " << summary.trials << (summary.trials == 1 ? " trial of " : " trials of ")
-        << summary.participants << (summary.participants == 1 ? " participant" : " participants");
+    out << ", " << counted(summary.trials, "trial") << " of " << counted(summary.participants, "participant");
     if (summary.p) out << ", signed ranks " << chanceWords(*summary.p);
     out << '\n';
 }
@@ -39,8 +37,7 @@ void tell(std::ostream& out, const LevelSummary& s) {
     if (s.halfInterval > 0.0)
         out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to "
             << fixedNumber(s.estimate + s.halfInterval, 1) << " dB";
-    out << ", " << s.trials << (s.trials == 1 ? " trial of " : " trials of ") << s.participants
-        << (s.participants == 1 ? " participant" : " participants");
+    out << ", " << counted(s.trials, "trial") << " of " << counted(s.participants, "participant");
     if (s.kind == LevelTrial::Kind::staircase)
         out << ", " << s.reversals << " reversals that a trial followed";
     out << '\n';
@@ -80,12 +77,7 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
                 .cell(std::size_t{share.hits})
                 .cell(std::size_t{summary.trials});
             for (const double part : {share.share, share.least, share.most}) table.cell(100.0 * part);
-            table.cell(summary.participants).cell(100.0 * share.median);
-            if (summary.p)
-                table.cell(*summary.p);
-            else
-                table.cell("");
-            table.endRow();
+            table.cell(summary.participants).cell(100.0 * share.median).cell(summary.p).endRow();
         }
     }
     report.words = out.str();
@@ -112,15 +104,13 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
     bool hasIntervals = false;
     for (const auto& summary : summaries) {
         hasIntervals |= std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; });
-        out << wholeLabel(summary.condition) << ": " << summary.trials
-            << (summary.trials == 1 ? " trial" : " trials");
+        out << wholeLabel(summary.condition) << ": " << counted(summary.trials, "trial");
         for (std::size_t s = 0; s < scales.size(); ++s) {
             out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
             table.cell(summary.condition).cell(scales[s]).cell(summary.trials).cell(summary.participants);
             for (const double number : {summary.means[s], summary.deviations[s], summary.halfIntervals[s]})
-                table.cell(number);
-            table.endRow();
+                table.cell(number).endRow();
         }
         out << '\n';
     }
@@ -158,8 +148,8 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
             .cell(s.reversals)
             .cell(s.estimate)
             .cell(s.deviation)
-            .cell(s.halfInterval);
-        table.endRow();
+            .cell(s.halfInterval)
+            .endRow();
     }
     report.words = out.str();
     report.table = table.text();

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The list of all analyses, and which of them fit a table.
-#include "Lab/Analysis/Analysis.h"
-#include "Lab/Analysis/AnalyseFits.h"
-#include "Lab/Analysis/AnalyseGrids.h"
-#include "Lab/Analysis/AnalyseLabels.h"
-#include "Lab/Analysis/AnalyseTests.h"
-#include "Lab/Analysis/AnalyseVotes.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Files/TrialColumns.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>

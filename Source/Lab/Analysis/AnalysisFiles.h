@@ -8,6 +8,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/StudyCsv.h"
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,6 +80,10 @@ public:
         separate();
         appendNumber(text_, number);
         return *this;
+    }
+    /// Empty where there is none.
+    ExportTable& cell(const std::optional<double>& number) {
+        return number ? cell(*number) : cell(std::string_view{});
     }
     void endRow() {
         text_ += '\n';

@@ -34,8 +34,6 @@ std::optional<SweepPart> partOf(const std::string& words) {
     return SweepPart{*number, *parts};
 }
 
-std::string inTasks(std::uint64_t tasks) { return std::to_string(tasks) + (tasks == 1 ? " task" : " tasks"); }
-
 int showPlan(const SweepPlan& plan, const SweepFolder& folder, bool hasFolder) {
     constexpr std::uint64_t shown = 5;
     std::uint64_t done = 0;
@@ -45,17 +43,17 @@ int showPlan(const SweepPlan& plan, const SweepFolder& folder, bool hasFolder) {
         done += hasFolder && folder.has(task) ? 1 : 0;
     }
     if (plan.size() > shown) std::cout << "...\n";
-    std::cout << inTasks(plan.size()) << ", " << done << " of them done\n";
+    std::cout << counted(plan.size(), "task") << ", " << done << " of them done\n";
     return exitDone;
 }
 
 int gather(const SweepPlan& plan, const SweepFolder& folder, const std::string& afterwards) {
     const SweepGap gap = findGap(plan, folder);
     if (gap.tasks > 0)
-        return leave(exitFailed, inTasks(gap.tasks) + " of " + std::to_string(plan.size()) +
+        return leave(exitFailed, counted(gap.tasks, "task") + " of " + std::to_string(plan.size()) +
                                      " not done, the first: " + gap.first);
     if (auto fault = writeIndex(plan, folder); !fault.empty()) return leave(exitFailed, fault);
-    std::cout << folder.index().string() << "  " << inTasks(plan.size()) << afterwards << '\n';
+    std::cout << folder.index().string() << "  " << counted(plan.size(), "task") << afterwards << '\n';
     return exitDone;
 }
 
@@ -71,7 +69,7 @@ int submit(const SweepPlan& plan, const SweepFolder& folder, const SweepOptions&
                            o.job.keepsWavs, o.job.keepsEvents,        o.slurmWords};
     if (auto fault = writeFile(script, slurmScript(sweep)); !fault.empty()) return leave(exitFailed, fault);
     if (auto fault = submitToSlurm(script); !fault.empty()) return leave(exitFailed, fault);
-    std::cout << script.string() << "  " << inTasks(plan.size()) << " in an array of "
+    std::cout << script.string() << "  " << counted(plan.size(), "task") << " in an array of "
               << slurmJobs(plan.size())
               << "; when it is over, the same call with --gather instead of --slurm\n";
     return exitDone;
@@ -80,7 +78,7 @@ int submit(const SweepPlan& plan, const SweepFolder& folder, const SweepOptions&
 int render(const SweepPlan& plan, const SweepFolder& folder, const SweepOptions& o) {
     const SweepTally tally = runSweepTasks(plan, folder, o.job.part);
     if (tally.failed > 0)
-        return leave(exitFailed, inTasks(tally.failed) + " failed, the first: " + tally.fault);
+        return leave(exitFailed, counted(tally.failed, "task") + " failed, the first: " + tally.fault);
     if (!o.part.empty()) {
         std::cout << "part " << o.part << "  " << tally.rendered << " rendered\n";
         return exitDone;
