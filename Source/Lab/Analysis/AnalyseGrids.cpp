@@ -95,8 +95,7 @@ void addCounts(std::vector<std::string>& charts, const ConditionResolution& one,
 } // namespace
 
 AnalysisReport analyseResolution(const AnalysisJob& o) {
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readLocations(files); });
+    const auto data = readStudyFiles(o, readLocations);
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
@@ -141,8 +140,7 @@ AnalysisReport analyseResolution(const AnalysisJob& o) {
 }
 
 AnalysisReport analysePercentCounts(const AnalysisJob& o) {
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readPercentCounts(files); });
+    const auto data = readStudyFiles(o, readPercentCounts);
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;

@@ -18,8 +18,7 @@ namespace {
 using Data = StudyData<IdentificationTrial>;
 
 Result<Data> readTrials(const AnalysisJob& o) {
-    auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readIdentification(files); });
+    auto data = readStudyFiles(o, readIdentification);
     if (!data || o.tolerance == 0) return data;
     for (auto& condition : data.value.conditions) {
         for (const auto& trial : condition.trials)

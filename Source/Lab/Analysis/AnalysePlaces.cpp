@@ -57,8 +57,7 @@ void tellErrors(std::ostream& out, const std::string& condition, const std::vect
 
 AnalysisReport analysePlaces(const AnalysisJob& o) {
     if (const auto fault = unitFault(o.columns); !fault.empty()) return {fault};
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readPlaces(files); });
+    const auto data = readStudyFiles(o, readPlaces);
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;

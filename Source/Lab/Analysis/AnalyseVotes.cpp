@@ -53,8 +53,7 @@ std::vector<const Summary*> pointersTo(const std::vector<Summary>& summaries) {
 } // namespace
 
 AnalysisReport analyseChoices(const AnalysisJob& o) {
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readChoices(files); });
+    const auto data = readStudyFiles(o, readChoices);
     if (!data) return {data.error};
     const auto summaries = summariseChoices(data.value.conditions.front().trials);
     ExportTable table{"choices", data.value.isSimulated,
@@ -92,8 +91,7 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
 }
 
 AnalysisReport analyseRatings(const AnalysisJob& o) {
-    const auto ratings =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readRatings(files); });
+    const auto ratings = readStudyFiles(o, readRatings);
     if (!ratings) return {ratings.error};
     const auto& [scales, data] = ratings.value;
     const auto summaries = summariseRatings(data.conditions.front().trials);
@@ -124,8 +122,7 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
 }
 
 AnalysisReport analyseLevels(const AnalysisJob& o) {
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readLevels(files); });
+    const auto data = readStudyFiles(o, readLevels);
     if (!data) return {data.error};
     const auto summaries = summariseLevels(data.value.conditions.front().trials);
     ExportTable table{

@@ -15,7 +15,7 @@ namespace {
 using Identified = StudyData<IdentificationTrial>;
 
 struct IdentifiedCondition {
-    std::string name;
+    std::string condition;
     ConfusionMatrix matrix;
     InformationTransfer transfer;
     std::vector<double> shares, bits; ///< of participants, in percent and bits
@@ -46,11 +46,6 @@ ChartValue withInterval(const std::vector<double>& values) {
     return ChartValue::around(moments.mean, moments.halfInterval());
 }
 
-const IdentifiedCondition* named(const std::vector<IdentifiedCondition>& all, const std::string& name) {
-    const auto found = std::ranges::find(all, name, &IdentifiedCondition::name);
-    return found == all.end() ? nullptr : &*found;
-}
-
 /// A bar per condition; `value` gives it.
 template <class Value>
 std::vector<BarSeries> barsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all,
@@ -59,7 +54,7 @@ std::vector<BarSeries> barsOf(const ConditionAxes& axes, const std::vector<Ident
     for (std::size_t s = 0; s < axes.series.size(); ++s) {
         series.push_back({axes.series[s], {}});
         for (std::size_t g = 0; g < axes.groups.size(); ++g) {
-            const auto* const condition = named(all, axes.conditionOf(s, g));
+            const auto* const condition = conditionNamed(all, axes.conditionOf(s, g));
             series.back().bars.push_back(condition ? std::optional{value(*condition)} : std::nullopt);
         }
     }
@@ -86,7 +81,7 @@ void markPairs(BarChart& chart, const std::vector<TestLine>& lines, const Condit
 std::vector<double> ceilingsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all) {
     std::vector<double> most;
     for (std::size_t g = 0; g < axes.groups.size(); ++g) {
-        const auto* const condition = named(all, axes.conditionOf(0, g));
+        const auto* const condition = conditionNamed(all, axes.conditionOf(0, g));
         most.push_back(condition ? condition->transfer.mostBits : 0.0);
     }
     return most;
@@ -104,7 +99,7 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
         rows = std::max(rows, cell->row);
         columns = std::max(columns, cell->column);
     }
-    GridChart chart{report.frame(condition.name + (tolerance ? ", 1 step of tolerance" : "")),
+    GridChart chart{report.frame(condition.condition + (tolerance ? ", 1 step of tolerance" : "")),
                     "row",
                     "column",
                     {},
@@ -153,7 +148,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     report.addTable(values, confusion.participants);
     const auto all = conditionsOf(data, tolerance);
     std::vector<std::string> names;
-    for (const auto& condition : all) names.push_back(condition.name);
+    for (const auto& one : all) names.push_back(one.condition);
     const ConditionAxes axes = ConditionAxes::of(names);
     std::vector<TestLine> pairs;
     if (axes.factors.size() == 2 && !tolerance)
@@ -198,7 +193,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
         charts.push_back(isGrid(all)
                              ? stimulusChart(report, all[c],
                                              tolerance ? withTolerance(trials, tolerance) : trials, tolerance)
-                             : confusionChart(report.frame(all[c].name), all[c].matrix));
+                             : confusionChart(report.frame(all[c].condition), all[c].matrix));
     }
     std::erase(charts, std::string{});
     if (charts.empty()) return;

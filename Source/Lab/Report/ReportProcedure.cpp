@@ -33,13 +33,6 @@ private:
     const CsvTable& table_;
 };
 
-double medianOf(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::ranges::sort(values);
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 struct Attended {
     std::string number, observer;
     std::size_t main = 0, training = 0, unanswered = 0;
@@ -288,7 +281,7 @@ void tellParticipants(ReportBuilder& report) {
             .cell(own.main)
             .cell(own.training)
             .cell(own.unanswered)
-            .cell(own.seconds.empty() ? std::nullopt : std::optional{medianOf(own.seconds)});
+            .cell(own.seconds.empty() ? std::nullopt : std::optional{median(own.seconds)});
         if (!facts.people.empty()) {
             const PersonFacts* const person = facts.person(code);
             const PersonFacts one = person != nullptr ? *person : PersonFacts{};

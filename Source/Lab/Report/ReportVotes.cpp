@@ -3,6 +3,7 @@
 #include "Io/Text/CsvText.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/ConditionAxes.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/Votes.h"
@@ -36,11 +37,6 @@ bool hasWord(std::string_view condition, const std::string& factor, const std::s
     while (!condition.empty())
         if (takeUntil(' ', condition) == factor + "=" + value) return true;
     return false;
-}
-
-const ChoiceSummary* named(const std::vector<ChoiceSummary>& all, const std::string& name) {
-    const auto found = std::ranges::find(all, name, &ChoiceSummary::condition);
-    return found == all.end() ? nullptr : &*found;
 }
 
 void tellChoiceTests(ReportBuilder& report,
@@ -100,11 +96,6 @@ struct RatedFactor {
 constexpr RatedFactor ratedFactors[] = {
     {"A", "amplitude", "AV", "AF"}, {"F", "frequency", "FV", "FF"}, {"DR", "decay rate", "DRV", "DRF"}};
 
-const RatingSummary* rated(const std::vector<RatingSummary>& all, const std::string& name) {
-    const auto found = std::ranges::find(all, name, &RatingSummary::condition);
-    return found == all.end() ? nullptr : &*found;
-}
-
 /// The three factors of the thesis' methods, a panel per scale, marked by the scale's analysis of variance.
 std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<std::string>& scales,
                                       const std::vector<RatingSummary>& summaries,
@@ -114,8 +105,10 @@ std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<s
         BarChart chart{
             report.frame(scales[s]), "", "mean score (0 to 100)", {}, {{"varied", {}}, {"fixed", {}}}};
         for (const RatedFactor& factor : ratedFactors) {
-            const auto *const varied = rated(summaries, factor.varied), *const fixed =
-                                                                            rated(summaries, factor.fixed);
+            const auto *const varied = conditionNamed(summaries, factor.varied), *const fixed =
+                                                                                     conditionNamed(
+                                                                                         summaries,
+                                                                                         factor.fixed);
             if (!varied || !fixed) continue;
             std::string mark;
             for (const TestLine& line : tests[s])
@@ -147,7 +140,7 @@ void tellChoices(ReportBuilder& report) {
     const auto factors = factorsOf(trials);
     for (const auto& [name, values] : factors)
         for (const std::string& value : values)
-            if (const auto* const summary = named(summaries, name + "=" + value);
+            if (const auto* const summary = conditionNamed(summaries, name + "=" + value);
                 summary && values.size() > 1) {
                 groups.push_back(value);
                 chosen.push_back(summary);
@@ -199,7 +192,7 @@ void tellRatings(ReportBuilder& report) {
             test.within = {report.trials.all.column("stimulus") ? "stimulus" : "condition"};
         else
             for (const RatedFactor& factor : ratedFactors)
-                if (rated(summaries, factor.varied) && rated(summaries, factor.fixed))
+                if (conditionNamed(summaries, factor.varied) && conditionNamed(summaries, factor.fixed))
                     test.within.emplace_back(factor.name);
         report.page.subheading(scales[s]);
         tests[s] = report.test("anova", test, "anova-" + fileWord(scales[s]) + ".csv");
