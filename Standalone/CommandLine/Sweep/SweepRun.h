@@ -2,11 +2,15 @@
 // Tasks rendered, each by the road of `physvib render`, and kept.
 #pragma once
 #include "CommandLine/Sweep/SweepFolder.h"
-#include "CommandLine/Sweep/SweepJob.h"
 #include "CommandLine/Sweep/SweepPlan.h"
 #include <string>
 
 namespace physvib {
+
+/// Every so many-th task from the `number`-th on, from 1: what one of several calls does.
+struct SweepPart {
+    std::uint64_t number = 1, parts = 1;
+};
 
 struct SweepTally {
     std::uint64_t rendered = 0, failed = 0;
