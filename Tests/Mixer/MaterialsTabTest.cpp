@@ -4,8 +4,8 @@
 #include "Host/Recordings/SessionWav.h"
 #include "Io/Wav/WavSink.h"
 #include "Live/Documents/SessionFile.h"
+#include "Mixer/Knock.h"
 #include "MixerTesting.h"
-#include "Support/Knock.h"
 
 namespace physvib {
 namespace {

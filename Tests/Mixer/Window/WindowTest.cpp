@@ -6,12 +6,12 @@
 #include "Host/Views/DisplayScale.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/SessionRender.h"
+#include "Mixer/Knock.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "Support/FullDisk.h"
-#include "Support/Knock.h"
 #include <cmath>
 
 namespace physvib {

@@ -5,12 +5,12 @@
 #include "Host/Devices/NoDevice.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/StripGroups.h"
+#include "Mixer/Knock.h"
 #include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/Shots/StudyShots.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/SceneCatalogue.h"
-#include "Shots/StudyShots.h"
-#include "Support/Knock.h"
 #include <functional>
 #include <iostream>
 
