@@ -27,10 +27,10 @@ constexpr std::array<std::string_view, chartStyles> hatchPaths{"",
                                                                "M-2 10L10 -2M-2 -2L10 10"};
 constexpr std::array<double, chartStyles> hatchWidths{0.0, 1.6, 2.6, 1.6, 1.8, 1.8, 1.4, 1.2};
 
-constexpr std::string_view head = "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 ";
+constexpr std::string_view svgBegin = "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 ";
 
 std::string svgHead(double width, double height) {
-    std::string out{head};
+    std::string out{svgBegin};
     appendPixels(out, width);
     out += ' ';
     appendPixels(out, height);
@@ -43,7 +43,7 @@ std::string svgHead(double width, double height) {
 
 /// The size that svgHead() wrote.
 ChartPoint sizeOf(std::string_view svg) {
-    svg.remove_prefix(head.size());
+    svg.remove_prefix(svgBegin.size());
     const std::string_view width = takeUntil(' ', svg), height = takeUntil('"', svg);
     return {parseNumber<double>(width).value_or(0.0), parseNumber<double>(height).value_or(0.0)};
 }
