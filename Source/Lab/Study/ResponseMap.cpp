@@ -173,7 +173,7 @@ PercentCounts percentCounts(const ResponseNormals& normals, const std::vector<st
 
 ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
                                      double thresholdPercent) {
-    ConditionResolution made{std::move(condition), responseNormals(trials), {}, {}, {}};
+    ConditionResolution made{std::move(condition), responseNormals(trials), {}, {}};
     if (!made.normals.fault.empty()) return made;
     made.counts = percentCounts(made.normals, likelihoodMap(made.normals), made.condition);
     made.resolution = perceptualResolution(made.counts, thresholdPercent);
