@@ -94,7 +94,8 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
             table.cell(condition.name).cell(own.participant).cell(own.trials);
             for (const double number :
                  {f.threshold, f.width, f.jnd(), f.guess, f.lapse, own.fit.logLikelihood})
-                table.cell(number).endRow();
+                table.cell(number);
+            table.endRow();
         }
         if (thresholds.empty()) return nobodyFitted(o, report);
         const int decimals = decimalsOf(Moments(jnds).mean);

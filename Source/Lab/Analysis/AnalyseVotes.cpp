@@ -108,7 +108,8 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
             table.cell(summary.condition).cell(scales[s]).cell(summary.trials).cell(summary.participants);
             for (const double number : {summary.means[s], summary.deviations[s], summary.halfIntervals[s]})
-                table.cell(number).endRow();
+                table.cell(number);
+            table.endRow();
         }
         out << '\n';
     }
