@@ -15,8 +15,6 @@ namespace {
 // Two cameras per direct record, two voices each, of this step and of the one whose events still wait.
 constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectBlows;
 
-constexpr double restingSteps = 1.5; // see ImpactSettings::thresholdMetresPerSecond
-
 const ImpactSettings& checked(const ImpactSettings& settings) {
     if (const std::string_view fault = faultOf(settings); !fault.empty())
         throw std::invalid_argument(std::string(fault));

@@ -43,11 +43,6 @@ inline std::vector<PulsePattern> allPulsePatterns(int enchanterCount) {
     return patterns;
 }
 
-/// Length of a pattern from the first onset to the last end.
-constexpr double patternSeconds(const PulsePattern& p) noexcept {
-    return p.count * p.pulseSeconds + (p.count - 1) * pulseGapSeconds;
-}
-
 /// "ABA-250": the enchanters' letters in the order of the pulses, then a pulse's milliseconds. Enchanters 0
 /// to 25. M only.
 inline std::string patternLabel(const PulsePattern& p) {

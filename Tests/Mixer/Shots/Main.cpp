@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// States are reached as a person would reach them, with a clock instead of a device.
-#include "Mixer/Window/Shots.h"
+// physvib-mixer-shots FILE.png STATE [WIDTHxHEIGHT]: a picture of the mixer's window in a state, without a
+// display;
+// --states lists the states. They are reached as a person would reach them, with a clock instead of a device.
 #include "Host/Devices/NoDevice.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/StripGroups.h"
-#include "Mixer/Materials/MaterialShots.h"
+#include "Mixer/Knock.h"
 #include "Mixer/Materials/MaterialsTab.h"
-#include "Mixer/Studies/StudyShots.h"
+#include "Mixer/Shots/StudyShots.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/SceneCatalogue.h"
 #include <functional>
+#include <iostream>
 
 namespace physvib {
 
@@ -52,6 +54,21 @@ void showSurface(Desk& desk, MixerView& view, const std::string& material) {
     if (auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials")))
         tab->choose(
             static_cast<int>(std::ranges::find(materials, material, &Material::name) - materials.begin()));
+}
+
+/// One material was measured, from a recording that is made for it.
+void showMaterials(Desk& desk, MixerView& view) {
+    view.tabs().choose("Materials");
+    auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials"));
+    const auto folder = juce::File::createTempFile("physvib-knock");
+    const auto file = folder.getChildFile("knock.wav");
+    if (tab == nullptr || !folder.createDirectory() || !writeKnock(file)) return;
+    tab->choose(4);
+    tab->measure(file);
+    tab->finishMeasuring();
+    folder.deleteRecursively();
+    desk.dispatchPendingMessages();
+    tab->feelAt({0.3, 0.62});
 }
 
 // For so long, and then until something has been struck: a picture without a hit says little.
@@ -158,8 +175,6 @@ const std::vector<State>& states() {
     return all;
 }
 
-} // namespace
-
 juce::StringArray shotStates() {
     juce::StringArray names;
     for (const auto& state : states()) names.add(state.name);
@@ -172,11 +187,11 @@ juce::String takeShot(const juce::File& file, const juce::String& name, const ju
     const int high = size.fromFirstOccurrenceOf("x", false, true).getIntValue();
     const auto isSide = [](int side, int least) { return side >= least && side <= largestSide; };
     if (size.isNotEmpty() && !(isSide(wide, MixerView::leastWidth) && isSide(high, MixerView::leastHeight)))
-        return "--size: expected WIDTHxHEIGHT of at least " + juce::String{MixerView::leastWidth} + "x" +
+        return "expected WIDTHxHEIGHT of at least " + juce::String{MixerView::leastWidth} + "x" +
                juce::String{MixerView::leastHeight} + ", found \"" + size + "\"";
     const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
     if (state == states().end())
-        return "--state: expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
+        return "expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
     Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->board}};
     MixerView view{desk};
     view.setSize(size.isEmpty() ? state->width : wide, size.isEmpty() ? state->height : high);
@@ -191,4 +206,19 @@ juce::String takeShot(const juce::File& file, const juce::String& name, const ju
                           {static_cast<const char*>(png.getData()), png.getDataSize()}));
 }
 
+} // namespace
 } // namespace physvib
+
+int main(int argc, char* argv[]) {
+    const juce::ArgumentList arguments{argc, argv};
+    const juce::ScopedJuceInitialiser_GUI juce;
+    if (arguments.containsOption("--states")) {
+        std::cout << physvib::shotStates().joinIntoString("\n") << '\n';
+        return 0;
+    }
+    const auto file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[0].text);
+    const auto error = physvib::takeShot(file, arguments[1].text, arguments[2].text);
+    if (error.isEmpty()) return 0;
+    std::cerr << "physvib-mixer-shots: " << error << '\n';
+    return 1;
+}

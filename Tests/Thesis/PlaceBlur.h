@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Rows and columns are answered independently, so one axis says all.
-#include "Lab/Study/PlaceBlur.h"
+// A model of where phantoms are felt: the place, blurred by a normal distribution, answered with the nearest
+// point.
+#pragma once
+#include "Lab/Study/PhantomGrid.h"
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 namespace physvib {
-namespace {
 
-double normalBelow(double x) noexcept { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+/// What the model says of a square grid on the corners.
+struct BlurredGrid {
+    double shareExact = 0.0;      ///< of right answers
+    double shareTolerance1 = 0.0; ///< of answers at most one step off (Manhattan)
+    double bits = 0.0;            ///< information transfer, exact
+    double bitsTolerance1 = 0.0;  ///< the same with an answer at most one step off counted as right
+};
+
+namespace blurring { // rows and columns are answered independently, so one axis says all
+
+inline double normalBelow(double x) noexcept { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
 using Shares = std::vector<std::vector<double>>; // [target][answer]
 
-Shares axisShares(int lines, double blur) {
+inline Shares axisShares(int lines, double blur) {
     const auto n = static_cast<std::size_t>(lines);
     Shares shares(n, std::vector<double>(n));
     const double step = 1.0 / (lines - 1);
@@ -26,7 +38,7 @@ Shares axisShares(int lines, double blur) {
 }
 
 /// IT of n x n equally likely targets; within `tolerance` an answer counts as its target.
-double transfer(const Shares& axis, int tolerance) {
+inline double transfer(const Shares& axis, int tolerance) {
     const std::size_t n = axis.size(), cells = n * n;
     std::vector<std::vector<double>> joint(cells, std::vector<double>(cells, 0.0));
     std::vector<double> answers(cells, 0.0);
@@ -47,7 +59,31 @@ double transfer(const Shares& axis, int tolerance) {
     return bits;
 }
 
-double squaredError(std::span<const ExactShare> measured, double blur) {
+} // namespace blurring
+
+/// `blur`: standard deviation in x and y, as a share of the field's width and height, > 0. Any thread
+/// (allocates).
+inline BlurredGrid blurredGrid(int lines, double blur) {
+    const blurring::Shares axis = blurring::axisShares(lines, blur);
+    double same = 0.0, beside = 0.0;
+    for (std::size_t i = 0; i < axis.size(); ++i) {
+        same += axis[i][i] / lines;
+        if (i > 0) beside += axis[i][i - 1] / lines;
+        if (i + 1 < axis.size()) beside += axis[i][i + 1] / lines;
+    }
+    return {same * same, same * same + 2.0 * same * beside, blurring::transfer(axis, 0),
+            blurring::transfer(axis, 1)};
+}
+
+/// A measured share of exact answers on a grid of lines x lines.
+struct ExactShare {
+    int lines = 0;
+    double share = 0.0;
+};
+
+namespace blurring {
+
+inline double squaredError(std::span<const ExactShare> measured, double blur) {
     double sum = 0.0;
     for (const ExactShare& m : measured) {
         const Shares axis = axisShares(m.lines, blur);
@@ -58,26 +94,18 @@ double squaredError(std::span<const ExactShare> measured, double blur) {
     return sum;
 }
 
-} // namespace
+} // namespace blurring
 
-BlurredGrid blurredGrid(int lines, double blur) {
-    const Shares axis = axisShares(lines, blur);
-    double same = 0.0, beside = 0.0;
-    for (std::size_t i = 0; i < axis.size(); ++i) {
-        same += axis[i][i] / lines;
-        if (i > 0) beside += axis[i][i - 1] / lines;
-        if (i + 1 < axis.size()) beside += axis[i][i + 1] / lines;
-    }
-    return {same * same, same * same + 2.0 * same * beside, transfer(axis, 0), transfer(axis, 1)};
-}
-
-double fitPlaceBlur(std::span<const ExactShare> measured) {
+/// The blur whose exact shares come nearest to the measured ones (least squares), within a ten-thousandth of
+/// the field. Any thread (allocates).
+inline double fitPlaceBlur(std::span<const ExactShare> measured) {
     double best = 0.05, width = 0.05;
     for (double blur = 0.01; blur < 1.0; blur += 0.01)
-        if (squaredError(measured, blur) < squaredError(measured, best)) best = blur;
+        if (blurring::squaredError(measured, blur) < blurring::squaredError(measured, best)) best = blur;
     for (width = 0.01; width > 0.5e-4; width *= 0.5) // the error has one minimum between the neighbours
         for (const double blur : {best - width, best + width})
-            if (blur > 0.0 && squaredError(measured, blur) < squaredError(measured, best)) best = blur;
+            if (blur > 0.0 && blurring::squaredError(measured, blur) < blurring::squaredError(measured, best))
+                best = blur;
     return best;
 }
 

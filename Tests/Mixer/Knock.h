@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A hit as Eq. 5.1 has it, and what a room and a microphone add.
-#include "Mixer/Materials/MaterialShots.h"
+// A recording of a hit as Eq. 5.1 has it, with what a room and a microphone add.
+#pragma once
 #include "Io/Wav/WavSink.h"
-#include "Mixer/Materials/MaterialsTab.h"
 #include "Stimuli/SeededRandom.h"
+#include <array>
 #include <cmath>
+#include <juce_core/juce_core.h>
 #include <numbers>
+#include <vector>
 
 namespace physvib {
 
-bool writeKnock(const juce::File& file) {
+/// Writes a knock on wood: 352 Hz, 98 /s, two higher partials, and a little noise; the same samples each
+/// time. True if it was written.
+inline bool writeKnock(const juce::File& file) {
     constexpr int rate = 48000, frames = rate / 2, onset = rate / 20;
     // Hz, 1/s, amplitude
     constexpr std::array<std::array<double, 3>, 3> partials{
@@ -26,20 +30,6 @@ bool writeKnock(const juce::File& file) {
     WavSink sink{file.getFullPathName().toStdString(), 1, rate};
     const float* channels[]{samples.data()};
     return sink.write(channels, frames) && sink.finish().empty();
-}
-
-void showMaterials(Desk& desk, MixerView& view) {
-    view.tabs().choose("Materials");
-    auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials"));
-    const auto folder = juce::File::createTempFile("physvib-knock");
-    const auto file = folder.getChildFile("knock.wav");
-    if (tab == nullptr || !folder.createDirectory() || !writeKnock(file)) return;
-    tab->choose(4);
-    tab->measure(file);
-    tab->finishMeasuring();
-    folder.deleteRecursively();
-    desk.dispatchPendingMessages();
-    tab->feelAt({0.3, 0.62});
 }
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A study is brought to a screen by answers of the simulated observer, and felt there as by a person.
-#include "Mixer/Studies/StudyShots.h"
+#include "Mixer/Shots/StudyShots.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Mixer/Studies/StudiesTab.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every screen of the studies, for Shots.
+// Every screen of the studies, for their pictures.
 #pragma once
 #include "Mixer/Window/MixerView.h"
 #include <vector>
