@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a vector kernel does for one tile of 64 frames, and where it finds the modes. Written once in
-// TileKernels.cpp, compiled once per instruction set.
+// Interface of the vector kernels: what one computes for a tile of 64 frames, and the layout of the modes in
+// memory. The kernels are written once in TileKernels.cpp and compiled per instruction set.
 //
-// Low rank: inside a tile any decaying sinusoid of less than a turn or so is a combination of a few
-// polynomials (LowRankBasis.h). A mode is a row of complex coefficients, fixed for life; a tile is the
+// Low rank: inside a tile any decaying sinusoid of less than about a turn is a combination of a few
+// polynomials (LowRankBasis.h). A mode is a row of complex coefficients, fixed for its life. A tile is the
 // product of the modes' amplitudes with these rows, summed over modes, and one expansion per channel at the
 // end, whatever the number of modes.
 #pragma once
@@ -18,9 +18,9 @@
 namespace physvib {
 
 namespace tiles {
-constexpr int frames = limits::tileFrames;         // one mode's share stays in registers
+constexpr int frames = limits::tileFrames;         // small enough that one mode's values stay in registers
 constexpr std::array<int, 4> ranks{8, 16, 32, 64}; // coefficients of a row; 64: the tile's frames themselves
-constexpr int maxRank = 32;                        // of the polynomials
+constexpr int maxRank = 32;                        // largest number of polynomials
 constexpr int channelsPerLine = 4;                 // amplitudes of four channels share a cache line
 } // namespace tiles
 
@@ -52,37 +52,38 @@ struct TileCarriers {
     float *roundedRe = nullptr, *roundedIm = nullptr;
 };
 
-/// What a complex number is multiplied by: unitPhasor(phase) * decayFactor(octaves).
+/// The complex factor unitPhasor(phase) * decayFactor(octaves).
 struct Turn {
     std::uint64_t phase = 0;
     std::int64_t octaves = 0;
 };
 
-/// One strike inside a tile, of one mode: its amplitudes decay to the tile's first frame and gain scaled[j] *
-/// onset in channel j, its carrier is set, and frame k >= from gains scaled[j] * im(onset * carrier * p^k).
+/// One strike of one mode inside a tile. The mode's amplitudes decay to the tile's first frame and scaled[j]
+/// * onset is added in channel j; its carrier is set; scaled[j] * im(onset * carrier * p^k) is added to each
+/// frame k >= from.
 struct TileStrike {
     const double* cosPowers = nullptr; ///< p^k, 64 of each
     const double* sinPowers = nullptr;
-    double* amplitudes = nullptr; ///< re, im of each channel; readable in whole lines
-    float* lines = nullptr;       ///< the same as TileLayer has them
+    double* amplitudes = nullptr; ///< re, im of each channel; readable in whole cache lines
+    float* lines = nullptr;       ///< the same in the layout of TileLayer
     int slot = 0;
     int from = 0;
 };
 
-/// Strikes of one layer, none earlier than the one before it. Together they cost less: what they wait for is
-/// waited for once, and the tails stay in registers.
+/// Strikes of one layer in order of `from`. Processing them together is cheaper: their latencies overlap and
+/// the tails stay in registers.
 struct TileStrikes {
     static constexpr int most = 8;
     int count = 0, channels = 0;
     std::array<TileStrike, most> each;
     std::array<std::uint64_t, most> onsetPhases{}, carrierPhases{};
     std::array<std::int64_t, most> onsetOctaves{}, decayOctaves{};
-    const double* scaled = nullptr; ///< [strike * channels + channel]: amplitude times gain, twice
-    double* tails = nullptr;        ///< [channel * 64 + frame], of all modes; on a cache line
+    const double* scaled = nullptr; ///< [strike * channels + channel]: amplitude times gain, stored twice
+    double* tails = nullptr;        ///< [channel * 64 + frame], of all modes; aligned to a cache line
     TileCarriers carriers;
 };
 
-/// One instruction set's functions. R, wait-free.
+/// One instruction set's functions. Render thread (R), wait-free.
 struct TileKernel {
     InstructionSet set = InstructionSet::scalar;
     void (*advance)(const TileCarriers& carriers) = nullptr;
@@ -94,7 +95,7 @@ struct TileKernel {
     LimiterKernel limiter;
 };
 
-/// Null for scalar and for sets that this program or processor lacks. Any thread.
+/// Null for scalar and for sets that this build or processor lacks. Any thread.
 const TileKernel* tileKernel(InstructionSet set) noexcept;
 
 } // namespace physvib
