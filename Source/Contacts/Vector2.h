@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A vector in the plane, in the single precision that 2D physics engines compute with.
+// 2D vector in single precision, as 2D physics engines use it.
 #pragma once
 #include <cmath>
 
 namespace physvib {
 
-/// Of a place (m), a velocity (m/s), an impulse (N s)... as the name that holds it says. Any thread.
+/// A place (m), velocity (m/s), impulse (N s) and so on, as the variable's name says. Any thread.
 struct Vector2 {
     float x = 0.0F, y = 0.0F;
 
@@ -19,7 +19,7 @@ struct Vector2 {
     float lengthSquared() const noexcept { return x * x + y * y; }
     float length() const noexcept { return std::sqrt(lengthSquared()); }
 
-    /// The same vector, turned by 90 degrees counter-clockwise.
+    /// The vector rotated by 90 degrees counter-clockwise.
     Vector2 turnedLeft() const noexcept { return {-y, x}; }
 };
 

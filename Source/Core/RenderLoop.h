@@ -22,8 +22,8 @@ void HapticRenderer::refill(Source& source) noexcept {
 
 // Strikes the events that are due before the next change that divides the block, and returns how many frames
 // can be rendered until then. If the mode bank cannot take strikes ahead of their frame, the next onset
-// divides the block as well. After each event the loop refills the store, because popping made room; an event
-// with a duration adds a gate, so `end` is computed again.
+// divides the block as well. After each event the loop refills the store, because popping freed a place; an
+// event with a duration adds a gate, so `end` is computed again.
 template <class Source>
 int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
     for (;;) {

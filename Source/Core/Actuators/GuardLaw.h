@@ -6,9 +6,9 @@
 // because it is stored in five parts) may hold more than 12.5 ms of one sign. So no mean over 250 ms exceeds
 // limits::guardShare, even if the channel is muted in between. Load: the squared output of a low-pass at
 // limits::slowestToneHz, with a forgetting time of a second, plus half of what the filter's state would still
-// put out. Both grow by what a tile adds, so the gain follows the remaining room and closes before a bound is
-// reached. A signal that closes it repeatedly lowers the resting gain, until the tone passes undistorted at
-// that gain. Below half of both bounds the gain rises, within limits::guardReleaseSeconds.
+// put out. Both grow by what a tile adds, so the gain follows the remaining margin and closes before a bound
+// is reached. A signal that closes it repeatedly lowers the resting gain, until the tone passes undistorted
+// at that gain. Below half of both bounds the gain rises, within limits::guardReleaseSeconds.
 #pragma once
 #include "Core/Limits.h"
 #include <algorithm>

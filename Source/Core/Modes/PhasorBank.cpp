@@ -174,7 +174,7 @@ int PhasorBank::groupOf(int i) const noexcept {
     return group;
 }
 
-// A free slot at the end of the group; one mode of each later group moves to make room.
+// A free slot at the end of the group; one mode of each later group moves to free it.
 int PhasorBank::open(int group) noexcept {
     for (int g = channels - 1; g > group; --g) {
         if (ends_[at(g - 1)] != ends_[at(g)]) moveMode(ends_[at(g)], ends_[at(g - 1)]);
