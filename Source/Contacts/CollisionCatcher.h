@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-/// Updates the contact graph and records the collisions of each step (struct Blow). A collision needs parts
+/// Updates the contact graph and records the collisions of each step (`Blow`). A collision needs parts
 /// of two surfaces that were apart and that approach each other faster than a resting body does; its impulse
 /// is what these parts push. All other impulses are loads: bodies that rest, lean, roll over a seam, or are
 /// created at rest. A pair of fixtures has at most one collision per step, however many contacts and points

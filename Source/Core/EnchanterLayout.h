@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Positions of 1 to 64 actuators (the thesis' enchanter configuration, 3.2, 6.1).
+// Positions of 1 to 64 actuators ("enchanter configuration" in the thesis, 3.2, 6.1).
 #pragma once
 #include "Core/Limits.h"
 #include <array>

@@ -14,8 +14,8 @@ namespace physvib {
 template <class T, int Capacity, bool isOnHeap = false>
 class TimeOrdered {
 public:
-    /// Empties the queue and makes room for `capacity` items, at most `Capacity`. On the heap there is no
-    /// room before the first call. False: no memory. Message thread (M), not while rendering.
+    /// Empties the queue and reserves `capacity` items, at most `Capacity`. On the heap its capacity is 0
+    /// before the first call. False: no memory. Message thread (M), not while rendering.
     bool resize(int capacity) noexcept {
         clear();
         const auto count = static_cast<std::size_t>(capacity);
