@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How two kinds of surfaces sound when they meet, where that is not the sound of either.
+// Sounds of pairs of surfaces, where a pair sounds different from either surface.
 #pragma once
 #include "Contacts/HapticFixture.h"
 #include <algorithm>
@@ -10,19 +10,19 @@
 
 namespace physvib {
 
-/// What a camera sends out when a fixture of another kind strikes it, whatever its voice is.
+/// The sound of a haptic source when a fixture of the other kind collides with it, whatever its voice.
 struct PairSound {
     double frequencyHz = 0.0;    ///< 0: silent
     double decayPerSecond = 0.0; ///< of that mode
     Overtones overtones{};       ///< further modes
-    double gain = 1.0;           ///< on top of the camera's
+    double gain = 1.0;           ///< factor on the source's gain
 };
 
-/// By the numbers of two kinds (HapticFixture::surface), in any order. M only.
+/// By the numbers of two kinds (HapticFixture::surface), in any order. World thread (M) only.
 class PairSounds {
 public:
-    /// Sets the sound of a pair, at first or again. What is wrong with it, and nothing is changed; empty: it
-    /// is set. Allocates.
+    /// Sets or replaces the sound of a pair. Returns the error, and nothing is changed; empty: it is set.
+    /// Allocates.
     std::string_view set(int surface, int other, const PairSound& sound) {
         if (surface <= 0 || other <= 0) return "surface: expected more than 0";
         if (const std::string_view fault = faultOf({.frequencyHz = sound.frequencyHz,

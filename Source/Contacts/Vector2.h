@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-/// Of a place (m), a velocity (m/s), an impulse (N s)... as the name that holds it says. Any thread.
+/// A place (m), velocity (m/s), impulse (N s) and so on, as the variable's name says. Any thread.
 struct Vector2 {
     float x = 0.0F, y = 0.0F;
 
@@ -20,7 +20,7 @@ struct Vector2 {
     float lengthSquared() const noexcept { return x * x + y * y; }
     float length() const noexcept { return std::sqrt(lengthSquared()); }
 
-    /// The same vector, turned by 90 degrees counter-clockwise.
+    /// The vector rotated by 90 degrees counter-clockwise.
     Vector2 turnedLeft() const noexcept { return {-y, x}; }
 };
 

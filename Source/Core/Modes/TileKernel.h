@@ -20,7 +20,7 @@ struct TileKernel {
     LimiterKernel limiter;
 };
 
-/// Null for scalar and for sets that this program or processor lacks. Any thread.
+/// Null for scalar and for sets that this build or processor lacks. Any thread.
 const TileKernel* tileKernel(InstructionSet set) noexcept;
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a link and its board have done, in words.
+// Texts about a board link: its state for display, and a summary after playing.
 #pragma once
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/Sink.h"
@@ -8,10 +8,10 @@
 
 namespace physvib {
 
-/// Any thread, as what follows.
+/// Any thread, as the next function.
 SinkState sinkStateOf(const BoardLinkStatus& board);
 
-/// Lines on what was sent and played since `before`, as soon as the board has told it, or a moment later.
+/// Lines on what was sent and played since `before`. Waits briefly for newer telemetry.
 std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
                          const std::function<bool()>& goesOn);
 
