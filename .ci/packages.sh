@@ -17,6 +17,9 @@ physvib_web_test_packages="$physvib_web_packages chromium python3 zbar-tools"
 # Of Standalone/Packaging/release.sh, and of Tests/Release.
 physvib_release_packages="$physvib_build_packages libgtest-dev g++ git debhelper dh-python python3 dpkg-dev"
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
+# Of Tests/Release/abi.sh alone, and of Tests/House/tidy.sh.
+physvib_abi_packages="abigail-tools python3"
+physvib_tidy_packages="$physvib_test_packages clang-tidy-14"
 # Of Tests/CommandLine/movies.sh alone: what makes .gif and .mp4 of pictures.
 physvib_movie_packages="ffmpeg"
 # Of Tests/Studies/screens.sh alone: windows with title bars, and pictures of them.

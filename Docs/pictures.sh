@@ -22,4 +22,4 @@ draw Docs/drop.png --picture render drop --seconds 6
 draw Docs/marbles.png --picture render marbles --seconds 10
 mv "$folder/list" $list
 [ "${2:-}" != renders ] || exit 0
-Tests/figures/mixer.sh "$bin/physvib-mixer"
+Tests/figures/mixer.sh "$bin/physvib-mixer-shots"

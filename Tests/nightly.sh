@@ -29,6 +29,8 @@ step() {
         hours) Tests/ten-hours.sh ;;
         realtime) Tests/Realtime/rtsan.sh ;;
         projucer) Tests/House/projucer.sh ;;
+        tidy) Tests/House/tidy.sh ;;
+        abi) Tests/Release/abi.sh ;;
         sweep) Tests/Sweep/speed.sh $bin && Tests/Sweep/cluster.sh $bin ;;
         web) Tests/web.sh $bin/physvib ;;
         javascript) Tests/javascript.sh $bin/physvib ;;

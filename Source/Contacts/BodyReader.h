@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What the stages ask of the physics engine, whichever it is.
+// Interface through which the contact stages read bodies from any physics engine.
 #pragma once
 #include "Contacts/Vector2.h"
 #include <cstdint>
 
 namespace physvib {
 
-/// What the engine says of a body. Fixtures and bodies are named by numbers of the engine's choice
-/// (addresses, ids): not 0, and different for those that are in the world at the same time.
+/// Properties of a body. Fixtures and bodies are identified by numbers of the engine's choice (addresses,
+/// ids): not 0, and unique among those that exist at the same time.
 struct BodyFacts {
     std::uint64_t body = 0;
     double massKg = 0.0;       ///< of a dynamic body
-    float gravityScale = 1.0F; ///< how much of the world's gravity pulls it
+    float gravityScale = 1.0F; ///< factor on the world's gravity
     bool isDynamic = false;
     bool isEnabled = true;
-};
-
-/// Velocity of a body.
-struct BodyMotion {
-    Vector2 metresPerSecond;
-    float radiansPerSecond = 0.0F; ///< counter-clockwise
 };
 
 /// Asked for few bodies, and only when something has happened to them, so nothing is copied for those at
@@ -30,11 +24,11 @@ public:
 
     virtual BodyFacts facts(std::uint64_t body) const = 0;
 
-    /// As it is now, and as it was when the step began.
+    /// The current motion, and the motion at the beginning of the step.
     virtual BodyMotion motion(std::uint64_t body) const = 0;
     virtual BodyMotion motionBefore(std::uint64_t body) const = 0;
 
-    /// Centre of mass, m, world; and where a point of the body's own frame is in the world.
+    /// Centre of mass, m, world; and the world position of a point given in the body's frame.
     virtual Vector2 centre(std::uint64_t body) const = 0;
     virtual Vector2 toWorld(std::uint64_t body, Vector2 ofBody) const = 0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Four steps of impulses per pair of a camera and what touches it.
+// Tracks the impulses of the last steps per contact of a haptic source, and subtracts the resting load.
 #include "Contacts/ChainLoads.h"
 
 namespace physvib {
@@ -68,7 +68,7 @@ void ChainLoads::forget(std::int32_t slot) noexcept {
         if (pasts_[i].of.a == slot || pasts_[i].of.b == slot) drop(i);
 }
 
-// No branches: which one it is cannot be foreseen.
+// Without branches, which could not be predicted here.
 Vector2 ChainLoads::smallestOf(const std::array<Vector2, 3>& pushed) noexcept {
     const float squared[] = {pushed[0].lengthSquared(), pushed[1].lengthSquared(), pushed[2].lengthSquared()};
     const auto ofNewer = static_cast<std::size_t>(squared[1] < squared[0]);

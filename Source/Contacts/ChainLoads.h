@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The impulses that reach cameras through contacts that were there before: hits handed on by others.
+// Finds impulses that reach haptic sources through existing contacts: impacts transmitted by neighbouring
+// bodies.
 #pragma once
 #include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
@@ -12,63 +13,64 @@
 
 namespace physvib {
 
-/// Watches the old contacts of cameras. Bodies that rest push too, the same in every step: that is a
-/// contact's load, the smallest of its impulses in the last three steps (so that a hit, which may take two,
-/// is no load). What a contact pushes beyond its load has been handed on by it; less than its load is a
-/// relief, not a strike. The contacts' sum is the whole impulse, whatever it does to the spin, so nothing is
-/// added for that, as Eq. 5.2 would. Allocates when the world grows. M only.
+/// Watches the existing contacts of haptic sources. Resting bodies push too, equally in every step: that is a
+/// contact's load, the smallest of its impulses in the last three steps (an impact, which may take two, is no
+/// load). The excess over the load is a transmitted impact; an impulse below it is none. Impulses at one body
+/// are summed as vectors; the spin of Eq. 5.2 is not added, because the sum is already the whole impulse.
+/// Allocates when the world grows. World thread (M) only.
 class ChainLoads {
 public:
     struct Passed {
         Vector2 newtonSeconds;
-        float strongest = 0.0F;                  ///< size of the part that came through `other`
-        std::int32_t other = FixtureTable::none; ///< slot of the neighbour that handed on most
+        float strongest = 0.0F;                  ///< magnitude of the part that came through `other`
+        std::int32_t other = FixtureTable::none; ///< slot of the neighbour that transmitted most
         Vector2 point;
     };
 
     ChainLoads(const FixtureTable& table, TouchingPairs& pairs);
 
-    /// In a step: an old contact of (a, b) has pushed b by `newtonSeconds` (world), and a by its opposite.
+    /// Within a step: an existing contact of (a, b) has pushed b by `newtonSeconds` (world), and a by the
+    /// opposite.
     void add(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
         Contact& contact = find(pair, true);
-        // The points and passes of the step, the parts of a chain.
+        // Summed over the step's points and solver passes, and over the segments of a chain.
         contact.now += contact.b == pair.b ? newtonSeconds : -newtonSeconds;
         contact.point = point;
         contact.isSolved = true;
     }
 
-    /// After a step: adds up what was handed on.
+    /// After a step: sums up the transmitted impulses.
     void settle();
 
-    /// The cameras that got something through old contacts in this step. After settle().
+    /// Haptic sources that received an impulse through existing contacts in this step. After settle().
     const std::vector<std::int32_t>& receivers() const noexcept { return receivers_; }
 
-    /// What a camera got through old contacts in this step. After settle().
+    /// The impulse that a haptic source received through existing contacts in this step. After settle().
     Passed passed(std::int32_t slot) const noexcept {
         const auto index = static_cast<std::size_t>(slot);
         return index < passed_.size() ? passed_[index] : Passed{};
     }
 
-    /// A contact begins: it has no load yet.
+    /// A contact begins: its load is 0.
     void begin(const TouchingPairs::Name& pair) { find(pair, false); }
 
-    /// At last: this step becomes the past. Bodies that sleep keep their load.
+    /// Ends the step: its impulses become history. Sleeping bodies keep their load.
     void endStep(const ContactGraph& graph) noexcept;
 
-    /// The slot has another owner from now on.
+    /// The slot is freed or reassigned: drops its contacts.
     void forget(std::int32_t slot) noexcept;
 
 private:
-    struct alignas(32) Contact { // what a push asks for: half a cache line
-        Vector2 now, point;      // now: on b
+    struct alignas(32) Contact { // read for every push: half a cache line
+        Vector2 now, point;      // now: impulse on b in this step
         Vector2 load;
         std::int32_t b;
         bool isSolved;
-        bool isUnknown; // met in mid-contact: what it pushes in this step is its load
+        bool isUnknown; // first seen in mid-contact: the impulse of this step is taken as its load
     };
-    struct Past { // what is asked for once a step
+    struct Past { // read once per step
         TouchingPairs::Name of;
-        std::array<Vector2, 3> pushed{}; // the newest first
+        std::array<Vector2, 3> pushed{}; // newest first
     };
     static Vector2 smallestOf(const std::array<Vector2, 3>& pushed) noexcept;
     Contact& find(const TouchingPairs::Name& pair, bool isUnknown) {
@@ -80,9 +82,9 @@ private:
     void drop(std::size_t index) noexcept;
 
     const FixtureTable& table_;
-    TouchingPairs& pairs_; // say where the loads of each are
+    TouchingPairs& pairs_; // stores the index of each pair's load
     std::vector<Contact> contacts_;
-    std::vector<Past> pasts_;    // of the same contacts
+    std::vector<Past> pasts_;    // parallel to contacts_
     std::vector<Passed> passed_; // by slot
     std::vector<std::int32_t> receivers_;
 };

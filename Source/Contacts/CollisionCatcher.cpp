@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From an engine's words to blows and loads.
+// Sorts an engine's contact reports into collisions and resting loads.
 #include "Contacts/CollisionCatcher.h"
 #include <algorithm>
 
@@ -21,7 +21,7 @@ void CollisionCatcher::beginStep(const StepSpan& span) noexcept {
 
 void CollisionCatcher::settle() {
     isStepping_ = false;
-    if (!blows_.empty() || !last_.empty()) loads_.settle(); // else there is nothing to hand on
+    if (!blows_.empty() || !last_.empty()) loads_.settle(); // without a collision no impulse is transmitted
 }
 
 void CollisionCatcher::endStep() {
@@ -115,7 +115,7 @@ Blow* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachM
     return made;
 }
 
-// A walk through all of them: there is no room only where hundreds meet at once.
+// Linear search, because the list is full only when hundreds of pairs collide at once.
 Blow* CollisionCatcher::weakest(bool isDirect) noexcept {
     Blow* found = nullptr;
     for (Blow& blow : blows_)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The thesis' collision catcher (5.1.3): what a physics engine tells of its contacts during a step, in fixed
-// arrays.
+// Collects the contacts that a physics engine reports during a step, in fixed arrays (the thesis' collision
+// catcher, 5.1.3).
 #pragma once
 #include "Contacts/ChainLoads.h"
 #include "Contacts/ContactGraph.h"
@@ -14,93 +14,96 @@
 
 namespace physvib {
 
-/// Keeps the contact graph up to date, and notes for each step what struck what: a blow is what goes beyond
-/// load. It needs parts of two surfaces that were apart and near each other faster than a resting body does;
-/// what they push is the blow. What is pushed elsewhere, by bodies that rest, lean, roll over a seam, or are
-/// created at rest, is a load. A pair of fixtures has at most one blow in a step, however many contacts and
-/// points it has. Fixtures are slots of the table. M only.
+/// Updates the contact graph and records the collisions of each step (`Blow`). A collision needs parts
+/// of two surfaces that were apart and that approach each other faster than a resting body does; its impulse
+/// is what these parts push. All other impulses are loads: bodies that rest, lean, roll over a seam, or are
+/// created at rest. A pair of fixtures has at most one collision per step, however many contacts and points
+/// it has. Fixtures are given by their slots in the table. World thread (M) only.
 class CollisionCatcher {
 public:
-    /// Blows in one step: those at cameras, and others, which may be handed on to cameras. A world that has
-    /// more of them is a noise, not a touch.
+    /// Capacity for collisions of one step: those of haptic sources, and others, which may be transmitted to
+    /// them. A world with more is noise to the touch.
     static constexpr std::size_t maxDirectBlows = 1024;
     static constexpr std::size_t maxDistantBlows = 4096;
 
     CollisionCatcher(const FixtureTable& table, ContactGraph& graph);
 
-    /// Right before the engine's step.
+    /// Call right before the engine's step.
     void beginStep(const StepSpan& span) noexcept;
 
-    /// Right after it: what was noted is complete.
+    /// Call right after it: all contacts have been reported.
     void settle();
 
-    /// When all that was noted has been used.
+    /// Call when the step's records have been used.
     void endStep();
 
-    /// The slot has another owner from now on: drops what was noted of it.
+    /// The slot is freed or reassigned: drops its records.
     void forget(std::int32_t slot) noexcept;
 
     bool isStepping() const noexcept { return isStepping_; }
 
-    /// Whether the engine has told anything of a felt contact, or of a blow, in this step.
+    /// True if a collision, or a push at a haptic source, was reported in this step.
     bool hasHeard() const noexcept { return hasHeard_; }
 
-    /// A contact of two solid fixtures begins; there may be several of a pair (the links of a chain).
+    /// A contact of two solid fixtures begins; a pair may have several (the segments of a chain).
     void begin(std::int32_t a, std::int32_t b);
 
-    /// One of them ends. What is returned is to be filled in with when and how; nullptr: without room, and it
-    /// is felt as if it had not ended in time.
+    /// One of them ends. Fill in the returned record with time and motions. nullptr: no room, and the contact
+    /// is treated as if it had not ended.
     ContactEnd* end(std::int32_t a, std::int32_t b);
 
-    /// Parts of two fixtures meet, told apart from others of a pair that touches: it is counted, and no more.
+    /// Counts a new contact point of two fixtures that the engine distinguishes from the pair's other points.
     void meet(std::int32_t a, std::int32_t b) noexcept {
         ++contacts_;
         withoutSource_ += isFelt(a, b) ? 0 : 1;
     }
-    /// Parts of two fixtures met, and too slowly for a blow: counted if a camera is one of them.
+    /// Counts a contact of a haptic source that was too slow for a collision.
     void passOver(std::int32_t a, std::int32_t b) noexcept { tooSlow_ += isFelt(a, b) ? 1 : 0; }
 
-    /// The number of a pair of known fixtures, by which all of the following is asked. It may be kept: see
+    /// The number of a pair of known fixtures, which the following methods use. It may be kept: see
     /// TouchingPairs.
     std::int32_t know(std::int32_t a, std::int32_t b) { return pairs_.know(a, b); }
     bool isKnown(const TouchingPairs::Name& pair) const noexcept { return pairs_.is(pair); }
 
-    /// Whether parts that near each other so fast, before the solver, are a blow; of two bodies, the larger
-    /// gravity scale.
+    /// True if parts that approach each other at this speed, before the solver, collide; `gravityScale`: the
+    /// larger one of the two bodies.
     bool isBlow(float gravityScale, double approachMetresPerSecond) const noexcept {
         return approachMetresPerSecond >= span_.leastApproach(gravityScale);
     }
 
-    /// The blow of a pair in this step, if there is one. `strike` makes it, to be filled in (its fixtures,
-    /// mass and place in the order are). Without room the weakest goes, by mass and approach, and is counted:
-    /// nullptr, if that is this one.
+    /// `blow` returns a pair's collision in this step, if there is one. `strike` creates it, with fixtures,
+    /// mass and order set; the caller fills in the rest. When full, the weakest by mass and approach is
+    /// dropped and counted; nullptr if that is the new one.
     Blow* strike(const TouchingPairs::Name& pair, double approachMetresPerSecond);
     Blow* blow(const TouchingPairs::Name& pair) noexcept {
         const std::int32_t known = pairs_[pair.number].blow;
         return known == TouchingPairs::none ? nullptr : &blows_[static_cast<std::size_t>(known)];
     }
 
-    /// Whether anybody could feel anything. A camera that comes later feels from the step after on.
+    /// False: the world has no haptic source, so nothing has to be reported. A source that is added later
+    /// takes part from the next step on.
     bool isHearing() const noexcept { return table_.hasCameras(); }
 
-    /// Whether a camera is one of the two.
+    /// True if at least one of the two is a haptic source.
     bool isFelt(std::int32_t a, std::int32_t b) const noexcept {
         return table_.isCamera(a) || table_.isCamera(b);
     }
 
-    /// Whether a pair's load matters: it is felt, or goes on with a blow of the last step.
+    /// True if pushes of the pair matter: one of them is a haptic source, or the pair collided in the last
+    /// step.
     bool isHeard(const TouchingPairs::Name& pair) const noexcept {
         return isFelt(pair.a, pair.b) || pairs_[pair.number].last != TouchingPairs::none;
     }
 
-    /// Whether it may matter, by the engine's names of the two fixtures: false is certain, and spares most
-    /// contacts of a world with few cameras the search for their pair.
+    /// The same from the engine's numbers of two fixtures. False is certain, and avoids the search for the
+    /// pair of most contacts in a world with few haptic sources.
     bool mayBeHeard(std::uint64_t a, std::uint64_t b) const noexcept {
         return table_.mayBeCamera(a) || table_.mayBeCamera(b) ||
                (struckNames_.mayHave(a) && struckNames_.mayHave(b));
     }
 
-    /// What parts of a heard pair that are no blow have pushed b by, and a by its opposite, N s in the world.
+    /// Adds the impulse, N s in the world, by which parts that do not collide have pushed b, and a by the
+    /// opposite.
     void push(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
         hasHeard_ = true;
         if (const std::int32_t last = pairs_[pair.number].last; last != TouchingPairs::none)
@@ -109,22 +112,22 @@ public:
     }
 
     const std::vector<Blow>& blows() const noexcept { return blows_; }
-    /// N s that the pair of a blow of the last step has gone on to push in this one: engines spread a blow
-    /// over two.
+    /// Impulse in N s that a pair which collided in the last step has added in this one: engines spread an
+    /// impact over two steps.
     double aftermath(std::int32_t pair) const noexcept;
-    /// Contacts that ended in the step or since the one before it.
+    /// Contacts that ended in this step or since the last one.
     const std::vector<ContactEnd>& ends() const noexcept { return ends_; }
     const ChainLoads& loads() const noexcept { return loads_; }
 
-    /// Blows that found no room so far.
+    /// Collisions dropped so far because the arrays were full.
     std::uint64_t drops() const noexcept { return drops_; }
-    /// Contacts so far; those without a camera; those of cameras that were no blows.
+    /// Contacts so far; those without a haptic source; those of haptic sources that were too slow.
     std::uint64_t contacts() const noexcept { return contacts_; }
     std::uint64_t withoutSource() const noexcept { return withoutSource_; }
     std::uint64_t tooSlow() const noexcept { return tooSlow_; }
 
 private:
-    struct Aftermath { // of a blow of the last step: what its pair has pushed in this one
+    struct Aftermath { // impulse in this step of a pair that collided in the last one
         std::int32_t pair;
         Vector2 newtonSeconds;
     };
@@ -135,10 +138,10 @@ private:
     TouchingPairs pairs_;
     ChainLoads loads_{table_, pairs_};
     StepSpan span_;
-    std::vector<Blow> blows_; // of the present step
+    std::vector<Blow> blows_; // of this step
     std::vector<ContactEnd> ends_;
     std::vector<Aftermath> last_;
-    std::vector<std::uint64_t> struck_; // the engine's names, of the blows of the last step
+    std::vector<std::uint64_t> struck_; // engine's numbers of the fixtures that collided in the last step
     NameSketch struckNames_;
     std::size_t directBlows_ = 0;
     std::int32_t order_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts in words.
+// Turns the contact counts into a diagnosis in plain words.
 #include "Contacts/ContactCounts.h"
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ std::string number(double value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.3g", value);
     std::string shown = text.data();
-    std::replace(shown.begin(), shown.end(), ',', '.'); // whatever the locale is
+    std::replace(shown.begin(), shown.end(), ',', '.'); // whatever the locale
     return shown;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The order in which the stages work.
+// Runs the stages from contact reports to events, in their order.
 #include "Contacts/ContactEvents.h"
 #include "Contacts/ImpactEvents.h"
 #include <algorithm>
@@ -12,10 +12,9 @@ namespace physvib {
 
 namespace {
 
-// Two cameras per direct record, two voices each, of this step and of the one whose events still wait.
+// Two haptic sources per direct collision, two voices each, of this step and of the one whose events are
+// still held.
 constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectBlows;
-
-constexpr double restingSteps = 1.5; // see ImpactSettings::thresholdMetresPerSecond
 
 const ImpactSettings& checked(const ImpactSettings& settings) {
     if (const std::string_view fault = faultOf(settings); !fault.empty())
@@ -197,7 +196,7 @@ void ContactEvents::flush(std::vector<CollisionEvent>& events) {
     name(events, first);
 }
 
-// Fixtures without values are nobody.
+// Fixtures without haptic values have no id: it becomes -1 in events.
 void ContactEvents::name(std::vector<CollisionEvent>& events, std::size_t first) {
     for (std::size_t i = first; i < events.size(); ++i)
         events[i].source.other = std::max(events[i].source.other, -1);

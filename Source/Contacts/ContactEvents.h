@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the contacts of any physics engine to collision events: the whole way, but for the engine.
+// Engine-independent pipeline from physics contacts to collision events.
 #pragma once
 #include "Contacts/BodyReader.h"
 #include "Contacts/CollisionCatcher.h"
@@ -20,12 +20,11 @@
 
 namespace physvib {
 
-/// An engine's attachment feeds one of these: `know` a fixture when it gets values or touches another; each
-/// step `beginStep`, what the engine tells of its contacts to `catcher()`, `endStep`; then the events are
-/// taken.
+/// A physics engine's attachment drives it. `know` registers a fixture when it gets values or touches
+/// another. Each step: `beginStep`, contact reports to `catcher()`, `endStep`; then take the events.
 ///
-/// All methods: the world's thread (M). None allocates once it has seen as much as it will, but where the
-/// caller's vector grows.
+/// All methods: the world's thread (M). After its buffers have grown to the world's size it does not
+/// allocate, except in the caller's vector.
 class ContactEvents {
 public:
     /// `bodies` must outlive it. Throws std::invalid_argument if a setting is out of range.
@@ -33,19 +32,19 @@ public:
     ContactEvents(const ContactEvents&) = delete;
     ContactEvents& operator=(const ContactEvents&) = delete;
 
-    /// Takes effect with the next step; with another timing, what is under way is lost. Throws as the
+    /// Takes effect with the next step. If the timing changes, pending impacts are lost. Throws as the
     /// constructor does.
     void configure(const ImpactSettings& settings);
     const ImpactSettings& settings() const noexcept { return settings_; }
 
-    /// Gives values to a fixture, now with this body and with its centre of mass there in the body's frame;
-    /// see FixtureTable::set. Values that faultOf() finds fault with, and an id that another has, are
-    /// refused.
+    /// Assigns haptic values to a fixture of that body, whose centre of mass is at `centre` in the body's
+    /// frame; see FixtureTable::set. Refuses values that faultOf() rejects, and an id that another fixture
+    /// has.
     SetResult set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values,
                   std::int32_t id);
 
-    /// How two kinds of surfaces sound together (HapticFixture::surface); what is wrong with it, empty: it is
-    /// set.
+    /// Sets the common sound of two kinds of surfaces (HapticFixture::surface). Returns the error; empty if
+    /// it is set.
     std::string_view setPair(int surface, int other, const PairSound& sound) {
         return pairs_.set(surface, other, sound);
     }
@@ -54,63 +53,63 @@ public:
     CollisionCatcher& catcher() noexcept { return catcher_; }
     LastingContacts& lasting() noexcept { return lasting_; }
 
-    /// Takes the values of a fixture away, and its events that have not been handed out.
+    /// Removes the values of a fixture, and its events that have not been taken.
     void remove(std::int32_t slot);
 
-    /// A contact of two slots is cut while the engine does not step: one of them is about to go.
+    /// Ends a contact of two slots outside a step, because one of them is about to be destroyed.
     void cut(std::int32_t a, std::int32_t b, const BodyMotion& motionA, const BodyMotion& motionB);
 
-    /// A fixture that is about to go, while it is still there: what it felt and gave so far stays, or not
-    /// (see ImpactSettings::keepsHitsOfDestroyed). Not while the engine steps.
+    /// Call before a fixture is destroyed, not while the engine steps. Its impacts so far are kept or dropped
+    /// (ImpactSettings::keepsHitsOfDestroyed).
     void vanish(std::int32_t slot);
 
-    /// A fixture that has gone: its slot is free.
+    /// Frees the slot of a destroyed fixture.
     void release(std::int32_t slot);
 
-    /// A fixture, now with this body: its slot. Call it at least when a contact of it begins.
+    /// Registers a fixture of that body and returns its slot. Call it at least when a contact of the fixture
+    /// begins.
     std::int32_t know(std::uint64_t fixture, const BodyFacts& body);
-    std::int32_t know(std::int32_t slot, const BodyFacts& body); ///< of one that is known
+    std::int32_t know(std::int32_t slot, const BodyFacts& body); ///< updates a registered fixture
 
-    /// The step ends at `endNs` (not before timeNs()); gravity in m/s^2; the largest mass of a dynamic body,
-    /// kg (Eq. 5.7).
+    /// The step ends at `endNs` (not before timeNs()). Gravity in m/s^2; the largest mass of a dynamic body
+    /// in kg (Eq. 5.7).
     void beginStep(std::int64_t endNs, Vector2 gravity, double largestMassKg);
 
-    /// The engine's step is over: what it told becomes events. An attachment that learns of a destruction
-    /// after the engine's step, and before endStep, calls it while everything is still there. Does nothing if
-    /// nothing was told, or a second time.
+    /// Turns the reports of the engine's step into events. An attachment that learns of a destruction after
+    /// the engine's step and before endStep calls it while all fixtures still exist. No effect without
+    /// reports, or if called again.
     void conclude();
     void endStep();
 
-    /// World time after the steps done, and the time before which all events are final: one step earlier,
-    /// since a contact is noticed up to one step after it was made.
+    /// World time after the last step; and the time before which all events are final: one step earlier,
+    /// because a contact may be reported up to one step late.
     std::int64_t timeNs() const noexcept { return span_.endNs; }
     std::int64_t settledNs() const noexcept { return span_.startNs; }
     double stepSeconds() const noexcept { return span_.seconds(); }
 
-    /// Appends the events that are final now, in the order of their times.
+    /// Appends the final events in time order.
     void take(std::vector<CollisionEvent>& events);
 
-    /// Appends all events, final or not, for those who need them at once rather than in order: what comes
-    /// later may lie up to a step before them.
+    /// Appends all events, final or not, for immediate use. Later events may precede them by up to a step.
     void flush(std::vector<CollisionEvent>& events);
 
-    /// The engine has moved all places by this much (its origin is another): what is under way moves along,
-    /// and the field, so that events stay where they are in it.
+    /// The engine has shifted all coordinates (a new origin): shifts pending impacts, and the field, so that
+    /// events keep their places in it.
     void shift(Vector2 by) noexcept;
 
-    /// Contacts and events lost so far because more came in one step than there is room for.
+    /// Contacts and events lost so far because buffers were full.
     std::uint64_t drops() const noexcept { return catcher_.drops() + release_.drops() + held_.drops(); }
 
-    /// Hits left out so far because they were more than ImpactSettings::hitsPerStep.
+    /// Impacts left out so far because of ImpactSettings::hitsPerStep.
     std::uint64_t overBudget() const noexcept { return overBudget_; }
 
-    /// Grains of rough surfaces that were passed and left out so far, their power being in the others.
+    /// Grains (roughness elements) left out so far by thinning; the remaining ones carry their power.
     std::uint64_t thinned() const noexcept { return lasting_.thinned(); }
 
-    /// What became of all contacts so far; see explain().
+    /// Counts of all contacts so far; see explain().
     ContactCounts counts() const noexcept;
 
-    /// The constants of Eq. 5.4 in the last step begun.
+    /// The constants of Eq. 5.4 in the current or last step.
     const ImpactModel& impactModel() const noexcept { return model_; }
 
 private:
@@ -134,7 +133,7 @@ private:
     std::vector<Impact> impacts_;
     PairSounds pairs_;
     std::uint64_t overBudget_ = 0;
-    ContactCounts counts_; // as far as others do not count
+    ContactCounts counts_; // without the counts that other members keep
     bool isConcluded_ = true;
 };
 

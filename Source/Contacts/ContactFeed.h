@@ -2,23 +2,41 @@
 // PhysVib for any physics engine: tell which bodies there are and which of them touch, step by step; take
 // events.
 #pragma once
-#include "Contacts/ContactEvents.h"
-#include "Contacts/FedBodies.h"
-#include "Contacts/FedPoints.h"
-#include "Contacts/FedRubs.h"
-#include "Contacts/MeetingPoints.h"
-#include "Contacts/MomentumImpulses.h"
+#include "Contacts/ContactCounts.h"
+#include "Contacts/HapticFixture.h"
+#include "Contacts/ImpactModel.h"
+#include "Contacts/ImpactSettings.h"
+#include "Contacts/PairSounds.h"
+#include "Contacts/Vector2.h"
+#include "Core/CollisionEvent.h"
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 namespace physvib {
 
+class FedContacts;
+
+/// What is told of a body, once.
+struct FedBody {
+    double massKg = 0.0;                ///< 0: what strikes it does not move it (a floor, a wall, a platform)
+    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; 0: blows
+                                        ///< are taken as if they went through the centre
+    double gravityScale = 1.0;          ///< how much of the world's gravity pulls it
+};
+
+/// What is wrong with it, and what was expected; empty if it can be used. Any thread.
+std::string_view faultOf(const FedBody& body) noexcept;
+
 /// Two bodies touch. Either the impulse is told, or how fast they near each other; if both are, the impulse
 /// counts (unless contacts are soft), and the speed says whether it is a blow at all, and when. With neither,
 /// the speed is that of the motions told.
 struct FedContact {
+    static constexpr std::int32_t noPoint = -1; ///< as pointId: the pair is told as a whole
+    static constexpr std::int32_t byPlace = -2; ///< as pointId: of an engine that does not number its points
+
     std::int32_t a = -1;                           ///< a body
     std::int32_t b = -1;                           ///< the other
     Vector2 point;                                 ///< m, in the plane of the field
@@ -51,10 +69,10 @@ struct FedContact {
     /// drags its own point. Both, or it is not felt; nullopt: unknown.
     std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond; ///< along its own surface
 
-    /// Which point of its pair it is: a number of the engine's (>= 0), `byPlace` for engines that do not
-    /// number them, or `none` if the pair is told as a whole. A point that was not there in the step before
-    /// and nears fast is a blow even while its pair touches (a pole that topples, a crate that rocks).
-    std::int32_t pointId = FedPoints::none;
+    /// Which point of its pair it is: a number of the engine's (>= 0), `byPlace`, or `noPoint`. A point that
+    /// was not there in the step before and nears fast is a blow even while its pair touches (a pole that
+    /// topples, a crate that rocks).
+    std::int32_t pointId = noPoint;
 
     /// The impulses are those of the whole pair, told with each of its points: what new points have of it
     /// follows from their speeds.
@@ -72,13 +90,14 @@ class ContactFeed final {
 public:
     /// Throws std::invalid_argument if a setting is out of range; the timing is onset.
     explicit ContactFeed(const ImpactSettings& settings = {});
+    ~ContactFeed();
     ContactFeed(const ContactFeed&) = delete;
     ContactFeed& operator=(const ContactFeed&) = delete;
 
     /// Takes effect with the next step. Throws as the constructor does.
     void configure(const ImpactSettings& settings);
     /// Any thread but while it is stepped.
-    const ImpactSettings& settings() const noexcept { return events_.settings(); }
+    const ImpactSettings& settings() const noexcept;
 
     /// A body, at first or again. What is wrong with it; empty: it is set. Each of the following says so.
     std::string_view set(std::int32_t id, const FedBody& body, const HapticFixture& values);
@@ -97,9 +116,7 @@ public:
     std::string_view remove(std::int32_t id);
 
     /// Empty, or what is wrong with it: see PairSounds.
-    std::string_view setPair(int surface, int other, const PairSound& sound) {
-        return events_.setPair(surface, other, sound);
-    }
+    std::string_view setPair(int surface, int other, const PairSound& sound);
 
     /// The step ends at `endNs` (not before timeNs()); gravity, m/s^2, says what a resting body is pushed by.
     std::string_view beginStep(std::int64_t endNs, double gravityMetresPerSecond2);
@@ -117,78 +134,25 @@ public:
 
     std::string_view endStep(); ///< All that touches has been told.
 
-    std::int64_t timeNs() const noexcept { return events_.timeNs(); } ///< After the steps done.
+    std::int64_t timeNs() const noexcept; ///< After the steps done.
     /// No event before it is still to come.
-    std::int64_t settledNs() const noexcept { return events_.settledNs(); }
+    std::int64_t settledNs() const noexcept;
     /// Those before settledNs(), in time order, to the end of `events`.
-    void take(std::vector<CollisionEvent>& events) { events_.take(events); }
-    void flush(std::vector<CollisionEvent>& events) { events_.flush(events); } ///< All of them.
+    void take(std::vector<CollisionEvent>& events);
+    void flush(std::vector<CollisionEvent>& events); ///< All of them.
     /// Hits lost because more came in a step than there is room for.
-    std::uint64_t drops() const noexcept { return events_.drops(); }
+    std::uint64_t drops() const noexcept;
     /// Hits left out by ImpactSettings::hitsPerStep.
-    std::uint64_t overBudget() const noexcept { return events_.overBudget(); }
+    std::uint64_t overBudget() const noexcept;
     /// Grains left out, their power being in the others.
-    std::uint64_t thinned() const noexcept { return events_.thinned(); }
+    std::uint64_t thinned() const noexcept;
     /// What became of all contacts so far; see explain().
-    ContactCounts counts() const noexcept { return events_.counts(); }
+    ContactCounts counts() const noexcept;
     /// How hard a hit is felt.
-    const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }
+    const ImpactModel& impactModel() const noexcept;
 
 private:
-    struct Pair {
-        std::int32_t a, b; // slots, the lower one first
-        bool isAsked;      // touch() says when it ends
-        bool isNew, isNamed;
-        FedPoints::Chain points{};              // of this step and the one before, where they are told apart
-        std::int32_t waiting = FedPoints::none; // the newest of its contacts that are settled at the end of
-                                                // the step
-    };
-    struct Waiting {
-        FedContact contact;
-        bool isNew;
-        std::int32_t next;
-        std::int32_t momentum; // its number there, or none
-    };
-    bool isByMomentum(const FedContact& contact) const {
-        return bodies_.isAnyAfter() && bodies_.hasAfter(contact.a) && bodies_.hasAfter(contact.b);
-    }
-    void strikeByMomentum();
-    FedContact withMomentum(const Waiting& each) const;
-    double pushed(const Waiting& each) const;
-    double supported(double bySpeed, double pushed, double gainedMetresPerSecond, double fraction) const;
-    static bool waits(const FedContact& contact) noexcept {
-        return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds;
-    }
-    bool isNewPoint(Pair& pair, const FedContact& contact);
-    void tell(Pair& pair, const FedContact& contact, bool isNew);
-    void settle(const Pair& pair);
-    void settleTogether();
-    double speedOf(const FedContact& contact) const;
-    std::string_view faultOf(const FedContact& contact);
-    std::int32_t slotOf(std::int32_t id) const noexcept {
-        return events_.fixtures().find(FedBodies::nameOf(id));
-    }
-    TouchingPairs::Name nameOf(const FedContact& contact);
-    Pair& know(const FedContact& contact, bool isAsked);
-    void drop(std::size_t pair);
-    void dropAllOf(std::int32_t slot);
-    void strike(const FedContact& contact, double pushed = 0.0);
-    void strikeTogether();
-    void load(const FedContact& contact);
-    void rub(const FedContact& contact, const TouchingPairs::Name& pair);
-    double fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept;
-
-    FedBodies bodies_;
-    ContactEvents events_;
-    FedRubs rubs_;
-    FedPoints points_;
-    std::vector<Waiting> waiting_;
-    MomentumImpulses momentum_;
-    std::vector<const Waiting*> together_; // of one pair, in the order in which they were told
-    std::vector<MeetingPoint> meeting_;    // the same for the solver
-    std::vector<Pair> pairs_;
-    IntegerMap pairOf_;
-    double lastStepSeconds_ = 0.0, gravity_ = 0.0;
+    std::unique_ptr<FedContacts> contacts_; // what it is made of, which is not installed
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Union-find over the live edges.
+// Connected components of the contact graph by union-find over the live edges.
 #include "Contacts/ContactGraph.h"
 #include <algorithm>
 
@@ -42,7 +42,7 @@ void ContactGraph::isolate(std::int32_t node) {
     make(node);
     for (std::size_t i = edges_.size(); i-- > 0 && at(node).degree > 0;)
         if (edges_[i].a == node || edges_[i].b == node)
-            drop(i); // the edge that takes its place was looked at
+            drop(i); // the edge moved to index i has been checked already
     setPassing(node, true);
 }
 
@@ -66,7 +66,7 @@ bool ContactGraph::isTouching(std::int32_t a, std::int32_t b) const noexcept {
 void ContactGraph::drop(std::size_t edge) noexcept {
     const Edge gone = edges_[edge];
     for (const std::int32_t node : {gone.a, gone.b})
-        if (--at(node).degree == 0) at(node).parent = node; // a rebuild meets only those who touch somebody
+        if (--at(node).degree == 0) at(node).parent = node; // so that a rebuild visits only nodes with edges
     indices_.erase(pairKey(gone.a, gone.b));
     edges_[edge] = edges_.back();
     edges_.pop_back();
@@ -82,7 +82,7 @@ void ContactGraph::unite(const Edge& edge) noexcept {
 }
 
 void ContactGraph::rebuild() noexcept {
-    for (const Edge& edge : edges_) // who touches nobody is alone already
+    for (const Edge& edge : edges_) // nodes without edges are their own root already
         for (const std::int32_t node : {edge.a, edge.b}) at(node).parent = node;
     for (const Edge& edge : edges_) unite(edge);
     isStale_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contact-state graph of the thesis (5.1.3): which fixtures are connected by touching ones.
+// Contact graph: which fixtures are connected through touching ones (the thesis' contact-state graph, 5.1.3).
 #pragma once
 #include "Contacts/IntegerMap.h"
 #include <cstddef>
@@ -9,28 +9,29 @@
 
 namespace physvib {
 
-/// Undirected graph over small indices, changed edge by edge as contacts begin and end. The two breadth-first
-/// trees of a new contact (v1, v2) visit exactly the nodes of component(v1), as both cross the
-/// new edge; so there is no search, only a union-find, rebuilt at most once between two removals and the
-/// next question. A node that is not passing (an immovable body: it takes an impulse, but hands none on) may
-/// end a path and never continues one. Allocates only when it outgrows what it has had. M only.
+/// Undirected graph over small indices, updated edge by edge as contacts begin and end. The thesis searches
+/// breadth-first from both nodes of a new contact (v1, v2). Both trees cross the new edge, so together they
+/// visit exactly component(v1). Therefore union-find replaces the search; it is rebuilt at most once between
+/// a removal and the next query. A node that is not passing (an immovable body, which absorbs an impulse
+/// without transmitting it) may end a path but not continue one. Allocates only to grow. World thread (M)
+/// only.
 class ContactGraph {
 public:
     static constexpr std::int32_t noComponent = -1;
 
-    /// Pairs in contact that fit without an allocation.
+    /// Capacity in pairs without an allocation.
     explicit ContactGraph(std::size_t edges = 1024);
 
-    /// Nodes are passing until told otherwise. Costs a rebuild if it changes.
+    /// Nodes are passing by default. A change costs a rebuild.
     void setPassing(std::int32_t node, bool isPassing);
 
-    /// One more contact between two different nodes (>= 0); two fixtures can have several (chains).
+    /// Adds a contact between two different nodes (>= 0); two fixtures can have several (chains).
     void insert(std::int32_t a, std::int32_t b);
 
-    /// One contact less; no effect if there is none.
+    /// Removes one contact; no effect if there is none.
     void erase(std::int32_t a, std::int32_t b);
 
-    /// Ends all contacts of a node, and makes it passing.
+    /// Removes all contacts of a node, and makes it passing.
     void isolate(std::int32_t node);
 
     /// Equal for nodes that are connected through passing ones; noComponent for a node that is not passing.
@@ -41,8 +42,8 @@ public:
         return at(node).isPassing ? root(node) : noComponent;
     }
 
-    /// The components from which a path leads to `node`: its own, or, if it is not passing, those of the
-    /// nodes that touch it. Allocates if `components` must grow.
+    /// The components connected to `node`: its own, or, if it is not passing, those of its neighbours.
+    /// Allocates if `components` must grow.
     void reach(std::int32_t node, std::vector<std::int32_t>& components);
 
     bool isPassing(std::int32_t node) const noexcept {
@@ -51,7 +52,7 @@ public:
     }
     bool isTouching(std::int32_t a, std::int32_t b) const noexcept;
 
-    /// Calls see(neighbour) for each node that touches `node`. Walks through all edges.
+    /// Calls see(neighbour) for each node that touches `node`. Iterates over all edges.
     template <class See>
     void forNeighbours(std::int32_t node, See see) const {
         for (const Edge& edge : edges_) {
@@ -60,7 +61,7 @@ public:
         }
     }
 
-    /// Calls see(node) once for each node that touches another. Walks through all edges.
+    /// Calls see(node) once for each node that touches another. Iterates over all edges.
     template <class See>
     void forTouching(See see) {
         ++visits_;
@@ -78,7 +79,7 @@ private:
         std::int32_t parent = 0;
         std::int32_t degree = 0;
         bool isPassing = true;
-        std::uint32_t visit = 0; // the last walk that has met it
+        std::uint32_t visit = 0; // number of the last iteration that visited it
     };
 
     Node& at(std::int32_t node) { return nodes_[static_cast<std::size_t>(node)]; }
@@ -89,7 +90,7 @@ private:
     void drop(std::size_t edge) noexcept;
     std::int32_t root(std::int32_t node) noexcept {
         while (at(node).parent != node) {
-            at(node).parent = at(at(node).parent).parent; // halves the path for the next time
+            at(node).parent = at(at(node).parent).parent; // path halving
             node = at(node).parent;
         }
         return node;
@@ -99,7 +100,7 @@ private:
 
     std::vector<Node> nodes_;
     std::vector<Edge> edges_;
-    IntegerMap indices_; // of the edges, by their pair of nodes
+    IntegerMap indices_; // edges by pair of nodes
     bool isStale_ = false;
     std::uint32_t visits_ = 0;
 };

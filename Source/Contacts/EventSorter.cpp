@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Events stay where they arrive; only their places are sorted, when they are let go.
+// Sorts indices of the held events when they are released; the events themselves do not move.
 #include "Contacts/EventSorter.h"
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,8 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
     }
 }
 
-// Grains come by hundreds in a step, evenly: each goes to its share of the time, where there are few to sort.
+// Bucket sort by time: grains arrive by hundreds per step, evenly distributed, so each bucket has few entries
+// to sort.
 void EventSorter::sort() {
     constexpr std::size_t many = 64;
     const std::size_t count = order_.size();
@@ -56,14 +57,14 @@ void EventSorter::sort() {
     const auto startNs = static_cast<double>(first.timeNs);
     const double rangeNs = static_cast<double>(last.timeNs) - startNs;
     const double sharesPerNs = static_cast<double>(count) / (rangeNs + 1.0);
-    ends_.assign(count + 2, 0); // a rounding may give the share after the last
+    ends_.assign(count + 2, 0); // rounding may give one bucket more
     for (Place& place : order_) {
         place.share = static_cast<std::uint32_t>((static_cast<double>(place.timeNs) - startNs) * sharesPerNs);
         ++ends_[place.share + 1];
     }
     for (std::size_t i = 1; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
     other_.resize(count);
-    for (const Place& place : order_) other_[ends_[place.share]++] = place; // from a share's begin to its end
+    for (const Place& place : order_) other_[ends_[place.share]++] = place; // ends_: begins become ends
     order_.swap(other_);
     auto begin = order_.begin();
     for (const std::uint32_t place : ends_) {

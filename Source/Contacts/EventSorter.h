@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Holds events back until nothing earlier can come, and lets them go in the order of their times.
+// Holds events until no earlier one can arrive, and releases them in time order.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace physvib {
 
-/// Sorted by time, ties by fixture index, then in the order of arrival. Allocates in its constructor only. M
+/// Sorted by time, then by fixture id, then by arrival. Allocates in its constructor only. World thread (M)
 /// only.
 class EventSorter {
 public:
     explicit EventSorter(std::size_t capacity);
 
-    /// Takes the event in; without room, the weakest of all is dropped and counted.
+    /// Adds an event; when full, the weakest of all is dropped and counted.
     void push(const CollisionEvent& event) noexcept {
         if (free_.empty() && !dropWeakest(event.amplitude)) return;
         const std::uint32_t slot = free_.back();
@@ -24,15 +24,16 @@ public:
         waiting_.push_back({event.timeNs, event.source.fixture, slot});
     }
 
-    /// Appends all events before `beforeNs` to `finished`, and forgets them.
+    /// Moves all events before `beforeNs` to the end of `finished`.
     void release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished);
 
-    /// All of them, whatever their time.
+    /// Releases all events, whatever their time.
     void flush(std::vector<CollisionEvent>& finished) {
         release(std::numeric_limits<std::int64_t>::max(), finished);
     }
 
-    /// Forgets the events of a fixture (by its id), and if `asOther`, those it gave to others.
+    /// Removes the events of a fixture (by its id), and if `asOther` also those of other fixtures that it
+    /// caused.
     void withdraw(std::int32_t fixture, bool asOther) noexcept;
 
     std::uint64_t drops() const noexcept { return drops_; }
@@ -41,26 +42,26 @@ private:
     struct Waiting {
         std::int64_t timeNs;
         std::int32_t fixture;
-        std::uint32_t slot; // of held_
+        std::uint32_t slot; // index in held_
     };
     struct Place : Waiting {
-        std::uint32_t arrival; // among those that go
-        std::uint32_t share;   // of the time
+        std::uint32_t arrival; // order of arrival among the released
+        std::uint32_t share;   // bucket in time
         friend bool operator<(const Place& a, const Place& b) noexcept {
             if (a.timeNs != b.timeNs) return a.timeNs < b.timeNs;
             return a.fixture != b.fixture ? a.fixture < b.fixture : a.arrival < b.arrival;
         }
     };
-    bool dropWeakest(double amplitude) noexcept; // of those that are weaker
+    bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
     void sort();
     void forget(std::size_t place) noexcept;
 
     std::uint64_t drops_ = 0;
-    std::vector<CollisionEvent> held_; // an event stays in its slot until it goes
-    std::vector<std::uint32_t> free_;  // slots
-    std::vector<Waiting> waiting_;     // in the order of arrival
-    std::vector<Place> order_, other_; // of those that go
-    std::vector<std::uint32_t> ends_;  // of shares of the time among them
+    std::vector<CollisionEvent> held_; // an event stays in its slot until it is released
+    std::vector<std::uint32_t> free_;  // free slots
+    std::vector<Waiting> waiting_;     // in order of arrival
+    std::vector<Place> order_, other_; // of those being released
+    std::vector<std::uint32_t> ends_;  // ends of the buckets
 };
 
 } // namespace physvib

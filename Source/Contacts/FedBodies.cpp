@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bodies as they were told, and the two formulas of a meeting of two.
+// Stores the bodies that a caller reports, and computes approach speed and effective mass of two bodies at a
+// point.
 #include "Contacts/FedBodies.h"
 #include <algorithm>
 #include <limits>

@@ -1,70 +1,53 @@
 // SPDX-License-Identifier: MIT
-// The bodies of a world that somebody tells us of, since we cannot look into it.
+// Bodies of a world whose engine PhysVib cannot read: the caller reports their masses and motions.
 #pragma once
 #include "Contacts/BodyReader.h"
+#include "Contacts/ContactFeed.h"
 #include "Contacts/IntegerMap.h"
-#include <cmath>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 namespace physvib {
 
-/// What is told of a body, once.
-struct FedBody {
-    double massKg = 0.0;                ///< 0: what strikes it does not move it (a floor, a wall, a platform)
-    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; 0: blows
-                                        ///< are taken as if they went through the centre
-    double gravityScale = 1.0;          ///< how much of the world's gravity pulls it
-};
-
-/// What is wrong with it, and what was expected; empty if it can be used. Any thread.
-inline std::string_view faultOf(const FedBody& body) noexcept {
-    constexpr auto isMass = [](double value) { return value >= 0.0 && value <= 1.0e12; }; // not NaN
-    if (!isMass(body.massKg)) return "mass: expected 0 to 10^12 kg";
-    if (!isMass(body.inertiaKgSquareMetres)) return "inertia: expected 0 to 10^12 kg m^2";
-    if (!(std::abs(body.gravityScale) <= 1.0e6)) return "gravity scale: expected -10^6 to 10^6";
-    return {};
-}
-
 /// Bodies by numbers (>= 0) of the engine's side. M only.
 class FedBodies final : public BodyReader {
 public:
-    /// What contacts, and the stages behind them, call the body of that number.
+    /// The number by which contacts and later stages identify that body.
     static std::uint64_t nameOf(std::int32_t id) noexcept { return static_cast<std::uint64_t>(id) + 1; }
 
     void set(std::int32_t id, const FedBody& body);
     void move(std::int32_t id, Vector2 centre, const BodyMotion& motion);
     void remove(std::int32_t id);
-    /// The motion behind the engine's solver, in this step.
+    /// The motion after the engine's solver, in this step.
     void moveAfter(std::int32_t id, const BodyMotion& motion);
-    /// Whether it has been told in this step, or need not be.
+    /// True if that motion was reported in this step, or is not needed.
     bool hasAfter(std::int32_t id) const;
     bool isAnyAfter() const noexcept { return isAnyAfter_; }
     void endStep() noexcept { isAnyAfter_ = false, ++age_; }
     const FedBody& told(std::int32_t id) const { return at(nameOf(id)).told; }
     bool has(std::int32_t id) const noexcept { return slots_.find(nameOf(id)) != IntegerMap::none; }
 
-    /// The largest mass of a body that can be moved, kg (m_max of Eq. 5.7).
+    /// The largest mass of a movable body, kg (m_max of Eq. 5.7).
     double largestMassKg();
 
-    /// How fast B comes towards A at a point, m/s, by the motions told; the normal points from A to B.
+    /// Speed at which B approaches A at a point, m/s, from the reported motions; the normal points from A to
+    /// B.
     double approach(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
 
-    /// The same behind the solver.
+    /// The same after the solver.
     double approachAfter(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
 
-    /// How fast the point at which they touch may move along the two surfaces, m/s, at most: the sum of what
-    /// each of the bodies moves and turns across the normal.
+    /// Upper bound of the speed at which the contact point moves along the two surfaces, m/s: the sum of each
+    /// body's motion and rotation across the normal.
     double slide(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
 
-    /// By how much an impulse of 1 N s at one point, along its normal, changes the speed along the other
-    /// normal at the other point, 1/kg; both normals point from A to B.
+    /// Change of the speed along `otherNormal` at `otherPoint` by an impulse of 1 N s along `normal` at
+    /// `point`, 1/kg. Both normals point from A to B.
     double coupling(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal, Vector2 otherPoint,
                     Vector2 otherNormal) const;
 
-    /// Mass that a blow there has to do with, kg: the impulse by the change of the speed at which the
-    /// surfaces meet. Infinite if neither can be moved.
+    /// Effective mass at a contact point, kg: impulse per change of the approach speed. Infinite if neither
+    /// body is movable.
     double effectiveMassKg(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
 
     BodyFacts facts(std::uint64_t body) const override;
@@ -80,13 +63,13 @@ private:
         FedBody told;
         Vector2 centre;
         BodyMotion motion, after;
-        std::uint64_t afterAge = 0; // the step in which `after` was told
+        std::uint64_t afterAge = 0; // the step in which `after` was reported
     };
     const Body& at(std::uint64_t name) const { return bodies_[static_cast<std::size_t>(slots_.find(name))]; }
     void forgetLargest(const Body& body) noexcept;
 
     std::vector<Body> bodies_;
-    IntegerMap slots_; // by name
+    IntegerMap slots_; // by nameOf()
     double largestMassKg_ = 0.0;
     bool isLargestKnown_ = true;
     std::uint64_t age_ = 1;

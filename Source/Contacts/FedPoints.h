@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Which points of a pair that touches were there in the step before, by their numbers or by their places.
+// Decides which contact points of a touching pair are new, by comparing numbers or places with those of the
+// last step.
 #pragma once
+#include "Contacts/ContactFeed.h"
 #include "Contacts/Vector2.h"
 #include <cmath>
 #include <cstdint>
@@ -9,36 +11,34 @@
 
 namespace physvib {
 
-/// Points of pairs, of this step and of the one before it. All methods: the world's thread (M). Allocates
-/// only when it outgrows what it has had.
+/// Points of pairs, of this step and of the last. All methods: the world's thread (M). Allocates only to
+/// grow.
 class FedPoints {
 public:
-    static constexpr std::int32_t none = -1; ///< of a point: it is not told apart from others of its pair; of
-                                             ///< a chain: empty
-    static constexpr std::int32_t byPlace = -2; ///< of a point of an engine that does not number them
+    static constexpr std::int32_t none = -1; ///< of a chain: empty
 
-    /// The points of one pair, kept by the pair.
+    /// The points of one pair; the pair stores it.
     struct Chain {
         std::int32_t now = none, before = none;
     };
 
-    /// Notes a point of this step. Whether the pair did not have it in the step before: no point of that
-    /// number, or none within so many metres across the normal. Along it surfaces sink into each other,
-    /// several centimetres where contacts are springs.
+    /// Records a point of this step. True if the pair did not have it in the last step: no point of that
+    /// number, or none within `withinMetres` across the normal. Distance along the normal does not count,
+    /// because surfaces sink into each other, by several centimetres where contacts are springs.
     bool isNew(Chain& chain, std::int32_t id, Vector2 place, Vector2 normal, double withinMetres) {
         bool isOld = false;
         for (std::int32_t at = chain.before; at != none && !isOld;
              at = before_[static_cast<std::size_t>(at)].next) {
             const Point& point = before_[static_cast<std::size_t>(at)];
-            isOld = id == byPlace ? across(point.place - place, normal) <= withinMetres : point.id == id;
+            isOld = id == FedContact::byPlace ? across(point.place - place, normal) <= withinMetres
+                                              : point.id == id;
         }
         now_.push_back({place, id, chain.now});
         chain.now = static_cast<std::int32_t>(now_.size()) - 1;
         return !isOld;
     }
 
-    /// The points of this step are those of the one before, from now on; the owner of each chain does the
-    /// same.
+    /// This step's points become those of the last; the owner of each chain updates it likewise.
     void endStep() {
         std::swap(before_, now_);
         now_.clear();

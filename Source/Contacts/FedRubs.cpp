@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Speeds become places along surfaces.
+// Integrates reported surface speeds to positions along the surfaces.
 #include "Contacts/FedRubs.h"
 #include <algorithm>
 #include <utility>
@@ -24,7 +24,7 @@ void FedRubs::tell(const Rub& told) {
     if (!std::exchange(track.isTold, true)) point.normalNewtonSeconds = 0.0;
     point.normalNewtonSeconds += std::max(0.0, told.newtonSeconds);
     point.point = told.point;
-    const bool isTurned = point.a != told.a; // named the other way round
+    const bool isTurned = point.a != told.a; // the fixtures were reported in the other order
     point.onA.metresPerSecond = isTurned ? told.alongB : told.alongA;
     point.onB.metresPerSecond = isTurned ? told.alongA : told.alongB;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What other engines tell of contacts that last, step by step, becomes points that are followed.
+// Converts the lasting contacts (rolling, sliding) that a foreign engine reports per step to tracked contact
+// points.
 #pragma once
 #include "Contacts/IntegerMap.h"
 #include "Contacts/LastingContacts.h"
@@ -10,24 +11,25 @@
 
 namespace physvib {
 
-/// A pair that goes on pushing while the point of contact moves. A ball that rolls at v over a floor: v along
-/// both. A box that slides at v: v along the floor, 0 along the box.
+/// A pair in contact whose contact point moves. A ball that rolls at v over a floor: v along both. A box that
+/// slides at v: v along the floor, 0 along the box.
 struct Rub {
     std::int32_t a = 0, b = 0; ///< slots of the FixtureTable
     double newtonSeconds = 0.0;
     Vector2 point;                     ///< world
-    double alongA = 0.0, alongB = 0.0; ///< m/s, how fast the point moves along each surface; their difference
-                                       ///< is the slip
+    double alongA = 0.0, alongB = 0.0; ///< m/s, speed of the point along each surface; their difference is
+                                       ///< the slip
 };
 
-/// One point of each pair: what several points push is summed up, where the last of them is. Places along the
-/// surfaces are summed up from the speeds, from 0 where the pair began. All methods: the world's thread (M).
+/// One point per pair: impulses of several points are summed, the last one's place is used. Positions along
+/// the surfaces are integrated from the speeds, starting at 0 with the contact. All methods: the world's
+/// thread (M).
 class FedRubs {
 public:
     void tell(const Rub& rub);
-    /// The step's, to `lasting`; what was not told has ended.
+    /// Passes the step's points to `lasting`; contacts that were not reported have ended.
     void endStep(double seconds, LastingContacts& lasting);
-    void forget(std::int32_t slot); ///< it has another owner from now on
+    void forget(std::int32_t slot); ///< the slot is freed or reassigned
 
 private:
     struct Track {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Slots by the engine's names.
+// Maps the engine's fixture numbers to slots, and keeps the values of each slot.
 #include "Contacts/FixtureTable.h"
 #include <algorithm>
 
@@ -7,7 +7,7 @@ namespace physvib {
 
 namespace {
 
-std::uint64_t keyOf(std::int32_t id) noexcept { return static_cast<std::uint64_t>(id) + 1; } // a key is not 0
+std::uint64_t keyOf(std::int32_t id) noexcept { return static_cast<std::uint64_t>(id) + 1; } // 0 is no key
 
 } // namespace
 
@@ -22,7 +22,7 @@ std::int32_t FixtureTable::know(std::uint64_t fixture, const BodyFacts& body) {
         isCamera_.push_back(0);
         mobility_.emplace_back();
         isRough_.push_back(0);
-        free_.reserve(known_.capacity()); // releasing a slot never allocates
+        free_.reserve(known_.capacity()); // so that releasing a slot never allocates
     }
     const std::int32_t slot = free_.back();
     free_.pop_back();
@@ -89,7 +89,7 @@ void FixtureTable::noteCamera(std::int32_t slot, bool isCamera) noexcept {
         cameraNames_.remove(at(slot).fixture);
 }
 
-// What the slot has been given so far counts no more.
+// Drops the slot's id, and its share in the cached static mass.
 void FixtureTable::lose(std::int32_t slot) {
     const KnownFixture& known = at(slot);
     if (!known.isNamed()) return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The grains of a surface: where they are and how strong, the same whenever they are passed.
+// Surface roughness as grains: their positions and strengths along a surface, the same whenever they are
+// passed.
 #pragma once
 #include "Contacts/Texture.h"
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 namespace physvib {
 
-/// How a point moves along a surface during a step: s(t) = start + speed t + acceleration t^2 / 2, t from 0
+/// Motion of a point along a surface during a step: s(t) = start + speed t + acceleration t^2 / 2, t from 0
 /// to `seconds`.
 struct SurfaceMotion {
     double startMetres = 0.0, metresPerSecond = 0.0, metresPerSecond2 = 0.0, seconds = 0.0;
@@ -17,23 +18,22 @@ struct SurfaceMotion {
         return startMetres + (metresPerSecond + 0.5 * metresPerSecond2 * t) * t;
     }
     double speedAt(double t) const noexcept { return metresPerSecond + metresPerSecond2 * t; }
-    /// When it turns back; `seconds` if it does not.
+    /// Time at which it reverses; `seconds` if it does not.
     double turn() const noexcept {
         const double t = metresPerSecond2 == 0.0 ? seconds : -metresPerSecond / metresPerSecond2;
         return t > 0.0 && t < seconds ? t : seconds;
     }
 };
 
-/// What chance does to random grains: where they lie in their spacings, and how strong they are, evenly
-/// between the ends.
+/// Ranges of random grains: position within the spacing, and strength, both uniformly distributed.
 struct GrainChance {
     static constexpr double spacingRange = 0.9;
     static constexpr double leastStrength = 0.2, strengthRange = 1.6;
 };
 
-/// One surface's. Grain `index` lies at (index + 1/2) spacings, +-45 % if they are random, with a strength of
-/// 0.2 to 1.8 that depends on surface and index alone: what goes back feels the same grains again, and every
-/// run feels the same. Any thread.
+/// Grains of one surface. Grain `index` lies at (index + 1/2) spacings, +-45 % if random, with a strength of
+/// 0.2 to 1.8 that depends on surface and index alone: moving back passes the same grains, and every run is
+/// the same. Any thread.
 class Grains {
 public:
     /// `texture` is rough.
@@ -50,8 +50,8 @@ public:
         return isRandom() ? GrainChance::leastStrength + GrainChance::strengthRange * chance(index, 1) : 1.0;
     }
 
-    /// Calls `passed(index, t)` for each grain of which the index is a multiple of `every`, in the order in
-    /// which they are passed.
+    /// Calls `passed(index, t)` for each grain whose index is a multiple of `every`, in the order in which
+    /// they are passed.
     template <class Passed>
     void along(const SurfaceMotion& motion, std::int64_t every, Passed&& passed) const {
         const double turn = motion.turn();
@@ -68,7 +68,8 @@ private:
         z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
         z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
         z ^= z >> 31U;
-        return static_cast<double>(static_cast<std::int64_t>(z >> 11U)) * 0x1p-53; // signed: one instruction
+        return static_cast<double>(static_cast<std::int64_t>(z >> 11U)) * 0x1p-53; // via signed: one
+                                                                                   // instruction
     }
 
     struct Grain {
@@ -76,13 +77,13 @@ private:
         double metres;
     };
     Grain at(std::int64_t index) const noexcept { return {index, metresOf(index)}; }
-    /// The first of which the index is a multiple of `every`, beyond `metres`, upwards or downwards.
+    /// The first grain beyond `metres`, upwards or downwards, whose index is a multiple of `every`.
     Grain next(double metres, bool isUp, std::int64_t every) const noexcept {
         const double cell = metres * perMetre_ / static_cast<double>(every);
-        auto i = static_cast<std::int64_t>(cell); // towards 0
+        auto i = static_cast<std::int64_t>(cell); // rounds towards 0
         if (isUp && cell < static_cast<double>(i)) --i;
         if (!isUp && cell > static_cast<double>(i)) ++i;
-        Grain grain = at(i * every); // at most one step before it
+        Grain grain = at(i * every); // at most one step before the result
         const std::int64_t step = isUp ? every : -every;
         while (isUp ? grain.metres <= metres : grain.metres >= metres) grain = at(grain.index + step);
         return grain;
@@ -96,7 +97,7 @@ private:
         for (Grain grain = next(start, isUp, every); sign * (end - grain.metres) >= 0.0;
              grain = at(grain.index + (isUp ? every : -every))) {
             const double far = grain.metres - start;
-            // The root of the parabola that begins at `from`, in the form that loses no digits.
+            // The root of the parabola that begins at `from`, in the form without cancellation.
             const double root = std::sqrt(std::max(0.0, speed * speed + 2.0 * motion.metresPerSecond2 * far));
             const double denominator = speed + sign * root;
             const double t = denominator == 0.0 ? to : from + 2.0 * far / denominator;
@@ -106,7 +107,7 @@ private:
 
     static constexpr std::uint64_t seedFactor = 0xD1342543DE82EF95U;
 
-    std::uint64_t seed_; // of the surface
+    std::uint64_t seed_; // by surface
     const Texture& texture_;
     double perMetre_;
 };

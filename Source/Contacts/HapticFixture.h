@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What PhysVib must know of a fixture: the thesis' user data (Fig. 5.1), kept beside the engine's own.
+// Haptic values of a fixture: its sound, texture and source flag (the thesis' user data, Fig. 5.1).
 #pragma once
 #include "Contacts/Texture.h"
 #include "Contacts/Voice.h"
@@ -11,38 +11,38 @@
 
 namespace physvib {
 
-/// A mode that sounds together with a first one.
+/// A mode that sounds together with the first one.
 struct Overtone {
     double frequencyHz = 0.0;       ///< 0: none
     double decayPerSecond = 0.0;    ///< of this mode
-    double relativeAmplitude = 1.0; ///< to the first mode's
+    double relativeAmplitude = 1.0; ///< relative to the first mode
 };
-using Overtones = std::array<Overtone, 3>; ///< more of them, struck at once, are felt as one anyway
+using Overtones = std::array<Overtone, 3>; ///< further simultaneous modes would not be distinguished by touch
 
-/// Contact sound and camera flag of one fixture. The engine's user data stay the user's.
+/// Values of one fixture. They are kept apart from the engine's user data, which remain the user's.
 struct HapticFixture {
-    double frequencyHz = 0.0;    ///< 0: silent, but felt by what it strikes
+    double frequencyHz = 0.0; ///< 0: silent itself, but impacts with it can sound by the other body's voice
     double decayPerSecond = 0.0; ///< of its vibration
-    bool isCamera = false;       ///< its collisions are felt
+    bool isCamera = false;       ///< haptic source: its impacts are felt
     double staticMassKg = 0.0;   ///< mass for Eq. 5.4 if the body is not dynamic; a dynamic body has its own
-    Voice voice = Voice::own;    ///< of a camera; without a partner that sounds: own
+    Voice voice = Voice::own;    ///< of a haptic source; if the other body has no sound: own
     Overtones overtones{};       ///< further modes
-    int surface = 0;             ///< its kind, for sounds of pairs (see PairSounds); 0: none
-    double gain = 1.0; ///< of what it sends out as a camera; 0: muted, and it may be felt again at any time
-    Texture texture{}; ///< for what rolls and slides along it
-    std::optional<double> handMassKg{}; ///< m_h of Eq. 5.4 for this camera, instead of the settings'
+    int surface = 0;             ///< kind of surface, for pair sounds (see PairSounds); 0: none
+    double gain = 1.0;           ///< of its events as a haptic source; 0: muted until it is raised again
+    Texture texture{};           ///< for bodies that roll and slide along it
+    std::optional<double> handMassKg{}; ///< m_h of Eq. 5.4 for this haptic source, instead of the settings'
 };
 
-/// True if an impact could never be played with it: it would not fade, or hold a coil at nearly direct
-/// current. Any thread.
+/// True if an impact with these values could not be played: it would not decay, or drive a coil with nearly
+/// direct current. Any thread.
 constexpr bool isEndless(double frequencyHz, double decayPerSecond) noexcept {
     return frequencyHz > 0.0 && !(decayPerSecond > 0.0 && (frequencyHz >= limits::slowestToneHz ||
                                                            decayPerSecond >= limits::slowDecayPerSecond));
 }
 
-/// What is wrong with values, and what was expected; empty if they can be used. Any thread.
+/// The error of a value, with what was expected; empty if all are valid. Any thread.
 inline std::string_view faultOf(const HapticFixture& values) noexcept {
-    // not NaN
+    // false for NaN
     constexpr auto isWithin = [](double value, double most) { return value >= 0.0 && value <= most; };
     if (!isWithin(values.frequencyHz, limits::maxFrequencyHz)) return "frequency: expected 0 to 20000 Hz";
     if (!isWithin(values.decayPerSecond, limits::maxDecayPerSecond))
@@ -67,11 +67,11 @@ inline std::string_view faultOf(const HapticFixture& values) noexcept {
     return faultOf(values.texture);
 }
 
-/// What became of values that were given to a fixture.
+/// Result of assigning values to a fixture.
 struct [[nodiscard]] SetResult {
-    std::int32_t id = -1;     ///< of the fixture in events; -1: refused, and nothing has changed
-    std::string_view refusal; ///< why; empty: they are set
-    explicit operator bool() const noexcept { return refusal.empty(); } ///< Done.
+    std::int32_t id = -1;     ///< the fixture's id in events; -1: refused, and nothing has changed
+    std::string_view refusal; ///< the reason; empty: the values are set
+    explicit operator bool() const noexcept { return refusal.empty(); } ///< True if the values are set.
 };
 
 } // namespace physvib

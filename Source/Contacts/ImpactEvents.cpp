@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whose sound, where: once for a pair; when and how strong: for each impact.
+// Computes an impact's events: sound and place once per pair, time and amplitude for each impact.
 #include "Contacts/ImpactEvents.h"
 #include <cmath>
 
@@ -100,7 +100,7 @@ void EventMaker::meet(std::int32_t other) {
     if (othersSounds) addModes(others);
 }
 
-/// Of a HapticFixture or a PairSound.
+/// `sound`: a HapticFixture or a PairSound.
 template <class Sound>
 void EventMaker::addModes(const Sound& sound) noexcept {
     const auto add = [this](const Mode& mode) { modes_[static_cast<std::size_t>(modeCount_++)] = mode; };

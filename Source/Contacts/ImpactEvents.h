@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From what a camera felt to collision events: amplitude, voice and place.
+// Converts impacts of haptic sources to collision events: amplitude, voice and place.
 #pragma once
 #include "Contacts/BodyReader.h"
 #include "Contacts/ContactCounts.h"
@@ -16,14 +16,14 @@
 
 namespace physvib {
 
-/// Adds the events of impacts (Eq. 5.4): one each, or two if the camera's voice is `both`: each with the full
-/// amplitude, as two bodies sound that ring at the same time (Eq. 5.1 adds). Voice `other` or `both` with a
-/// partner that has no frequency is `own`; where there is none either, or no mass for Eq. 5.4, nothing
-/// sounds. What is made, muted or cannot be played is counted. Two surfaces that have a sound of their own
-/// make that one instead. Each mode of a sound is an event.
+/// Adds one event per impact and mode (Eq. 5.4). If the source's voice is `both`, both bodies sound, each
+/// with the full amplitude, because sounds that overlap add (Eq. 5.1). Voice `other` or `both` with a partner
+/// that has no frequency is `own`. Without any frequency, or without a mass for Eq. 5.4, there is no event.
+/// Pairs of surfaces with a sound of their own use that instead. Created, muted and unplayable events are
+/// counted.
 ///
-/// What impacts of a pair have in common is worked out once for those that follow each other, as grains do.
-/// For one step: while settings and fixtures stay as they are, and the cameras' bodies in the world. M only.
+/// Values common to a pair are computed once for consecutive impacts, as grains are. Valid for one step,
+/// while settings and fixtures stay unchanged and the bodies exist. World thread (M) only.
 class EventMaker {
 public:
     EventMaker(const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies,
@@ -48,14 +48,14 @@ private:
     EventSorter& events_;
     ContactCounts& counts_;
     const ImpactModel model_;
-    const float cos_, sin_; // of the field
+    const float cos_, sin_; // rotation of the field
     CollisionEvent event_;
-    // Of the camera at hand:
+    // Of the current haptic source:
     std::int32_t camera_ = FixtureTable::none;
     ImpactModel own_;
     double gain_ = 0.0;
     bool isMuted_ = false;
-    // Of it and another fixture:
+    // Of its current partner:
     bool hasMet_ = false;
     std::int32_t other_ = FixtureTable::none;
     double pairGain_ = 1.0;
@@ -63,7 +63,7 @@ private:
     std::array<Mode, 2 * (1 + std::tuple_size_v<Overtones>)> modes_;
 };
 
-/// The amplitude of its first mode (Eq. 5.4 and the camera's gain). As above.
+/// The amplitude of the impact's first mode (Eq. 5.4 and the source's gain). World thread (M).
 double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies,
                    const ImpactModel& model);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A hash table from 64-bit keys (addresses, pairs of indices) to indices, for lookups inside contact
-// callbacks.
+// Hash table from 64-bit keys (addresses, pairs of indices) to indices, for lookups inside contact callbacks.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -10,15 +9,15 @@
 
 namespace physvib {
 
-/// The key of an unordered pair of different indices (>= 0). Never 0: the larger one is above 0. Any thread.
+/// The key of an unordered pair of different indices (>= 0). Never 0, because the larger index is above 0.
+/// Any thread.
 constexpr std::uint64_t pairKey(std::int32_t a, std::int32_t b) noexcept {
     const auto low = static_cast<std::uint64_t>(std::min(a, b));
     return low << 32U | static_cast<std::uint64_t>(std::max(a, b));
 }
 
-/// Open addressing with linear probing, at most half full. Unlike std::unordered_map it allocates only when
-/// it outgrows its table, and a lookup is one or two cache lines. It has no order and cannot be walked
-/// through. One thread at a time.
+/// Open addressing with linear probing, at most half full. Unlike std::unordered_map it allocates only to
+/// grow, and a lookup reads one or two cache lines. It cannot be iterated over. One thread at a time.
 class IntegerMap {
 public:
     static constexpr std::int32_t none = -1;
@@ -40,7 +39,8 @@ public:
         entry = {key, value, age_};
     }
 
-    /// Forgets `key`, if it is there. Later keys of the same run move up, so no lookup ever meets a gap.
+    /// Removes `key`, if present. Later keys of the same run move up, so that linear probing still finds
+    /// them.
     void erase(std::uint64_t key) noexcept {
         std::size_t hole = locate(key);
         if (!isTaken(entries_[hole])) return;
@@ -54,7 +54,7 @@ public:
         --size_;
     }
 
-    /// Forgets all keys, and keeps the room. Costs nothing: entries of another age are free.
+    /// Removes all keys, and keeps the memory. Constant time: entries of another age count as free.
     void clear() noexcept {
         size_ = 0;
         if (++age_ != 0) return;

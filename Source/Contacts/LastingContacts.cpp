@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points, their paths, the grains on them.
+// Tracks contact points along surfaces and generates the impacts of the grains that they pass.
 #include "Contacts/LastingContacts.h"
 #include <algorithm>
 #include <bit>
@@ -9,22 +9,22 @@ namespace physvib {
 
 namespace {
 
-constexpr std::size_t mostPoints = 4096; // a step; who piles up more than this hears noise
-constexpr double farMetres = 1.0e9;      // beyond, a double knows no grains any more
+constexpr std::size_t mostPoints = 4096; // per step; denser contacts are noise to the touch
+constexpr double farMetres = 1.0e9;      // beyond it a double cannot resolve grains
 
 std::uint64_t keyOf(const LastingPoint& point) noexcept {
     std::uint64_t key = pairKey(point.a, point.b) * 0x9E3779B97F4A7C15U + point.feature;
     key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U;
-    return key != 0 ? key : 1; // IntegerMap has no 0
+    return key != 0 ? key : 1; // IntegerMap excludes key 0
 }
 
 bool isUsable(const SurfacePath& path) noexcept {
-    return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres; // not NaN
+    return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres; // false for NaN
 }
 
 SurfaceMotion steady(SurfacePath path, double seconds) noexcept {
-    // Half a step's gain of speed behind the engine's own path, see above; of what is new, as if it had come
-    // at this speed.
+    // Half a step's change of speed behind the engine's path, see LastingContacts.h. A new point is treated
+    // as if it had arrived at this speed.
     return {path.metres - 1.5 * path.metresPerSecond * seconds, path.metresPerSecond, 0.0, seconds};
 }
 
@@ -33,7 +33,7 @@ bool hasJumped(SurfacePath from, SurfacePath to, double seconds) noexcept {
     return std::abs(to.metres - from.metres - gone) > 0.5 * std::abs(gone) + 1.0e-3;
 }
 
-/// From path to path in a step.
+/// Motion within a step, from the last path to the present one.
 SurfaceMotion between(SurfacePath from, SurfacePath to, double seconds) noexcept {
     SurfaceMotion motion;
     motion.seconds = seconds;
@@ -77,7 +77,7 @@ void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts
     for (const Passage& passage : passages_) pass(passage, span, impacts);
 }
 
-/// How much of a pair's load was there in the step before, 0 to 1.
+/// Share of the pair's load that already existed in the last step, 0 to 1.
 double LastingContacts::steadyShare(const Told& told) const noexcept {
     const Pair& pair = pairs_[told.pair];
     if (pair.before == StepMemory<Pair>::none || !(pair.newtons > 0.0)) return 0.0;
@@ -154,8 +154,9 @@ void LastingContacts::forgetStep() noexcept {
 void LastingContacts::forget(std::int32_t slot) noexcept {
     points_.changeAll([slot](Told& told) {
         if (told.point.a != slot && told.point.b != slot) return;
-        told.point.onA.metres = told.point.onB.metres = farMetres; // what comes next has jumped
-        told.point.normalNewtonSeconds = 0.0;                      // and what is of this step is not felt
+        told.point.onA.metres = told.point.onB.metres = farMetres; // so that a new contact at this key counts
+                                                                   // as a jump
+        told.point.normalNewtonSeconds = 0.0; // so that this step's points give no impacts
     });
 }
 

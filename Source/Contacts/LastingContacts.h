@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contacts that last: what rolls or slides over a rough surface is a train of small blows, one for each grain
-// it passes.
+// Rolling and sliding contacts: each grain of a rough surface that a contact point passes gives a small
+// impact.
 #pragma once
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Grains.h"
@@ -12,80 +12,81 @@
 
 namespace physvib {
 
-/// Where a contact point is on a surface at the end of a step, in the surface's own frame, and how fast it
-/// moves along it. What lies on a surface with a point of its own, as a corner does, does not move along that
-/// one.
+/// Position of a contact point on a surface at the end of a step, in the surface's own frame, and its speed
+/// along the surface. A corner that slides keeps its position on its own surface.
 struct SurfacePath {
     double metres = 0.0;
     double metresPerSecond = 0.0;
 };
 
-/// What an engine tells of a point at which two fixtures went on to touch in a step, after its solver.
-/// Fixtures are slots of the FixtureTable.
+/// A contact point of two fixtures that continued to touch in a step, as an engine reports it after its
+/// solver. Fixtures are slots of the FixtureTable.
 struct LastingPoint {
     std::int32_t a = 0, b = 0;
-    std::uint64_t feature = 0; ///< which of the pair's points; the same from step to step
+    std::uint64_t feature = 0; ///< identifies the point within the pair; the same from step to step
     double normalNewtonSeconds = 0.0;
-    double slipMetresPerSecond = 0.0; ///< of one surface against the other
+    double slipMetresPerSecond = 0.0; ///< of one surface relative to the other
     Vector2 point;                    ///< world, at the end of the step
     Vector2 metresPerSecond;          ///< of the contact point itself
     SurfacePath onA, onB;
 };
 
-/// Follows points from step to step, and makes impacts of the grains that they pass, in any engine's world. A
-/// load that has just come is not felt before it has stayed for a step: that is the blow's. Engines move
-/// bodies by the velocity at a step's end; the true path of a steady acceleration lies half a step's gain of
-/// speed behind that, and this is what is followed, so that times are right far below the length of a step.
+/// Tracks points from step to step and creates impacts of the grains that they pass, for any engine. A load
+/// that is new in this step gives no grains, because it belongs to the collision. Engines move bodies by the
+/// velocity at the step's end; under steady acceleration the true path is half a step's change of speed
+/// behind that. This path is used, so times are accurate far below a step.
 ///
-/// All methods: the world's thread (M). None allocates once it has seen as much as it will.
+/// All methods: the world's thread (M). After its buffers have grown it does not allocate.
 class LastingContacts {
 public:
-    /// Slower than this is at rest.
+    /// Slower contacts count as resting.
     static constexpr double leastMetresPerSecond = 0.01;
-    /// More grains than this in a second are thinned to every second, fourth, eighth... of them, stronger by
-    /// its square root: the same power, at a bounded cost.
+    /// More grains per second than this are thinned to every second, fourth, eighth... grain, amplified by
+    /// the square root: equal power at bounded cost.
     static constexpr double mostPerSecond = 2000.0;
-    /// All points' together: they are thinned alike, so that a rattling heap costs no more than this.
+    /// Limit for all points together, which are thinned alike, so that a rattling heap has bounded cost.
     static constexpr double mostTogetherPerSecond = 50'000.0;
-    static constexpr double longestStepSeconds = 0.1; ///< what moves so far unseen is not followed
+    static constexpr double longestStepSeconds = 0.1; ///< longer steps are not tracked: the motion within is
+                                                      ///< not known
 
     explicit LastingContacts(const FixtureTable& table);
 
-    /// Whether a point of this pair is to be told: somebody feels it, and there is something to feel.
+    /// True if points of this pair are to be reported: a surface is rough, and one of the two is a haptic
+    /// source.
     bool isHeard(std::int32_t a, std::int32_t b) const noexcept {
         return (table_.isRough(a) || table_.isRough(b)) && (table_.isCamera(a) || table_.isCamera(b));
     }
 
-    /// Only paths along rough surfaces are looked at.
+    /// Only paths along rough surfaces are used.
     bool isRough(std::int32_t slot) const noexcept { return table_.isRough(slot); }
 
-    /// After the solver; once a step for each point (what is told again is not heard).
+    /// Reports a point after the solver, once per step; repeated reports of a point are ignored.
     void touch(const LastingPoint& point);
     bool hasHeard() const noexcept { return !points_.now().empty(); }
 
-    /// What the points of the step have passed, by point.
+    /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
     void endStep();
 
-    /// The slot has another owner from now on.
+    /// The slot is freed or reassigned.
     void forget(std::int32_t slot) noexcept;
     void reset() noexcept;
 
-    /// Grains that were passed and left out, their power being in the others.
+    /// Grains left out so far by thinning; the remaining ones carry their power.
     std::uint64_t thinned() const noexcept { return thinned_; }
 
 private:
     struct Told {
         std::uint64_t key = 0;
         LastingPoint point;
-        std::int32_t pair = 0, before = 0; // places in pairs_ and in the step before
+        std::int32_t pair = 0, before = 0; // indices into pairs_ and into the last step's points
     };
     struct Pair {
         std::uint64_t key = 0;
         std::int32_t before = 0;
         double newtonSeconds = 0.0, newtons = 0.0; // of all its points in the step
     };
-    struct Passage { // of one surface's grains by one point in the step at hand
+    struct Passage { // the grains of one surface that one point passes in this step
         const LastingPoint* point;
         std::int32_t surface; // slot
         double loadNewtons;

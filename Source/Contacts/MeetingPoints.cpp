@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Projected Gauss-Seidel over a handful of points, and over their sum.
+// Projected Gauss-Seidel solver for the impulses at a few contact points of two bodies.
 #include "Contacts/MeetingPoints.h"
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@ namespace physvib {
 
 namespace {
 
-constexpr std::size_t maxPoints = 16; // of a pair, in the plane; more of them lie between the others
+constexpr std::size_t maxPoints = 16; // per pair, in the plane; further ones lie between the others
 constexpr int mostLandingSweeps = 200;
 
-/// What is asked of each point, and what each does to each.
+/// Target speed of each point, and the coupling between points.
 struct Problem {
     std::size_t count;
     std::array<double, maxPoints> wanted, impulse;                 // m/s, N s
@@ -38,8 +38,8 @@ struct Problem {
         }
         return change;
     }
-    // Levers that are long for their body (a thin pole, corners of a crate) couple points so strongly that
-    // sweeps alone hardly change the sum, which is what is felt.
+    // Corrects the sum of impulses. Long levers (a thin pole, corners of a crate) couple points so strongly
+    // that sweeps alone hardly change the sum, which determines the amplitude.
     void levelSum() noexcept {
         double lacks = 0.0, perNewtonSecond = 0.0, least = 1.0e300;
         for (std::size_t i = 0; i < count; ++i) {
@@ -71,9 +71,9 @@ void solve(const FedBodies& bodies, std::int32_t a, std::int32_t b, std::span<Me
         for (std::size_t j = 0; j < problem.count; ++j)
             problem.coupling[i][j] =
                 bodies.coupling(a, b, points[i].point, points[i].normal, points[j].point, points[j].normal);
-        if (!(problem.coupling[i][i] > 0.0)) return; // nobody can be moved
+        if (!(problem.coupling[i][i] > 0.0)) return; // neither body is movable
     }
-    for (std::size_t i = 0; i < problem.count; ++i) // right at once where all of them do the same
+    for (std::size_t i = 0; i < problem.count; ++i) // exact start if all points behave alike
         if (const double sum = problem.sumOf(i); sum > 0.0)
             problem.impulse[i] = std::max(0.0, problem.wanted[i] / sum);
     double whole = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The points at which two bodies meet, solved together.
+// Impulses at the points where two bodies collide, solved together.
 #pragma once
 #include "Contacts/FedBodies.h"
 #include "Contacts/Vector2.h"
@@ -7,19 +7,20 @@
 
 namespace physvib {
 
-/// One of them. New points are to part at `restitution` times the speed at which they near each other; old
-/// ones only hold.
+/// One contact point. New points are to separate at `restitution` times their approach speed; old ones only
+/// stay closed.
 struct MeetingPoint {
-    Vector2 point, normal; ///< from A to B, of length 1
+    Vector2 point, normal; ///< normal: from A to B, of length 1
     double approach = 0.0; ///< m/s, before the engine's solver
     double restitution = 0.0;
     bool isNew = false;
-    double newtonSeconds = 0.0; ///< set by solve
+    double newtonSeconds = 0.0; ///< result of solve
 };
 
-/// The impulses along the normals: none pulls, none lets its surfaces near each other, and none pushes more
-/// than it needs (the linear complementarity problem of a rigid impact, by projected Gauss-Seidel). Where
-/// masses leave it open which point pushes, all push alike. Bodies are known ones. M only; no allocation.
+/// Computes the impulses along the normals such that none pulls, no surfaces approach, and none is larger
+/// than necessary (the linear complementarity problem of a rigid impact, by projected Gauss-Seidel). Where
+/// the masses leave the distribution open, all points get equal impulses. The bodies must be registered.
+/// World thread (M) only; no allocation.
 void solve(const FedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sweeps over all points of a step.
+// Gauss-Seidel sweeps over all contact points of a step.
 #include "Contacts/MomentumImpulses.h"
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace physvib {
 namespace {
 
 constexpr int mostMomentumSweeps = 60;
-constexpr double enough = 1.0e-4; // of the strongest impulse, as the change in a sweep
+constexpr double enough = 1.0e-4; // convergence: change in a sweep, relative to the strongest impulse
 
 } // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Direct strikes at once; what is handed on one step later.
+// `onset` timing: direct impacts are finished at once, transmitted ones a step later.
 #include "Contacts/OnsetImpacts.h"
 #include <algorithm>
 #include <utility>
@@ -62,7 +62,7 @@ void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) 
     if (!before_.isEmpty()) completeLate(span, impacts);
 }
 
-// Cameras to which the blows of the last step come in this one only.
+// Haptic sources that transmitted impulses of the last step's collisions reach only in this step.
 void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impacts) {
     for (const std::int32_t camera : catcher_.loads().receivers()) {
         if (isUsed_.find(camera) != SlotMap::none) continue;
@@ -75,7 +75,8 @@ void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impac
     }
 }
 
-// What the causes gave in the second step is asked for only where it could matter, which is seldom.
+// `later` returns the causes' impulse in their second step; it is called only where that could matter, which
+// is rare.
 template <class Later>
 void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later,
                             const StepSpan& span, std::vector<Impact>& impacts) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `onset` timing: what cameras feel of a blow, by the solver's impulses.
+// `onset` timing: impacts of haptic sources from the solver's impulses, when a contact begins.
 #pragma once
 #include "Contacts/CollisionCatcher.h"
 #include "Contacts/ContactGraph.h"
@@ -11,37 +11,38 @@
 
 namespace physvib {
 
-/// A camera that is struck itself feels the impulse of that blow in its step. One farther along the chain
-/// feels what its old contacts hand on to it in that step and the next: engines hand on a strike of their
-/// time-of-impact pass one step later, and the impulse through a long chain by two steps, since their
-/// iterations end before it is through (a row of five: half and half). It is laid to the strongest strike
-/// that a path of contacts leads from, counts once, however many strikes there are, and is never more than
-/// all of these gave: a path carries a blow, not the humming of a machine on the same floor. Costs what
-/// strikes and what is handed on, whatever the size of the world. M only.
+/// A haptic source that takes part in a collision receives its impulse in that step. One farther along the
+/// chain receives what its existing contacts transmit in that step and the next. Two are needed: engines
+/// transmit a collision of their time-of-impact pass one step later, and spread the impulse through a long
+/// chain over two steps, because their iterations end too early (a row of five: half and half). The impulse
+/// is attributed to the strongest collision that is connected by contacts. It counts once, however many
+/// collisions there are, and never exceeds what all of these gave, so that a humming machine on the same
+/// floor adds nothing. Cost grows with collisions and transmitted impulses, not with the size of the world.
+/// World thread (M) only.
 class OnsetImpacts {
 public:
     OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
 
-    /// Appends the impacts that a step, now settled, has completed.
+    /// Appends the impacts that the step, now settled, has completed.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
 
-    /// Forgets what is under way.
+    /// Drops pending impacts.
     void reset() noexcept;
 
-    /// All places have moved by this much: the world's origin is another.
+    /// The world's origin has moved: shifts all places by this.
     void shift(Vector2 by) noexcept;
 
-    /// What a camera has been handed on so far, since it is about to vanish.
+    /// Completes what a haptic source has received so far, because it is about to be destroyed.
     void finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const;
 
-    /// The slot has another owner from now on. What others felt of it stays, unless `withdraws`.
+    /// The slot is freed or reassigned. Impacts that it caused at others stay, unless `withdraws`.
     void forget(std::int32_t slot, bool withdraws) noexcept;
 
 private:
     struct HandedOn {
         std::int32_t camera;
         std::int64_t timeNs;        // of the strongest cause
-        std::int32_t a, b;          // its slots
+        std::int32_t a, b;          // the slots of that cause
         double causedNewtonSeconds; // by all causes
         ChainLoads::Passed passed;  // in the first step
     };
@@ -58,9 +59,9 @@ private:
     const CollisionCatcher& catcher_;
     const FixtureTable& table_;
     ContactGraph& graph_;
-    StrikeCauses strikes_, before_; // of this step and the last one
-    std::vector<HandedOn> waiting_; // for the next step
-    SlotMap isUsed_;                // what a camera got in this step counts already
+    StrikeCauses strikes_, before_; // of this step and of the last
+    std::vector<HandedOn> waiting_; // pending until the next step
+    SlotMap isUsed_;                // sources whose impulse of this step has been used
 };
 
 } // namespace physvib

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: MIT
-// How two kinds of surfaces sound when they meet, where that is not the sound of either.
+// Sounds of pairs of surfaces, where a pair sounds different from either surface.
 #pragma once
 #include "Contacts/HapticFixture.h"
-#include "Contacts/IntegerMap.h"
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace physvib {
 
-/// What a camera sends out when a fixture of another kind strikes it, whatever its voice is.
+/// The sound of a haptic source when a fixture of the other kind collides with it, whatever its voice.
 struct PairSound {
     double frequencyHz = 0.0;    ///< 0: silent
     double decayPerSecond = 0.0; ///< of that mode
     Overtones overtones{};       ///< further modes
-    double gain = 1.0;           ///< on top of the camera's
+    double gain = 1.0;           ///< factor on the source's gain
 };
 
-/// By the numbers of two kinds (HapticFixture::surface), in any order. M only.
+/// By the numbers of two kinds (HapticFixture::surface), in any order. World thread (M) only.
 class PairSounds {
 public:
-    /// Sets the sound of a pair, at first or again. What is wrong with it, and nothing is changed; empty: it
-    /// is set. Allocates.
+    /// Sets or replaces the sound of a pair. Returns the error, and nothing is changed; empty: it is set.
+    /// Allocates.
     std::string_view set(int surface, int other, const PairSound& sound) {
         if (surface <= 0 || other <= 0) return "surface: expected more than 0";
         if (const std::string_view fault = faultOf({.frequencyHz = sound.frequencyHz,
@@ -30,25 +31,34 @@ public:
                                                     .gain = sound.gain});
             !fault.empty())
             return fault;
-        if (const std::int32_t known = indices_.find(pairKey(surface, other)); known != IntegerMap::none) {
-            sounds_[static_cast<std::size_t>(known)] = sound;
-        } else {
-            indices_.set(pairKey(surface, other), static_cast<std::int32_t>(sounds_.size()));
-            sounds_.push_back(sound);
-        }
+        const auto pair = pairOf(surface, other);
+        if (const auto known = placeOf(pair); known != sounds_.end() && known->pair == pair)
+            sounds_[static_cast<std::size_t>(known - sounds_.begin())].sound = sound;
+        else
+            sounds_.insert(known, {pair, sound});
         return {};
     }
 
     /// nullptr: the pair has no sound of its own.
     const PairSound* find(int surface, int other) const noexcept {
-        if (sounds_.empty() || surface <= 0 || other <= 0) return nullptr;
-        const std::int32_t known = indices_.find(pairKey(surface, other));
-        return known == IntegerMap::none ? nullptr : &sounds_[static_cast<std::size_t>(known)];
+        if (surface <= 0 || other <= 0) return nullptr;
+        const auto pair = pairOf(surface, other);
+        const auto known = placeOf(pair);
+        return known != sounds_.end() && known->pair == pair ? &known->sound : nullptr;
     }
 
 private:
-    std::vector<PairSound> sounds_;
-    IntegerMap indices_;
+    using Pair = std::pair<int, int>; // the smaller number first
+    struct Entry {
+        Pair pair;
+        PairSound sound;
+    };
+    static Pair pairOf(int surface, int other) noexcept { return std::minmax(surface, other); }
+    std::vector<Entry>::const_iterator placeOf(Pair pair) const noexcept {
+        return std::ranges::lower_bound(sounds_, pair, {}, &Entry::pair);
+    }
+
+    std::vector<Entry> sounds_; // in order of their pairs
 };
 
 } // namespace physvib

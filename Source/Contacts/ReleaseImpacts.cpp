@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strikes that wait for the end of their contact.
+// `release` timing: impacts that are pending until their contact ends.
 #include "Contacts/ReleaseImpacts.h"
 #include <algorithm>
 #include <limits>
@@ -47,12 +47,12 @@ void ReleaseImpacts::open(const StepSpan& span) {
     for (const Strike& strike : strikes_) underWay_.set(strike.camera, strike.isDirect ? direct : handedOn);
     findCauses(span);
     for (std::size_t i = 0; i < catcher_.blows().size(); ++i)
-        // one that its user has switched off has none
+        // 0 for a collision that the user has disabled
         if (impulses_[i] > 0.0) openDirect(catcher_.blows()[i], span);
     openHandedOn(span);
 }
 
-// The strongest blow of each component, the first of equal ones.
+// Finds the strongest collision of each component, the first of equal ones.
 void ReleaseImpacts::findCauses(const StepSpan& span) {
     const std::vector<Blow>& blows = catcher_.blows();
     impulses_.resize(blows.size());
@@ -83,7 +83,7 @@ void ReleaseImpacts::openDirect(const Blow& blow, const StepSpan& span) {
     for (const bool isA : {true, false}) {
         const std::int32_t camera = isA ? blow.a : blow.b;
         if (!table_.isCamera(camera)) continue;
-        // What is handed on to this camera from now on cannot be told from what strikes it.
+        // From now on transmitted impulses cannot be separated from the direct collision.
         if (underWay_.find(camera) == handedOn)
             std::erase_if(strikes_, [camera](const Strike& s) { return s.camera == camera && !s.isDirect; });
         push({camera, isA ? blow.b : blow.a, blow.a, blow.b, blow.order, true, false,
@@ -92,7 +92,7 @@ void ReleaseImpacts::openDirect(const Blow& blow, const StepSpan& span) {
     }
 }
 
-// Cameras that touch something: no others are handed anything.
+// For haptic sources that touch something; only these can receive transmitted impulses.
 void ReleaseImpacts::openHandedOn(const StepSpan& span) {
     graph_.forTouching([&](std::int32_t slot) {
         if (table_.isCamera(slot) && underWay_.find(slot) == SlotMap::none) openHandedOn(slot, span);
@@ -136,7 +136,7 @@ void ReleaseImpacts::follow() {
     }
 }
 
-// A blow is pushed over two steps.
+// Engines spread an impact over two steps.
 void ReleaseImpacts::followCauses() {
     before_.follow(catcher_);
     if (causes_.isEmpty() && before_.isEmpty()) return;
@@ -150,7 +150,7 @@ Vector2 ReleaseImpacts::gain(std::int32_t camera) {
     sums_ = sums_ == std::numeric_limits<std::int32_t>::max() ? 0 : sums_ + 1;
     Vector2 sum;
     graph_.forNeighbours(camera, [&](std::int32_t neighbour) { sum += gainOf(neighbour); });
-    for (const Blow& blow : catcher_.blows()) { // one may have ended already
+    for (const Blow& blow : catcher_.blows()) { // its contact may have ended already
         if (blow.a == camera) sum += gainOf(blow.b);
         if (blow.b == camera) sum += gainOf(blow.a);
     }

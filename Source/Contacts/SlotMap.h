@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What holds for a step, by slots of fixtures.
+// Array map from small indices (fixture slots) to values, cleared in constant time; for per-step data.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace physvib {
 
-/// As IntegerMap, for keys that are small (>= 0) and asked for very often. Allocates when it outgrows its
-/// largest key. One thread at a time.
+/// Like IntegerMap, for keys that are small (>= 0) and looked up very often. Allocates when a key exceeds all
+/// earlier ones. One thread at a time.
 class SlotMap {
 public:
     static constexpr std::int32_t none = -1;
@@ -27,7 +27,7 @@ public:
         entries_[index] = {value, age_};
     }
 
-    /// Forgets all. Costs nothing: entries of another age are none.
+    /// Removes all values in constant time: entries of another age count as empty.
     void clear() noexcept {
         if (++age_ != 0) return;
         for (Entry& entry : entries_) entry = {};

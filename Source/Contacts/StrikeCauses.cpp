@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums of strikes by component.
+// Sums the impulses of collisions per component of the contact graph.
 #include "Contacts/StrikeCauses.h"
 #include <algorithm>
 #include <utility>
@@ -21,7 +21,7 @@ void StrikeCauses::add(const HardBlow& strike) {
 }
 
 void StrikeCauses::follow(const CollisionCatcher& catcher) {
-    isLocated_ = false; // and the graph is another
+    isLocated_ = false; // the graph has changed as well
     for (HardBlow& strike : strikes_) strike.aftermath = catcher.aftermath(strike.pair);
 }
 
@@ -65,7 +65,7 @@ void StrikeCauses::sum(std::int32_t component, std::size_t strike) {
 StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph) {
     if (strikes_.empty()) return {};
     locate(graph);
-    if (graph.isPassing(camera) && struck_.find(camera) == SlotMap::none) { // most
+    if (graph.isPassing(camera) && struck_.find(camera) == SlotMap::none) { // the usual case
         const std::int32_t at = sumOf_.find(graph.component(camera));
         if (at == SlotMap::none) return {};
         const Sum& sum = sums_[static_cast<std::size_t>(at)];
@@ -102,7 +102,7 @@ StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph)
 }
 
 void StrikeCauses::forget(std::int32_t slot) noexcept {
-    isLocated_ = false; // places in the list are others
+    isLocated_ = false; // indices have changed
     std::erase_if(strikes_, [slot](const HardBlow& strike) { return strike.a == slot || strike.b == slot; });
 }
 

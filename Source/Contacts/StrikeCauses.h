@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The strikes of one step, and which of them reach a camera through a path of contacts.
+// The collisions of one step, and which of them reach a haptic source through a path of contacts.
 #pragma once
 #include "Contacts/CollisionCatcher.h"
 #include "Contacts/ContactGraph.h"
@@ -9,18 +9,19 @@
 
 namespace physvib {
 
-/// A blow that is hard enough to be a strike.
+/// A collision above the impact threshold.
 struct HardBlow {
-    std::int32_t a, b, pair; // slots, and their number
+    std::int32_t a, b, pair; // slots, and the number of their pair
     std::int64_t timeNs;
     double newtonSeconds;
-    double aftermath; // N s that the pair went on to push in the next step
+    double aftermath; // N s that the pair added in the next step
     std::int32_t componentA, componentB;
-    std::int32_t nextA, nextB; // the next weaker blow of the same slot
+    std::int32_t nextA, nextB; // the next weaker collision of the same slot
 };
 
-/// Sums are kept per component of the graph, so that a question costs the same however many strikes there
-/// are: in a shaken box of cameras hundreds of strikes meet a thousand questions. M only.
+/// Sums are kept per component of the graph, so that a query costs the same however many collisions there
+/// are: a shaken box of haptic sources has hundreds of collisions and a thousand queries per step. World
+/// thread (M) only.
 class StrikeCauses {
 public:
     StrikeCauses();
@@ -29,18 +30,18 @@ public:
     void add(const HardBlow& strike);
     bool isEmpty() const noexcept { return strikes_.empty(); }
 
-    /// Looks up what the pairs have gone on to push, in a step after which the graph is another.
+    /// Reads what the pairs added in the next step, after which the graph has changed.
     void follow(const CollisionCatcher& catcher);
 
-    /// What reaches a camera in the graph as it is now, its own strikes left out. The first question since
-    /// the last add() or follow() costs a look at each strike.
+    /// Sum and strongest of the collisions that reach a haptic source in the present graph, without its own.
+    /// The first query after add() or follow() visits each collision.
     struct Found {
-        const HardBlow* strongest = nullptr;         // nullptr: nothing does
+        const HardBlow* strongest = nullptr;         // nullptr: none
         double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
     };
     Found find(std::int32_t camera, ContactGraph& graph);
 
-    /// The slot has another owner from now on: its strikes are nobody's.
+    /// The slot is freed or reassigned: drops its collisions.
     void forget(std::int32_t slot) noexcept;
 
 private:
@@ -52,12 +53,12 @@ private:
     void sum(std::int32_t component, std::size_t strike);
     bool isReached(const HardBlow& strike) const noexcept;
 
-    std::vector<HardBlow> strikes_; // the strongest first, once located
+    std::vector<HardBlow> strikes_; // sorted by strength once located
     std::vector<Sum> sums_;
     bool isLocated_ = false;
     SlotMap sumOf_;                     // by component
-    SlotMap struck_;                    // the strongest of a slot's own strikes
-    std::vector<std::int32_t> reached_; // components at the camera in question
+    SlotMap struck_;                    // the strongest of a slot's own collisions
+    std::vector<std::int32_t> reached_; // components at the current source
 };
 
 } // namespace physvib

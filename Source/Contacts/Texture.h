@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT
-// What a surface is like to what rolls or slides along it: two numbers, as simple as a frequency and a decay.
+// Surface texture for rolling and sliding: spacing and strength of the roughness elements (grains).
 #pragma once
 #include "Core/StandardGravity.h"
 #include <string_view>
 
 namespace physvib {
 
-/// random: as cloth, stone or wood. regular: ridges, which are felt as a tone of speed / spacing.
+/// random: like cloth, stone or wood. regular: ridges, felt as a tone of frequency speed / spacing.
 enum class GrainPattern { random, regular };
 
-/// Grains of a surface. What passes one gives a small blow to both bodies, and their cameras feel it as any
-/// other.
+/// Grains of a surface. Passing a grain gives both bodies a small impact.
 struct Texture {
     static constexpr double finestMetres = 1.0e-5;  ///< between grains
     static constexpr double coarsestMetres = 10.0;  ///< between grains
     static constexpr double mostRoughness = 1000.0; ///< of `roughness`
 
     double grainMetres = 0.0; ///< mean spacing; 0, or finer than finestMetres: smooth, and silent
-    double roughness = 1.0;   ///< strength, see grainImpulse()
-    GrainPattern pattern = GrainPattern::random; ///< how they lie
-    double rolling = 0.2; ///< share that is felt of what rolls; 1: as much as of what slides
+    double roughness = 1.0;   ///< strength factor, see grainImpulse()
+    GrainPattern pattern = GrainPattern::random; ///< spacing of the grains
+    double rolling = 0.2;                        ///< strength of rolling relative to sliding, 0 to 1
 
-    /// Something is felt of it.
+    /// True if the texture gives impacts.
     bool isRough() const noexcept { return grainMetres >= finestMetres && roughness > 0.0; }
 };
 
-/// N s that one grain gives, for a load in N and the speed in m/s at which it is passed: it lifts the mass
-/// that presses (load / g) along a slope of 10 % of the roughness, so its blow grows with both. Any thread.
+/// Impulse of one grain in N s, for a load in N and the speed in m/s at which it is passed. The pressing mass
+/// (load / g) is lifted along a slope of 10 % of the roughness, so the impulse is proportional to both. Any
+/// thread.
 constexpr double grainImpulse(double roughness, double loadNewtons, double metresPerSecond) noexcept {
     constexpr double slope = 0.1;
     return slope * roughness * loadNewtons / standardGravity * metresPerSecond;
 }
 
-/// What is wrong with a texture, and what was expected; empty if it can be used. Any thread.
+/// The error of a value, with what was expected; empty if all are valid. Any thread.
 inline std::string_view faultOf(const Texture& texture) noexcept {
     if (!(texture.grainMetres >= 0.0 && texture.grainMetres <= Texture::coarsestMetres))
         return "grain: expected 0 (smooth) to 10 m";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is known of two fixtures together: one number instead of a search for each question.
+// Numbers for pairs of touching fixtures, under which per-pair data are stored, so that each access needs no
+// search.
 #pragma once
 #include "Contacts/ContactGraph.h"
 #include "Contacts/IntegerMap.h"
@@ -9,23 +10,22 @@
 
 namespace physvib {
 
-/// Numbers for pairs of fixtures (slots) that touch, or of which something is still to be told. A number is a
-/// pair's as long as one of its fields says something; who keeps it longer asks `is` first. Allocates only
-/// when it outgrows what it has had. M only.
+/// A pair of slots has a number while it touches or while one of its fields is set. Check a number kept for
+/// longer with `is`. Allocates only to grow. World thread (M) only.
 class TouchingPairs {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
 
-    /// Two slots in the order in which a contact has them, and their number.
+    /// Two slots in the order of their contact, and their number.
     struct Name {
         std::int32_t a = none, b = none, number = none;
     };
 
     struct Pair {
-        std::int32_t a = none, b = none; ///< slots in any order; none: nobody's
-        std::int32_t blow = none;        ///< of this step
-        std::int32_t last = none;        ///< the blow of the step before
-        std::int32_t load = none;        ///< what it pushes at rest
+        std::int32_t a = none, b = none; ///< slots in any order; none: the number is free
+        std::int32_t blow = none;        ///< index of its collision in this step
+        std::int32_t last = none;        ///< index of its collision in the last step
+        std::int32_t load = none;        ///< index of its resting load
     };
 
     explicit TouchingPairs(std::size_t pairs = 1024)
@@ -35,7 +35,7 @@ public:
         loose_.reserve(pairs);
     }
 
-    /// The number of a pair, a new one if need be.
+    /// The number of a pair, a new one if necessary.
     std::int32_t know(std::int32_t a, std::int32_t b) {
         if (const std::int32_t known = numbers_.find(pairKey(a, b)); known != none) return known;
         if (free_.empty()) {
@@ -61,7 +61,7 @@ public:
         return pairs_[static_cast<std::size_t>(number)];
     }
 
-    /// The contacts of a pair, of all pairs of a slot, end: it is forgotten when nothing else is left of it.
+    /// Contacts of a pair, or of all pairs of a slot, have ended: the number is freed once no field is set.
     void loosen(std::int32_t a, std::int32_t b) {
         if (const std::int32_t known = numbers_.find(pairKey(a, b)); known != none) loose_.push_back(known);
     }
@@ -70,7 +70,7 @@ public:
             if (pair.a == slot || pair.b == slot) loosen(pair.a, pair.b);
     }
 
-    /// At last in a step: gives numbers free.
+    /// Call at the end of a step: frees numbers.
     void endStep(const ContactGraph& graph) {
         std::erase_if(loose_, [&](std::int32_t number) {
             Pair& pair = (*this)[number];
@@ -87,7 +87,7 @@ private:
     std::vector<Pair> pairs_;
     IntegerMap numbers_; // by the pair
     std::vector<std::int32_t> free_;
-    std::vector<std::int32_t> loose_; // that may touch no more
+    std::vector<std::int32_t> loose_; // candidates to be freed
 };
 
 } // namespace physvib

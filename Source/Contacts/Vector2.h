@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A vector in the plane, in the single precision that 2D physics engines compute with.
+// A vector in the plane, in the single precision that 2D physics engines compute with, and a body's motion
+// there.
 #pragma once
 #include <cmath>
 
 namespace physvib {
 
-/// Of a place (m), a velocity (m/s), an impulse (N s)... as the name that holds it says. Any thread.
+/// A place (m), velocity (m/s), impulse (N s) and so on, as the variable's name says. Any thread.
 struct Vector2 {
     float x = 0.0F, y = 0.0F;
 
@@ -19,8 +20,14 @@ struct Vector2 {
     float lengthSquared() const noexcept { return x * x + y * y; }
     float length() const noexcept { return std::sqrt(lengthSquared()); }
 
-    /// The same vector, turned by 90 degrees counter-clockwise.
+    /// The vector rotated by 90 degrees counter-clockwise.
     Vector2 turnedLeft() const noexcept { return {-y, x}; }
+};
+
+/// Velocity of a body.
+struct BodyMotion {
+    Vector2 metresPerSecond;
+    float radiansPerSecond = 0.0F; ///< counter-clockwise
 };
 
 } // namespace physvib

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Whose vibration a fixture with a camera sends out when something strikes it.
+// Which body's sound an impact of a haptic source plays.
 #pragma once
 
 namespace physvib {
 
-/// own: the camera fixture's own material sounds; other: the material of what strikes it; both: one event
-/// for each.
+/// own: the sound of the haptic source; other: that of the body that collides with it; both: one event for
+/// each.
 enum class Voice { own, other, both };
 
 } // namespace physvib

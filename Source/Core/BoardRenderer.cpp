@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When the board strikes its events, and how samples become codes.
+// The board's block loop: starts events that are due, limits the sum and converts samples to 8-bit converter
+// codes.
 #include "Core/BoardRenderer.h"
 #include <algorithm>
 #include <bit>
@@ -11,12 +12,12 @@ constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 constexpr auto release =
     static_cast<float>(1.0 / (limits::limiterReleaseSeconds * limits::board::sampleRateHz));
 
-// 1 to 255: full scale either way of mid-scale. `sample` is within full scale, but for rounding.
+// Converter code of a sample, 1 to 255; 128 is mid-scale. `sample` is within full scale, but for rounding.
 std::uint8_t codeOf(float sample) noexcept {
     return static_cast<std::uint8_t>(std::clamp(static_cast<int>(sample * 127.0f + 128.5f), 0, 255));
 }
 
-// Without a sign, floats compare as their bits do; that costs the board less than their own comparison.
+// Non-negative floats order as their bits do; comparing bits costs the board less than comparing floats.
 std::uint32_t magnitude(float sample) noexcept { return std::bit_cast<std::uint32_t>(sample) & 0x7FFFFFFF; }
 
 bool exceeds(const PhasorBank::Block& block) noexcept {
@@ -86,7 +87,7 @@ void BoardRenderer::render(Codes& out) noexcept {
 
 void BoardRenderer::strikeDue(PhasorBank::Block& io) noexcept {
     while (nextDue_ < frame_ + blockFrames) {
-        const bool isLate = nextDue_ < frame_; // then the whole vibration, at once
+        const bool isLate = nextDue_ < frame_; // a late event starts at its first frame now, uncut
         const BoardEvent& event = pending_.next();
         bank_.strike(event, isLate ? frame() : event.frame, io);
         late_ += isLate ? 1 : 0;
@@ -113,7 +114,7 @@ void BoardRenderer::encode(const PhasorBank::Block& block, Codes& out) noexcept 
     BoardGuard::Areas areas;
     for (int j = 0; j < channels; ++j) {
         int sum = -blockFrames * midScale;
-#pragma GCC unroll 4 // a quarter of a percent of the board's time
+#pragma GCC unroll 4 // saves a quarter of a percent of the board's time
         for (int k = 0; k < blockFrames; ++k) sum += out[at(k)][at(j)] = codeOf(block[at(j)][at(k)]);
         areas[at(j)] = BoardGuard::area(sum);
     }

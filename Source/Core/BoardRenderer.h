@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// All that the four-channel board computes: events in, codes of its converters out. The board runs these very
-// files; on a computer they are what the board is held against.
+// Renderer of the four-channel vibration board: events in, codes of its digital-to-analogue converters out.
+// The board's firmware compiles these files; on a computer they are the reference for the board's output.
 //
-// Order of one block: the modes are summed; events that are due are struck into it; legs of what moves are
-// added; each channel goes through its gain; one gain for all channels takes at once what exceeds full scale
-// and comes back within limits::limiterReleaseSeconds, so that a phantom stays where it is; the guard turns
-// down what would only warm a coil; the codes saturate.
+// Order of one block: the modes are summed; events that are due are added; segments of moving tones are
+// added; each channel passes its gain; a limiter with one gain for all channels cuts what exceeds full scale
+// at once and recovers within limits::limiterReleaseSeconds, so that a phantom stays in place; the guard
+// turns down slow signal parts that would only warm a coil; the codes saturate.
 #pragma once
 #include "Core/Actuators/BoardGuard.h"
 #include "Core/Actuators/GainRamp.h"
@@ -21,15 +21,16 @@ namespace physvib {
 
 /// Counts since prepare, and the state after the last block.
 struct BoardStatus {
-    std::uint32_t played = 0; ///< events struck, legs taken
-    std::uint32_t late = 0; ///< of these: after their time; a strike at once, a leg from where it is by then
-    std::uint32_t dropped = 0; ///< not playable, or too many waiting
-    std::uint32_t stolen = 0;  ///< modes that made room
+    std::uint32_t played = 0;  ///< events started, segments accepted
+    std::uint32_t late = 0;    ///< of these: after their time. A late event starts at once; a late segment
+                               ///< starts at the phase and gain that it has by then
+    std::uint32_t dropped = 0; ///< events that are not playable, or that found the pending store full
+    std::uint32_t stolen = 0;  ///< modes ended early to make room for another
     int modes = 0;
     int pending = 0;
 };
 
-/// All memory is inside the object. R only.
+/// All memory is inside the object. Render thread (R) only.
 class BoardRenderer {
 public:
     static constexpr int channels = PhasorBank::channels;
@@ -42,22 +43,23 @@ public:
     /// Silence at frame 0, all gains 1.
     void prepare() noexcept;
 
-    /// False, and counted, if the event is not playable or too many wait. Events of one frame keep their
-    /// order.
+    /// False, and counted as dropped, if the event is not playable or the pending store is full. Events of
+    /// one frame keep their order.
     bool schedule(const BoardEvent& event) noexcept;
     bool schedule(const BoardLeg& leg) noexcept;
 
-    /// Within limits::channelRampSeconds. Negative gains turn the polarity, 0 mutes.
+    /// Gains per channel, reached within limits::channelRampSeconds. Negative gains invert the polarity, 0
+    /// mutes.
     void setGains(const Gains& gains) noexcept;
 
-    /// Nothing sounds, nothing waits, from the next block on. (Whoever owns the converters fades what they
-    /// hold.)
+    /// Ends all modes and segments and discards pending events, from the next block on. The caller fades what
+    /// the converters still hold.
     void stopAll() noexcept;
 
-    /// The guard lets the next block through as it is: for one that does not leave (the self-test's).
+    /// The guard does not act on the next block: for a block that is not sent to the actuators (self-test).
     void letThrough() noexcept { guard_.letThrough(); }
 
-    /// The next block.
+    /// Renders the next block.
     void render(Codes& out) noexcept;
 
     /// First frame of the next block.
@@ -77,9 +79,10 @@ private:
     std::array<GainRamp, static_cast<std::size_t>(channels)> gains_{};
     float linkedGain_ = 1.0f;
     BoardGuard guard_;
-    std::int64_t frame_ = 0; // does not wrap, so that waiting events keep their order
+    std::int64_t frame_ = 0; // does not wrap, so that pending events keep their order
     static constexpr auto never = std::numeric_limits<std::int64_t>::max();
-    std::int64_t nextDue_ = never; // when the first of those that wait is due: asked in every block
+    std::int64_t nextDue_ = never; // due time of the first pending event; kept here because every block
+                                   // compares it
     std::uint32_t played_ = 0, late_ = 0, dropped_ = 0;
 };
 

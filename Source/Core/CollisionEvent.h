@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One collision as the renderer needs it: the thesis' L_col node (Eq. 5.1, 6.2), the only type on this edge.
+// One collision event, as the renderer plays it (the thesis' node L_col, Eq. 5.1, 6.2). The physics side
+// passes nothing else to the renderer.
 #pragma once
 #include "Core/ClipNumber.h"
 #include "Core/Limits.h"
@@ -9,54 +10,56 @@
 
 namespace physvib {
 
-/// What an event came of: two bodies that met, or a grain of a surface that something rolled or slid over.
+/// What caused an event: the impact of two bodies, or one roughness element (grain) of a surface that a body
+/// rolled or slid over.
 enum class ContactKind : std::uint8_t { hit, roll, slide };
 
-/// Who hit whom, and how hard. Not needed for rendering; carried along for event lists, views and studies.
+/// The two fixtures of a collision, and how hard it was. Rendering does not need it; event lists, views and
+/// studies do.
 struct CollisionSource {
-    std::int32_t fixture = -1;           ///< camera-focused fixture that vibrates; -1: unknown
-    std::int32_t other = -1;             ///< the fixture it collided with; -1: unknown
-    double impulseNewtonSeconds = 0.0;   ///< 0: unknown
-    double massKg = 0.0;                 ///< of the body that carries `fixture`
-    ContactKind kind = ContactKind::hit; ///< hit, or grain
-    bool operator==(const CollisionSource&) const = default; ///< Member by member.
+    std::int32_t fixture = -1;                               ///< fixture that is a haptic source; -1: unknown
+    std::int32_t other = -1;                                 ///< the fixture it collided with; -1: unknown
+    double impulseNewtonSeconds = 0.0;                       ///< 0: unknown
+    double massKg = 0.0;                                     ///< of the body that carries `fixture`
+    ContactKind kind = ContactKind::hit;                     ///< impact, or grain
+    bool operator==(const CollisionSource&) const = default; ///< Compares all members.
 };
 
-/// By what a strike differs from a hit: it may go somewhere, be spread in its own way, and be the rest of a
-/// longer tone.
+/// Optional properties of an event: it may move, be spread over the actuators in its own way, and continue a
+/// tone that began earlier.
 struct StrikeCourse {
-    /** Its end. */ double toX = 0.0, toY = 0.0; ///< metres of the field; where it is after travelNs, in a
-                                                 ///< straight line at one speed
-    std::int64_t travelNs = 0;                   ///< 0: it stays where it is struck
-    std::int64_t sinceNs = 0;       ///< the tone began that long before: phase and decay go on from there
-    Spread spread = Spread::layout; ///< over the enchanters
-    bool operator==(const StrikeCourse&) const = default; ///< Member by member.
+    /** End x. */ double toX = 0.0, toY = 0.0; ///< end point, metres of the field; reached after travelNs
+                                               ///< in a straight line at constant speed
+    std::int64_t travelNs = 0;                 ///< 0: it stays at its starting point
+    std::int64_t sinceNs = 0;       ///< age of the tone at the onset: phase and decay continue from there
+    Spread spread = Spread::layout; ///< how it is distributed over the actuators
+    bool operator==(const StrikeCourse&) const = default; ///< Compares all members.
 };
 
 /// x(t) = amplitude sin(2 pi frequencyHz t) exp(-decayPerSecond t), t = time since `timeNs` (Eq. 5.1).
 struct CollisionEvent {
-    std::int64_t timeNs = 0;     ///< onset, nanoseconds since the session began; between frames as a rule
-    double frequencyHz = 0.0;    ///< above 0, to limits::maxFrequencyHz
+    std::int64_t timeNs = 0;     ///< onset, nanoseconds since the session began; usually between two frames
+    double frequencyHz = 0.0;    ///< above 0, at most limits::maxFrequencyHz
     double decayPerSecond = 0.0; ///< 0 to limits::maxDecayPerSecond; 0 needs a duration; below
                                  ///< limits::slowestToneHz at least limits::slowDecayPerSecond
-    double amplitude = 0.0;      ///< 1 = full scale of an enchanter
-    double x = 0.0;              ///< place of the hit in metres of the field, origin lower left
-    double y = 0.0;              ///< upwards
+    double amplitude = 0.0;      ///< 1 = full scale of an actuator
+    double x = 0.0;              ///< place of the impact in metres of the field, origin lower left
+    double y = 0.0;              ///< metres, upwards
     std::int64_t durationNs = 0; ///< 0: until it has decayed; else the vibration is cut after this time
-    CollisionSource source;      ///< whom it came of
-    StrikeCourse course{};       ///< of what is struck apart from a world
-    bool operator==(const CollisionEvent&) const = default; ///< Member by member.
+    CollisionSource source;      ///< the bodies that caused it
+    StrikeCourse course{};       ///< for events that no world produced
+    bool operator==(const CollisionEvent&) const = default; ///< Compares all members.
 };
 
-/// True if it would hold a coil at nearly direct current: slower than limits::slowestToneHz, and hardly
-/// decaying. A clip that stays where it is has samples instead of a tone. Any thread.
+/// True if the event would drive a coil with nearly direct current: it is slower than limits::slowestToneHz
+/// and hardly decays. A clip that does not move plays samples instead of a tone, so it is exempt. Any thread.
 inline bool isTooSlow(const CollisionEvent& e) noexcept {
     return e.frequencyHz < limits::slowestToneHz && e.decayPerSecond < limits::slowDecayPerSecond &&
            !(isClip(e.frequencyHz) && e.course.travelNs == 0);
 }
 
-/// True if the event can be played: finite, inside `limits`, not isTooSlow, and sure to end (a decay or a
-/// duration). Any thread.
+/// True if the event can be played: finite, inside `limits`, not isTooSlow, and ended by a decay or a
+/// duration. Any thread.
 inline bool isPlayable(const CollisionEvent& e) noexcept {
     const bool inTime = e.timeNs >= 0 && e.timeNs <= limits::maxTimeNs && e.durationNs >= 0 &&
                         e.durationNs <= limits::maxTimeNs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Flushes denormal numbers while it lives, so that no tail of a decay slows the machine down.
+// RAII guard that flushes denormal numbers to zero, so that decaying tails do not slow the processor down.
 #pragma once
 #include <cstdint>
 #if defined(__SSE__)
@@ -8,9 +8,9 @@
 
 namespace physvib {
 
-/// Sets flush-to-zero (and denormals-are-zero) for this thread and restores the mode it found. Within
-/// another, or wherever the mode is set, it costs next to nothing: writing it waits for all arithmetic that
-/// is under way. R, wait-free.
+/// Sets flush-to-zero (and denormals-are-zero) for this thread and restores the earlier mode when destroyed.
+/// If the mode is already set, it does not write it: writing stalls until all arithmetic under way has
+/// finished. Render thread (R), wait-free.
 class DenormalGuard {
 public:
     DenormalGuard() noexcept
@@ -57,7 +57,7 @@ private:
 #error "say here how this machine flushes denormals"
 #endif
     bool isSet() const noexcept { return (saved_ & flushBits) == flushBits; }
-    Mode saved_; // as it was found
+    Mode saved_; // the mode before this guard
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The preset layouts PHONE and RING with 1 to 4 enchanters, and what makes any layout usable.
+// Preset actuator layouts PHONE and RING with 1 to 4 actuators, and the validity check of any layout.
 #include "Core/EnchanterLayout.h"
 #include <cmath>
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace {
 struct Preset {
     std::string_view name;
     EnchanterPlace extent;
-    std::span<const EnchanterPlace> shares; // of the extent, per enchanter
+    std::span<const EnchanterPlace> shares; // place of each actuator, as a share of the extent
 };
 
 constexpr std::array<EnchanterPlace, 1> centre{{{0.5, 0.5}}};
@@ -18,8 +18,8 @@ constexpr std::array<EnchanterPlace, 2> sides{{{0.0, 0.5}, {1.0, 0.5}}};
 constexpr std::array<EnchanterPlace, 3> triangle{{{0.0, 1.0}, {1.0, 1.0}, {0.5, 0.0}}};
 constexpr std::array<EnchanterPlace, 4> corners{{{0.0, 1.0}, {1.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}};
 
-// The thesis gives no coordinates: enchanters on the back of a phone of about 138 x 69 mm, and fingers of two
-// hands that hold one in landscape grip.
+// The thesis gives no coordinates. Assumed: actuators on the back of a phone of about 138 x 69 mm, and on
+// fingers of two hands that hold a phone in landscape grip.
 constexpr EnchanterPlace phone{0.12, 0.06}, ring{0.16, 0.08};
 constexpr std::array presets{Preset{"phone1", phone, centre},   Preset{"phone2", phone, sides},
                              Preset{"phone3", phone, triangle}, Preset{"phone4", phone, corners},

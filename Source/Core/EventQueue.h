@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Events from one thread to another: a wait-free ring for one producer and one consumer; a full ring says so.
+// Wait-free ring buffer that carries events from one producer thread to one consumer thread and counts the
+// items that a full ring refused.
 #pragma once
 #include "Core/Nonblocking.h"
 #include <array>
@@ -16,12 +17,12 @@ class EventQueue {
     static_assert(std::is_trivially_copyable_v<T>, "items are copied across threads");
 
 public:
-    /// False if the queue is full: the item is not taken and the loss is counted. Producer only, wait-free.
+    /// False if the queue is full: the item is dropped and counted. Producer only, wait-free.
     bool push(const T& item) noexcept PHYSVIB_NONBLOCKING {
         return pushBy([&](T& place) noexcept { place = item; });
     }
 
-    /// The same, and `write(T&)` writes all of the item where it will lie. Producer only, wait-free.
+    /// As push, but `write(T&)` writes the whole item in place. Producer only, wait-free.
     template <class Write>
     bool pushBy(Write write) noexcept PHYSVIB_NONBLOCKING {
         const std::size_t written = write_.load(std::memory_order_relaxed);
@@ -49,11 +50,11 @@ public:
         return true;
     }
 
-    /// How many items a full queue has refused so far. Any thread, wait-free.
+    /// How many items a full queue has refused. Any thread, wait-free.
     std::size_t overflows() const noexcept { return overflows_.load(std::memory_order_relaxed); }
 
 private:
-    // Each side keeps its index and its last look at the other's on a cache line of its own.
+    // Each side keeps its own index, and its last copy of the other side's, on a cache line of its own.
     alignas(64) std::atomic<std::size_t> write_{0};
     std::size_t readSeen_ = 0;
     std::atomic<std::size_t> overflows_{0};

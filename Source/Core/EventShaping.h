@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What becomes of a collision before it is rendered: the method, then the frequencies that the actuators can
-// play, then the level.
+// Stages between a collision and the rendered event: the rendering method of the thesis, then the mapping of
+// frequencies into the actuators' band, then the level.
 #pragma once
 #include "Core/Actuators/PerceivedLevel.h"
 #include "Core/Actuators/Resonator.h"
@@ -12,12 +12,12 @@
 
 namespace physvib {
 
-/// Moves what is felt into a band, in its order: frequencies a musical interval apart stay an interval apart,
-/// only a smaller one. The same for every list of events, so that live and offline agree. Any thread.
+/// Maps the tactile frequency range into an actuator's band and keeps the order: equal musical intervals stay
+/// equal, but become smaller. Live and offline rendering use the same mapping. Any thread.
 struct FrequencyRemap {
-    /// go to the band's ends; what lies beyond, too
+    /// mapped to the band's ends; frequencies outside are clamped
     static constexpr double feltLowHz = 20.0, feltHighHz = 1000.0;
-    FrequencyBand band; ///< not known: nothing is moved
+    FrequencyBand band; ///< not known: frequencies stay unchanged
 
     double operator()(double frequencyHz) const noexcept {
         if (!band.isKnown()) return frequencyHz;
@@ -27,22 +27,22 @@ struct FrequencyRemap {
     bool operator==(const FrequencyRemap&) const = default;
 };
 
-/// From the collision to the event that is rendered, listed and told as played; a clip stays as it is. Any
-/// thread.
+/// Turns a collision into the event that is rendered, listed and reported as played. Clips stay unchanged.
+/// Any thread.
 struct EventShaping {
     static constexpr double mostTruncation = 0.99;
     RenderingMethod method;
     FrequencyRemap remap;
-    double gain = 1.0;          ///< of all events, also of a fixed level
-    PerceivedLevel perceived{}; ///< at the frequency that is played, of what the gain made
-    double truncation = 0.0; ///< Eq. 5.5: a decay is cut where its envelope falls to this share; 0: it rings
-                             ///< out
+    double gain = 1.0;          ///< of all events, also those of a fixed level
+    PerceivedLevel perceived{}; ///< equal-sensation correction at the played frequency, after the gain
+    double truncation = 0.0; ///< Eq. 5.5: a decay is cut where its envelope falls to this share; 0: it decays
+                             ///< fully
 
     CollisionEvent operator()(const CollisionEvent& collision) const noexcept {
         return shaped(collision, [](CollisionEvent&) {});
     }
 
-    /// The same; what has the frequency that is played may be changed by `hold`, before the gain.
+    /// The same; `hold` may change the event before the gain, when it has its played frequency.
     template <class Hold>
     CollisionEvent shaped(const CollisionEvent& collision, Hold hold) const noexcept {
         if (isClip(collision.frequencyHz)) return collision;
@@ -58,15 +58,15 @@ struct EventShaping {
 private:
     void cut(CollisionEvent& event) const noexcept {
         const double seconds = -std::log(truncation) / event.decayPerSecond;
-        if (!(seconds < 1e9)) return; // it hardly decays
+        if (!(seconds < 1e9)) return; // hardly decays: no cut
         const auto life = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(seconds * 1e9)) -
                                                         event.course.sinceNs);
         event.durationNs = event.durationNs > 0 ? std::min(event.durationNs, life) : life;
     }
 };
 
-/// The same of all hits of a world, in time order: a fixed level that is held depends on those before. One
-/// thread at a time.
+/// The same for all impacts of one world, in time order. Stateful, because a held fixed level depends on
+/// earlier impacts. One thread at a time.
 class EventShaper {
 public:
     explicit EventShaper(const EventShaping& shaping)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A fixed amplitude that is what it claims, however many hits there are and whatever they are of.
+// Holds the summed amplitude of overlapping impacts at a fixed level, whatever their number and materials.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/RenderingMethod.h"
@@ -17,12 +17,12 @@ inline double peakOfDecay(double frequencyHz, double decayPerSecond) noexcept {
     return std::sin(phase) * std::exp(-decayPerSecond * phase / turn);
 }
 
-/// Hits of one world, in time order: the first from rest peaks at the fixed amplitude, a later one only adds
-/// what those that sound still leave of it, so that no sum of them is higher, on one enchanter or on all. One
-/// thread at a time; never allocates.
+/// Impacts of one world, in time order. An impact from rest peaks at the fixed amplitude. A later one adds
+/// only what the sounding ones leave free, so that the sum never exceeds the level, on one actuator or on
+/// all. One thread at a time; never allocates.
 class FixedLevel {
 public:
-    /// Events that no fixture caused, or that have no frequency, are left alone.
+    /// Events without a causing fixture or without a frequency stay unchanged.
     CollisionEvent operator()(CollisionEvent event, const RenderingMethod& method) noexcept {
         if (!method.holdsLevel || !method.fixesAmplitude || event.source.fixture < 0 ||
             !(event.frequencyHz > 0.0))
@@ -52,8 +52,8 @@ private:
         return sum;
     }
 
-    /// Into the quietest place: what stood there is as good as over, as there are more places than materials
-    /// that sound at once.
+    /// Uses the entry with the lowest level. There are more entries than materials that sound at once, so the
+    /// replaced envelope has practically decayed.
     void add(const CollisionEvent& event) noexcept {
         const std::int64_t untilNs = event.durationNs > 0 ? event.timeNs + event.durationNs : INT64_MAX;
         const auto isSame = [&](const Envelope& e) {
@@ -65,7 +65,7 @@ private:
                                   [&](const Envelope& a, const Envelope& b) {
                                       return a.at(event.timeNs) < b.at(event.timeNs);
                                   });
-        // also of what is replaced: it counts on, if longer or shorter than it lasts
+        // The level of the replaced envelope is kept, though its decay then differs.
         const double rest = at->at(event.timeNs);
         *at = {rest + event.amplitude, event.decayPerSecond, event.timeNs, untilNs};
     }

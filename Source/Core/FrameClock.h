@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// From session time in nanoseconds to sample frames, exactly: integers only, at any sample rate.
+// Converts session time in nanoseconds to sample frames, exactly: integers only, at any sample rate.
 #pragma once
 #include <cstdint>
 
 namespace physvib {
 
-/// An onset on the frame grid: it lies `leadFrames` before `frame`, the first frame not earlier than the
-/// onset.
+/// An onset on the frame grid. `frame` is the first frame not earlier than the onset, which lies `leadFrames`
+/// before it.
 struct FramePosition {
     std::int64_t frame = 0;
     double leadFrames = 0.0; ///< [0, 1)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// When events are struck, and how far a part of a block may reach.
+// Implementation of the renderer: preparation, controls, starting of events, and the processing of one part
+// of a block.
 #include "Core/HapticRenderer.h"
+#include "Core/Modes/ModeIncrements.h"
 #include <algorithm>
 #include <cmath>
 
@@ -69,7 +71,7 @@ bool HapticRenderer::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     return isPrepared_ = actuators_.changeRate(sampleRateHz) && prepareLimiter();
 }
 
-// A gate that ends where a strike begins closes first; a control acts before the strikes of its frame.
+// Order within a frame: gates that end close first, then controls act, then strikes begin.
 void HapticRenderer::actOnDue() noexcept {
     while (bank_.nextGateFrame() <= position_) bank_.closeNextGate();
     while (!controls_.empty() && clock_.at(controls_.nextTime()).frame <= position_) {
@@ -109,10 +111,10 @@ bool HapticRenderer::isSilenced(const CollisionEvent& event) const noexcept {
     return event.timeNs < (event.source.fixture < 0 ? strikesSilentUntilNs_ : silentUntilNs_);
 }
 
-// False: it could not be played.
+// False if the event could not be played.
 bool HapticRenderer::strike(const CollisionEvent& event, FramePosition onset) noexcept {
     const std::int64_t delay = position_ - onset.frame;
-    if (delay > 0) onset = {position_, 0.0}; // late: the whole vibration, at once
+    if (delay > 0) onset = {position_, 0.0}; // a late event starts at its first frame now, uncut
     const bool isGated = event.durationNs > 0;
     const std::int64_t end =
         isGated ? clock_.at(event.timeNs + event.durationNs).frame + std::max<std::int64_t>(delay, 0)
@@ -157,8 +159,8 @@ MovingTones::Drive HapticRenderer::driveAt(const CollisionEvent& event, double x
     return drive;
 }
 
-// A complex drive is two strikes of one mode, a quarter turn apart: they merge, so it costs no mode. Both or
-// none.
+// A complex drive is two strikes of one mode, a quarter turn apart. They merge, so they use one mode. Either
+// both are struck or none.
 bool HapticRenderer::strikeCoupled(Strike strike) noexcept {
     if (strike.closeFrame != Strike::never && bank_.freeGates() < 2) return false;
     std::array<double, static_cast<std::size_t>(limits::maxEnchanters)> inPhase{}, ahead{};
@@ -168,8 +170,8 @@ bool HapticRenderer::strikeCoupled(Strike strike) noexcept {
     return bank_.strike(strike, ahead.data());
 }
 
-// Modes alone, that leave as they are but for the limiter: it reads them where they were summed, and keeps
-// what a delay set later begins with. False: something else is to be done.
+// Fast path for modes alone that reach the limiter unchanged. The limiter reads them where they were summed,
+// and the delay lines keep a copy in case a delay is set later. False: the general path is needed.
 bool HapticRenderer::passModes(const Channels& out, int frames) noexcept {
     Channels kept;
     std::array<const float*, static_cast<std::size_t>(limits::maxEnchanters)> sums;
@@ -201,15 +203,16 @@ void HapticRenderer::playAll(const Channels& out, int frames, const float* const
     guard(out, frames, limiter_.process(out.data(), frames, isSilent));
 }
 
-// Without the limiter nothing bounds a sample, so nothing bounds what a tile adds: then the last point guards
-// alone.
+// Without the limiter samples are unbounded, so the guard does not act; the guard at the device output still
+// does.
 void HapticRenderer::guard(const Channels& out, int frames, bool isSilent) noexcept {
     if (!settings_.limiterEnabled) return;
     guard_.moveTo(position_);
     guard_.process(out.data(), frames, isSilent);
 }
 
-// The end of the tile, the next gate or the next control; `most` frames away at the latest.
+// First frame at which processing has to stop: the end of the tile, the next gate or the next control; at
+// most `most` frames away.
 std::int64_t HapticRenderer::nextChange(int most) const noexcept {
     constexpr int tile = limits::tileFrames;
     std::int64_t end = std::min(position_ + most, position_ - position_ % tile + tile);

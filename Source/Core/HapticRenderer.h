@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The only way to samples: collision events in, one channel per enchanter out (the thesis' vibration
-// manager).
+// The renderer: collision events in, one channel of samples per actuator out (the thesis' vibration manager).
+// All samples are made here.
 //
-// Order of one call: events enter the pending store; those that are due are panned and struck on their exact
-// place between two frames; the mode bank is summed; each channel goes through its actuator stage; the linked
-// limiter follows, and the guard has the last word. Controls (layout, gains, delays, ceilings, stop) wait for
-// their frame in the same way. Work is cut at the tiles of the
-// absolute frame grid and at onsets, gate ends and controls, never at block borders: output does not depend
-// on block size.
+// Order of one call: events enter the pending store; events that are due are panned and struck at their exact
+// time between two frames; the mode bank is summed; each channel passes its actuator stage; the linked
+// limiter and then the output guard follow. Controls (layout, gains, delays, ceilings, stop) wait for their
+// frame in the same way. Work is divided at the tiles of the absolute frame grid and at onsets, gate ends and
+// controls, never at block borders: output does not depend on block size.
 #pragma once
 #include "Core/Actuators/ActuatorStage.h"
 #include "Core/Actuators/LinkedLimiter.h"
@@ -28,43 +27,44 @@
 
 namespace physvib {
 
-/// Its memory follows channels and modes and is taken in prepare; the object itself is large: keep it on the
-/// heap.
+/// Memory depends on channels and modes and is allocated in prepare. The object itself is large: keep it on
+/// the heap.
 class HapticRenderer {
 public:
-    /// What was played, and when.
+    /// Queue of events that were played, with their frames.
     using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(limits::playedQueueSize)>;
 
     /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most
-    /// limits::maxEnchanters outputs, or if there is no memory: then render writes zeros, takes no events and
-    /// moves nowhere, as before the first call. M, not while rendering.
+    /// limits::maxEnchanters outputs, or if memory is lacking. Then, as before the first call, render writes
+    /// zeros and accepts no events, and moveTo fails. Message thread (M), not while rendering.
     bool prepare(const RendererSettings& settings) noexcept;
 
-    /// From now on events play these recordings. Both the list and its samples, at this rate, outlive the
-    /// renderer. prepare and moveTo forget them. M, not while rendering.
+    /// From now on events play these recordings. The caller keeps the list and its samples, at this sample
+    /// rate, alive as long as the renderer. prepare and moveTo forget them. M, not while rendering.
     void setContacts(const RecordedContacts& contacts) noexcept;
 
-    /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains
-    /// stay; what moves stops, the limiter starts afresh. False, and nothing has changed, at a rate outside
-    /// the limits, or if it is not prepared; without memory it is not prepared any more. M, not while
-    /// rendering.
+    /// Continues at another sample rate and frame, e.g. on another device. Modes continue to sound; pending
+    /// events and gains stay; moving tones stop and the limiter starts afresh. False, and nothing has
+    /// changed, if the rate is outside the limits or the renderer is not prepared. If memory is lacking, also
+    /// false, and the renderer is no longer prepared. M, not while rendering.
     bool moveTo(int sampleRateHz, std::int64_t frame) noexcept;
 
-    /// Writes out[channel][0..frames), 1 to limits::maxBlockFrames. `source.pop(CollisionEvent&)` gives
-    /// events until it says false; more than the pending store holds stay there, which is right if they come
-    /// in time order. If it also has `pop(RenderControl&)`, controls come the same way; if it has
-    /// `struck(const CollisionEvent&, std::int64_t frame)`, it is told of what is played, and of which frame
-    /// of the renderer's on; if it has `added(std::int64_t frame, int frames)`, the samples that it points
-    /// to, a channel each, are played as well (null: none). R, wait-free.
+    /// Writes out[channel][0..frames), 1 to limits::maxBlockFrames. `source.pop(CollisionEvent&)` delivers
+    /// events until it returns false. Events that the pending store cannot hold stay in the source; they are
+    /// in time if the source is in time order. Optional members of the source: `pop(RenderControl&)` delivers
+    /// controls the same way; `struck(const CollisionEvent&, std::int64_t frame)` is called for each event
+    /// that is played, with the renderer's first frame of it; `added(std::int64_t frame, int frames)` returns
+    /// samples, one pointer per channel, that are mixed in (null: none). Render thread (R), wait-free.
     template <class Source>
     void render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
-    /// What has been played, for one reader on another thread.
+    /// Events that have been played, for one reader on another thread.
     PlayedQueue& played() noexcept { return playedQueue_; }
 
-    /// Frames by which the output lags the event times (the limiter's look-ahead). Any thread after prepare.
+    /// Frames by which the output lags behind the event times (the limiter's look-ahead). Any thread after
+    /// prepare.
     int latencyFrames() const noexcept { return limiter_.latencyFrames(); }
-    /// Any thread.
+    /// The same for a sample rate. Any thread.
     static int latencyFramesAt(int sampleRateHz) noexcept {
         return LinkedLimiter::latencyFramesAt(sampleRateHz);
     }
@@ -115,8 +115,8 @@ private:
     RendererSettings settings_;
     int channels_ = 1;
     bool isPrepared_ = false;
-    bool othersAreModes_ = false; // events without a recording
-    // no event before it is played; none that is apart from a world
+    bool othersAreModes_ = false; // events without a recording play their mode
+    // events before this time are not played; the second: of events that no world produced
     std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, strikesSilentUntilNs_ = INT64_MIN;
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The newest value from one thread to another, whole and never torn: a wait-free triple buffer for telemetry.
+// Wait-free triple buffer that hands the newest value from one thread to another without tearing, for
+// telemetry.
 #pragma once
 #include "Core/Nonblocking.h"
 #include <array>
@@ -9,8 +10,8 @@
 
 namespace physvib {
 
-/// One writer, one reader; the reader sees the newest value written, values between may be skipped.
-/// Never carries anything audible: what is heard needs a time and travels as an event.
+/// One writer, one reader. The reader gets the newest value; values in between may be skipped. Do not use it
+/// for anything audible: that needs a time and travels as an event.
 template <class T>
 class LatestValue {
     static_assert(std::is_trivially_copyable_v<T>, "values are copied across threads");

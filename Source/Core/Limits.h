@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every limit of PhysVib, with the reason for its value.
+// All limits of the renderer, each with the reason for its value.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -7,53 +7,58 @@
 namespace physvib {
 
 namespace limits {
-constexpr int maxEnchanters = 64;          // two hands full of actuators; larger than any interface we know
-constexpr int minSampleRateHz = 5000;      // the thesis' vibration rate r_v
-constexpr int maxSampleRateHz = 192000;    // the fastest common audio interface
-constexpr int maxBlockFrames = 8192;       // the largest block a host is known to send
-constexpr double maxFrequencyHz = 20000.0; // far above touch (about 1 kHz); SV sounds are rendered otherwise
-constexpr double slowestToneHz = 5.0; // of what stays: slower, nothing is felt and a coil only grows warm
-constexpr double slowDecayPerSecond = 1.0;   // the least of what is slower: it has fallen by 60 dB in 7 s
-constexpr double maxDecayPerSecond = 2000.0; // 0.5 ms: shorter is a click; keeps p^tile inside a float at 5
-                                             // kHz
+constexpr int maxEnchanters = 64;       // more actuators than fit on two hands; more channels than any audio
+                                        // interface known to us
+constexpr int minSampleRateHz = 5000;   // the thesis' vibration rate r_v
+constexpr int maxSampleRateHz = 192000; // the fastest common audio interface
+constexpr int maxBlockFrames = 8192;    // the largest block a host is known to send
+constexpr double maxFrequencyHz = 20000.0; // far above touch (about 1 kHz); recordings of sounds are rendered
+                                           // otherwise
+constexpr double slowestToneHz = 5.0; // lowest frequency of a sustained tone: below it nothing is felt and a
+                                      // coil only grows warm
+constexpr double slowDecayPerSecond = 1.0;   // minimum decay of a slower tone: it has fallen by 60 dB in 7 s
+constexpr double maxDecayPerSecond = 2000.0; // 0.5 ms: a shorter one is a click; keeps p^tile inside a float
+                                             // at 5 kHz
 constexpr double maxAmplitude = 1.0e6;       // keeps sums of thousands of strikes finite in a float
-constexpr double maxLevelDb = 80.0; // up or down, of what is rendered: beyond it nothing is felt, or nothing
-                                    // else
+constexpr double maxLevelDb = 80.0; // gain range of the whole output, plus or minus: beyond it vibrations are
+                                    // imperceptible or mask everything else
 constexpr std::int64_t maxTimeNs = 100'000'000'000'000'000; // 3.2 years: installations run for months; ten
-                                                            // times as much stays in 64 bits
-constexpr double retireDecibels = 140.0; // a strike is over when it has fallen by this much (24-bit floor)
+                                                            // times as long still fits 64 bits
+constexpr double retireDecibels = 140.0;        // a mode ends when it has fallen by this much (24-bit floor)
 constexpr double stealFadePerSecond = 1000.0;   // a stolen mode falls by 60 dB in 7 ms: no click, soon gone
-constexpr double silenceFadePerSecond = 2000.0; // 140 dB in 8 ms: silence within 10 ms, and still no click
-constexpr double channelRampSeconds = 0.01; // gains, mutes, detached channels: no click, still at once to a
-                                            // hand
-constexpr double maxChannelDelaySeconds = 0.05; // aligns hands and sound; longer, a hand takes it for another
-                                                // hit
+constexpr double silenceFadePerSecond = 2000.0; // 140 dB in 8 ms: silence within 10 ms, without a click
+constexpr double channelRampSeconds = 0.01;     // gains, mutes, detached channels: no click, yet immediate to
+                                                // touch
+constexpr double maxChannelDelaySeconds = 0.05; // aligns vibration and sound; a longer delay is felt as a
+                                                // second impact
 constexpr double limiterLookAheadSeconds = 0.001; // attack of the limiter = its constant latency
-constexpr double limiterReleaseSeconds = 0.2; // silence to full gain: slower than any tactile period (20 Hz)
+constexpr double limiterReleaseSeconds = 0.2; // from silence to full gain: slower than any tactile period (20
+                                              // Hz)
 
-// Of one renderer.
-constexpr int tileFrames = 64;      // strikes and retirement happen on this absolute grid
-constexpr int maxModes = 4096;      // distinct (frequency, decay) pairs sounding at once
-constexpr int maxFadingModes = 64;  // stolen modes on their way out
-constexpr int maxGates = 4096;      // strikes with a duration that are open at once
-constexpr int maxSampleVoices = 64; // recorded contacts sounding at once: 128 a second of half a second each
-constexpr int maxMovingTones = 16;  // phantoms on their way at once: more than hands can tell apart
-constexpr int maxPending = 8192;    // events ahead of their time: 80 ms at 10^5 strikes per second
+// Limits of one renderer.
+constexpr int tileFrames = 64;          // strikes and retirement of modes are aligned to this absolute grid
+constexpr int maxModes = 4096;          // distinct (frequency, decay) pairs sounding at once
+constexpr int maxFadingModes = 64;      // stolen modes that are fading out
+constexpr int maxGates = 4096;          // strikes with a duration that sound at once
+constexpr int maxSampleVoices = 64;     // recorded contacts that sound at once: 128 a second of half a second
+                                        // each
+constexpr int maxMovingTones = 16;      // moving phantoms at once: more than hands can tell apart
+constexpr int maxPending = 8192;        // events ahead of their time: 80 ms at 10^5 events per second
 constexpr int maxLookAheadFrames = 192; // 1 ms at 192 kHz
 constexpr int maxDelayFrames = 9600;    // maxChannelDelaySeconds at 192 kHz
-constexpr int maxControls = 256;        // edits ahead of their time: a hand makes tens a second
-constexpr int playedQueueSize = 4096;   // 40 ms at 10^5 strikes per second until somebody reads
+constexpr int maxControls = 256;        // control changes ahead of their time: a user makes tens per second
+constexpr int playedQueueSize = 4096;   // 40 ms at 10^5 events per second until the reader empties it
 
-// The four-channel board: 72 MHz, 12 KB of RAM and 4 KB beside the core. Why these: Docs/board.md.
+// The four-channel board: 72 MHz, 12 KB of RAM and 4 KB beside the core. Reasons: Docs/board.md.
 namespace board {
-constexpr int sampleRateHz = 8000;  // 20 samples in a period of the fastest felt vibration (400 Hz); divides
-                                    // 72 and 64 MHz
-constexpr int channels = 4;         // two dual converters
-constexpr int blockFrames = 4;      // 4 frames x 4 channels are the 16 sums that stay in registers
-constexpr int maxModes = 128;       // 49 bytes each
-constexpr int maxPending = 64;      // the link delivers 720 events a second: 88 ms of them
-constexpr int gridPerHz = 16;       // frequencies and decays travel in sixteenths of 1 Hz and of 1 per second
-constexpr int amplitudeUnit = 4096; // of full scale: amplitudes up to 8, steps of 1/32 of a converter's step
+constexpr int sampleRateHz = 8000; // 20 samples in a period of the fastest felt vibration (400 Hz); divides
+                                   // 72 and 64 MHz
+constexpr int channels = 4;        // two dual converters
+constexpr int blockFrames = 4;     // 4 frames x 4 channels are the 16 sums that fit in registers
+constexpr int maxModes = 128;      // 49 bytes each
+constexpr int maxPending = 64;     // the link delivers 720 events a second: this is 88 ms of them
+constexpr int gridPerHz = 16; // frequencies and decays are sent in sixteenths of 1 Hz and of 1 per second
+constexpr int amplitudeUnit = 4096; // of full scale: amplitudes up to 8, in steps of 1/32 of a converter step
 constexpr int amplitudeBits = 12;
 constexpr int retireOctaves = 17; // 2^-17 is a thousandth of a step: even 128 tails together stay below one
 } // namespace board

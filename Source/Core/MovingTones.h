@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Strikes that go somewhere: one tone each, whose gains move with its place.
+// Player of moving tones: one decaying sinusoid per event, whose channel gains change with its place.
 //
-// The place is exact in every frame; its gains are taken at both ends of each tile of the absolute frame grid
-// and lie on a line between them. A sample depends on its own frame alone, so block sizes do not matter. Why
-// lines, and what they cost beside the tone: Docs/decisions/0069-what-moves-is-a-row-of-strikes.md.
+// The place is exact in every frame. Gains are computed at both ends of each tile of the absolute frame grid
+// and interpolated linearly between them. A sample depends on its own frame alone, so block sizes do not
+// matter. Why linear, and the cost: Docs/decisions/0069-what-moves-is-a-row-of-strikes.md.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/FadingVoices.h"
 #include "Core/FrameClock.h"
-#include "Core/Modes/ModeIncrements.h"
+#include "Core/Trigonometry.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
 namespace physvib {
 
-/// Adds them to what the modes made. All memory is inside the object. R only, but for prepare: M.
+/// Adds moving tones to the output of the modes. All memory is inside the object. Render thread (R) only;
+/// prepare: message thread (M).
 class MovingTones {
 public:
-    /// Per output, for the part in phase with the tone and for the one a quarter turn ahead.
+    /// Gain per output of the part in phase with the tone and of the part a quarter turn ahead.
     struct Drive {
         std::array<double, static_cast<std::size_t>(limits::maxEnchanters)> inPhase{}, ahead{};
     };
 
-    /// Silence. M, not while rendering.
+    /// Ends all tones. M, not while rendering.
     void prepare(int sampleRateHz, int channels) noexcept {
         rate_ = sampleRateHz;
         channels_ = static_cast<std::size_t>(channels);
@@ -31,28 +32,13 @@ public:
     }
 
     /// From `onset` on, until `closeFrame`. False if too many sound at once.
-    bool strike(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {
-        Voice* const voice = voices_.add(onset.frame);
-        if (voice == nullptr) return false;
-        voice->event = event;
-        voice->leadFrames = onset.leadFrames;
-        voice->phaseIncrement = phaseIncrementOf(event.frequencyHz, rate_);
-        voice->decayIncrement = decayIncrementOf(event.decayPerSecond, rate_);
-        voice->phase = phaseAfter(event.frequencyHz * static_cast<double>(event.course.sinceNs) * 1e-9);
-        voice->level = static_cast<double>(
-            event.amplitude *
-            shareLeft(event.decayPerSecond, static_cast<double>(event.course.sinceNs) * 1e-9));
-        const std::int64_t life = lifeFramesOf(voice->decayIncrement);
-        voice->end = voice->closeFrame =
-            std::min({closeFrame, VoiceTime::never, life < VoiceTime::never ? onset.frame + life : life});
-        return true;
-    }
+    bool strike(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
 
     void fadeAll(std::int64_t frame) noexcept { voices_.fadeAll(frame); }
     int count() const noexcept { return voices_.count(); }
 
     /// Adds to io[j][0..frames) for absolute frames [first, first + frames), which lie within one tile.
-    /// `driveAt(event, x, y)` is the Drive of a strike there. False if there was nothing to add.
+    /// `driveAt(event, x, y)` returns the Drive of an event at that place. False if there was nothing to add.
     template <class DriveAt>
     bool render(float* const* io, std::int64_t first, int frames, DriveAt driveAt) noexcept {
         bool sounds = false;
@@ -70,11 +56,11 @@ public:
 private:
     struct Voice : VoiceTime {
         CollisionEvent event;
-        double leadFrames = 0.0; // the onset lies that much before its frame
+        double leadFrames = 0.0; // time from the onset to its first frame, in frames
         std::uint64_t phase = 0, phaseIncrement = 0;
-        std::int64_t decayIncrement = 0, closeFrame = 0; // before which it may be faded out
+        std::int64_t decayIncrement = 0, closeFrame = 0; // end without a fade-out
         double level = 0;
-        std::int64_t first = 0, last = 0; // frames of the line between these
+        std::int64_t first = 0, last = 0; // the gains are interpolated between these frames
         Drive from, to;
     };
 
@@ -83,7 +69,7 @@ private:
         if (voice.last > tile) return;
         voice.first = std::max(tile, voice.onset);
         voice.last = std::min(tile + limits::tileFrames, voice.closeFrame);
-        // as it was: the law may be another by now
+        // the gains of the tile before, because the panning law may have changed since
         voice.from = voice.first == voice.onset ? at(voice, voice.first, driveAt) : voice.to;
         voice.to = at(voice, voice.last, driveAt);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything a renderer has to play, from frame 0 on, with nothing of its latency in it.
+// Offline rendering of all events of a source, from frame 0 on, with the renderer's latency removed.
 #pragma once
 #include "Core/HapticRenderer.h"
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 namespace physvib {
 
-/// Renders frames 0 to `frames` of a renderer that has just been prepared, in blocks of `blockFrames`, which
-/// are written to out[channel] and given to `consume(channels, n)`, the next n frames in order, until it says
-/// false. The limiter's look-ahead is rendered first and dropped, so that frame n is time n/rate. M, or
-/// whoever holds R.
+/// Renders frames 0 to `frames` of a renderer that has just been prepared, in blocks of `blockFrames`. Each
+/// block is written to out[channel] and passed to `consume(channels, n)`, the next n frames in order, until
+/// it returns false. The limiter's look-ahead is rendered first and dropped, so that frame n is time n/rate.
+/// On the thread that owns the renderer.
 template <class Source, class Consume>
 void renderFromStart(HapticRenderer& renderer, Source& source, float* const* out, int channels,
                      std::int64_t frames, int blockFrames, Consume&& consume) {

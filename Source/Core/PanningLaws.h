@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every panning law once: its name and its factor. Files, options, messages, bindings and the plug-in's
-// parameter read this table; Docs/panning.md is held against it.
+// Table of the panning laws: name and gain function of each. Files, options, messages, bindings and the
+// plug-in's parameter read it; a test compares it with Docs/panning.md.
 #pragma once
 #include <array>
 #include <cmath>
@@ -9,23 +9,23 @@
 
 namespace physvib {
 
-/// How a gain falls with the distance ratio u = d/D from an enchanter, u in [0, 1]. New ones go to the end: C
-/// programs number them.
+/// How a gain falls with the distance ratio u = d/D from an actuator, u in [0, 1]. Append new ones at the
+/// end: C programs use the numbers.
 enum class PanningLaw {
     linear,   ///< 1 - u (Eq. 4.2)
     log,      ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear
-    logOuter, ///< log2(2 - u): the other reconstruction, stays above linear
+    logOuter, ///< log2(2 - u): the other reconstruction, above linear
     energy    ///< sqrt(1 - u): squares sum to one wherever linear gains do
 };
 
-/// One law.
+/// One panning law.
 struct PanningLawDescription {
-    PanningLaw law;                      ///< its number, which is its place in the table
-    std::string_view name;               ///< in files, options and states: never changes
+    PanningLaw law;                      ///< its number, which is its index in the table
+    std::string_view name;               ///< used in files, options and states: never changes
     double (*factor)(double u) noexcept; ///< from 1 at u = 0 down to 0 at u = 1
 };
 
-/// All of them.
+/// All panning laws, indexed by PanningLaw.
 inline constexpr auto panningLaws = std::to_array<PanningLawDescription>({
     {PanningLaw::linear, "linear", [](double u) noexcept { return 1.0 - u; }},
     {PanningLaw::log, "log", [](double u) noexcept { return 1.0 - std::log2(1.0 + u); }},
@@ -33,22 +33,22 @@ inline constexpr auto panningLaws = std::to_array<PanningLawDescription>({
     {PanningLaw::energy, "energy", [](double u) noexcept { return std::sqrt(1.0 - u); }},
 });
 
-/// The law's row. Any thread.
+/// The law's table entry. Any thread.
 constexpr const PanningLawDescription& describe(PanningLaw law) noexcept {
     return panningLaws[static_cast<std::size_t>(law)];
 }
 
-/// As files and options have it. Any thread.
+/// The law's name in files and options. Any thread.
 constexpr std::string_view nameOf(PanningLaw law) noexcept { return describe(law).name; }
 
-/// Where between two enchanters (0 to 1) an impact is felt that is meant at `share` of the way: the centroid
+/// Where between two actuators (0 to 1) an impact is felt that is panned to `share` of the way: the centroid
 /// of intensity. Any thread.
 inline double centroidOf(PanningLaw law, double share) noexcept {
     const double near = describe(law).factor(share), far = describe(law).factor(1.0 - share);
     return far * far / (near * near + far * far);
 }
 
-/// Names of the laws, in their order.
+/// Names of the laws, in table order.
 inline constexpr auto panningLawNames = [] {
     std::array<std::string_view, panningLaws.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = panningLaws[i].name;

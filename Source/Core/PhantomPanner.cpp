@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arrangements that a panning law is applied to.
+// Gains of a panning law for each arrangement of actuators: single, line, rectangle, triangle, scattered.
 #include "Core/PhantomPanner.h"
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ bool PhantomPanner::findLine() noexcept {
     }
     const double length = std::hypot(reach.x, reach.y);
     if (length > 0.0) lineDirection_ = {reach.x / length, reach.y / length};
-    // The layout's extent as seen along the line: the width of a level line, the height of an upright one.
+    // The layout's extent along the line: its width for a horizontal line, its height for a vertical one.
     lineExtent_ = std::abs(lineDirection_.x) * layout_.extentWidthMetres +
                   std::abs(lineDirection_.y) * layout_.extentHeightMetres;
     const double tolerance = placeTolerance();
@@ -61,7 +61,7 @@ bool PhantomPanner::isRectangle() const noexcept {
     const auto [low, high] = std::minmax({place(0).y, place(1).y, place(2).y, place(3).y});
     const double tolerance = placeTolerance();
     const auto near = [tolerance](double a, double b) { return std::abs(a - b) <= tolerance; };
-    int corners = 0; // a bit per corner; four places fill four corners only if no two share one
+    int corners = 0; // one bit per corner: four places fill four corners only if no two share one
     for (int j = 0; j < 4; ++j) {
         const Vector p = place(j);
         const bool isRight = near(p.x, right), isHigh = near(p.y, high);
@@ -138,7 +138,8 @@ void PhantomPanner::triangleGains(Vector p, Gains& gains) const noexcept {
     const double area = cross(a, b, c);
     std::array<double, 3> weight{cross(b, c, p) / area, cross(c, a, p) / area, cross(a, b, p) / area};
     if (*std::min_element(weight.begin(), weight.end()) < 0.0) {
-        // Outside: the nearest point lies on an edge; try all three, keep the closest.
+        // Outside the triangle the nearest point lies on an edge: compute it for all three edges and keep the
+        // closest.
         double nearest = -1.0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
@@ -158,11 +159,11 @@ void PhantomPanner::triangleGains(Vector p, Gains& gains) const noexcept {
 }
 
 void PhantomPanner::scatteredGains(Vector p, Gains& gains) const noexcept {
-    // Shepard's weights 1/d^2; a hit on an enchanter is that enchanter's alone. Loops without branches are
-    // vectors.
-    constexpr double least = 1e-18;                   // a nanometre: no division by zero
-    std::array<double, limits::maxEnchanters> weight; // only `count` of them are used: not worth clearing per
-                                                      // strike
+    // Shepard's weights 1/d^2. An impact at an actuator's place drives that actuator alone. Loops without
+    // branches are vectorised.
+    constexpr double least = 1e-18;                   // a nanometre squared: avoids division by zero
+    std::array<double, limits::maxEnchanters> weight; // only `count` entries are used: not worth clearing per
+                                                      // event
     const auto count = static_cast<std::size_t>(layout_.count);
     for (std::size_t j = 0; j < count; ++j) {
         const double dx = p.x - layout_.places[j].xMetres, dy = p.y - layout_.places[j].yMetres;
@@ -173,7 +174,7 @@ void PhantomPanner::scatteredGains(Vector p, Gains& gains) const noexcept {
     double sum = 0.0;
     for (std::size_t j = 0; j < count; ++j) sum += weight[j];
     if (isPlain())
-        // within 0 and 1, as factor() has it
+        // rounded as factor() rounds it, within 0 and 1
         for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - (1.0 - weight[j] / sum);
     else
         for (std::size_t j = 0; j < count; ++j) gains[j] = factor(1.0 - weight[j] / sum);

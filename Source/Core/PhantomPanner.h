@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Phantom sensations: from the place of a hit to one gain per enchanter (thesis Eq. 4.2, 4.3, 6.2).
+// Phantom sensations: from the place of an impact to one gain per actuator (thesis Eq. 4.2, 4.3, 6.2).
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
@@ -9,10 +9,10 @@
 
 namespace physvib {
 
-/// Gains of one layout. Formulas for every arrangement stand in Docs/panning.md.
+/// Panner of one layout. Docs/panning.md has the formulas of every arrangement.
 class PhantomPanner {
 public:
-    using Gains = std::array<double, limits::maxEnchanters>; ///< One per enchanter.
+    using Gains = std::array<double, limits::maxEnchanters>; ///< One per actuator.
 
     PhantomPanner() = default;
 
@@ -21,32 +21,33 @@ public:
     PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
                   double fieldHeightMetres) noexcept;
 
-    /// One gain per channel for a hit at (x, y) metres of the field; the rest of `gains` stays. Any thread.
+    /// One gain per channel for an impact at (x, y) metres of the field; the rest of `gains` stays unchanged.
+    /// Any thread.
     void gainsAt(double x, double y, Gains& gains) const noexcept;
 
-    /// The same, spread otherwise. Any thread.
+    /// The same with another spread. Any thread.
     void gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept;
 
-    /// For an event that is there now: as the event asks; grains, if it asks nothing, by grains(). Any
-    /// thread.
+    /// Gains of an event that is now at (x, y), by the event's own spread. Grains without one use grains().
+    /// Any thread.
     void gainsAt(const CollisionEvent& event, double x, double y, Gains& gains) const noexcept {
         const bool isGrain = event.source.kind != ContactKind::hit && event.course.spread == Spread::layout;
         gainsAt(x, y, isGrain ? grains_ : event.course.spread, gains);
     }
 
-    /// Grains of surfaces travel: by `spread`, so that the centroid of what is felt follows them;
-    /// Spread::layout, as at first: by the law.
+    /// Spread of grains, i.e. of roughness elements that a moving contact passes. Another spread than the
+    /// layout's lets the centroid of intensity follow the contact. Initially Spread::layout.
     void setGrains(Spread spread) noexcept { grains_ = spread; }
-    Spread grains() const noexcept { return grains_; } ///< As it was set. Any thread.
+    Spread grains() const noexcept { return grains_; } ///< Spread of grains. Any thread.
 
-    int channels() const noexcept { return layout_.count; } ///< Enchanters.
+    int channels() const noexcept { return layout_.count; } ///< Number of actuators.
 
-    /// What it was made of. Any thread.
+    /// The constructor's arguments. Any thread.
     const EnchanterLayout& layout() const noexcept { return layout_; }
-    PanningLaw law() const noexcept { return law_; }                         ///< As it was given.
-    double exponent() const noexcept { return exponent_; }                   ///< Of the law.
-    double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }   ///< That x spans.
-    double fieldHeightMetres() const noexcept { return fieldHeightMetres_; } ///< That y spans.
+    PanningLaw law() const noexcept { return law_; }
+    double exponent() const noexcept { return exponent_; }
+    double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }
+    double fieldHeightMetres() const noexcept { return fieldHeightMetres_; }
 
 private:
     enum class Arrangement { single, line, rectangle, triangle, scattered };
@@ -57,8 +58,8 @@ private:
     bool findLine() noexcept;
     bool isRectangle() const noexcept;
     Vector place(int enchanter) const noexcept;
-    double placeTolerance() const noexcept; // rounding in a layout file must not bend a line
-    bool isPlain() const noexcept { return law_ == PanningLaw::linear && exponent_ == 1.0; } // nearly always
+    double placeTolerance() const noexcept; // rounding in a layout file must not make a line a triangle
+    bool isPlain() const noexcept { return law_ == PanningLaw::linear && exponent_ == 1.0; } // the usual case
     double factor(double distanceRatio) const noexcept;
     void lineGains(Vector p, Gains& gains) const noexcept;
     void rectangleGains(Vector p, Gains& gains) const noexcept;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The recordings of materials' contacts, as a renderer plays them.
+// Recordings of contacts that a renderer plays instead of modes, one per material.
 #pragma once
 #include <span>
 
 namespace physvib {
 
-/// Known by the frequency that its events have. The samples belong to somebody else and outlive whoever plays
-/// them; they are at the renderer's rate.
+/// A recording is found by the frequency of its events. The caller keeps the samples alive as long as the
+/// renderer; they are at the renderer's rate.
 struct RecordedContact {
     double frequencyHz = 0.0;
-    std::span<const float> samples; ///< of an event of amplitude 1
+    std::span<const float> samples; ///< for an event of amplitude 1
 };
 
-/// What events play instead of modes; none: modes.
+/// The recordings of a renderer; without any, all events play modes.
 struct RecordedContacts {
     std::span<const RecordedContact> list{}; ///< at the renderer's rate
-    bool othersAreModes = false; ///< events that have none of them play their mode; else they are rejected
+    bool othersAreModes = false; ///< events without a recording play their mode; if false they are rejected
 };
 
 } // namespace physvib

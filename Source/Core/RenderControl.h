@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever else is audible travels with a time, as strikes do: layout and law, gains, mutes, delays,
-// ceilings, recordings, stop.
+// Timed control changes of the renderer (layout and panning law, gains, mutes, delays, ceilings, recordings,
+// stop), and the record of a played event.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -11,33 +11,33 @@ namespace physvib {
 
 /// One change of how events are rendered, at a session time.
 struct RenderControl {
-    /** What is changed. */ enum class Kind : std::uint8_t {
-        panner,     ///< later strikes are panned by `panner`; what rings, rings out where it is
+    /** What changes. */ enum class Kind : std::uint8_t {
+        panner,     ///< later events are panned by `panner`; sounding modes keep their gains
         gain,       ///< of `channel`, to `value`
-        mute,       ///< of `channel`: value not 0
-        stopAll,    ///< whatever rings fades out; later events are played
+        mute,       ///< of `channel`: muted if value is not 0
+        stopAll,    ///< all sounding modes and recordings fade out; later events are played
         delay,      ///< of `channel`: `value` seconds, 0 to limits::maxChannelDelaySeconds
-        ceiling,    ///< of `channel`: largest sample while the limiter is on, `value` > 0, in a ramp
-        recordings, ///< from now on `recordings` are played instead of modes; recordings that sound fade out
-        level,      ///< of all channels, on top of their gains: `value`, 0 or more
-        silence     ///< as stopAll, and events before `untilNs` are not played; if `value` is not 0, of those
-                ///< apart from a world only what is before `timeNs`. These two are born in the render call:
-                ///< no file names them
+        ceiling,    ///< of `channel`: largest sample while the limiter is on, `value` > 0, reached in a ramp
+        recordings, ///< from now on `recordings` are played instead of modes; sounding recordings fade out
+        level,      ///< of all channels, multiplied with their gains: `value`, 0 or more
+        silence ///< as stopAll, and events before `untilNs` are not played. If `value` is not 0, events that
+                ///< no world produced are blocked only before `timeNs`. level and silence are created by the
+                ///< render call; files do not name them
     };
-    std::int64_t timeNs = 0;       ///< from which on
-    Kind kind = Kind::stopAll;     ///< which of the values below counts
-    int channel = 0;               ///< of gain and mute
-    float value = 0.0f;            ///< gain; of mute, not 0: silent; of silence, see there
-    PhantomPanner panner;          ///< of panner
-    std::int64_t untilNs = 0;      ///< of silence
-    RecordedContacts recordings{}; ///< of recordings
+    std::int64_t timeNs = 0;       ///< session time at which it takes effect
+    Kind kind = Kind::stopAll;     ///< selects which of the values below counts
+    int channel = 0;               ///< for gain, mute, delay and ceiling
+    float value = 0.0f;            ///< see Kind
+    PhantomPanner panner;          ///< for panner
+    std::int64_t untilNs = 0;      ///< for silence
+    RecordedContacts recordings{}; ///< for recordings
 };
 
-/// What was really played, and when: the way back from the renderer to log, view and board.
+/// An event that was played, and when: sent from the renderer to log, view and board.
 struct PlayedEvent {
-    CollisionEvent event;   ///< as it was struck
+    CollisionEvent event;   ///< as it was played
     std::int64_t frame = 0; ///< the renderer's first frame of it
-    bool isLate = false;    ///< after its time, at once
+    bool isLate = false;    ///< played after its time, at once
 };
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The loop of HapticRenderer::render: a template of whoever gives it events, so it stands in a header.
+// The template members of HapticRenderer, among them the render loop. Include it where HapticRenderer::render
+// is called.
 #pragma once
 #include "Core/HapticRenderer.h"
 
@@ -19,9 +20,10 @@ void HapticRenderer::refill(Source& source) noexcept {
     }
 }
 
-// Strikes what comes before the next change that needs a cut, and says how many frames lie before it: at the
-// next onset as well, unless the bank takes strikes ahead. Taking an event makes room in the pending store
-// for another, and one with a duration is a change.
+// Strikes the events that are due before the next change that divides the block, and returns how many frames
+// can be rendered until then. If the mode bank cannot take strikes ahead of their frame, the next onset
+// divides the block as well. After each event the loop refills the store, because popping freed a place; an
+// event with a duration adds a gate, so `end` is computed again.
 template <class Source>
 int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
     for (;;) {
@@ -53,7 +55,7 @@ void HapticRenderer::render(Source& source, float* const* out, int frames) noexc
         return;
     }
     const DenormalGuard guard;
-    Channels at; // the first channels_ of them
+    Channels at; // only the first channels_ entries are set
     std::copy_n(out, channels_, at.begin());
     for (int done = 0; done < frames;) {
         const int part = strikeAndReach(source, frames - done);

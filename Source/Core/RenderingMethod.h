@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is rendered of a collision: the eight renderings of the thesis' study 2 (5.3).
+// Rendering method: which of amplitude, frequency and decay follow the collision and which are fixed (the
+// eight renderings of the thesis' study 2, 5.3).
 #pragma once
 #include "Core/CollisionEvent.h"
 #include <array>
@@ -7,19 +8,21 @@
 
 namespace physvib {
 
-/// A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency and decay are varied (from physics) or fixed. Turns a
-/// collision into the event that is rendered; AV-FV-DRV changes nothing. Any thread.
+/// A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency and decay are varied (from physics) or fixed. The call
+/// operator turns a collision into the event that is rendered; AV-FV-DRV changes nothing. Any thread.
 struct RenderingMethod {
-    static constexpr double fixedLevelG = 1.5; ///< acceleration; divide by the full scale for an amplitude
+    static constexpr double fixedLevelG = 1.5; ///< acceleration in g; divide by the full scale in g for an
+                                               ///< amplitude
     static constexpr double fixedFrequencyHz = 250.0;
-    static constexpr std::int64_t fixedPulseNs = 20'000'000; ///< rectangular: five periods of 250 Hz, cut
-                                                             ///< anywhere of others
+    static constexpr std::int64_t fixedPulseNs = 20'000'000; ///< rectangular envelope: five periods of 250
+                                                             ///< Hz; other frequencies are cut in mid-period
 
     bool fixesAmplitude = false;
     bool fixesFrequency = false;
     bool fixesDecay = false;
-    double fixedAmplitude = fixedLevelG; ///< 1 = full scale of an enchanter, as in an event
-    bool holdsLevel = false; ///< it is the peak of what is felt, not each hit's A of Eq. 5.1 (FixedLevel.h)
+    double fixedAmplitude = fixedLevelG; ///< 1 = full scale of an actuator, as in an event
+    bool holdsLevel = false; ///< true: fixedAmplitude is the peak of the summed vibration, not each impact's
+                             ///< A of Eq. 5.1 (FixedLevel.h)
 
     constexpr CollisionEvent operator()(CollisionEvent event) const noexcept {
         if (fixesAmplitude) event.amplitude = fixedAmplitude;
@@ -33,7 +36,7 @@ struct RenderingMethod {
     bool operator==(const RenderingMethod&) const = default;
 };
 
-/// The method of a name like "AF-FV-DRF"; false, and `method` as it was, if there is none. Any thread.
+/// Parses a name like "AF-FV-DRF"; false, and `method` unchanged, if there is no such method. Any thread.
 constexpr bool renderingMethodNamed(std::string_view name, RenderingMethod& method) noexcept {
     constexpr std::string_view varied = "AV-FV-DRV";
     constexpr std::size_t choices[] = {1, 4, 8}; // where V or F stands
@@ -50,7 +53,7 @@ constexpr bool renderingMethodNamed(std::string_view name, RenderingMethod& meth
     return true;
 }
 
-/// Its name. Any thread.
+/// The method's name. Any thread.
 constexpr std::array<char, 9> nameOf(const RenderingMethod& method) noexcept {
     std::array<char, 9> name{'A', 'V', '-', 'F', 'V', '-', 'D', 'R', 'V'};
     if (method.fixesAmplitude) name[1] = 'F';

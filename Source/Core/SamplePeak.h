@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How high samples go.
+// Peak magnitude of samples.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// The largest magnitude; 0 of none. A sample that is no number counts as infinite. Any thread.
+/// The largest magnitude; 0 if there are no samples. NaN counts as infinite. Any thread.
 inline float peakOf(std::span<const float> samples) noexcept {
     float peak = 0.0f;
     for (const float x : samples) peak = std::max(peak, std::isfinite(x) ? std::abs(x) : HUGE_VALF);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recorded contacts instead of modes: the thesis' SV rendering (5.2), in which the event's amplitude scales
+// Player of recorded contacts instead of modes (the thesis' SV rendering, 5.2): the event's amplitude scales
 // the recording.
 #pragma once
 #include "Core/FadingVoices.h"
@@ -12,18 +12,18 @@
 
 namespace physvib {
 
-/// Adds recordings to what the modes made, from their exact frames on. R only, but for prepare and
-/// setContacts: M.
+/// Adds recordings to the output of the modes, from their exact frames on. Render thread (R) only; prepare
+/// and setContacts: message thread (M).
 class SamplePlayer {
 public:
-    /// No contacts, silence. M, not while rendering.
+    /// Forgets all recordings; silence. M, not while rendering.
     void prepare(int sampleRateHz, int channels) noexcept {
         channels_ = channels;
         contacts_ = {};
         voices_.prepare(sampleRateHz);
     }
 
-    /// Of later strikes; what sounds, sounds on. M, not while rendering, or R.
+    /// Recordings of later events; those that sound continue. M, not while rendering, or R.
     void setContacts(std::span<const RecordedContact> contacts) noexcept { contacts_ = contacts; }
 
     bool isOn() const noexcept { return !contacts_.empty(); }
@@ -31,8 +31,8 @@ public:
         return std::ranges::find(contacts_, frequencyHz, &RecordedContact::frequencyHz) != contacts_.end();
     }
 
-    /// From frame `onset` on, cut at `closeFrame`. False if there is no such recording, or too many sound at
-    /// once.
+    /// Plays from frame `onset` on, cut at `closeFrame`. False if there is no recording of that frequency, or
+    /// if limits::maxSampleVoices already sound.
     bool strike(double frequencyHz, double amplitude, std::int64_t onset, std::int64_t closeFrame,
                 const double* gains) noexcept {
         const auto found = std::ranges::find(contacts_, frequencyHz, &RecordedContact::frequencyHz);

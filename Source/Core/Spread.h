@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a strike is spread over the enchanters, where it does not leave that to the layout's own law.
+// How an event is distributed over the actuators, if not by the layout's panning law.
 #pragma once
 #include "Core/PanningLaws.h"
 #include <array>
@@ -8,24 +8,23 @@
 
 namespace physvib {
 
-/// Those between are the laws of the table, with exponent 1: see spreadBy().
+/// The values between layout and equal are the panning laws with exponent 1: see spreadBy().
 enum class Spread : std::uint8_t {
-    layout,                         ///< as every hit: by the law and exponent of the panner
-    equal = 1 + panningLaws.size(), ///< energy, scaled so that the squares sum to one wherever it is: the
-                                    ///< felt strength stays
-    alone                           ///< the nearest enchanter, and no other
+    layout,                         ///< by the panner's law and exponent, as all impacts
+    equal = 1 + panningLaws.size(), ///< energy law, scaled so that the squares always sum to one: perceived
+                                    ///< strength does not depend on the place
+    alone                           ///< the nearest actuator only
 };
 
-/// By that law, exponent 1. Any thread.
+/// The spread by that law, exponent 1. Any thread.
 constexpr Spread spreadBy(PanningLaw law) noexcept {
     return static_cast<Spread>(1 + static_cast<std::size_t>(law));
 }
 
-/// Of grains, where nobody asked for another: the centroid of their intensity is where they are
-/// (Docs/panning.md).
+/// Recommended for grains: the centroid of their intensity is at the contact (Docs/panning.md).
 inline constexpr Spread grainSpread = spreadBy(PanningLaw::energy);
 
-/// In their order.
+/// Names, indexed by Spread.
 inline constexpr auto spreadNames = [] {
     std::array<std::string_view, panningLaws.size() + 3> names{"layout"};
     for (const auto& one : panningLaws) names[static_cast<std::size_t>(spreadBy(one.law))] = one.name;
@@ -34,7 +33,7 @@ inline constexpr auto spreadNames = [] {
     return names;
 }();
 
-/// As files and messages have it. Any thread.
+/// The name in files and messages. Any thread.
 constexpr std::string_view nameOf(Spread spread) noexcept {
     return spreadNames[static_cast<std::size_t>(spread)];
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A g, in SI units.
+// Standard gravity (1 g) in SI units.
 #pragma once
 
 namespace physvib {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Room for items whose number is known when a renderer is prepared: on a computer taken from the heap then,
-// on a board inside the object.
+// Array whose size is fixed when a renderer is prepared: on a computer it is allocated on the heap then, on a
+// board it lies inside the object.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -9,12 +9,13 @@
 
 namespace physvib {
 
-/// At most `Most` items in a row. resize: M, not while rendering; all else any thread that may use the items.
+/// At most `Most` items. resize: message thread (M), not while rendering; all else: any thread that may use
+/// the items.
 template <class T, std::size_t Most, bool isOnHeap>
 class Storage {
 public:
-    /// Room for so many. False if there is none: then it is empty. Items are as new if their number has
-    /// changed, else as they were.
+    /// Provides `count` items. False, and empty, if there is no memory. The items are value-initialised if
+    /// the count has changed; otherwise they keep their values.
     bool resize(std::size_t count) noexcept { return count <= Most; }
 
     T* data() noexcept { return items_.data(); }
@@ -26,8 +27,8 @@ private:
     std::array<T, Most> items_{};
 };
 
-/// On cache lines of its own. Every item is written when it is taken, so the operating system has nothing
-/// left to do in render.
+/// Aligned to cache lines. resize writes every item, so that the operating system has mapped all pages before
+/// render.
 template <class T, std::size_t Most>
 class Storage<T, Most, true> {
     static_assert(std::is_trivially_destructible_v<T>);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A fixed store that gives its items back in time order, equal times in the order of arrival: a queue of
-// those that came in order, which is nearly all of them, and beside it a binary heap of the others.
+// Fixed-capacity priority queue by time; equal times keep their order of arrival. Items that arrive in time
+// order, nearly all of them, are in a linked list; the others are in a binary heap.
 #pragma once
 #include "Core/Storage.h"
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace physvib {
 
-/// At most `Capacity` items of type T, or fewer, each with an integer time. R: in order, one step a call;
-/// else bounded by log2(Capacity) moves of small numbers. Items stay where they are.
+/// At most `Capacity` items of type T, each with an integer time. Render thread (R): constant time for items
+/// in order, else at most log2(Capacity) moves of indices. Items are not moved in memory.
 template <class T, int Capacity, bool isOnHeap = false>
 class TimeOrdered {
 public:
-    /// Empty, with room for so many, at most `Capacity`; on the heap it has none before. False: no memory. M,
-    /// not while rendering.
+    /// Empties the queue and reserves `capacity` items, at most `Capacity`. On the heap its capacity is 0
+    /// before the first call. False: no memory. Message thread (M), not while rendering.
     bool resize(int capacity) noexcept {
         clear();
         const auto count = static_cast<std::size_t>(capacity);
@@ -32,7 +32,7 @@ public:
         free_ = first_ = last_ = none;
     }
 
-    /// False if the store is full; then nothing has changed.
+    /// False if the queue is full; then nothing has changed.
     bool push(std::int64_t time, const T& item) noexcept {
         if (full()) return false;
         blank() = item;
@@ -40,7 +40,7 @@ public:
         return true;
     }
 
-    /// Where the next item will lie: to be written in place, and then pushed. Only when not full.
+    /// The memory of the next item: write it in place, then call pushBlank. Only when not full.
     T& blank() noexcept { return items_[index(free_ != none ? free_ : used_)]; }
     void pushBlank(std::int64_t time) noexcept {
         const std::int32_t at = free_ != none ? free_ : used_++;
@@ -55,7 +55,7 @@ public:
             heapUp(at);
     }
 
-    /// Time and item that come first. Only when not empty.
+    /// Time and value of the first item. Only when not empty.
     std::int64_t nextTime() const noexcept { return node(firstPlace()).time; }
     const T& next() const noexcept { return items_[index(firstPlace())]; }
 
@@ -86,8 +86,8 @@ private:
     static constexpr std::int32_t none = -1;
     struct Node {
         std::int64_t time = 0;
-        std::uint32_t arrival = 0; // may wrap: those in the store are never 2^31 apart
-        std::int32_t next = none;  // in the queue, or among the free places
+        std::uint32_t arrival = 0; // may wrap: arrivals in the queue are never 2^31 apart
+        std::int32_t next = none;  // in the list of items, or in the list of free places
     };
     static constexpr std::size_t index(std::int32_t at) noexcept { return static_cast<std::size_t>(at); }
     Node& node(std::int32_t at) noexcept { return nodes_[index(at)]; }
@@ -110,11 +110,12 @@ private:
     static constexpr auto most = static_cast<std::size_t>(Capacity);
     Storage<Node, most, isOnHeap> nodes_;
     Storage<T, most, isOnHeap> items_;
-    using Place = std::conditional_t<(Capacity < 128), std::int8_t, std::int32_t>; // a board has few bytes
-    Storage<Place, most, isOnHeap> heap_; // places of what came out of order
+    using Place = std::conditional_t<(Capacity < 128), std::int8_t, std::int32_t>; // boards have little
+                                                                                   // memory
+    Storage<Place, most, isOnHeap> heap_; // places of items that arrived out of order
     std::uint32_t arrivals_ = 0;
-    std::int32_t first_ = none, last_ = none; // of the queue
-    std::int32_t free_ = none, used_ = 0;     // places from `used_` on have never been taken
+    std::int32_t first_ = none, last_ = none; // of the list
+    std::int32_t free_ = none, used_ = 0;     // places from `used_` on have never been used
     int size_ = 0, heaped_ = 0;
     int capacity_ = isOnHeap ? 0 : Capacity;
 };

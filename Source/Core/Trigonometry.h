@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sine, cosine and powers of two from integer phases: the same bits on every machine, in float or in double.
-// Library functions differ in the last place between C libraries; polynomials with fixed order do not.
+// Sine, cosine and powers of two from integer phases, with the same bits on every machine, in float or
+// double. C libraries differ in the last place; polynomials in a fixed order do not.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -26,7 +26,8 @@ struct Complex {
 template <class Real>
 constexpr Complex<Real> unitPhasor(std::uint64_t phase) noexcept {
     const std::uint64_t quadrant = (phase + (std::uint64_t{1} << 61)) >> 62;
-    const auto rest = static_cast<std::int64_t>(phase - (quadrant << 62)); // an eighth of a turn either way
+    const auto rest = static_cast<std::int64_t>(phase - (quadrant << 62)); // at most an eighth of a turn
+                                                                           // either way
     const Real x = static_cast<Real>(static_cast<double>(2.0 * std::numbers::pi / 18446744073709551616.0)) *
                    static_cast<Real>(rest);
     const Real q = x * x;
@@ -38,7 +39,7 @@ constexpr Complex<Real> unitPhasor(std::uint64_t phase) noexcept {
         1 - q * over(2) *
                 (1 - q * over(12) *
                          (1 - q * over(30) * (1 - q * over(56) * (1 - q * over(90) * (1 - q * over(132))))));
-    // Phases are as good as random: a branch here would be foretold wrongly three times of four.
+    // Phases are practically random: a branch on the quadrant would be mispredicted three times of four.
     using Bits = std::conditional_t<std::is_same_v<Real, double>, std::uint64_t, std::uint32_t>;
     constexpr int sign = 8 * static_cast<int>(sizeof(Bits)) - 1;
     const auto isOdd = static_cast<Bits>(0) - static_cast<Bits>(quadrant & 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Transfer function, a first guess from magnitudes, the delay from phases, then least squares of all of it.
+// Fits the actuator model: transfer function, a first guess from magnitudes, the delay from phases, then
+// least squares of all parameters.
 #include "Measure/ActuatorMeasurement.h"
 #include "Core/Decibels.h"
 #include "Io/Text/NumberText.h"
@@ -17,14 +18,14 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double twoPi = 2.0 * std::numbers::pi;
 constexpr double fadeSeconds = 0.02;
-constexpr double longestDelaySeconds = 1.0; // the silence after the sweep
+constexpr double longestDelaySeconds = 1.0; // SweepSettings::restSeconds
 
 struct Point {
     double hz;
     Complex response;
 };
 
-/// sum x[n] e^(-i w n): by a rotating phasor, set anew often enough to stay exact.
+/// sum x[n] e^(-i w n), by a rotating phasor that is recomputed often enough to stay exact.
 Complex spectrumAt(const std::vector<float>& x, double radiansPerFrame) {
     Complex sum = 0.0;
     const Complex turn = std::polar(1.0, -radiansPerFrame);
@@ -37,8 +38,8 @@ Complex spectrumAt(const std::vector<float>& x, double radiansPerFrame) {
     return sum;
 }
 
-/// Adds the transfer function at `count` frequencies, evenly spread on a logarithmic scale: no delay makes
-/// their phases agree but the right one.
+/// Adds the transfer function at `count` logarithmically spaced frequencies. The spacing makes the phases
+/// agree for the true delay only.
 void addPoints(std::vector<Point>& points, const std::vector<float>& played,
                const std::vector<float>& recorded, double rateHz, const FrequencyBand& band, int count) {
     for (int i = 0; i < count; ++i) {
@@ -48,14 +49,14 @@ void addPoints(std::vector<Point>& points, const std::vector<float>& played,
     }
 }
 
-/// Half the height of the peak, within `band`.
+/// Half-height width of the peak, within `band`.
 FrequencyBand peakOf(const Resonator& r, const FrequencyBand& band) {
     const double half = std::max(r.resonanceHz / r.q, 2.0);
     return {std::clamp(r.resonanceHz - half, band.lowHz, band.highHz - 1.0),
             std::clamp(r.resonanceHz + half, band.lowHz + 1.0, band.highHz)};
 }
 
-/// f^4 / |H|^2 is a parabola in f^2 for the model; weighted so that all points count by their magnitude.
+/// In the model f^4 / |H|^2 is a parabola in f^2; weighted so that all points count by their magnitude.
 Resonator firstGuess(const std::vector<Point>& points) {
     double strongestHz = 0.0, strongest = -1.0;
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
@@ -75,7 +76,7 @@ Resonator firstGuess(const std::vector<Point>& points) {
     return {std::sqrt(square), 1.0 / std::sqrt(loss)};
 }
 
-/// A trial of the fit: the best gain is linear, so the search is over three numbers.
+/// Trial parameters of the fit. The best gain follows linearly, so only three numbers are searched.
 struct Trial {
     std::array<double, 3> at; ///< log f0, log Q, delay
     Complex gain;
@@ -93,13 +94,13 @@ struct Trial {
             product += std::conj(m) * p.response;
             power += std::norm(m);
         }
-        gain = (product / power).real(); // polarity may turn, phase does not: that is the delay's
+        gain = (product / power).real(); // real: polarity may be inverted, but phase belongs to the delay
         error = 0.0;
         for (const Point& p : points) error += std::norm(p.response - gain * model(at, p.hz));
     }
 };
 
-/// The delay at which the phases agree best with guess(hz): coarse steps, then a golden section.
+/// The delay at which the phases agree best with guess(hz): coarse steps, then a golden-section search.
 template <class Guess>
 double delayOf(const std::vector<Point>& points, Guess guess) {
     const auto agreement = [&](double seconds) {
@@ -120,8 +121,8 @@ double delayOf(const std::vector<Point>& points, Guess guess) {
     return 0.5 * (low + high);
 }
 
-/// Gauss-Newton on a numerical Jacobian would need derivatives of the projected gain; a shrinking search
-/// along the axes and their combination needs none, and three numbers are few.
+/// A pattern search with shrinking steps along the axes and their combination. Unlike Gauss-Newton it needs
+/// no derivatives of the projected gain, and three numbers are few.
 Trial refine(const std::vector<Point>& points, Trial best) {
     std::array<double, 3> step{0.02, 0.2, 1e-4};
     for (int round = 0; round < 400 && *std::ranges::max_element(step) > 1e-9; ++round) {
@@ -136,7 +137,7 @@ Trial refine(const std::vector<Point>& points, Trial best) {
             }
             step[i] *= moved ? 1.3 : 0.5;
         }
-        auto ahead = best.at; // along the valley
+        auto ahead = best.at; // along the direction of progress
         for (std::size_t i = 0; i < 3; ++i) ahead[i] += best.at[i] - before.at[i];
         if (const Trial next{points, ahead}; next.error < best.error) best = next;
     }
@@ -148,7 +149,7 @@ double energyOf(const std::vector<Point>& points) {
     for (const Point& p : points) energy += std::norm(p.response);
     return energy;
 }
-// its energy is not finite
+// the spectrum's energy is not finite
 constexpr const char* unswept = "what was played: expected a sweep through the whole band";
 
 std::string faultOf(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz,
@@ -183,7 +184,7 @@ std::vector<float> sweepOf(const SweepSettings& s, double rateHz) {
 }
 
 FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand& swept) const {
-    // of the peak or the plateau
+    // relative to the peak or the plateau
     const double least = fromDecibels(-decibels) * std::max(1.0, 1.0 / resonator.q);
     FrequencyBand band{};
     for (double hz = std::ceil(swept.lowHz); hz <= swept.highHz; hz += 1.0) {
@@ -203,7 +204,7 @@ Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std
     const Trial rough = refine(points, {points,
                                         {std::log(guess.resonanceHz), std::log(guess.q),
                                          delayOf(points, [&guess](double hz) { return guess.at(hz); })}});
-    // where resonance and Q are decided
+    // around the peak, which determines resonance and Q
     addPoints(points, played, recorded, rateHz, peakOf({std::exp(rough.at[0]), std::exp(rough.at[1])}, band),
               120);
     const double energy = energyOf(points);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// exp(-tau t) cos(omega t) and sin(omega t), sample by sample, without a library call each.
+// Recursive generator of exp(-tau t) cos(omega t) and exp(-tau t) sin(omega t), without a library call per
+// sample.
 #pragma once
 #include "Core/Trigonometry.h"
 #include <cmath>

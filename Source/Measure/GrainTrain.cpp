@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pulses above the noise.
+// Finds the pulses of grains above the noise, and corrects their number for those that were missed.
 #include "Measure/GrainTrain.h"
 #include "Contacts/Grains.h"
 #include "Measure/Peaks.h"
@@ -16,10 +16,10 @@ constexpr double narrowestSeconds = 0.000125, widestSeconds = 0.012;
 constexpr double leastSkewness = 1.2;
 constexpr std::size_t fewestGrains = 20;
 constexpr double mostLost = 0.3;
-constexpr double mostSpread = 0.8; // of heights, in means: chance makes 0.46, ringing of another partial
-                                   // above 1
+constexpr double mostSpread = 0.8; // coefficient of variation of heights: random grains have 0.46, ringing of
+                                   // another partial above 1
 
-/// Noise goes both ways, pulses one.
+/// RMS of the negative values: noise is symmetric, pulses are positive.
 double noiseOf(std::span<const double> x) {
     double sum = 0.0, count = 0.0;
     for (const double height : x)
@@ -28,11 +28,11 @@ double noiseOf(std::span<const double> x) {
 }
 
 struct Standing {
-    std::vector<Peak> peaks; ///< that stand out
-    double threshold, mean;  ///< height of all grains, those too low included
+    std::vector<Peak> peaks; ///< peaks above the threshold
+    double threshold, mean;  ///< mean: estimated height of all grains, including those below the threshold
 };
 
-/// Of evenly spread heights those above the threshold have the mean (mean x most + threshold) / 2.
+/// For uniformly distributed heights the mean above the threshold is (mean x most + threshold) / 2.
 Standing standingOut(const std::vector<Peak>& peaks, double noise) {
     constexpr double most = GrainChance::leastStrength + GrainChance::strengthRange, sure = 5.0,
                      leastShare = 0.12;
@@ -58,7 +58,7 @@ double spreadOf(const std::vector<Peak>& peaks) {
     return std::sqrt(std::max(0.0, squares * static_cast<double>(peaks.size()) / (sum * sum) - 1.0));
 }
 
-/// Between one and the next, but for pauses, which are longer than any that chance makes.
+/// Spacings of consecutive peaks, without pauses, which are longer than random spacings.
 std::vector<double> gapsOf(const std::vector<Peak>& peaks) {
     constexpr double pause = 4.0; // medians
     std::vector<double> gaps;
@@ -81,8 +81,8 @@ double unevennessOf(const std::vector<double>& gaps) {
     return std::sqrt(sum / static_cast<double>(gaps.size()));
 }
 
-/// Share of random grains that is nearer to the one before than this, in spacings: the difference of two even
-/// chances.
+/// Share of random grains that follow the one before at less than this, in spacings: a difference of two
+/// uniform distributions.
 double nearerThan(double spacings) {
     constexpr double range = GrainChance::spacingRange;
     return std::pow(std::max(0.0, spacings - (1.0 - range)) / range, 2.0) / 2.0;
@@ -102,10 +102,10 @@ std::optional<GrainTrain> countedAt(std::span<const double> samples, double rate
     train.unevenness = unevennessOf(gaps);
     const double weak = std::clamp(
         (out.threshold / out.mean - GrainChance::leastStrength) / GrainChance::strengthRange, 0.0, 0.95);
-    constexpr double apart = 0.75; // of the half width: nearer pulses are one
+    constexpr double apart = 0.75; // of the half width: closer pulses merge
     const double near = nearerThan(apart * halfWidthSeconds * train.perSecond / (1.0 - weak));
     train.lostShare = weak + near;
-    if (train.isEven()) { // all alike, and none near another
+    if (train.isEven()) { // ridges: all alike, and none close to another
         train.strength = 0.0;
         for (const Peak& peak : out.peaks) train.strength += peak.height / static_cast<double>(train.counted);
         return train;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Levels of short frames against the quietest part of the recording.
+// Finds the strongest impact by comparing levels of short frames with the quietest part of the recording.
 #include "Measure/HitExcerpt.h"
 
 namespace physvib {
@@ -12,15 +12,15 @@ double energyOf(std::span<const double> samples) {
 
 namespace {
 
-constexpr double longestHitSeconds = 1.0;   // a slower decay is seen well enough by then
+constexpr double longestHitSeconds = 1.0;   // long enough to estimate a slower decay
 constexpr double frameSeconds = 0.025;      // a period of 40 Hz, so that power does not ripple
-constexpr double leastBeforeSeconds = 0.01; // a shorter silence tells no offset
+constexpr double leastBeforeSeconds = 0.01; // a shorter silence is too short to estimate an offset
 
 double power(std::span<const double> samples) {
     return energyOf(samples) / static_cast<double>(samples.size());
 }
 
-/// Power of the quietest twentieth of the recording; 0 if it is too short to tell.
+/// Power of the quietest twentieth of the recording; 0 if it is too short for an estimate.
 double noisePower(const std::vector<double>& samples, std::size_t frame) {
     std::vector<double> powers;
     for (std::size_t i = 0; i + frame <= samples.size(); i += frame)
@@ -31,7 +31,7 @@ double noisePower(const std::vector<double>& samples, std::size_t frame) {
     return *low;
 }
 
-/// The mean; 0 if noise alone would make such a one, since taking that away would only add to the noise.
+/// The mean; 0 if noise alone explains it, because subtracting it would then add noise.
 double offsetOf(std::span<const double> samples) {
     double mean = 0.0;
     for (const double x : samples) mean += x / static_cast<double>(samples.size());
@@ -43,7 +43,7 @@ std::size_t loudest(const std::vector<double>& samples) {
         std::ranges::max_element(samples, {}, [](double s) { return std::abs(s); }) - samples.begin());
 }
 
-/// First sample near the peak that noise, or a fiftieth of the peak, would hardly reach.
+/// First sample near the peak that exceeds the noise and a fiftieth of the peak.
 std::size_t firstLoud(const std::vector<double>& samples, std::size_t peak, double noise, double rateHz) {
     const double threshold = std::max(4.0 * std::sqrt(noise), 0.02 * std::abs(samples[peak]));
     std::size_t first = peak - std::min(peak, samplesIn(onsetReachSeconds, rateHz));
@@ -51,8 +51,8 @@ std::size_t firstLoud(const std::vector<double>& samples, std::size_t peak, doub
     return first;
 }
 
-/// Where the noise begins, or the next hit: ten times the power of what was quietest, and not far below the
-/// loudest.
+/// Where the noise begins, or the next impact: ten times the lowest power so far, and not far below the
+/// highest.
 std::size_t endOf(const std::vector<double>& samples, std::size_t begin, double noise, double rateHz) {
     const std::size_t frame = samplesIn(frameSeconds, rateHz),
                       most = std::min(samples.size(), begin + samplesIn(longestHitSeconds, rateHz));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One partial more per round; a round that is not worth its numbers is undone. Then other starts, and
-// Eq. 5.1.
+// Model selection for partials: adds one per round while the cost falls, then tries other starts, and the
+// model of Eq. 5.1.
 #include "Measure/HitFit.h"
 #include "Measure/DecayingPhasor.h"
 #include "Measure/HitExcerpt.h"
@@ -13,10 +13,10 @@ namespace physvib {
 namespace {
 
 constexpr std::size_t mostPartials = 6;
-constexpr double cleanShare = 1e-11; // of the energy: below it, what is left is rounding
+constexpr double cleanShare = 1e-11; // of the energy: a smaller residual is rounding
 constexpr double shortHit = 8.0;     // omega / tau
-constexpr double penalty = 1.5; // per number, in units of ln N: the number, and the search for it (Schwarz
-                                // 1978)
+constexpr double penalty = 1.5;      // per parameter, in units of ln N: for the parameter and for its search
+                                     // (Schwarz 1978)
 
 } // namespace
 
@@ -39,9 +39,9 @@ PartialError HitFit::errorOf(std::size_t partial) const {
     return {more * white.omega, more * white.tau};
 }
 
-// Noise that is not white counts by its density about the frequency (Whittle 1953): that of what is left,
-// seen through the partial's own decay, over the density of white noise of its power. The fit leaves nothing
-// at the partial itself, so beside it.
+// Coloured noise counts by its density around the frequency (Whittle 1953): the density of the residual,
+// weighted by the partial's decay, over that of white noise of equal power. It is measured beside the
+// partial, because the fit leaves nothing at the partial itself.
 double HitFit::noiseAbout(const Partial& partial) const {
     std::vector<double> left = samples_;
     double weight = 0.0, density = 0.0;
@@ -55,7 +55,7 @@ double HitFit::noiseAbout(const Partial& partial) const {
     const auto rest = std::span<const double>(left).subspan(first);
     for (std::size_t i = 0; i < rest.size(); ++i)
         weight += std::exp(-2.0 * partial.tau * static_cast<double>(i) / rateHz_);
-    // decays: where the partial's own line has sunk
+    // distances in units of the decay, at which the partial's own line has fallen off
     constexpr std::array<double, 10> besides{-6, -5, -4, -3, -2, 2, 3, 4, 5, 6};
     for (const double by : besides) {
         const auto point =
@@ -109,8 +109,7 @@ void HitFit::tryStruck(const std::vector<Partial>& starts) {
     struck_ = std::move(fit);
 }
 
-// What is over within two periods lies under one broad peak with its neighbours, where the search above goes
-// astray.
+// Partials that decay within two periods form one broad spectral peak, on which the search above fails.
 void HitFit::tryOtherStarts() {
     const std::vector<Partial> found = fit_.partials();
     const auto longest = std::ranges::min(found, {}, &Partial::tau);
@@ -132,7 +131,7 @@ void HitFit::tryOtherStarts() {
             }
 }
 
-// A sample x that the model covers with m takes 2 x m - m^2 from what is unexplained.
+// A sample x that the model m covers reduces the unexplained energy by 2 x m - m^2.
 bool HitFit::moveOnset() {
     const std::size_t reach = std::min(samples_.size() / 2, onset_ + samplesIn(onsetReachSeconds, rateHz_));
     double gain = 0.0, most = 0.0;

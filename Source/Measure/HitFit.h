@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Partials of one hit whose onset is not known exactly: both are found together.
+// Fits the partials of one impact together with its onset, which is not known exactly.
 #pragma once
 #include "Measure/PartialFit.h"
 #include "Measure/StruckFit.h"
@@ -9,20 +9,20 @@
 
 namespace physvib {
 
-/// Takes partial after partial into the fit, as long as each explains more than noise would, and moves the
-/// onset to where the model explains most. Partials that overlap are looked for from other starts as well,
-/// and where Eq. 5.1 (all begin at one moment, at rest) explains the hit as well as free phases do, it is
-/// taken: it needs fewer numbers. M only.
+/// Adds partials one by one while each explains more than noise would, and moves the onset to where the model
+/// explains most. Overlapping partials are also searched from other starts. Where Eq. 5.1 (all partials begin
+/// at one moment, at rest) explains the impact as well as free phases do, it is preferred, because it has
+/// fewer parameters. Message thread (M) only.
 class HitFit {
 public:
-    /// `guess`: the onset in `samples`, to begin with; it moves by onsetReachSeconds per partial at most.
+    /// `guess`: initial onset in `samples`; it moves by at most onsetReachSeconds per partial.
     HitFit(std::vector<double> samples, std::size_t guess, double rateHz);
     HitFit(const HitFit&) = delete; // the fits refer to the samples
     HitFit& operator=(const HitFit&) = delete;
 
     /// time 0 is the onset
     std::vector<Partial> partials() const { return struck_ ? struck_->partials() : fit_.partials(); }
-    /// Cramer-Rao bound in noise of the residual's density about the partial
+    /// Cramer-Rao bound for noise with the residual's density around the partial
     PartialError errorOf(std::size_t partial) const;
     double onsetSeconds() const noexcept {
         return struck_ ? struck_->onsetSeconds() : static_cast<double>(onset_) / rateHz_;
@@ -53,7 +53,7 @@ private:
     double rateHz_;
     double energy_;
     PartialFit fit_;
-    std::optional<StruckFit> struck_; ///< if it is the better one
+    std::optional<StruckFit> struck_; ///< set if Eq. 5.1 fits better
     double cost_ = 0.0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Products and Cholesky's decomposition, by Eigen.
+// Matrix products and Cholesky decomposition of the normal equations, by Eigen.
 #include "Measure/LeastSquares.h"
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Rows = Eigen::Map<const Eigen::MatrixXd, Eigen::Unaligned, Eigen::OuterStride<>>;
 
-/// Solves a x = b, of which the lower triangle of `a` counts; false if it is not positive definite.
+/// Solves a x = b from the lower triangle of `a`; false if it is not positive definite.
 bool solve(const Matrix& a, Eigen::Ref<Eigen::VectorXd> b) {
     const Eigen::LLT<Matrix> decomposed(a);
     if (decomposed.info() != Eigen::Success) return false;

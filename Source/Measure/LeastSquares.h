@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nonlinear least squares in small steps, damped (Levenberg 1944, Marquardt 1963): what fits to samples
-// share.
+// Damped nonlinear least squares (Levenberg 1944, Marquardt 1963), shared by the fits to samples.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -9,36 +8,36 @@
 
 namespace physvib {
 
-/// J^T J and J^T r of a model's derivatives J and the residual r. M only (allocates).
+/// J^T J and J^T r of a model's derivatives J and the residual r. Message thread (M) only (allocates).
 class NormalEquations {
 public:
-    static constexpr std::size_t block = 256; ///< rows at a time, so that products run over neighbours
+    static constexpr std::size_t block = 256; ///< rows per call, contiguous in memory for fast products
     using Column = std::array<double, block>;
 
     explicit NormalEquations(std::size_t size);
 
-    /// Adds as many rows as `rest` has, at most `block`: the residual there, and the derivative by each
-    /// number.
+    /// Adds as many rows as `rest` has, at most `block`: the residual, and its derivative by each parameter.
     void add(const std::vector<Column>& columns, std::span<const double> rest);
 
-    /// The step under a damping of `lambda`; empty if the equations do not tell one.
+    /// The step with damping `lambda`; empty if the equations are singular.
     std::vector<double> step(double lambda) const;
 
-    /// Only the numbers `first`, `first + stride`, ...: of a model in which those are linear.
+    /// The equations of only the parameters `first`, `first + stride`, ... (`width` of each): those in which
+    /// the model is linear.
     NormalEquations each(std::size_t first, std::size_t stride, std::size_t width) const;
 
-    /// Standard error of a number under white noise of `variance` (Cramer-Rao bound); infinite if nothing
-    /// tells it.
+    /// Standard error of a parameter under white noise of `variance` (Cramer-Rao bound); infinite if it is
+    /// undetermined.
     double errorOf(std::size_t number, double variance) const;
 
     std::size_t size() const noexcept { return right_.size(); }
 
 private:
-    std::vector<double> matrix_, right_; // by rows; the lower triangle counts
+    std::vector<double> matrix_, right_; // row by row; only the lower triangle is used
 };
 
-/// Moves `model` downhill until nothing is gained; false if it never moved. `energyOf(model)` is what falls,
-/// `equationsOf(model)` its NormalEquations, `moved(model, step)` a model beside it.
+/// Improves `model` until the energy no longer falls; false if it never did. `energyOf(model)` is minimised,
+/// `equationsOf(model)` returns its NormalEquations, `moved(model, step)` a model changed by a step.
 template <class Model, class Energy, class Equations, class Move>
 bool descend(Model& model, Energy energyOf, Equations equationsOf, Move moved) {
     constexpr int mostSteps = 40;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Coefficients by least squares, their polynomial's roots as the eigenvalues of its companion matrix (Eigen).
+// Prediction coefficients by least squares; the roots of their polynomial as eigenvalues of its companion
+// matrix (Eigen).
 #include "Measure/LinearPrediction.h"
 #include "Measure/LeastSquares.h"
 #include <algorithm>
@@ -29,7 +30,7 @@ std::vector<double> meansOf(std::span<const double> samples, std::size_t blocks)
     return means;
 }
 
-/// c with x[n] + c[0] x[n-1] + ... = 0 as nearly as can be; empty if the samples do not tell.
+/// c with x[n] + c[0] x[n-1] + ... = 0 in the least-squares sense; empty if undetermined.
 std::vector<double> predictionOf(const std::vector<double>& x, std::size_t order) {
     NormalEquations equations(order);
     std::vector<NormalEquations::Column> columns(order);

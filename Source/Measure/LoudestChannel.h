@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Of several microphones, the one that heard most.
+// Selects the loudest channel of a multichannel recording.
 #pragma once
 #include "Core/SamplePeak.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks, then the excerpt, then one of the two rules.
+// Extraction of a material: checks the recording, finds the impact, applies one of the two rules.
 #include "Measure/MaterialExtractor.h"
 #include "Io/Text/NumberText.h"
 #include "Measure/HitExcerpt.h"
@@ -14,8 +14,8 @@
 namespace physvib {
 namespace {
 
-constexpr double shortestSeconds = 0.01; // half a period of the lowest frequency that is felt
-constexpr double slowestTau = 0.5;       // a partial that lasts longer was there before the hit: hum
+constexpr double shortestSeconds = 0.01; // half a period of the lowest perceptible frequency
+constexpr double slowestTau = 0.5;       // a partial with a slower decay was there before the impact: hum
 
 std::string faultOf(const std::vector<float>& x, double rateHz, ExtractionBand band) {
     if (!(rateHz > 0.0) || !(band.lowHz > 0.0) || !(band.highHz > band.lowHz))
@@ -71,7 +71,7 @@ Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& 
     return sound;
 }
 
-/// The local maxima of |x|, in seconds, highest first; of those nearer than `apart` only the highest.
+/// The two highest local maxima of |x| at least `apart` from each other, in seconds, highest first.
 std::vector<Peak> twoHighest(std::vector<double> x, double rateHz, double apart) {
     for (double& sample : x) sample = std::abs(sample);
     std::vector<Peak> all = peaksOf(x), two;
@@ -100,7 +100,8 @@ Result<ContactSound> byTwoPeaks(const std::vector<float>& samples, const HitExce
     fit.add({2.0 * std::numbers::pi * sound.frequencyHz, sound.decayPerSecond, 0.0, 0.0});
     fit.solveLinear();
     const auto count = static_cast<double>(x.size());
-    const double energy = energyOf(x) / count * count; // by the mean: figures keep their last bit
+    const double energy = energyOf(x) / count * count; // via the mean, so that published figures keep their
+                                                       // last digit
     sound.residualShare = fit.residualEnergy() / energy;
     sound.ownShare = 1.0 - sound.residualShare;
     sound.beginSeconds = static_cast<double>(hit.begin) / rateHz;

@@ -1,38 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Frequency and decay of a material from the sound of one contact (thesis 5.2.1).
+// Extracts a material's frequency and decay from the recording of one contact (thesis 5.2.1).
 #pragma once
 #include "Io/Result.h"
 #include <vector>
 
 namespace physvib {
 
-/// How the two numbers are found.
+/// How frequency and decay are determined.
 enum class MaterialRule {
-    fit, ///< decaying sinusoids are fitted to the hit; the one with the highest spectral peak in the band is
-         ///< taken
-    twoPeaks ///< the thesis': highest spectral peak; exp(-tau t) through the two highest peaks in time
+    fit,     ///< fits decaying sinusoids; takes the one with the highest spectral peak in the band
+    twoPeaks ///< the thesis' rule: highest spectral peak; exp(-tau t) through the two highest peaks in time
 };
 
 struct ExtractionBand {
-    double lowHz = 20.0, highHz = 1000.0; ///< what is felt
+    double lowHz = 20.0, highHz = 1000.0; ///< tactile range
 };
 
-/// What one contact sounds like.
+/// Estimated sound of one contact.
 struct ContactSound {
     double frequencyHz = 0.0;
     double decayPerSecond = 0.0;
     /// standard errors (HitFit::errorOf); 0 with twoPeaks
     double frequencyErrorHz = 0.0, decayErrorPerSecond = 0.0;
-    double residualShare = 0.0; ///< of the hit's energy: what frequency, decay and the other partials do not
-                                ///< explain
-    double ownShare = 0.0;      ///< of the hit's energy: what this partial explains
-    int partials = 0;           ///< found, in the band or not
+    double residualShare = 0.0; ///< share of the impact's energy that the fitted partials do not explain
+    double ownShare = 0.0;      ///< share of the impact's energy that this partial explains
+    int partials = 0;           ///< number found, in the band or not
     double beginSeconds = 0.0, lengthSeconds = 0.0; ///< the excerpt
-    bool isConfident() const noexcept; ///< errors within 0.5 % and 5 %, and most of the hit is explained
+    bool isConfident() const noexcept; ///< errors within 0.5 % and 5 %, and most of the impact is explained
 };
 
-/// Extracts from samples in [-1, 1]; or one line without a file's name: "expected a hit, found silence". M
-/// only.
+/// Extracts from samples in [-1, 1]. Otherwise a one-line error without a file's name: "expected a hit, found
+/// silence". Message thread (M) only.
 Result<ContactSound> extractMaterial(const std::vector<float>& samples, double rateHz,
                                      ExtractionBand band = {}, MaterialRule rule = MaterialRule::fit);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An autoregressive texture as grains: the peak of its spectrum, how wide it is, and how strong.
+// Converts an autoregressive texture model to grains: position, width and strength of its spectral peak.
 #include "Contacts/Grains.h"
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"
@@ -13,10 +13,10 @@
 namespace physvib {
 namespace {
 
-constexpr double lowHz = 20.0, highHz = 1000.0, stepHz = 0.5; // what is felt
+constexpr double lowHz = 20.0, highHz = 1000.0, stepHz = 0.5; // tactile range
 constexpr double grainsPerPeriod = 2.0;
 
-/// Whether it comes to rest without noise: all reflections below 1 (Levinson's recursion, backwards).
+/// True if the model decays without noise: all reflection coefficients below 1 (backward Levinson recursion).
 bool isStable(std::vector<double> a) {
     while (!a.empty()) {
         const double k = a.back(), rest = 1.0 - k * k;
@@ -28,7 +28,7 @@ bool isStable(std::vector<double> a) {
     return true;
 }
 
-/// (m/s^2)^2 per Hz, every stepHz from lowHz on.
+/// Power density in (m/s^2)^2 per Hz, every stepHz from lowHz on.
 std::vector<double> spectrumOf(const AutoregressiveModel& model) {
     std::vector<double> all;
     for (double hz = lowHz; hz <= std::min(highHz, 0.5 * model.rateHz); hz += stepHz) {
@@ -40,8 +40,7 @@ std::vector<double> spectrumOf(const AutoregressiveModel& model) {
     return all;
 }
 
-/// Hz between the two places where a peak has fallen to half; of a peak at an end of the band, twice what is
-/// there.
+/// Half-power width of a peak in Hz; for a peak at an end of the band, twice the visible half.
 double halfWidthHz(const std::vector<double>& spectrum, std::size_t peak) {
     std::size_t low = peak, high = peak;
     while (low > 0 && spectrum[low] > 0.5 * spectrum[peak]) --low;
@@ -53,8 +52,8 @@ double halfWidthHz(const std::vector<double>& spectrum, std::size_t peak) {
     return stepHz * static_cast<double>(high - low);
 }
 
-/// How much of a grain's power is there, once for each: random spacings leave some of their mean rate's
-/// regularity, see decision 68.
+/// Average power per grain, in units of a grain's power. Random spacings keep some of the regularity of their
+/// mean rate, see decision 68.
 double unevenPower() {
     const double angle = std::numbers::pi * GrainChance::spacingRange / grainsPerPeriod,
                  order = std::sin(angle) / angle;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Start values from the residual's spectrum and matched filters; then all four numbers of every partial at
-// once.
+// Start values from the residual's spectrum and matched filters, then a joint fit of the four parameters of
+// every partial.
 #include "Measure/PartialFit.h"
 #include "Measure/DecayingPhasor.h"
 #include "Measure/Spectrum.h"
@@ -11,10 +11,10 @@ namespace physvib {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double lowestHz = 10.0;                   // below: drift, not vibration
-constexpr double leastTau = 0.01, mostTau = 5000.0; // a hum; a click
+constexpr double lowestHz = 10.0;                   // lower frequencies are drift, not vibration
+constexpr double leastTau = 0.01, mostTau = 5000.0; // bounds: hum, click
 
-/// Numbers of one partial in the order in which they stand in the equations.
+/// Parameters per partial, in the order of the equations.
 constexpr std::size_t numbersEach = 4;
 
 void subtract(std::vector<double>& samples, const Partial& p, double rateHz) {
@@ -25,7 +25,7 @@ void subtract(std::vector<double>& samples, const Partial& p, double rateHz) {
     }
 }
 
-/// The amplitudes that fit best at p's frequency and decay; the energy that this takes away.
+/// Sets the best amplitudes at p's frequency and decay; returns the energy that this removes.
 double solveAmplitudes(std::span<const double> samples, double rateHz, Partial& p) {
     const Complex<double> point = pointOfSpectrum(samples, rateHz, p.omega, p.tau);
     double cc = 0.0, ss = 0.0, cs = 0.0;
@@ -91,7 +91,7 @@ double PartialFit::energyWith(const std::vector<Partial>& partials) const {
     return energyOf(residualOf(partials));
 }
 
-// The spectrum of a decaying sine peaks at omega_p^2 = omega^2 - tau^2: below its frequency.
+// The spectrum of a decaying sine peaks at omega_p^2 = omega^2 - tau^2, below its frequency.
 void PartialFit::addHighest() {
     const std::vector<double> rest = residualOf(partials_);
     const double peak = 2.0 * pi * highestPeakHz(rest, rateHz_, lowestHz, 0.5 * rateHz_);
@@ -157,7 +157,7 @@ double highestPeakHz(std::span<const double> samples, double rateHz, double lowH
         const auto point = pointOfSpectrum(samples, rateHz, 2.0 * pi * hz, 0.0);
         return std::hypot(point.re, point.im);
     };
-    while (high - low > 1e-3 * binHz) { // one maximum between neighbours of the highest bin
+    while (high - low > 1e-3 * binHz) { // ternary search between the neighbours of the highest bin
         const double third = (high - low) / 3.0;
         if (height(low + third) < height(high - third))
             low += third;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Least squares of a sum of decaying sinusoids to samples, partials found one by one and refined together.
+// Least-squares fit of a sum of decaying sinusoids (partials) to samples.
 #pragma once
 #include "Measure/HitExcerpt.h"
 #include "Measure/LeastSquares.h"
@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// exp(-tau t) (cosine cos(omega t) + sine sin(omega t)), t = seconds since the first sample that was fitted.
+/// exp(-tau t) (cosine cos(omega t) + sine sin(omega t)), t = seconds since the first fitted sample.
 struct Partial {
     double omega = 0.0; ///< rad/s
     double tau = 0.0;   ///< 1/s
@@ -20,41 +20,42 @@ struct Partial {
         return std::exp(-tau * seconds) *
                (cosine * std::cos(omega * seconds) + sine * std::sin(omega * seconds));
     }
-    /// The same sound, told from a first sample that is `seconds` later.
+    /// The same signal with the time origin `seconds` later.
     Partial shifted(double seconds) const noexcept;
-    /// Height of its peak in the magnitude spectrum of `seconds` of it.
+    /// Height of its peak in the magnitude spectrum over a length of `seconds`.
     double spectralPeak(double seconds) const noexcept;
 };
 
-/// Standard errors of one partial, as white noise of the residual's power would make them (Cramer-Rao bound).
+/// Standard errors of one partial for white noise of the residual's power (Cramer-Rao bound).
 struct PartialError {
     double omega = 0.0, tau = 0.0;
 };
 
-/// Samples x[i] at i / rateHz seconds. M only, any number at once.
+/// Samples x[i] at i / rateHz seconds. Message thread (M) only, any number at once.
 class PartialFit {
 public:
-    /// `samples` outlive the fit.
+    /// `samples` must outlive the fit.
     PartialFit(std::span<const double> samples, double rateHz);
 
-    /// Adds the partial under the highest peak of what is left, where it takes most of it away; not refined
-    /// yet.
+    /// Adds a partial at the highest spectral peak of the residual, with the decay that removes most energy;
+    /// without refinement.
     void addHighest();
 
-    /// Takes a partial as a start.
+    /// Adds a partial as a start value.
     void add(const Partial& partial) { partials_.push_back(partial); }
 
-    /// The amplitudes alone, at the frequencies and decays as they are.
+    /// Fits the amplitudes alone, with fixed frequencies and decays.
     void solveLinear();
 
-    /// All numbers of all partials together. False if there was nothing to gain.
+    /// Fits all parameters of all partials together. False if nothing improved.
     bool refine();
 
     const std::vector<Partial>& partials() const noexcept { return partials_; }
     double residualEnergy() const { return energyWith(partials_); }
     PartialError errorOf(std::size_t partial) const;
 
-    static double allowedOmega(double omega, double rateHz) noexcept; ///< the nearest that a fit may take
+    static double allowedOmega(double omega, double rateHz) noexcept; ///< the value, limited to what a fit
+                                                                      ///< may use
     static double allowedTau(double tau) noexcept;
 
 private:
@@ -67,7 +68,7 @@ private:
     std::vector<Partial> partials_;
 };
 
-/// Frequency in Hz, between `lowHz` and `highHz`, of the highest peak in the magnitude spectrum, to a
+/// Frequency in Hz of the highest peak in the magnitude spectrum between `lowHz` and `highHz`, to a
 /// thousandth of a bin.
 double highestPeakHz(std::span<const double> samples, double rateHz, double lowHz, double highHz);
 

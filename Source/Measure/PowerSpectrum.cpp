@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two channels are one complex signal z = a + ib: |Z(k)|^2 + |Z(-k)|^2 = 2 (|A(k)|^2 + |B(k)|^2), so a
-// transform does for both.
+// Implementation: two channels are transformed as one complex signal z = a + ib, because |Z(k)|^2 + |Z(-k)|^2
+// = 2 (|A(k)|^2 + |B(k)|^2).
 #include "Measure/PowerSpectrum.h"
 #include <algorithm>
 #include <bit>
@@ -15,8 +15,8 @@ namespace physvib {
 struct PowerSpectrum::State {
     using Bins = std::vector<std::complex<float>>;
     struct Pair {
-        Bins window;            // the last half is being filled
-        float sums[2] = {0, 0}; // of the frames that make the next sample
+        Bins window;            // its second half is being filled
+        float sums[2] = {0, 0}; // sums of the frames that are averaged to the next sample
     };
 
     State(int sampleRateHz, int count)
@@ -31,7 +31,7 @@ struct PowerSpectrum::State {
                 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(hop))));
     }
 
-    /// A sample of each channel stands at `kept` of the last half.
+    /// All sums are complete: appends a sample at `kept` of the second half.
     void next() {
         for (Pair& pair : pairs) {
             pair.window[hop + kept] =
@@ -52,7 +52,7 @@ struct PowerSpectrum::State {
                 power[k] +=
                     static_cast<double>(std::norm(bins[k]) + std::norm(bins[(2 * hop - k) % (2 * hop)])) *
                     (k == 0 ? 0.5 : 1.0);
-            power[hop] += static_cast<double>(std::norm(bins[hop])); // as 0 Hz, its own mirror
+            power[hop] += static_cast<double>(std::norm(bins[hop])); // like 0 Hz, its own mirror
         }
         std::copy(window.begin() + static_cast<std::ptrdiff_t>(hop), window.end(), window.begin());
     }
@@ -92,7 +92,7 @@ void PowerSpectrum::add(const float* const* channels, int frames) {
 }
 
 std::vector<double> PowerSpectrum::finish() {
-    // silence, until the last sample has been in two windows
+    // zeros, until the last sample has been in two windows
     for (std::size_t rest = 2 * state_->hop - state_->kept; rest > 0; --rest) state_->next();
     std::vector<double> shares = std::move(state_->power);
     double whole = 0.0;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// How the energy of a long vibration is spread over frequencies, while its samples go by.
+// Power spectrum of a long vibration, accumulated while its samples are rendered.
 #pragma once
 #include <memory>
 #include <vector>
 
 namespace physvib {
 
-/// Welch's mean of short spectra, by Hann windows that overlap by half; of all channels together. What no
-/// hand feels (above keptRateHz / 2) is not told apart: faster samples are means of a few. M only
-/// (allocates).
+/// Welch's method with Hann windows that overlap by half, summed over all channels. Frequencies above
+/// keptRateHz / 2, which cannot be felt, are not resolved: several samples are averaged to one. Message
+/// thread (M) only (allocates).
 class PowerSpectrum {
 public:
-    static constexpr int keptRateHz = 8000; ///< at least, where there are as many
+    static constexpr int keptRateHz = 8000; ///< minimum rate after averaging, if the sample rate is as high
 
-    /// Channels 1 or more; rates of limits::.
+    /// One channel or more; sample rates that limits:: allows.
     PowerSpectrum(int sampleRateHz, int channels);
     ~PowerSpectrum();
     PowerSpectrum(PowerSpectrum&&) noexcept;
@@ -21,10 +21,10 @@ public:
     /// The next frames of every channel.
     void add(const float* const* channels, int frames);
 
-    /// Nothing comes any more. Power of bins 0 to n/2, in shares of the whole; all 0 of silence. Once.
+    /// Ends the input. Power of bins 0 to n/2 as shares of the total; all 0 for silence. Call once.
     std::vector<double> finish();
 
-    /// Bin k is k binHz: 8 to 16 Hz.
+    /// Bin k is at k binHz: 8 to 16 Hz apart.
     double binHz() const noexcept;
 
 private:

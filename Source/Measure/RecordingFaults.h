@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What makes a recording useless, in words: too short, not finite, clipped. M only.
+// Checks whether a recording can be measured: too short, not finite, clipped. Message thread (M) only.
 #pragma once
 #include "Io/Text/NumberText.h"
 #include <algorithm>
@@ -14,8 +14,8 @@ inline std::string placeOf(std::size_t sample, double rateHz) {
     return " at " + fixedNumber(static_cast<double>(sample) / rateHz, 4) + " s";
 }
 
-/// Empty, or that the recording is clipped: three equal samples at the very peak between steep flanks.
-/// Rounding flattens peaks as well, but then the next sample is few steps lower; `step` is the smallest
+/// Empty, or the error that the recording is clipped: three equal samples at the peak between steep flanks.
+/// Rounding flattens peaks too, but then the next sample is only a few steps lower; `step` is the smallest
 /// difference in the recording.
 inline std::string clippingFault(const std::vector<float>& x, double rateHz) {
     float peak = 0.0f, step = HUGE_VALF;
@@ -41,7 +41,7 @@ inline bool isSilent(const std::vector<float>& x) {
     return std::ranges::all_of(x, [&](float s) { return s == x.front(); });
 }
 
-/// Empty, or that it is too short or holds samples that are no samples.
+/// Empty, or the error that it is too short or has NaN, infinite or huge samples.
 inline std::string recordingFault(const std::vector<float>& x, double rateHz, double shortestSeconds) {
     if (static_cast<double>(x.size()) < shortestSeconds * rateHz)
         return "expected at least " + numberText(shortestSeconds) + " s, found " + std::to_string(x.size()) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Smoothing by cos^4 and its derivatives; the ringing by weighted least squares, of which the past is the
-// instrument.
+// Smoothing by a cos^4 kernel and its derivatives; the resonance by weighted least squares with past values
+// as instrumental variables.
 #include "Measure/ScrapePulses.h"
 #include <Eigen/Dense>
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t fewestSamples = 4; // to both sides: derivatives of fewer are none
+constexpr std::size_t fewestSamples = 4; // half width below which derivatives are inaccurate
 
-/// cos^4 of area 1 over 2 reach + 1 samples, and its first two derivatives in time.
+/// cos^4 kernel of area 1 over 2 reach + 1 samples, and its first two derivatives in time.
 struct Smoothing {
     Smoothing(std::size_t samples, double rateHz)
         : reach{samples} {
@@ -35,7 +35,7 @@ struct Smoothing {
     std::vector<double> value, slope, bend;
 };
 
-/// `kernel` * x at every `step`-th sample that has so many on both sides.
+/// `kernel` * x at every `step`-th sample, where the kernel fits completely.
 std::vector<double> convolved(std::span<const double> x, const std::vector<double>& kernel,
                               std::size_t step) {
     std::vector<double> all;
@@ -51,13 +51,13 @@ Eigen::Map<const Eigen::ArrayXd> mapped(const std::vector<double>& x) {
     return {x.data(), static_cast<Eigen::Index>(x.size())};
 }
 
-/// 2 tau, omega^2 + tau^2 and minus what lies under the blows, such that bend + [0] slope + [1] value + [2]
-/// is small nearly always. Noise in the regressors would make ringing look shorter; what was `lag` heights
-/// before has other noise, and knows nothing of the blows that come.
+/// Finds c = {2 tau, omega^2 + tau^2, minus the mean of the excitation} such that bend + c[0] slope + c[1]
+/// value + c[2] is small most of the time. Noise in the regressors would make the decay look faster; values
+/// `lag` earlier have independent noise and do not depend on later impacts.
 std::optional<Eigen::Vector3d> ringing(const std::vector<double>& value, const std::vector<double>& slope,
                                        const std::vector<double>& bend, Eigen::Index lag) {
     constexpr int rounds = 20;
-    constexpr double least = 0.02; // of the rms; who is nearer counts no more than that
+    constexpr double least = 0.02; // of the rms: limits the weight of small residuals
     const Eigen::Index rows = static_cast<Eigen::Index>(value.size()) - lag;
     if (rows < 100) return std::nullopt;
     Eigen::MatrixX3d all(rows + lag, 3);
@@ -107,7 +107,7 @@ std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double
         pulses.heights.push_back((bend[n] + (*found)[0] * slope[n] + (*found)[1] * value[n] + (*found)[2]) /
                                  highest);
     pulses.skewness = skewnessOf(pulses.heights);
-    if (pulses.skewness < 0.0) { // recorded upside down
+    if (pulses.skewness < 0.0) { // recorded with inverted polarity
         for (double& height : pulses.heights) height = -height;
         pulses.skewness = -pulses.skewness;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scrape without its material's ringing: what is left is a pulse for each grain.
+// Removes the material's resonance from the recording of a scrape, so that one pulse per grain remains.
 #pragma once
 #include <optional>
 #include <span>
@@ -7,22 +7,22 @@
 
 namespace physvib {
 
-/// A grain that strikes A exp(-tau t) sin(omega t) is a pulse of height A, of the smoothing's shape.
+/// A grain that excites A exp(-tau t) sin(omega t) gives a pulse of height A, with the shape of the smoothing
+/// kernel.
 struct ScrapePulses {
-    double frequencyHz = 0.0, decayPerSecond = 0.0; ///< of what rings
-    std::vector<double> heights;                    ///< upwards, 0 between grains
+    double frequencyHz = 0.0, decayPerSecond = 0.0; ///< of the resonance
+    std::vector<double> heights;                    ///< positive at grains, 0 between them
     double heightsPerSecond = 0.0;
-    double skewness = 0.0; ///< of the heights: noise has none
+    double skewness = 0.0; ///< of the heights: that of noise is 0
 };
 
-/// `samples` are smoothed over halfWidthSeconds to both sides; x'' + 2 tau x' + (omega^2 + tau^2) x, which is
-/// nothing but the blows, then has the tau and omega that leave most of the time as nothing. None if no
-/// decaying sinusoid does, or where the width is less than a few samples. M only.
+/// Smooths `samples` over halfWidthSeconds to both sides. x'' + 2 tau x' + (omega^2 + tau^2) x is the
+/// excitation by grains alone; tau and omega are chosen so that it is 0 most of the time. None if no decaying
+/// sinusoid fits, or if the width is only a few samples. Message thread (M) only.
 std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double rateHz,
                                          double halfWidthSeconds);
 
-/// x', smoothed over halfWidthSeconds to both sides: one value for each sample that has so many on both. M
-/// only.
+/// x', smoothed over halfWidthSeconds to both sides: one value for each sample where the kernel fits. M only.
 std::vector<double> smoothSlope(std::span<const double> samples, double rateHz, double halfWidthSeconds);
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two running means, one after the other, are the triangle.
+// Removes the slow part of samples: subtracts the mean, then a triangular running mean, computed as two
+// running means in a row.
 #include "Measure/SlowPart.h"
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"
@@ -9,8 +10,8 @@
 namespace physvib {
 namespace {
 
-/// Of samples in which what is no number counts as silence, as for the limiter, and nothing is so high that a
-/// sum would not forget it.
+/// View of samples in which values that are not finite count as 0, as in the limiter, and large values are
+/// clamped to keep running sums exact.
 class Heard {
 public:
     Heard(std::span<const float> samples, double fullScale)
@@ -18,7 +19,7 @@ public:
         , most_{limits::maxAmplitude * fullScale} {}
 
     std::ptrdiff_t count() const { return std::ssize(samples_); }
-    /// Silence before the first and after the last.
+    /// 0 before the first and after the last sample.
     double at(std::ptrdiff_t i) const {
         if (i < 0 || i >= count()) return 0.0;
         const double sample = samples_[static_cast<std::size_t>(i)];
@@ -35,7 +36,7 @@ private:
     double most_;
 };
 
-/// The running mean, sample by sample.
+/// The triangular running mean, sample by sample.
 class RunningMean {
 public:
     RunningMean(const Heard& samples, double sampleRateHz)
@@ -45,7 +46,7 @@ public:
         while (next_ < 0) next();
     }
 
-    /// Of the next sample, from the first on.
+    /// At the next sample, from the first on.
     double next() {
         ahead_ += samples_.at(next_ + 2 * reach_) - samples_.at(next_ - 1);
         behind_ += samples_.at(next_ - 1) - samples_.at(next_ - 2 * reach_ - 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All bins by Eigen's transform; single points by a rotating phasor.
+// Fourier transforms by Eigen, and single spectral points by a rotating phasor.
 #include "Measure/Spectrum.h"
 #include <algorithm>
 #include <bit>
@@ -24,7 +24,7 @@ namespace {
 
 using Transform = Eigen::FFT<double>;
 
-/// Bins 0 to n/2 of the n points to which the samples are padded.
+/// Bins 0 to n/2 of the n points to which the samples are zero-padded.
 std::vector<std::complex<double>> binsOf(Transform& transform, std::span<const double> samples) {
     std::vector<double> padded(samples.begin(), samples.end());
     padded.resize(std::bit_ceil(2 * samples.size()));
@@ -47,7 +47,7 @@ std::vector<double> magnitudes(std::span<const double> samples) {
 std::vector<double> autocorrelation(std::span<const double> samples) {
     Transform transform;
     auto bins = binsOf(transform, samples);
-    for (auto& bin : bins) bin = std::norm(bin); // Wiener, Khinchin
+    for (auto& bin : bins) bin = std::norm(bin); // Wiener-Khinchin theorem
     std::vector<double> all;
     transform.inv(all, bins);
     all.resize(samples.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Spectra of short recordings: all bins by a fast Fourier transform, and single points between them.
+// Spectra of short recordings: all bins by a fast Fourier transform, or the value at one frequency.
 #pragma once
 #include "Core/Trigonometry.h"
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace physvib {
 /// thread.
 Complex<double> pointOfSpectrum(std::span<const double> samples, double rateHz, double omega, double tau);
 
-/// Magnitudes of bins 0 to n/2 of the n points to which the samples are padded (at least twice as many, a
-/// power of two); bin k is k rateHz / n. M only (allocates).
+/// Magnitudes of bins 0 to n/2 of the n points to which the samples are zero-padded (at least twice as many,
+/// a power of two); bin k is at k rateHz / n. Message thread (M) only (allocates).
 std::vector<double> magnitudes(std::span<const double> samples);
 
 /// sum x[i] x[i + lag], for lags of 0 to size - 1. M only (allocates).

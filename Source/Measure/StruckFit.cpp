@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers in the order of the equations: the onset, then omega, tau and amplitude of each partial.
+// Least-squares fit of Eq. 5.1. Parameters in the order of the equations: the onset, then omega, tau and
+// amplitude of each partial.
 #include "Measure/StruckFit.h"
 #include "Measure/DecayingPhasor.h"
 #include <algorithm>
@@ -76,7 +77,8 @@ StruckFit::State StruckFit::moved(const State& from, std::span<const double> ste
     return to;
 }
 
-// A partial is at rest where its phase passes zero, either way: each offers the moment next to the onset.
+// A partial is at rest where its phase is a multiple of pi: tries, for each partial, such a moment nearest to
+// the guess.
 StruckFit::StruckFit(std::span<const double> samples, double rateHz, std::size_t onset,
                      std::span<const Partial> partials)
     : samples_{samples}

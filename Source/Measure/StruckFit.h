@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Least squares of Eq. 5.1 itself: partials that all begin at one moment, at rest.
+// Least-squares fit of Eq. 5.1: partials that all begin at one moment, at rest.
 #pragma once
 #include "Measure/LeastSquares.h"
 #include "Measure/PartialFit.h"
@@ -13,12 +13,13 @@ struct StruckPartial {
     double omega = 0.0, tau = 0.0, amplitude = 0.0;
 };
 
-/// Samples x[i] at i / rateHz seconds; silence before the onset, which lies at a fraction of a sample. One
-/// number fewer per partial than with free phases, so that overlapping ones stay apart. M only.
+/// Samples x[i] at i / rateHz seconds; silence before the onset, which may lie between samples. One parameter
+/// fewer per partial than with free phases, so that overlapping partials can be separated. Message thread (M)
+/// only.
 class StruckFit {
 public:
-    /// `samples` outlive the fit. The partials' phases and amplitudes are only hints for the onset: time 0 is
-    /// sample `onset`.
+    /// `samples` must outlive the fit. The partials' phases and amplitudes only guide the search for the
+    /// onset: time 0 is sample `onset`.
     StruckFit(std::span<const double> samples, double rateHz, std::size_t onset,
               std::span<const Partial> partials);
 

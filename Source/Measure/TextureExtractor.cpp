@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks, then grains that stand out, then what repeats.
+// Extraction of a texture: checks the recording, counts grains that stand out, else looks for repetition.
 #include "Measure/TextureExtractor.h"
 #include "Measure/GrainTrain.h"
 #include "Measure/Peaks.h"
@@ -13,7 +13,7 @@ namespace physvib {
 namespace {
 
 constexpr double shortestSeconds = 0.5, mostSeconds = 8.0;
-constexpr std::size_t mostSamples = 400'000; // a second of arithmetic, 50 MB
+constexpr std::size_t mostSamples = 400'000; // a second of computing, 50 MB
 
 std::vector<double> middleOf(const std::vector<float>& x, double rateHz) {
     const std::size_t size =
@@ -23,8 +23,8 @@ std::vector<double> middleOf(const std::vector<float>& x, double rateHz) {
     return {begin, begin + static_cast<std::ptrdiff_t>(size)};
 }
 
-/// Products of x with itself `lag` later, as shares of what the stronger of both parts has: what dies away is
-/// not alike.
+/// Autocorrelation normalised by the energy of the stronger of the two overlapping parts, so that a decaying
+/// signal does not look similar to itself.
 std::vector<double> likenessOf(std::span<const double> x) {
     std::vector<double> likeness = autocorrelation(x), energy{0.0};
     for (const double sample : x) energy.push_back(energy.back() + sample * sample);
@@ -41,24 +41,24 @@ Peak highestWithin(std::span<const double> x, std::size_t from, std::size_t to) 
                                               x.begin()));
 }
 
-/// Repetitions in a second of what repeats steadily, within 0.1 %, as ridges do that are passed too fast to
-/// be told from what rings; 0 if nothing does. By the autocorrelation of the slope: far from 0 what rings is
-/// gone, what repeats is not.
+/// Rate of a steady repetition (within 0.1 %), as of ridges that are passed too fast to be separated from the
+/// resonance; 0 if there is none. Uses the autocorrelation of the slope: at large lags the resonance has
+/// decayed, the repetition has not.
 double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
     constexpr double smoothSeconds = 0.00025, leastLikeness = 0.6;
     const std::vector<double> slope = smoothSlope(samples, rateHz, smoothSeconds);
     if (slope.size() < 200) return 0.0;
-    // without what it begins with
+    // without the start of the recording
     const auto likeness = likenessOf(std::span{slope}.subspan(slope.size() / 5));
     const std::size_t n = likeness.size();
-    const double far = highestWithin(likeness, n / 4, n / 2).height; // what rings is not alike for so long
+    const double far = highestWithin(likeness, n / 4, n / 2).height; // at such lags a resonance has decayed
     if (far < leastLikeness) return 0.0;
     double lag = 0.0;
     for (std::size_t i = 1; lag == 0.0 && i + 1 < n / 2; ++i)
         if (isPeak(likeness, i))
             if (const Peak peak = vertex(likeness, i); peak.height >= 1.0 - 3.0 * (1.0 - far) - 0.003)
                 lag = peak.at;
-    // the longer, the finer
+    // larger multiples of the lag make it more precise
     for (double times = 2.0; lag > 4.0 && lag * times < 0.5 * static_cast<double>(n) - lag; times *= 2.0)
         lag = highestWithin(likeness, static_cast<std::size_t>((times - 0.25) * lag),
                             static_cast<std::size_t>((times + 0.25) * lag) + 2)
@@ -67,7 +67,8 @@ double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
     return lag > 4.0 ? rateHz / lag : 0.0;
 }
 
-/// Ridges that are passed faster than what rings swings are hardly told from it: only their tone is certain.
+/// If ridges are passed at a higher rate than the resonance, both are hard to separate: only the repetition
+/// rate is certain.
 void tellWhatRings(ScrapedTexture& found, const GrainTrain& train) {
     if (found.texture.pattern == GrainPattern::regular && found.grainsPerSecond > train.frequencyHz) return;
     found.frequencyHz = train.frequencyHz;

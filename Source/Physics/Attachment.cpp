@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Comes into a world, and leaves it as it was.
 #include "Physics/Attachment.h"
+#include "Contacts/ContactEvents.h"
+#include "Physics/BodySweeps.h"
+#include "Physics/WorldBodies.h"
+#include "Physics/WorldListener.h"
 #include "Physics/WorldNames.h"
 #include <algorithm>
 #include <atomic>
@@ -26,38 +30,57 @@ void keepForEver(std::unique_ptr<WorldListener> listener) {
 
 } // namespace
 
+static_assert(Attachment::nextId == FixtureTable::none);
+
+struct Attachment::Parts {
+    Parts(const b2World& world, const ImpactSettings& settings)
+        : bodies(world, sweeps)
+        , events(bodies, settings)
+        , listener(std::make_unique<WorldListener>(events, sweeps, bodies)) {}
+
+    BodySweeps sweeps;
+    WorldBodies bodies;
+    ContactEvents events;
+    std::unique_ptr<WorldListener> listener;
+};
+
 Attachment::Attachment(b2World& world, const ImpactSettings& settings)
     : world_(&world)
-    , bodies_(world, sweeps_)
-    , events_(bodies_, settings)
-    , listener_(std::make_unique<WorldListener>(events_, sweeps_, bodies_)) {
+    , parts_(std::make_unique<Parts>(world, settings)) {
     for (const b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
-        listener_->finder().begin(*contact);
-    listener_->install(world);
+        parts_->listener->finder().begin(*contact);
+    parts_->listener->install(world);
 }
 
 Attachment::~Attachment() {
     if (world_ == nullptr) return;
-    listener_->deafen();
-    keepForEver(std::move(listener_));
+    parts_->listener->deafen();
+    keepForEver(std::move(parts_->listener));
 }
 
 void Attachment::detach() {
     if (world_ == nullptr) return;
-    listener_->deafen();
-    if (!listener_->remove(*world_)) keepForEver(std::move(listener_));
+    parts_->listener->deafen();
+    if (!parts_->listener->remove(*world_)) keepForEver(std::move(parts_->listener));
     world_ = nullptr;
 }
+
+void Attachment::configure(const ImpactSettings& settings) { parts_->events.configure(settings); }
+const ImpactSettings& Attachment::settings() const noexcept { return parts_->events.settings(); }
 
 SetResult Attachment::set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id) {
     if (fixture.GetBody()->GetWorld() != world_)
         return {-1, "fixture: expected one of the world attached to"};
-    listener_->finder().find(fixture); // an heir of its address starts anew
-    return events_.set(nameOf(fixture), factsOf(*fixture.GetBody()), centreOf(fixture), values, id);
+    parts_->listener->finder().find(fixture); // an heir of its address starts anew
+    return parts_->events.set(nameOf(fixture), factsOf(*fixture.GetBody()), centreOf(fixture), values, id);
+}
+
+std::string_view Attachment::setPair(int surface, int other, const PairSound& sound) {
+    return parts_->events.setPair(surface, other, sound);
 }
 
 const HapticFixture* Attachment::find(const b2Fixture& fixture) const noexcept {
-    const FixtureTable& fixtures = events_.fixtures();
+    const FixtureTable& fixtures = parts_->events.fixtures();
     const std::int32_t slot = fixtures.find(nameOf(fixture));
     const bool isIt = slot != FixtureTable::none && fixtures[slot].isNamed() &&
                       fixtures[slot].body.body == nameOf(*fixture.GetBody());
@@ -65,8 +88,8 @@ const HapticFixture* Attachment::find(const b2Fixture& fixture) const noexcept {
 }
 
 void Attachment::remove(const b2Fixture& fixture) {
-    if (const std::int32_t slot = events_.fixtures().find(nameOf(fixture)); slot != FixtureTable::none)
-        events_.remove(slot);
+    if (const std::int32_t slot = parts_->events.fixtures().find(nameOf(fixture)); slot != FixtureTable::none)
+        parts_->events.remove(slot);
 }
 
 void Attachment::step(float stepSeconds, int velocityIterations, int positionIterations) {
@@ -84,40 +107,49 @@ void Attachment::beginStep(double stepSeconds) {
 
 void Attachment::beginStepUntil(std::int64_t endNs) {
     if (world_ == nullptr) return;
-    if (!listener_->isInstalled(*world_)) releaseUnseen();
-    listener_->install(*world_);
+    if (!parts_->listener->isInstalled(*world_)) releaseUnseen();
+    parts_->listener->install(*world_);
     const double stepSeconds = static_cast<double>(std::max<std::int64_t>(0, endNs - timeNs())) * 1.0e-9;
-    sweeps_.beginStep(*world_, stepSeconds);
-    bodies_.doubt();
-    events_.beginStep(endNs, toVector(world_->GetGravity()), sweeps_.largestMassKg());
+    parts_->sweeps.beginStep(*world_, stepSeconds);
+    parts_->bodies.doubt();
+    parts_->events.beginStep(endNs, toVector(world_->GetGravity()), parts_->sweeps.largestMassKg());
 }
 
 void Attachment::endStep() {
-    bodies_.doubt();
+    parts_->bodies.doubt();
     finishStep();
 }
 
 void Attachment::finishStep() {
     if (world_ == nullptr) return;
-    if (!listener_->isInstalled(*world_)) releaseUnseen();
-    events_.endStep();
-    listener_->finder().endStep();
+    if (!parts_->listener->isInstalled(*world_)) releaseUnseen();
+    parts_->events.endStep();
+    parts_->listener->finder().endStep();
 }
 
 // What was destroyed while nobody told us. Not often: a game has set a listener of its own.
 void Attachment::releaseUnseen() {
-    listener_->finder().forgetContacts();
-    bodies_.doubt();
-    for (std::int32_t slot = 0; slot < events_.fixtures().size(); ++slot)
-        if (const KnownFixture& known = events_.fixtures()[slot];
-            known.isUsed() && !bodies_.has(known.body.body))
-            events_.release(slot);
+    parts_->listener->finder().forgetContacts();
+    parts_->bodies.doubt();
+    for (std::int32_t slot = 0; slot < parts_->events.fixtures().size(); ++slot)
+        if (const KnownFixture& known = parts_->events.fixtures()[slot];
+            known.isUsed() && !parts_->bodies.has(known.body.body))
+            parts_->events.release(slot);
 }
 
 void Attachment::shiftOrigin(b2Vec2 newOrigin) {
     if (world_ == nullptr) return;
     world_->ShiftOrigin(newOrigin);
-    events_.shift(-toVector(newOrigin));
+    parts_->events.shift(-toVector(newOrigin));
 }
+
+std::int64_t Attachment::timeNs() const noexcept { return parts_->events.timeNs(); }
+std::int64_t Attachment::settledNs() const noexcept { return parts_->events.settledNs(); }
+void Attachment::take(std::vector<CollisionEvent>& events) { parts_->events.take(events); }
+void Attachment::flush(std::vector<CollisionEvent>& events) { parts_->events.flush(events); }
+std::uint64_t Attachment::drops() const noexcept { return parts_->events.drops(); }
+std::uint64_t Attachment::overBudget() const noexcept { return parts_->events.overBudget(); }
+ContactCounts Attachment::counts() const noexcept { return parts_->events.counts(); }
+const ImpactModel& Attachment::impactModel() const noexcept { return parts_->events.impactModel(); }
 
 } // namespace physvib

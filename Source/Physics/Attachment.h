@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // PhysVib for anybody's b2World: attach, set three values per fixture, step, take events.
 #pragma once
-#include "Contacts/ContactEvents.h"
+#include "Contacts/ContactCounts.h"
 #include "Contacts/HapticFixture.h"
+#include "Contacts/ImpactModel.h"
 #include "Contacts/ImpactSettings.h"
+#include "Contacts/PairSounds.h"
 #include "Core/CollisionEvent.h"
-#include "Physics/WorldBodies.h"
-#include "Physics/WorldListener.h"
 #include <box2d/box2d.h>
 #include <cstdint>
 #include <memory>
@@ -42,22 +42,21 @@ public:
 
     /// Takes effect with the next step; with another timing, what is under way is lost. Throws as the
     /// constructor does.
-    void configure(const ImpactSettings& settings) { events_.configure(settings); }
+    void configure(const ImpactSettings& settings);
     /// Any thread but while it steps.
-    const ImpactSettings& settings() const noexcept { return events_.settings(); }
+    const ImpactSettings& settings() const noexcept;
+
+    static constexpr std::int32_t nextId = -1; ///< no number of the game's own
 
     /// Gives a fixture its values, at first or again (the camera may come and go). Its id in events is `id`
     /// (>= 0), if given (a number of the game's own for it), else 0, 1, 2... in order of first calls, never
     /// used twice. Refused, told by the result, are values that cannot be played, a fixture of another world,
     /// an id below 0, and one that another fixture has.
-    SetResult set(const b2Fixture& fixture, const HapticFixture& values,
-                  std::int32_t id = FixtureTable::none);
+    SetResult set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id = nextId);
 
     /// How two kinds of surfaces sound together (HapticFixture::surface), in any order, whatever the voice of
     /// the camera is. What is wrong with it, and nothing is changed; empty: it is set.
-    std::string_view setPair(int surface, int other, const PairSound& sound) {
-        return events_.setPair(surface, other, sound);
-    }
+    std::string_view setPair(int surface, int other, const PairSound& sound);
 
     /// The values of a fixture; nullptr if it has none. Valid until the next call of anything.
     const HapticFixture* find(const b2Fixture& fixture) const noexcept;
@@ -79,41 +78,39 @@ public:
 
     /// World time after the steps done, and the time before which all events are final: one step earlier,
     /// since a contact is noticed up to one step after it was made.
-    std::int64_t timeNs() const noexcept { return events_.timeNs(); }
+    std::int64_t timeNs() const noexcept;
     /// No event before it is still to come.
-    std::int64_t settledNs() const noexcept { return events_.settledNs(); }
+    std::int64_t settledNs() const noexcept;
 
     /// Appends the events that are final now, in the order of their times.
-    void take(std::vector<CollisionEvent>& events) { events_.take(events); }
+    void take(std::vector<CollisionEvent>& events);
 
     /// Appends all events at once, for those who would rather have them a step earlier than in order.
-    void flush(std::vector<CollisionEvent>& events) { events_.flush(events); }
+    void flush(std::vector<CollisionEvent>& events);
 
     /// b2World::ShiftOrigin, with what PhysVib knows of places: events stay where they are in the field.
     void shiftOrigin(b2Vec2 newOrigin);
 
     /// Hits and events lost so far because more came than there is room for. The weakest events go first.
-    std::uint64_t drops() const noexcept { return events_.drops(); }
+    std::uint64_t drops() const noexcept;
 
     /// Hits left out so far because they were more than ImpactSettings::hitsPerStep.
-    std::uint64_t overBudget() const noexcept { return events_.overBudget(); }
+    std::uint64_t overBudget() const noexcept;
 
     /// What became of all contacts so far, and why nothing is felt, in one sentence.
-    ContactCounts counts() const noexcept { return events_.counts(); }
+    ContactCounts counts() const noexcept;
     std::string explain() const { return physvib::explain(counts()); } ///< The most likely reason.
 
     /// The constants of Eq. 5.4 in the last step begun.
-    const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }
+    const ImpactModel& impactModel() const noexcept;
 
 private:
     void releaseUnseen();
     void finishStep();
 
-    b2World* world_; // nullptr: detached
-    BodySweeps sweeps_;
-    WorldBodies bodies_;
-    ContactEvents events_;
-    std::unique_ptr<WorldListener> listener_;
+    struct Parts;
+    b2World* world_;               // nullptr: detached
+    std::unique_ptr<Parts> parts_; // what it is made of, which is not installed
 };
 
 } // namespace physvib

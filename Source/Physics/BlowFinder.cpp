@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fresh points that near each other fast are blows; everything else is load.
+// Evaluates Box2D's contact callbacks: new contact points that approach fast are collisions, all other
+// impulses are load.
 #include "Physics/BlowFinder.h"
 #include "Physics/SurfacePaths.h"
 #include "Physics/WorldNames.h"
@@ -18,7 +19,7 @@ const b2Body& bodyB(const b2Contact& contact) { return *contact.GetFixtureB()->G
 
 bool isIn(unsigned mask, int point) noexcept { return (mask >> point & 1U) != 0; }
 
-/// The larger one of the two, as KnownFixture has them.
+/// The larger factor of the two bodies, computed as in KnownFixture.
 float gravityScaleOf(const b2Contact& contact) noexcept {
     const auto of = [](const b2Body& body) {
         return body.GetType() == b2_dynamicBody ? std::abs(body.GetGravityScale()) : 0.0F;
@@ -26,7 +27,7 @@ float gravityScaleOf(const b2Contact& contact) noexcept {
     return std::max(of(bodyA(contact)), of(bodyB(contact)));
 }
 
-/// How fast B comes towards A at a point; the normal points from A to B.
+/// Speed at which B approaches A at a point; the normal points from A to B.
 double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
     const b2Vec2 velocity = bodyB(contact).GetLinearVelocityFromWorldPoint(point) -
                             bodyA(contact).GetLinearVelocityFromWorldPoint(point);
@@ -44,7 +45,7 @@ std::int32_t BlowFinder::find(const b2Fixture& fixture) {
     return FixtureTable::none;
 }
 
-// nullptr: one of the fixtures is not known.
+// nullptr: one of the fixtures is not registered.
 BlowFinder::Known* BlowFinder::find(const b2Contact& contact) {
     if (const std::int32_t at = knownAt_.find(nameOf(contact)); at != IntegerMap::none) {
         Known& known = known_[static_cast<std::size_t>(at)];
@@ -85,7 +86,8 @@ void BlowFinder::forgetContacts() noexcept {
 }
 
 std::int32_t BlowFinder::know(const b2Fixture& fixture) {
-    const std::int32_t slot = find(fixture); // an heir of an address starts anew
+    const std::int32_t slot = find(fixture); // a fixture that reuses the address of a destroyed one gets new
+                                             // state
     const BodyFacts body = factsOf(*fixture.GetBody());
     return slot == FixtureTable::none ? events_.know(nameOf(fixture), body) : events_.know(slot, body);
 }
@@ -144,7 +146,7 @@ void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manif
     const bool isFlat = count > 1 && isIn(fresh, 0) && isIn(fresh, 1);
     if (isFlat && manifold.separations[1] < manifold.separations[0]) deepest = 1;
     const b2Vec2 touch = manifold.points[deepest];
-    // A flat landing touches along a line: its middle, not whichever end is deeper by a rounding.
+    // A flat impact touches along a line. Its middle is used, because rounding decides which end is deeper.
     blow.point = toVector(isFlat ? 0.5F * (manifold.points[0] + manifold.points[1]) : touch);
     blow.motionA = motionOf(bodyA(contact));
     blow.motionB = motionOf(bodyB(contact));
@@ -156,12 +158,12 @@ void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manif
     blow.fraction = momentOf(contact, speed > 0.0 ? depth / speed : 0.0);
 }
 
-// Surfaces sink into each other in the step before, whose length counts. What is not told has no time of its
-// own.
+// Surfaces sink into each other in the step before, so its length counts. Outside a reported step there is no
+// time.
 double BlowFinder::momentOf(const b2Contact& contact, double secondsAgo) const noexcept {
     if (!events_.catcher().isStepping()) return 0.0;
     const double now = sweeps_.stepSeconds(), before = sweeps_.lastStepSeconds();
-    // deeper than that: it was made there
+    // deeper: the contact was made at its start
     const double seconds = fractionOf(contact) * now - std::min(secondsAgo, std::max(now, before));
     const double length = seconds < 0.0 ? before : now;
     return length > 0.0 ? std::max(-1.0, seconds / length) : 0.0;
@@ -174,9 +176,9 @@ double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {
     return sweeps_.fraction(aIsFaster ? bodyA(contact) : bodyB(contact));
 }
 
-// What fresh points push is part of the blow, if it is one; everything else is load.
+// Impulses at new points belong to the collision, if there is one; all others are load.
 void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    const unsigned fresh = fresh_.solved(contact); // old from the next step on
+    const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
     if (!events_.catcher().isHearing()) return;
     if (fresh == 0 &&
         !events_.catcher().mayBeHeard(nameOf(*contact.GetFixtureA()), nameOf(*contact.GetFixtureB())))
@@ -190,7 +192,7 @@ void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse)
     b2WorldManifold manifold;
     if (isHeard) contact.GetWorldManifold(&manifold);
     share(impulse, manifold, pair, fresh, blow, isHeard);
-    if (events_.lasting().isHeard(pair.a, pair.b)) // only of heard ones
+    if (events_.lasting().isHeard(pair.a, pair.b)) // only pairs whose load matters
         tellLasting(contact, manifold, impulse, blow != nullptr ? fresh : 0U, pair.a, pair.b,
                     events_.lasting());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where, when and how fast the surfaces of a b2World meet, and what they push each other by: Box2D tells
-// little of it.
+// Finds collisions in a b2World from Box2D's contact callbacks: where, when and how fast surfaces meet, and
+// the impulses between them.
 #pragma once
 #include "Contacts/ContactEvents.h"
 #include "Physics/BodySweeps.h"
@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// Turns what Box2D says of its contacts into what the collision catcher wants to know. M only.
+/// Converts Box2D's contact callbacks to the reports that CollisionCatcher needs. World thread (M) only.
 class BlowFinder {
 public:
     BlowFinder(ContactEvents& events, BodySweeps& sweeps)
@@ -20,16 +20,17 @@ public:
         known_.reserve(expectedContacts);
     }
 
-    /// The slot of a fixture, FixtureTable::none if it is not known. One that has taken the address of
-    /// another, on another body, is not that one.
+    /// The slot of a fixture, FixtureTable::none if it is not registered. A fixture that reuses the address
+    /// of a destroyed one, on another body, counts as not registered.
     std::int32_t find(const b2Fixture& fixture);
 
-    /// Which fixtures contacts have is asked anew: some may have ended unheard, or their fixtures have gone.
+    /// Drops the cached fixtures of all contacts: contacts may have ended, or fixtures been destroyed,
+    /// without a callback.
     void forgetContacts() noexcept;
 
     void begin(const b2Contact& contact); ///< in BeginContact
     void end(const b2Contact& contact);   ///< in EndContact
-    /// in PreSolve, after the game's own
+    /// in PreSolve, after the game's own listener
     void look(const b2Contact& contact, const b2Manifold& before);
     void push(const b2Contact& contact, const b2ContactImpulse& impulse); ///< in PostSolve
 
@@ -40,10 +41,10 @@ private:
     static constexpr std::size_t expectedContacts = 1024;
 
     using Pair = TouchingPairs::Name;
-    struct Known { // spares a search for both fixtures in every step
+    struct Known { // cache, which saves a search for both fixtures in every step
         const b2Contact* contact;
         const b2Fixture *fixtureA, *fixtureB;
-        Pair pair; // its number: none until it is asked for
+        Pair pair; // its number: none until it is needed
     };
     Known* find(const b2Contact& contact);
     const Pair& pairOf(Known& known) {
@@ -66,7 +67,7 @@ private:
     ContactEvents& events_;
     BodySweeps& sweeps_;
     FreshPoints fresh_;
-    std::vector<Known> known_;             // that touch
+    std::vector<Known> known_;             // contacts that touch
     IntegerMap knownAt_{expectedContacts}; // by contact
 };
 

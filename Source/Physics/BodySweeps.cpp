@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One look at each body per step.
+// Records each body's position and velocity at the beginning of a step.
 #include "Physics/BodySweeps.h"
 #include "Physics/BoxPrivates.h"
 #include "Physics/WorldNames.h"
@@ -12,7 +12,7 @@ void BodySweeps::beginStep(const b2World& world, double stepSeconds) {
     lastStepSeconds_ = std::exchange(stepSeconds_, stepSeconds);
     largestMassKg_ = 0.0;
     std::size_t count = 0;
-    bool isKnown = true; // the same bodies in the same order as in the last step, which is the rule
+    bool isKnown = true; // usually the bodies and their order are those of the last step
     for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
         if (body->GetType() == b2_staticBody) continue;
         isKnown = isKnown && count < sweeps_.size() && sweeps_[count].body == body;
@@ -50,7 +50,7 @@ const BodySweeps::Sweep* BodySweeps::find(const b2Body& body) const noexcept {
 
 double BodySweeps::fraction(const b2Body& body) const noexcept {
     const Sweep* sweep = find(body);
-    // else what Box2D knows is of an older step
+    // otherwise Box2D's value is from an earlier step
     const bool hasMoved = sweep != nullptr && body.GetWorldCenter() != sweep->centre;
     return hasMoved ? static_cast<double>(advancedPartOf(body)) : 0.0;
 }

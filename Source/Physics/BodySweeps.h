@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How bodies start a step, and how far into it Box2D has advanced them when it reports a contact.
+// Body states at the beginning of a step, and how far Box2D has advanced a body when it reports a contact.
 #pragma once
 #include "Contacts/BodyReader.h"
 #include "Contacts/IntegerMap.h"
@@ -10,34 +10,35 @@
 
 namespace physvib {
 
-/// Contacts of the regular pass are found where a step begins, those of the time-of-impact pass wherever the
-/// body has been moved to. M only.
+/// Contacts of the regular solver are found at the beginning of a step, those of the time-of-impact solver at
+/// the time to which the body has been moved. World thread (M) only.
 class BodySweeps {
 public:
-    /// Before b2World::Step: every body is where its step begins. Looks at each body once, as Box2D does
-    /// several times, and at no fixture. Allocates if the world has grown.
+    /// Call before b2World::Step. Visits each body once (Box2D does so several times) and no fixture.
+    /// Allocates if the world has grown.
     void beginStep(const b2World& world, double stepSeconds);
 
     double stepSeconds() const noexcept { return stepSeconds_; }
-    /// of the one before; 0: there was none
+    /// of the last step; 0: there was none
     double lastStepSeconds() const noexcept { return lastStepSeconds_; }
 
     /// The largest mass of an enabled dynamic body, kg (m_max of Eq. 5.7).
     double largestMassKg() const noexcept { return largestMassKg_; }
 
-    /// In BeginContact, PreSolve and EndContact: 0 (start) to 1 (end of the step), how far this body has
-    /// come.
+    /// In BeginContact, PreSolve and EndContact: how far this body has been advanced, 0 (start) to 1 (end of
+    /// the step).
     double fraction(const b2Body& body) const noexcept;
 
-    /// A number of the bodies that a world has and of their order (2^-64 of lists that differ have the same).
+    /// Hash of a world's list of bodies and their order (different lists collide with a probability of
+    /// 2^-64).
     static std::uint64_t censusOf(const b2World& world) noexcept;
 
-    /// Velocity before the step; of a body that came later, its own.
+    /// Velocity before the step; for a body that was created later, its present one.
     BodyMotion start(const b2Body& body) const noexcept;
 
 private:
     struct Sweep {
-        const b2Body* body; // not followed
+        const b2Body* body; // used as an address only
         b2Vec2 centre;
         BodyMotion start;
     };
@@ -46,8 +47,8 @@ private:
 
     double stepSeconds_ = 0.0, lastStepSeconds_ = 0.0;
     double largestMassKg_ = 0.0;
-    std::vector<Sweep> sweeps_; // of what is not static
-    IntegerMap indices_;        // of the sweeps, by their bodies
+    std::vector<Sweep> sweeps_; // of bodies that are not static
+    IntegerMap indices_;        // indices into sweeps_, by body
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ids of manifold points, from one look to the next.
+// Compares the ids of a contact's manifold points from one callback to the next.
 #include "Physics/FreshPoints.h"
 #include "Physics/WorldNames.h"
 #include <algorithm>
@@ -13,7 +13,7 @@ bool hasPoint(const b2Manifold& manifold, std::uint32_t id) noexcept {
     return std::any_of(manifold.points, manifold.points + manifold.pointCount, isIt);
 }
 
-/// Whether the same points are there in the same order.
+/// True if both have the same points in the same order.
 bool isSame(const b2Manifold& before, const b2Manifold& now) noexcept {
     if (before.pointCount < now.pointCount) return false;
     for (int i = 0; i < now.pointCount; ++i)
@@ -30,8 +30,8 @@ unsigned FreshPoints::look(const b2Contact& contact, const b2Manifold& before, b
         drop(static_cast<std::size_t>(known));
         known = -1;
     }
-    if (known < 0 && isSame(before, now)) return 0U; // the rule
-    // all of it is fresh still
+    if (known < 0 && isSame(before, now)) return 0U; // the usual case
+    // then all of its points are still new
     const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
     for (int i = 0; i < now.pointCount; ++i) {
         const std::uint32_t id = now.points[i].id.key;

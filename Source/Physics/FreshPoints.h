@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which points of Box2D's contacts are new: where surfaces that were apart have met and nothing has been
-// pushed yet.
+// Detects which points of Box2D's contacts are new: where surfaces that were apart have met.
 #pragma once
 #include "Contacts/IntegerMap.h"
 #include <array>
@@ -11,33 +10,33 @@
 
 namespace physvib {
 
-/// A point is fresh from when Box2D finds it until the end of the step in which the solver has pushed there:
-/// in a contact that is switched off (a one-way platform), or was found in a step without time, that is
-/// later. A point that Box2D's manifold keeps, by its id, is old. Contacts are known by their addresses. M
-/// only.
+/// A point is new from when Box2D finds it until the end of the step in which the solver has applied an
+/// impulse there. That may be a later step, for a disabled contact (a one-way platform) or a contact found in
+/// a step of length 0. A point whose id Box2D's manifold keeps is old. Contacts are identified by their
+/// addresses. World thread (M) only.
 class FreshPoints {
 public:
     FreshPoints() { entries_.reserve(expectedContacts); }
 
-    /// In PreSolve: brings a contact up to date; which of its points are fresh, a bit for each. Outside a
-    /// step that is told, nobody knows where one ends: what has been pushed is old at once.
+    /// In PreSolve: updates a contact and returns its new points, one bit each. Outside a reported step,
+    /// whose end is not known, a point with an impulse is old at once.
     unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping);
 
-    /// In PostSolve: the same, and its points have been pushed.
+    /// In PostSolve: the same; marks the points as having an impulse.
     unsigned solved(const b2Contact& contact) noexcept;
 
     /// In EndContact.
     void forget(const b2Contact& contact) noexcept;
 
-    /// Right after the step: what has been pushed is old from now on.
+    /// Call right after the step: points with an impulse become old.
     void endStep() noexcept;
 
 private:
-    static constexpr std::size_t expectedContacts = 1024; // that begin in a step, or are switched off
+    static constexpr std::size_t expectedContacts = 1024; // contacts that begin in a step, or are disabled
 
     struct Entry {
         std::uint64_t contact;
-        std::array<std::uint32_t, 2 * b2_maxManifoldPoints> ids; // of all passes of a step
+        std::array<std::uint32_t, 2 * b2_maxManifoldPoints> ids; // of all solver passes of a step
         int count;
         bool isSolved;
     };
@@ -47,7 +46,7 @@ private:
     void drop(std::size_t entry) noexcept;
 
     std::vector<Entry> entries_;
-    IntegerMap indices_; // no larger than need be, to stay in the nearest cache
+    IntegerMap indices_; // small, to stay in the first-level cache
 };
 
 } // namespace physvib

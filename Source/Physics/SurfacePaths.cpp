@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A face and what lies on it, a corner or a disc; or two discs. In each case both paths have a closed form.
+// Computes the motion of contact points along surfaces, for a face and a corner or disc, and for two discs.
+// Both have a closed form.
 #include "Physics/SurfacePaths.h"
 #include "Physics/WorldNames.h"
 
@@ -19,17 +20,17 @@ struct Side {
         , isRough{rough}
         , radius{f.GetShape()->m_radius} {}
 
-    /// How far around a disc the point lies in that direction, and how fast it goes around if the direction
-    /// turns so fast.
+    /// Position of the point on a disc's circumference in that direction, and its speed if the direction
+    /// rotates at `radiansPerSecond`.
     SurfacePath around(b2Vec2 direction, float radiansPerSecond) const {
-        if (!isDisc || !isRough) return {}; // a corner, or nobody asks
+        if (!isDisc || !isRough) return {}; // a corner, or a surface without texture
         const b2Vec2 local = body.GetLocalVector(direction);
         return {static_cast<double>(radius * b2Atan2(local.y, local.x)),
                 static_cast<double>(radius * (radiansPerSecond - body.GetAngularVelocity()))};
     }
 };
 
-/// The point of `on` that touches `face` at a place given in on's frame.
+/// For the point of `on`, given in its body's frame, that touches `face`.
 void describeFace(const Side& face, const Side& on, b2Vec2 normalFromFace, b2Vec2 localPlace,
                   LastingPoint& point, SurfacePath& alongFace, SurfacePath& alongOn) {
     const b2Vec2 place = on.body.GetWorldPoint(localPlace), tangent = b2Cross(normalFromFace, 1.0F);
@@ -42,7 +43,7 @@ void describeFace(const Side& face, const Side& on, b2Vec2 normalFromFace, b2Vec
     point.metresPerSecond = toVector(velocity - on.radius * b2Cross(turn, normalFromFace));
 }
 
-/// Two discs, or a disc and a corner: what lies between their centres turns with these.
+/// Two discs, or a disc and a corner: the contact point lies on the line between the centres.
 void describeDiscs(const Side& a, const Side& b, b2Vec2 centreA, b2Vec2 centreB, b2Vec2 normal,
                    LastingPoint& point) {
     const b2Vec2 velocityA = a.body.GetLinearVelocityFromWorldPoint(centreA),

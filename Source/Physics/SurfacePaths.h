@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where Box2D's contact points are on the surfaces that touch, and how fast they move along them.
+// Positions and speeds of Box2D's contact points along the touching surfaces, for rolling and sliding.
 #pragma once
 #include "Contacts/LastingContacts.h"
 #include <box2d/box2d.h>
@@ -7,8 +7,8 @@
 
 namespace physvib {
 
-/// In PostSolve: tells the points of a contact of two slots, but for those in `blows` (a bit each), whose
-/// push is a blow. M only.
+/// In PostSolve: reports the points of a contact of two slots to `lasting`, except those in `blows` (a bit
+/// each), which belong to a collision. World thread (M) only.
 void tellLasting(const b2Contact& contact, const b2WorldManifold& world, const b2ContactImpulse& impulse,
                  unsigned blows, std::int32_t a, std::int32_t b, LastingContacts& lasting);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One walk along the list of bodies, where something may have gone unheard.
+// Looks up bodies in the world's list, if some may have been destroyed without a callback.
 #include "Physics/WorldBodies.h"
 
 namespace physvib {
@@ -13,7 +13,8 @@ bool WorldBodies::has(std::uint64_t body) const {
     return bodies_.find(body) != IntegerMap::none;
 }
 
-// The same addresses in the same order: those that were written down are there, whoever lives at them by now.
+// If the list has the same addresses in the same order, the index is still valid, even if a body was replaced
+// by another at its address.
 void WorldBodies::look() const {
     isCertain_ = true;
     const std::uint64_t census = BodySweeps::censusOf(world_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bodies of a b2World, as Contacts asks for them.
+// Implements BodyReader for a b2World.
 #pragma once
 #include "Contacts/IntegerMap.h"
 #include "Physics/BodySweeps.h"
@@ -9,18 +9,18 @@
 
 namespace physvib {
 
-/// Bodies are named by their addresses. Box2D says nothing of a body whose fixtures were destroyed before it,
-/// so an address that is still known may be of a body that is gone: it is looked up in the world's list
-/// before it is followed. A body that is gone is a static one without mass, disabled, at the origin. M only,
-/// within a step or right after it.
+/// Bodies are identified by their addresses. Box2D has no callback for a body whose fixtures were destroyed
+/// before it, so a stored address may be invalid; it is looked up in the world's list before it is
+/// dereferenced. A destroyed body is reported as static, without mass, disabled, at the origin. World thread
+/// (M) only, within a step or right after it.
 class WorldBodies final : public BodyReader {
 public:
     WorldBodies(const b2World& world, const BodySweeps& sweeps) noexcept
         : world_(world)
         , sweeps_(sweeps) {}
 
-    /// The world's owner may have destroyed bodies since; the two named, if any, are certainly still there.
-    /// The next question about another one costs a walk along the world's list, and only one.
+    /// The world's owner may have destroyed bodies since, except the two given. The next access to another
+    /// one costs one pass over the world's list.
     void doubt(const b2Body* one = nullptr, const b2Body* other = nullptr) noexcept {
         isCertain_ = false;
         present_ = {one, other};
@@ -51,8 +51,8 @@ private:
     const BodySweeps& sweeps_;
     std::array<const b2Body*, 2> present_{};
     mutable bool isCertain_ = false;
-    mutable std::uint64_t census_ = 0; // of the list when it was last written down
-    mutable IntegerMap bodies_;        // that are there
+    mutable std::uint64_t census_ = 0; // hash of the list that was indexed
+    mutable IntegerMap bodies_;        // bodies that exist
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A link in the chain of a world's listeners.
+// Box2D listener that is one link in a chain of listeners.
 #include "Physics/WorldListener.h"
 #include "Physics/BoxPrivates.h"
 #include "Physics/WorldNames.h"
@@ -8,7 +8,8 @@
 
 namespace physvib {
 
-/// A listener of the game may hand calls on to the one it found, which may be us: each call is taken once.
+/// A game's listener may forward calls to the listener that it replaced, which may be this one: each call is
+/// processed once.
 class WorldListener::Call {
 public:
     Call(WorldListener& listener, const void* about) noexcept
@@ -38,7 +39,7 @@ void WorldListener::EndContact(b2Contact* contact) {
     if (!call) return;
     if (finder_) {
         const b2Body &a = *contact->GetFixtureA()->GetBody(), &b = *contact->GetFixtureB()->GetBody();
-        // cut by the game, which may have destroyed others unheard
+        // Ended by the game outside a step; it may have destroyed other bodies without a callback.
         if (!a.GetWorld()->IsLocked()) bodies_.doubt(&a, &b);
         finder_->end(*contact);
     }
@@ -49,7 +50,7 @@ void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) 
     if (isAlone_ && finder_) return finder_->look(*contact, *oldManifold);
     const Call call{*this, contact};
     if (!call) return;
-    if (chained_ != nullptr) chained_->PreSolve(contact, oldManifold); // it may switch the contact off
+    if (chained_ != nullptr) chained_->PreSolve(contact, oldManifold); // it may disable the contact
     if (finder_) finder_->look(*contact, *oldManifold);
 }
 
@@ -78,7 +79,7 @@ void WorldListener::SayGoodbye(b2Fixture* fixture) {
     if (chainedEnds_ != nullptr) chainedEnds_->SayGoodbye(fixture);
 }
 
-// What a world's listener really is: those of attachments that have ended are passed over.
+// The first listener that is active: skips those of ended attachments.
 template <class Listener>
 Listener* WorldListener::behindDeaf(Listener* found, Listener* WorldListener::*next) {
     for (auto* deaf = dynamic_cast<WorldListener*>(found); deaf != nullptr && !deaf->finder_;
@@ -87,10 +88,10 @@ Listener* WorldListener::behindDeaf(Listener* found, Listener* WorldListener::*n
     return found;
 }
 
-// Whether calls of `found` come here anyway, through attachments that were made later.
+// True if calls to `found` reach this listener through attachments that were made later.
 template <class Listener>
 bool WorldListener::isReachedBy(Listener* found, Listener* WorldListener::*next) const {
-    if (found == this) return true; // the rule
+    if (found == this) return true; // the usual case
     for (auto* link = dynamic_cast<WorldListener*>(found); link != nullptr;
          link = dynamic_cast<WorldListener*>(link->*next))
         if (link == this) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Box2D's callbacks: taken by the attachment, and handed on to the game's own listeners as they are.
+// Listener that receives Box2D's callbacks for an attachment and forwards them to the game's own listeners.
 #pragma once
 #include "Physics/BlowFinder.h"
 #include "Physics/WorldBodies.h"
@@ -8,11 +8,11 @@
 
 namespace physvib {
 
-/// Listens to one b2World, and hands every call on to the listeners that were there before.
+/// Listens to one b2World, and forwards every call to the listeners that were set before.
 ///
-/// A world keeps bare pointers to its listeners and tells nobody when it ends. So a listener is only
-/// destroyed once its world is known to have another one (`remove`); an attachment that ends without that
-/// leaves it behind, deaf, handing on calls. M only.
+/// A world keeps bare pointers to its listeners and does not announce its destruction. So a listener may be
+/// destroyed only once its world is known to have another one (`remove`); otherwise the attachment leaves it
+/// behind, deactivated and forwarding calls. World thread (M) only.
 class WorldListener final : public b2ContactListener, public b2DestructionListener {
 public:
     WorldListener(ContactEvents& events, BodySweeps& sweeps, WorldBodies& bodies)
@@ -22,17 +22,18 @@ public:
     WorldListener(const WorldListener&) = delete;
     WorldListener& operator=(const WorldListener&) = delete;
 
-    /// Becomes the world's listener, or is again after a game has set another or none; what it finds is
-    /// called as well.
+    /// Sets itself as the world's listener, also again after a game has set another one or none, and forwards
+    /// to the one that it replaces.
     void install(b2World& world);
 
-    /// Whether the world tells it what is destroyed.
+    /// True if the world reports destructions to it.
     bool isInstalled(b2World& world) const;
 
-    /// Gives the world back what it had, unless somebody has set something else that may call it: then false.
+    /// Restores the world's earlier listeners. False, and nothing is restored, if another listener has been
+    /// set that may forward to this one.
     bool remove(b2World& world);
 
-    /// From now on it hands calls on, and touches nothing else.
+    /// From now on it only forwards calls.
     void deafen() noexcept { finder_.reset(); }
 
     BlowFinder& finder() noexcept { return *finder_; }
@@ -53,11 +54,11 @@ private:
 
     ContactEvents& events_;
     WorldBodies& bodies_;
-    std::unique_ptr<BlowFinder> finder_; // none: deaf
+    std::unique_ptr<BlowFinder> finder_; // null: deactivated
     b2ContactListener* chained_ = nullptr;
-    bool isAlone_ = false; // nothing to hand on: there is no other, or only Box2D's own, which does nothing
+    bool isAlone_ = false; // nothing to forward to: no other listener, or Box2D's own, which does nothing
     b2DestructionListener* chainedEnds_ = nullptr;
-    const void* callFor_ = nullptr; // what the call that is being handed on is about
+    const void* callFor_ = nullptr; // object of the call that is being forwarded
 };
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What Contacts calls the things of a b2World: their addresses; and Box2D's vectors in its type.
+// Conversions between Box2D's objects and Contacts: objects to numbers (their addresses), vectors, body
+// properties.
 #pragma once
 #include "Contacts/BodyReader.h"
 #include <box2d/box2d.h>

@@ -34,9 +34,6 @@ struct Colour {
                static_cast<std::uint32_t>(green) << 8 | blue;
     }
     Colour withAlpha(float value) const noexcept { return {byte(value), red, green, blue}; }
-    Colour withMultipliedAlpha(float by) const noexcept {
-        return withAlpha(by * static_cast<float>(alpha) / 255.0f);
-    }
     /// `by` at most 1: darker, of the same hue.
     Colour withMultipliedBrightness(float by) const noexcept {
         const auto dark = [by](std::uint8_t part) { return byte(by * static_cast<float>(part) / 255.0f); };

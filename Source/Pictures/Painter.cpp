@@ -191,7 +191,7 @@ void Painter::fillAll(Colour colour) {
 
 void Painter::fillPath(const Path& path, const Transform& move) {
     Outline outline;
-    outline.add(path, move.followedBy(transform_));
+    outline.add(path, move);
     if (!outline.fits()) return; // no shape of ours has so many corners
     auto view = outline.view();
     raster_->fill(*this, view, Raster::reach(view, clip_));
@@ -200,8 +200,7 @@ void Painter::fillPath(const Path& path, const Transform& move) {
 void Painter::strokePath(const Path& path, float width, const Transform& move) {
     FT_Stroker_Set(raster_->stroker, std::lround(32.0f * width), FT_STROKER_LINECAP_BUTT,
                    FT_STROKER_LINEJOIN_MITER_FIXED, 4 << 16);
-    const Transform whole = move.followedBy(transform_);
-    for (const Path::Part& part : path.parts()) raster_->stroke(*this, part, whole);
+    for (const Path::Part& part : path.parts()) raster_->stroke(*this, part, move);
 }
 
 void Painter::fillRect(Box box) {

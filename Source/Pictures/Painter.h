@@ -39,24 +39,20 @@ public:
 
     /// Nothing is painted outside of it as well.
     void reduceClip(Area area) noexcept { clip_ = clip_.intersection(area); }
-    /// What is painted from now on is moved so, before what was there already.
-    void addTransform(const Transform& move) noexcept { transform_ = move.followedBy(transform_); }
 
-    /// Clip and transform as they were, at the end of the block.
+    /// The clip as it was, at the end of the block.
     class Saved {
     public:
         explicit Saved(Painter& painter) noexcept
             : painter_{painter}
-            , clip_{painter.clip_}
-            , transform_{painter.transform_} {}
-        ~Saved() { painter_.clip_ = clip_, painter_.transform_ = transform_; }
+            , clip_{painter.clip_} {}
+        ~Saved() { painter_.clip_ = clip_; }
         Saved(const Saved&) = delete;
         Saved& operator=(const Saved&) = delete;
 
     private:
         Painter& painter_;
         Area clip_;
-        Transform transform_;
     };
 
 private:
@@ -65,7 +61,6 @@ private:
     Image& image_;
     RadialGradient gradient_{};
     Area clip_;
-    Transform transform_;
     std::unique_ptr<Raster> raster_;
 };
 

@@ -16,10 +16,6 @@ struct Transform {
         const float c = std::cos(radians), s = std::sin(radians);
         return {c, -s, s, c, 0.0f, 0.0f};
     }
-    /// About a place.
-    static Transform rotation(float radians, float x, float y) noexcept {
-        return Transform{}.translated(-x, -y).followedBy(rotation(radians)).translated(x, y);
-    }
     Transform translated(float x, float y) const noexcept { return {xx, xy, yx, yy, dx + x, dy + y}; }
     Transform translated(Spot by) const noexcept { return translated(by.x, by.y); }
     Transform scaled(float x, float y) const noexcept {

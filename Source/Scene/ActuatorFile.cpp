@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Every field of an actuator profile, checked when read and in a fixed order when written.
+// The table of an actuator profile's fields, and the profiles that are built in.
 #include "Scene/ActuatorFile.h"
 #include "Core/Limits.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
-#include "Io/Json/JsonField.h"
-#include "Io/Json/JsonText.h"
+#include "Io/Json/FieldJson.h"
 #include "Io/Text/NumberText.h"
-#include "Scene/JsonWriter.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFileLimits.h"
 #include <array>
@@ -19,29 +17,23 @@ const std::vector<EmbeddedFile>& embeddedActuators();
 
 namespace {
 
-constexpr const char* actuatorVersionField = "physvib_actuator";
 constexpr std::array<std::string_view, 2> kindNames{"linear", "rotating"};
+constexpr std::string_view resonanceField = "resonance_hz", qualityField = "q", bandField = "band_hz";
 
-/// One figure of a profile: its field, where it goes, and what is believed of it.
-struct Figure {
-    const char* field;
-    std::optional<double> ActuatorProfile::*member;
+// Kinds: null is what is not known.
+struct BandOrNull {};
+struct FigureOrNull {
     double least, most;
 };
-constexpr Figure resonance{"resonance_hz", &ActuatorProfile::resonanceHz, limits::leastMeasuredHz,
-                           limits::maxFrequencyHz};
-constexpr Figure quality{"q", &ActuatorProfile::q, limits::leastQ, limits::mostQ};
-constexpr std::array<Figure, 4> others{{{"drive_limit_v", &ActuatorProfile::driveLimitVolts, 0.001, 1000.0},
-                                        {"rise_time_s", &ActuatorProfile::riseSeconds, 1e-5, 10.0},
-                                        {"full_scale_g", &ActuatorProfile::fullScaleG, 1e-4, 1000.0},
-                                        {"delay_s", &ActuatorProfile::delaySeconds, 0.0, 10.0}}};
 
-void readFigure(const JsonField& root, const Figure& figure, ActuatorProfile& profile) {
-    const JsonField json = root[figure.field];
-    if (!json.isNull()) profile.*figure.member = json.numberWithin(figure.least, figure.most);
+std::optional<double> readKind(const JsonField& json, const FigureOrNull& kind) {
+    return json.isNull() ? std::nullopt : std::optional{json.numberWithin(kind.least, kind.most)};
+}
+OrderedJson writeKind(const FigureOrNull&, const std::optional<double>& figure) {
+    return figure ? OrderedJson(*figure) : OrderedJson();
 }
 
-std::optional<FrequencyBand> readOptionalBand(const JsonField& json) {
+std::optional<FrequencyBand> readKind(const JsonField& json, const BandOrNull&) {
     if (json.isNull()) return std::nullopt;
     if (const std::size_t size = json.arraySize(); size != 2)
         json.fail("expected [lowest, highest] or null, found " + std::to_string(size) + " items");
@@ -51,60 +43,52 @@ std::optional<FrequencyBand> readOptionalBand(const JsonField& json) {
     return band;
 }
 
-ActuatorProfile readActuatorRoot(const JsonField& root) {
-    checkVersion(root, actuatorVersionField, actuatorFormatVersion);
-    root.expectObject({actuatorVersionField, "name", "description", "source", "kind", resonance.field,
-                       quality.field, "band_hz", others[0].field, others[1].field, others[2].field,
-                       others[3].field});
-    ActuatorProfile profile;
-    profile.name = root["name"].text();
-    if (profile.name.empty()) root["name"].fail("expected a name, found an empty string");
-    profile.description = root["description"].text();
-    profile.source = root["source"].text();
-    profile.kind = static_cast<ActuatorKind>(root["kind"].oneOf(kindNames));
-    readFigure(root, resonance, profile);
-    readFigure(root, quality, profile);
-    profile.band = readOptionalBand(root["band_hz"]);
-    for (const Figure& figure : others) readFigure(root, figure, profile);
-    return profile;
-}
-
-OrderedJson orNull(const std::optional<double>& figure) {
-    return figure ? OrderedJson(*figure) : OrderedJson();
+OrderedJson writeKind(const BandOrNull&, const std::optional<FrequencyBand>& band) {
+    return band ? OrderedJson{band->lowHz, band->highHz} : OrderedJson();
 }
 
 } // namespace
 
+void visitFields(auto& v, FieldsOf<ActuatorProfile>) {
+    using P = ActuatorProfile;
+    const auto figure = [&v](std::string_view name, auto member, double least, double most) {
+        v.field(name, member, FigureOrNull{least, most});
+    };
+    v.version("physvib_actuator", actuatorFormatVersion);
+    v.field("name", &P::name, kinds::name);
+    v.field("description", &P::description, kinds::text);
+    v.field("source", &P::source, kinds::text);
+    v.field("kind", &P::kind, kinds::OneOf{kindNames});
+    figure(resonanceField, &P::resonanceHz, limits::leastMeasuredHz, limits::maxFrequencyHz);
+    figure(qualityField, &P::q, limits::leastQ, limits::mostQ);
+    v.field(bandField, &P::band, BandOrNull{});
+    figure("drive_limit_v", &P::driveLimitVolts, 0.001, 1000.0);
+    figure("rise_time_s", &P::riseSeconds, 1e-5, 10.0);
+    figure("full_scale_g", &P::fullScaleG, 1e-4, 1000.0);
+    figure("delay_s", &P::delaySeconds, 0.0, 10.0);
+}
+
 std::string equaliserFault(const ActuatorProfile& profile) {
-    const std::string measure = " is not known (measure it with physvib calibrate)";
+    const auto unknown = [](std::string_view field) {
+        return std::string(field) + " is not known (measure it with physvib calibrate)";
+    };
     if (profile.kind == ActuatorKind::rotating)
         return "a rotating mass has the frequency of its speed: nothing can be equalised";
-    if (!profile.resonanceHz) return resonance.field + measure;
-    if (!profile.q) return quality.field + measure;
-    return profile.band ? std::string{} : "band_hz" + measure;
+    if (!profile.resonanceHz) return unknown(resonanceField);
+    if (!profile.q) return unknown(qualityField);
+    return profile.band ? std::string{} : unknown(bandField);
 }
 
 Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name) {
     return readJson(text, name, limits::maxActuatorFileBytes,
-                    [](const Json& root) { return readActuatorRoot(JsonField(root, {})); });
+                    [](const Json& root) { return kinds::Object<ActuatorProfile>{}(JsonField(root, {})); });
 }
 
 Result<ActuatorProfile> loadActuator(const std::filesystem::path& path) {
     return loadText(path, limits::maxActuatorFileBytes, readActuator);
 }
 
-std::string actuatorJson(const ActuatorProfile& profile) {
-    OrderedJson root{{actuatorVersionField, actuatorFormatVersion},
-                     {"name", profile.name},
-                     {"description", profile.description},
-                     {"source", profile.source},
-                     {"kind", kindNames[static_cast<std::size_t>(profile.kind)]}};
-    root[resonance.field] = orNull(profile.resonanceHz);
-    root[quality.field] = orNull(profile.q);
-    root["band_hz"] = profile.band ? OrderedJson{profile.band->lowHz, profile.band->highHz} : OrderedJson();
-    for (const Figure& figure : others) root[figure.field] = orNull(profile.*figure.member);
-    return jsonLines(root);
-}
+std::string actuatorJson(const ActuatorProfile& profile) { return jsonLines(writeTable(profile)); }
 
 const std::vector<ActuatorProfile>& builtInActuators() {
     static const std::vector<ActuatorProfile> profiles = readEmbedded(embeddedActuators(), readActuator);

@@ -2,10 +2,6 @@
 // Every field of a layout file, checked when read and in a fixed order when written.
 #include "Scene/LayoutFile.h"
 #include "Io/Disk/ReadFile.h"
-#include "Io/Json/JsonField.h"
-#include "Io/Json/JsonLines.h"
-#include "Io/Json/JsonText.h"
-#include "Io/Json/StrictJson.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/LayoutJson.h"
 #include "Scene/SceneFileLimits.h"
@@ -34,31 +30,34 @@ void fillLabels(std::vector<EnchanterDescription>& enchanters) {
     }
 }
 
-void readExtent(const JsonField& extent, EnchanterLayout& geometry) {
-    if (const std::size_t size = extent.arraySize(); size != 2)
-        extent.fail("expected [width, height], found " + std::to_string(size) + " items");
-    geometry.extentWidthMetres =
-        extent.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres);
-    geometry.extentHeightMetres =
-        extent.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres);
+/// One actuator of a file, within the extent of its layout.
+struct PlacedEnchanter {
+    EnchanterDescription described;
+    EnchanterPlace place;
+    double extentWidthMetres = 0.0, extentHeightMetres = 0.0;
+};
+
+void visitFields(auto& v, FieldsOf<PlacedEnchanter>) {
+    constexpr auto described = &PlacedEnchanter::described;
+    constexpr auto place = &PlacedEnchanter::place;
+    v.field("label", in(described, &EnchanterDescription::label), kinds::text, Need::filled);
+    v.field("x_m", in(place, &EnchanterPlace::xMetres), kinds::upTo(v.object.extentWidthMetres));
+    v.field("y_m", in(place, &EnchanterPlace::yMetres), kinds::upTo(v.object.extentHeightMetres));
+    v.field("actuator", in(described, &EnchanterDescription::actuator), kinds::text, Need::filled);
+    v.field("full_scale_g", in(described, &EnchanterDescription::fullScaleG),
+            kinds::within(limits::leastFullScaleG, limits::mostFullScaleG), Need::filled);
 }
 
-std::string readLabel(const JsonField& label, const std::vector<EnchanterDescription>& before) {
-    std::string text = label.text();
-    if (text.empty()) label.fail("expected a label, found an empty string");
-    if (isTaken(before, text)) label.fail("expected a label of its own, found " + inQuotes(text) + " again");
-    return text;
-}
-
-EnchanterDescription readEnchanter(const JsonField& field, const std::vector<EnchanterDescription>& before) {
-    field.expectObject({"label", "x_m", "y_m", "actuator", "full_scale_g"});
-    EnchanterDescription enchanter;
-    if (field.has("label")) enchanter.label = readLabel(field["label"], before);
-    if (field.has("actuator")) enchanter.actuator = field["actuator"].text();
-    if (field.has("full_scale_g"))
-        enchanter.fullScaleG =
-            field["full_scale_g"].numberWithin(limits::leastFullScaleG, limits::mostFullScaleG);
-    return enchanter;
+EnchanterDescription readEnchanter(const JsonField& json, const LayoutDescription& layout,
+                                   EnchanterPlace& place) {
+    PlacedEnchanter one{{}, {}, layout.geometry.extentWidthMetres, layout.geometry.extentHeightMetres};
+    readTable(json, one);
+    const std::string& label = one.described.label;
+    if (json.has("label") && label.empty()) json["label"].fail("expected a label, found an empty string");
+    if (!label.empty() && isTaken(layout.enchanters, label))
+        json["label"].fail("expected a label of its own, found " + inQuotes(label) + " again");
+    place = one.place;
+    return one.described;
 }
 
 void readEnchanters(const JsonField& list, LayoutDescription& layout) {
@@ -68,41 +67,48 @@ void readEnchanters(const JsonField& list, LayoutDescription& layout) {
     if (count > geometry.places.size())
         list.fail("expected at most " + std::to_string(geometry.places.size()) + " actuators, found " +
                   std::to_string(count));
-    for (std::size_t j = 0; j < count; ++j) {
-        const JsonField enchanter = list.item(j);
-        layout.enchanters.push_back(readEnchanter(enchanter, layout.enchanters));
-        geometry.places[j] = {enchanter["x_m"].numberUpTo(geometry.extentWidthMetres),
-                              enchanter["y_m"].numberUpTo(geometry.extentHeightMetres)};
-    }
+    for (std::size_t j = 0; j < count; ++j)
+        layout.enchanters.push_back(readEnchanter(list.item(j), layout, geometry.places[j]));
     geometry.count = static_cast<int>(count);
     fillLabels(layout.enchanters);
 }
 
+struct Extent {}; // a kind
+
+std::pair<double, double> readKind(const JsonField& json, const Extent&) {
+    if (const std::size_t size = json.arraySize(); size != 2)
+        json.fail("expected [width, height], found " + std::to_string(size) + " items");
+    constexpr auto range = kinds::within(limits::leastExtentMetres, limits::mostExtentMetres);
+    return {range(json.item(0)), range(json.item(1))};
+}
+OrderedJson writeKind(const Extent&, const auto& lengths) { return lengths; }
+
 } // namespace
 
-LayoutDescription readLayoutFields(const JsonField& root) {
-    root.expectObject({"name", "extent_m", "enchanters"});
+void visitFields(auto& v, FieldsOf<LayoutDescription>) {
+    constexpr auto geometry = &LayoutDescription::geometry;
+    v.field("name", &LayoutDescription::name, kinds::text, Need::filled);
+    v.field("extent_m",
+            both(in(geometry, &EnchanterLayout::extentWidthMetres),
+                 in(geometry, &EnchanterLayout::extentHeightMetres)),
+            Extent{});
+    v.part("enchanters");
+}
+
+LayoutDescription readKind(const JsonField& json, const Own<LayoutDescription>&) {
     LayoutDescription layout;
-    if (root.has("name")) layout.name = root["name"].text();
-    readExtent(root["extent_m"], layout.geometry);
-    readEnchanters(root["enchanters"], layout);
+    readTable(json, layout);
+    readEnchanters(json["enchanters"], layout);
     return layout;
 }
 
-namespace {
-
-/// Bytes that are no UTF-8 cannot stand in JSON and become U+FFFD.
-std::string jsonText(const std::string& text) {
-    return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+OrderedJson writeKind(const Own<LayoutDescription>&, const LayoutDescription& layout) {
+    OrderedJson json = writeTable(layout);
+    for (std::size_t j = 0; j < layout.enchanters.size(); ++j)
+        json["enchanters"].push_back(
+            writeTable(PlacedEnchanter{layout.enchanters[j], layout.geometry.places[j]}));
+    return json;
 }
-
-std::string enchanterJson(const EnchanterDescription& enchanter, const EnchanterPlace& place) {
-    return "    { \"label\": " + jsonText(enchanter.label) + ", \"x_m\": " + jsonNumber(place.xMetres) +
-           ", \"y_m\": " + jsonNumber(place.yMetres) + ", \"actuator\": " + jsonText(enchanter.actuator) +
-           ", \"full_scale_g\": " + jsonNumber(enchanter.fullScaleG) + " }";
-}
-
-} // namespace
 
 LayoutDescription describeLayout(std::string name, const EnchanterLayout& geometry) {
     LayoutDescription layout{std::move(name), geometry, {}};
@@ -129,7 +135,7 @@ Result<LayoutDescription> findLayout(const std::string& nameOrPath) {
 
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name) {
     return readJson(text, name, limits::maxLayoutFileBytes,
-                    [](const Json& root) { return readLayoutFields(JsonField(root, {})); });
+                    [](const Json& root) { return readKind(JsonField(root, {}), Own<LayoutDescription>{}); });
 }
 
 Result<LayoutDescription> loadLayout(const std::filesystem::path& path) {
@@ -137,14 +143,20 @@ Result<LayoutDescription> loadLayout(const std::filesystem::path& path) {
 }
 
 std::string layoutJson(const LayoutDescription& layout) {
-    std::string text = "{\n  \"name\": " + jsonText(layout.name) + ",\n  \"extent_m\": [" +
-                       jsonNumber(layout.geometry.extentWidthMetres) + ", " +
-                       jsonNumber(layout.geometry.extentHeightMetres) + "],\n  \"enchanters\": [\n";
-    for (std::size_t j = 0; j < layout.enchanters.size(); ++j) {
-        text += enchanterJson(layout.enchanters[j], layout.geometry.places[j]);
-        text += j + 1 < layout.enchanters.size() ? ",\n" : "\n";
+    const OrderedJson json = writeKind(Own<LayoutDescription>{}, layout);
+    std::string text = "{";
+    for (const auto& [name, value] : json.items()) {
+        text += (text.size() > 1 ? ",\n  \"" : "\n  \"") + name + "\": ";
+        if (!value.is_array() || value.front().is_number()) {
+            text += jsonLine(value);
+            continue;
+        }
+        text += "[";
+        for (std::size_t j = 0; j < value.size(); ++j)
+            text += (j > 0 ? ",\n    " : "\n    ") + jsonLine(value[j]);
+        text += "\n  ]";
     }
-    return text + "  ]\n}\n";
+    return text + "\n}\n";
 }
 
 } // namespace physvib

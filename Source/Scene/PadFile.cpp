@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Every field of a controller's profile, checked when read and in a fixed order when written.
+// The tables of a controller profile's fields, and the profiles that are built in.
 #include "Scene/PadFile.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
-#include "Io/Json/JsonField.h"
-#include "Io/Json/JsonText.h"
+#include "Io/Json/FieldJson.h"
 #include "Io/Text/NumberText.h"
-#include "Scene/JsonWriter.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFileLimits.h"
 
@@ -14,64 +12,47 @@ namespace physvib {
 
 const std::vector<EmbeddedFile>& embeddedPads(); // Source/Scene/Pads/*.json, in the order of their listing
 
+void visitFields(auto& v, FieldsOf<PadMotor>) {
+    using M = PadMotor;
+    v.field("threshold", &M::threshold, kinds::within(0.0, 0.9));
+    v.field("half", &M::half, kinds::within(0.01, 0.99));
+    v.field("full", &M::full, kinds::within(0.02, 1.0));
+    v.field("rise_s", &M::riseSeconds, kinds::within(0.001, 2.0));
+    v.field("fall_s", &M::fallSeconds, kinds::within(0.001, 2.0));
+}
+
+void visitFields(auto& v, FieldsOf<PadProfile>) {
+    using P = PadProfile;
+    const auto law = [&v](std::string_view name, auto member, const auto& kind) {
+        v.field(name, in(&P::law, member), kind);
+    };
+    v.version("physvib_pad", padFormatVersion);
+    v.field("name", &P::name, kinds::name);
+    v.field("description", &P::description, kinds::text);
+    v.field("source", &P::source, kinds::text);
+    law("commands_per_s", &PadLaw::commandsPerSecond, kinds::within(5.0, 500.0));
+    law("lead_s", &PadLaw::leadSeconds, kinds::within(0.0, 0.2));
+    law("split_hz", &PadLaw::splitHz, kinds::within(1.0, 10'000.0));
+    law("side", &PadLaw::side, kinds::within(0.0, 1.0));
+    law("floor", &PadLaw::floor, kinds::within(1e-4, 1.0));
+    law("exponent", &PadLaw::exponent, kinds::within(0.1, 4.0));
+    law("low", &PadLaw::low, kinds::Object<PadMotor>{});
+    law("high", &PadLaw::high, kinds::Object<PadMotor>{});
+}
+
 namespace {
 
-constexpr const char* padVersionField = "physvib_pad";
-
-/// A number of the law: its field, where it goes, and what is believed of it.
-struct LawFigure {
-    const char* field;
-    double PadLaw::*member;
-    double least, most;
-};
-constexpr LawFigure lawFigures[]{{"commands_per_s", &PadLaw::commandsPerSecond, 5.0, 500.0},
-                                 {"lead_s", &PadLaw::leadSeconds, 0.0, 0.2},
-                                 {"split_hz", &PadLaw::splitHz, 1.0, 10'000.0},
-                                 {"side", &PadLaw::side, 0.0, 1.0},
-                                 {"floor", &PadLaw::floor, 1e-4, 1.0},
-                                 {"exponent", &PadLaw::exponent, 0.1, 4.0}};
-struct MotorFigure {
-    const char* field;
-    double PadMotor::*member;
-    double least, most;
-};
-constexpr MotorFigure motorFigures[]{{"threshold", &PadMotor::threshold, 0.0, 0.9},
-                                     {"half", &PadMotor::half, 0.01, 0.99},
-                                     {"full", &PadMotor::full, 0.02, 1.0},
-                                     {"rise_s", &PadMotor::riseSeconds, 0.001, 2.0},
-                                     {"fall_s", &PadMotor::fallSeconds, 0.001, 2.0}};
-
-PadMotor readMotor(const JsonField& json) {
-    json.expectObject({"threshold", "half", "full", "rise_s", "fall_s"});
-    PadMotor motor;
-    for (const MotorFigure& figure : motorFigures)
-        motor.*figure.member = json[figure.field].numberWithin(figure.least, figure.most);
+void checkMotor(const JsonField& json, const PadMotor& motor) {
     if (!(motor.threshold < motor.half))
         json["half"].fail("expected more than threshold, " + numberText(motor.threshold));
     if (!(motor.half < motor.full)) json["full"].fail("expected more than half, " + numberText(motor.half));
-    return motor;
 }
 
 PadProfile readPadRoot(const JsonField& root) {
-    checkVersion(root, padVersionField, padFormatVersion);
-    root.expectObject({padVersionField, "name", "description", "source", "commands_per_s", "lead_s",
-                       "split_hz", "side", "floor", "exponent", "low", "high"});
-    PadProfile profile;
-    profile.name = root["name"].text();
-    if (profile.name.empty()) root["name"].fail("expected a name, found an empty string");
-    profile.description = root["description"].text();
-    profile.source = root["source"].text();
-    for (const LawFigure& figure : lawFigures)
-        profile.law.*figure.member = root[figure.field].numberWithin(figure.least, figure.most);
-    profile.law.low = readMotor(root["low"]);
-    profile.law.high = readMotor(root["high"]);
+    const auto profile = kinds::Object<PadProfile>{}(root);
+    checkMotor(root["low"], profile.law.low);
+    checkMotor(root["high"], profile.law.high);
     return profile;
-}
-
-OrderedJson motorJson(const PadMotor& motor) {
-    OrderedJson json;
-    for (const MotorFigure& figure : motorFigures) json[figure.field] = motor.*figure.member;
-    return json;
 }
 
 } // namespace
@@ -81,16 +62,7 @@ Result<PadProfile> readPad(std::string_view text, std::string_view name) {
                     [](const Json& root) { return readPadRoot(JsonField(root, {})); });
 }
 
-std::string padJson(const PadProfile& profile) {
-    OrderedJson root{{padVersionField, padFormatVersion},
-                     {"name", profile.name},
-                     {"description", profile.description},
-                     {"source", profile.source}};
-    for (const LawFigure& figure : lawFigures) root[figure.field] = profile.law.*figure.member;
-    root["low"] = motorJson(profile.law.low);
-    root["high"] = motorJson(profile.law.high);
-    return jsonLines(root);
-}
+std::string padJson(const PadProfile& profile) { return jsonLines(writeTable(profile)); }
 
 const std::vector<PadProfile>& builtInPads() {
     static const std::vector<PadProfile> profiles = readEmbedded(embeddedPads(), readPad);

@@ -3,6 +3,7 @@
 // checks visit this table.
 #pragma once
 #include "Core/Limits.h"
+#include "Io/Json/FieldTable.h"
 #include "Scene/Scene.h"
 #include "Scene/SceneLimits.h"
 #include <array>
@@ -10,9 +11,6 @@
 #include <string_view>
 
 namespace physvib {
-
-/// Whether a file may leave a field out; what is left out has the struct's default, which is always in range.
-enum class Need { required, optional };
 
 /// Range of a number (of each component, of each item) and of the number of items of a list.
 struct Bounds {
@@ -33,9 +31,6 @@ constexpr Bounds within(double reach) { return {-reach, reach}; }
 ///   enumeration, optional material(name, member)               an index into Scene::materials, in files a
 ///   name; required variant(name, member, names)         which alternative it is; its fields follow in the
 ///   same object
-template <class T>
-struct FieldsOf {};
-
 inline constexpr Bounds anyText{};
 inline constexpr Bounds positionBounds = within(sceneLimits::maxPositionMetres);
 inline constexpr Bounds angleBounds = within(sceneLimits::maxAngleRadians);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// How strong a stimulus was where it was felt.
+// Measured level of a played stimulus.
 #pragma once
 
 namespace physvib {
 
-/// Of the actuator that moved most, behind the master level, strips and ceilings.
+/// Of the actuator with the highest level, after master level, strips and ceilings.
 struct FeltLevel {
-    double peakG = 0.0, rmsG = 0.0; ///< the latter over the time that the stimulus lasts
+    double peakG = 0.0, rmsG = 0.0; ///< rmsG: over the stimulus' duration
     bool operator==(const FeltLevel&) const = default;
 };
 

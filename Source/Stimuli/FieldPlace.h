@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where on the surface a stimulus is felt, as a share of its width and height.
+// A place on the response field of a study, as a share of its width and height.
 #pragma once
 
 namespace physvib {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pink noise for headphones, so that actuators are felt and not heard (thesis 3.2.1). On another output than
-// the stimuli.
+// Pink noise for headphones, which masks the sound of the actuators (thesis 3.2.1). Played on another output
+// than the stimuli.
 #pragma once
 #include <array>
 #include <bit>
@@ -14,10 +14,10 @@ namespace physvib {
 /// thread at a time; next() is wait-free.
 class PinkNoise {
 public:
-    /// Of all samples: the mean of seventeen independent numbers that are uniform from -1 to 1.
+    /// RMS of the samples: the mean of seventeen independent numbers that are uniform from -1 to 1.
     static constexpr double rootMeanSquare = 0.14002800840280097; // 1 / sqrt(3 * 17)
 
-    // Of that, in dB of full scale, on headphones. At the most its largest samples, 17.1 dB above, stay below
+    // RMS levels in dB of full scale, on headphones. At mostDb the largest samples, 17.1 dB above, stay below
     // full scale.
     static constexpr double leastDb = -90.0, safeDb = -40.0, mostDb = -18.0;
 
@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    /// From -1 to 1, in steps of 2^-15: their sums are exact, so they never drift.
+    /// From -1 to 1, in steps of 2^-15: their sums are exact, so the running sum does not drift.
     float white() noexcept {
         state_ ^= state_ << 13; // xorshift32 (Marsaglia 2003)
         state_ ^= state_ >> 17;

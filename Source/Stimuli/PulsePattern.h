@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Spatiotemporal patterns: one to three pulses, each on one enchanter (thesis 3.2).
+// Spatiotemporal patterns: one to three pulses, each on one actuator (thesis 3.2).
 #pragma once
 #include <array>
 #include <charconv>
@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// Pulses of one duration, one after the other; `enchanters[0..count)` says which enchanter each is on.
+/// Consecutive pulses of one duration; pulse k is on actuator enchanters[k], k < count.
 struct PulsePattern {
     double pulseSeconds = 0.0;
     int count = 0;
@@ -24,8 +24,8 @@ constexpr double pulseGapSeconds = 0.1;
 /// The two pulse durations of the thesis' study.
 constexpr std::array<double, 2> pulseDurationsSeconds{0.1, 0.25};
 
-/// All D (E + E^2 + E^3) patterns for E enchanters, by duration, then count, then enchanters. M only
-/// (allocates).
+/// All D (E + E^2 + E^3) patterns for E actuators, by duration, then count, then actuators. Message thread
+/// (M) only (allocates).
 inline std::vector<PulsePattern> allPulsePatterns(int enchanterCount) {
     std::vector<PulsePattern> patterns;
     for (const double seconds : pulseDurationsSeconds) {
@@ -43,11 +43,6 @@ inline std::vector<PulsePattern> allPulsePatterns(int enchanterCount) {
     return patterns;
 }
 
-/// Length of a pattern from the first onset to the last end.
-constexpr double patternSeconds(const PulsePattern& p) noexcept {
-    return p.count * p.pulseSeconds + (p.count - 1) * pulseGapSeconds;
-}
-
 /// "ABA-250": the enchanters' letters in the order of the pulses, then a pulse's milliseconds. Enchanters 0
 /// to 25. M only.
 inline std::string patternLabel(const PulsePattern& p) {
@@ -57,7 +52,7 @@ inline std::string patternLabel(const PulsePattern& p) {
     return label.append("-").append(std::to_string(std::lround(p.pulseSeconds * 1e3)));
 }
 
-/// The pattern of such a label: one to three letters, 1 to 10000 ms; none if it is anything else. Any thread.
+/// Parses such a label: one to three letters, 1 to 10000 ms; nullopt otherwise. Any thread.
 inline std::optional<PulsePattern> parsePatternLabel(std::string_view label) noexcept {
     PulsePattern p;
     while (!label.empty() && label.front() >= 'A' && label.front() <= 'Z') {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random numbers that are the same on every machine: the standard library's distributions are not.
+// Seeded random numbers that are the same on every machine, unlike the standard library's distributions.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace physvib {
 
-/// One stream of numbers; streams of different names are independent. Any thread, one at a time.
+/// One stream of numbers; streams with different names are independent. Any thread, one at a time.
 class SeededRandom {
 public:
     /// Different seeds and names give unrelated streams (FNV-1a over the name).
     explicit SeededRandom(std::uint64_t seed, std::string_view name = {}) noexcept
         : state_{seed * 0x9E3779B97F4A7C15u + 0xCBF29CE484222325u} {
-        if (name.empty()) state_ = next(); // a seed one higher is this stream one step further on
+        if (name.empty()) state_ = next(); // without it seed + 1 gives this stream one step ahead
         for (const char c : name) state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
         next();
     }
@@ -35,7 +35,7 @@ public:
 
     /// A whole number from 0 to below `count` > 0, all equally likely.
     std::size_t below(std::size_t count) noexcept {
-        // so many of the lowest numbers would come once too often
+        // without this rejection the lowest numbers would be more likely
         const std::uint64_t range = count, rest = (0 - range) % range;
         std::uint64_t number = next();
         while (number < rest) number = next();

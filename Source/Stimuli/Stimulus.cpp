@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Patterns and phantoms as gated events of Core.
+// Creates the events of pattern and phantom stimuli.
 #include "Stimuli/Stimulus.h"
 #include <cmath>
 #include <numbers>
@@ -36,7 +36,7 @@ EnchanterLayout isolatingLayout(int count) noexcept {
     }
     layout.extentWidthMetres = layout.extentHeightMetres = 1.0;
     layout.count = count;
-    for (int j = 0; j < count; ++j) { // on a circle: five and more are scattered to the panner
+    for (int j = 0; j < count; ++j) { // on a circle: the panner treats five and more as scattered
         const double angle = 2.0 * std::numbers::pi * j / count;
         layout.places[static_cast<std::size_t>(j)] = {0.5 + 0.5 * std::cos(angle),
                                                       0.5 + 0.5 * std::sin(angle)};

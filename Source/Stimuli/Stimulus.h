@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is played in a trial, as events for the renderer: amplitudes in g, times from 0.
+// The stimulus of a study's trial as events for the renderer: amplitudes in g, times from 0.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
@@ -10,32 +10,32 @@
 
 namespace physvib {
 
-/// The vibration of all stimuli of a set (thesis 3.2.1, Eq. 4.1).
+/// Frequency and level of all stimuli of a set (thesis 3.2.1, Eq. 4.1).
 struct Carrier {
     double frequencyHz = 205.0; ///< resonance of the thesis' LRA
-    double levelG = 1.0;        ///< peak acceleration of an enchanter at gain 1
+    double levelG = 1.0;        ///< peak acceleration of an actuator at gain 1
 };
 
-/// Events in time order, and how they are spread over the enchanters. Amplitude 1 is 1 g: a channel's samples
-/// divided by its enchanter's full scale (in g) are what drives it.
+/// Events in time order, and their panner. Amplitude 1 is 1 g: the drive of a channel is its samples divided
+/// by the actuator's full scale in g.
 struct Stimulus {
     std::vector<CollisionEvent> events;
     PhantomPanner panner;
-    double seconds = 0.0; ///< from 0 to the last end
+    double seconds = 0.0; ///< from 0 to the end of the last event
 };
 
-/// Each pulse a rectangular burst on one enchanter alone, whatever the layout looks like. `enchanters` 1 to
-/// 26, at least those that the pattern names. M only (allocates).
+/// Each pulse is a rectangular burst on one actuator alone, whatever the layout. `enchanters`: number of
+/// actuators, 1 to 26, at least those that the pattern names. Message thread (M) only (allocates).
 Stimulus patternStimulus(const PulsePattern& pattern, int enchanters, const Carrier& carrier,
                          double gapSeconds = pulseGapSeconds);
 
-/// A stationary phantom at `place` of the layout's extent, all enchanters in phase (Eq. 4.1 to 4.3). M only
+/// A stationary phantom at `place` of the layout's extent, all actuators in phase (Eq. 4.1 to 4.3). M only
 /// (allocates).
 Stimulus phantomStimulus(const FieldPlace& place, const EnchanterLayout& layout, PanningLaw law,
                          double exponent, const Carrier& carrier, double seconds = 1.0);
 
-/// A layout of `count` enchanters in which each one's own place has gain 1 there and 0 at all others: exactly
-/// for up to four, below -250 dB for more. Any thread.
+/// A layout of `count` actuators in which each has gain 1 at its own place and 0 at those of all others:
+/// exactly for up to four, below -250 dB for more. Any thread.
 EnchanterLayout isolatingLayout(int count) noexcept;
 
 } // namespace physvib

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What moves, as a board of protocol 2 plays it: a row of legs, each a chord of the gains that the computer's
-// own renderer has.
+// Splits a moving tone into segments for a board of protocol 2. Each segment approximates the gains of the
+// computer's renderer by a straight line.
 //
-// A leg goes as far as its chord keeps to those gains within half a step of the converters: next to a corner
-// of the layout, where a root is steepest, for a millisecond, else for as long as a leg may be. It begins in
-// the phase in which the one before ends, whatever has been learnt of the board's clock meanwhile, and
-// catches up in its frequency.
+// A segment is as long as its line stays within half a converter step of those gains: about a millisecond
+// near a corner of the layout, where a root is steepest, otherwise up to the maximum. Its phase continues
+// that of the segment before, whatever has been learnt of the board's clock meanwhile; the difference is made
+// up by a small change of frequency.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Wire/BoardStrike.h"
@@ -14,32 +14,33 @@
 
 namespace physvib {
 
-/// Where the time since a strike's onset lies on the board's frames, as far as is known.
+/// Estimated position of an event's time on the board's frames.
 struct BoardTime {
-    double onset = 0.0; ///< its frame, whole or not
+    double onset = 0.0; ///< frame of the onset, may be fractional
     double framesPerSecond = limits::board::sampleRateHz;
 
     double secondsAt(std::int64_t frame) const noexcept {
         return (static_cast<double>(frame) - onset) / framesPerSecond;
     }
-    /// The first frame that is not earlier.
+    /// The first frame that is not earlier than `seconds` after the onset.
     std::int64_t frameAt(double seconds) const noexcept {
         return static_cast<std::int64_t>(std::ceil(onset + seconds * framesPerSecond));
     }
 };
 
-/// One strike that moves. One thread.
+/// One moving tone. One thread.
 class BoardPath {
 public:
     using Gains = PathGains::Gains;
-    static constexpr int mostFrames = 320;    ///< 40 ms: what a lost leg costs
-    static constexpr int hurriedFrames = 160; ///< 20 ms: four tones of these take two thirds of the line
+    static constexpr int mostFrames = 320;    ///< 40 ms: what is missing if a segment is lost
+    static constexpr int hurriedFrames = 160; ///< 20 ms: four tones in such segments use two thirds of the
+                                              ///< line
     static constexpr double tolerance = 0.5 / 127.0; ///< of full scale
-    static constexpr double mostSlip = 1.0 / 64;     ///< turns that a leg catches up: more would be felt
-    static constexpr double mostJumpSeconds = 0.02;  ///< of the clock: by more, a leg begins where it is to
-                                                     ///< be, not where the one before ends
+    static constexpr double mostSlip = 1.0 / 64; ///< turns that a segment makes up: more would be perceptible
+    static constexpr double mostJumpSeconds = 0.02; ///< of the clock: after a larger jump a segment starts at
+                                                    ///< its proper time instead of the last one's end
 
-    /// On a session rendered at this rate.
+    /// In a session rendered at this rate.
     BoardPath(const CollisionEvent& moving, int sampleRateHz) noexcept
         : moving_{moving}
         , lifeNs_{boardLifeNs(moving)}
@@ -48,11 +49,11 @@ public:
     bool isOver() const noexcept { return nextNs_ >= lifeNs_; }
     std::int64_t onsetNs() const noexcept { return moving_.timeNs; }
     std::int64_t endNs() const noexcept { return moving_.timeNs + lifeNs_; }
-    /// Session time at which the next leg begins.
+    /// Session time at which the next segment begins.
     std::int64_t nextNs() const noexcept { return moving_.timeNs + nextNs_; }
 
-    /// The next leg; none if nothing is left. `gainsAt(event, x, y)`: Gains, of the panner. Hurried: as long
-    /// as the line needs, however far from the law that takes it.
+    /// The next segment; nullopt if the tone is over. `gainsAt(event, x, y)` returns the panner's Gains.
+    /// isHurried: at least hurriedFrames long, to save line time, even if the line is then less accurate.
     template <class GainsAt>
     std::optional<BoardLeg> next(const BoardTime& time, GainsAt gainsAt, bool isHurried = false) noexcept {
         isJoined_ = isJoined_ && std::abs(time.secondsAt(after_.frame) -
@@ -82,17 +83,17 @@ public:
         return leg;
     }
 
-    /// Whether the chord of the last one is further off than `tolerance`.
+    /// True if the last segment is off by more than `tolerance`.
     bool isCoarse() const noexcept { return isCoarse_; }
 
-    /// The last one is on its way: on to the one after it.
+    /// The last segment was sent: advances to the next.
     void take() noexcept {
         after_ = following_;
         nextNs_ = after_.ns;
         isJoined_ = hasBegun_ = true;
     }
 
-    /// If nothing of it has been taken: begins where `before` has ended, if it is the rest of the same tone.
+    /// Before the first segment: continues where `before` has ended, if both are parts of one tone.
     void joinTo(const BoardPath& before) noexcept {
         const bool isRest = before.endNs() == onsetNs() &&
                             before.moving_.frequencyHz == moving_.frequencyHz &&
@@ -102,8 +103,8 @@ public:
         isJoined_ = true;
     }
 
-    /// A leg's time goes by and nothing is played; what comes begins anew, on a board whose clock may be
-    /// another.
+    /// Skips the time of one segment, which is not played; the next one starts anew, possibly on another
+    /// clock.
     void skip() noexcept {
         nextNs_ += mostFrames * (1'000'000'000LL / limits::board::sampleRateHz);
         hasBegun_ = true;
@@ -130,7 +131,7 @@ private:
         return leg;
     }
 
-    /// Frames that one chord keeps to, `most` at most.
+    /// Largest number of frames, up to `most`, that one straight line approximates.
     int longestChord(int most, double level) const noexcept {
         int fits = 1, fails = most + 1;
         for (int tried = most; fails - fits > 1; tried = (fits + fails) / 2)
@@ -150,12 +151,12 @@ private:
     }
 
     CollisionEvent moving_;
-    std::int64_t lifeNs_, nextNs_ = 0; // the latter since the onset
+    std::int64_t lifeNs_, nextNs_ = 0; // nextNs_: since the onset
     PathGains gains_;
     bool hasBegun_ = false, isCoarse_ = false;
-    bool isJoined_ = false; // the leg before is on its way, up to after_
+    bool isJoined_ = false; // the segment before was sent, and ends at after_
     Joint after_, following_;
-    // of the frames that the next leg may have
+    // gains of the frames that the next segment may have
     std::array<Gains, static_cast<std::size_t>(mostFrames)> samples_{};
 };
 

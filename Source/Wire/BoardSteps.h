@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What moves, as a board of protocol 1 can play it: a row of short still strikes, since a strike of the link
-// has one amplitude per channel. Newer ones play legs (BoardPath).
+// Splits a moving tone into a series of short stationary events for a board of protocol 1, whose events have
+// one amplitude per channel. Newer boards play segments (BoardPath).
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Wire/BoardStrike.h"
@@ -10,12 +10,12 @@
 
 namespace physvib {
 
-/// One after the other, in time order. Each lasts whole milliseconds, as the link counts them, and nearly
-/// whole periods, since each begins at phase 0 on the board. Any thread.
+/// In time order. Each lasts whole milliseconds, as the link counts them, and nearly whole periods, because
+/// each begins at phase 0 on the board. Any thread.
 class BoardSteps {
 public:
-    static constexpr int leastMs = 20, mostMs = 60; ///< fewer than 50 a second, of the 720 that the line
-                                                    ///< brings
+    static constexpr int leastMs = 20, mostMs = 60; ///< fewer than 50 per second, of the 720 that the line
+                                                    ///< transmits
 
     explicit BoardSteps(const CollisionEvent& moving) noexcept
         : moving_{moving}
@@ -25,7 +25,7 @@ public:
     bool isOver() const noexcept { return doneNs_ >= endNs_; }
     std::int64_t nextNs() const noexcept { return moving_.timeNs + doneNs_; }
 
-    /// The next one, where the strike is in the middle of it. Not when it is over.
+    /// The next event, at the place where the tone is in the middle of it. Not if isOver().
     CollisionEvent take() noexcept {
         CollisionEvent step = moving_;
         step.timeNs = nextNs();
@@ -39,7 +39,7 @@ public:
         return step;
     }
 
-    /// The length that is nearest to whole periods.
+    /// The length that is closest to whole periods.
     static int lengthMs(double frequencyHz) noexcept {
         const auto off = [=](int ms) { return std::abs(std::remainder(frequencyHz * ms * 1e-3, 1.0)); };
         int best = leastMs;

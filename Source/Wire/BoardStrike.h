@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From collisions to what the board plays, and the policy when the line cannot carry all of them: the weakest
-// go first.
+// Conversion of collision events to board events, and the queue that drops the weakest events when the line
+// is overloaded.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Core/CollisionEvent.h"
@@ -12,7 +12,7 @@
 
 namespace physvib {
 
-/// A collision on its way to the board; its frame is not yet known.
+/// An event on its way to the board; its frame is not known yet.
 struct BoardStrike {
     std::int64_t onsetNs = 0; ///< on the computer's steady clock
     BoardEvent event;
@@ -24,7 +24,7 @@ struct BoardStrike {
     }
 };
 
-/// On the link's grid. A decay stays one. Any thread, as all of these.
+/// Decay in the link's units. A non-zero decay stays non-zero. Any thread, as all functions here.
 inline std::uint16_t boardDecay16(double decayPerSecond) noexcept {
     return static_cast<std::uint16_t>(std::clamp(std::nearbyint(decayPerSecond * limits::board::gridPerHz),
                                                  decayPerSecond > 0.0 ? 1.0 : 0.0, 65535.0));
@@ -34,12 +34,12 @@ inline std::int16_t boardAmplitude(double amplitude) noexcept {
         std::clamp(std::nearbyint(amplitude * limits::board::amplitudeUnit), -32768.0, 32767.0));
 }
 
-/// How loud the rest of a longer tone begins.
+/// Amplitude of a tone after `seconds`, for events that continue one.
 inline double amplitudeAfter(const CollisionEvent& e, double seconds) noexcept {
     return seconds > 0.0 ? e.amplitude * shareLeft(e.decayPerSecond, seconds) : e.amplitude;
 }
 
-/// How long it lasts: to its end, or until it has decayed.
+/// Duration: to its end, or until it has decayed.
 inline std::int64_t boardLifeNs(const CollisionEvent& e) noexcept {
     return e.durationNs > 0
                ? e.durationNs
@@ -47,9 +47,9 @@ inline std::int64_t boardLifeNs(const CollisionEvent& e) noexcept {
                                            e.decayPerSecond * 1e9);
 }
 
-/// Rounded to the numbers of the link; amplitudes beyond 8 times full scale stay there. `gains`: one per
-/// board channel, of the panner. A frequency that the board cannot play gives an event that isPlayable
-/// refuses. The rest of a longer tone is as strong as that, from phase 0. Any thread.
+/// Rounded to the link's units; amplitudes are clamped to 8 times full scale. `gains`: the panner's, one per
+/// board channel. If the board cannot play the frequency, isPlayable refuses the result. An event that
+/// continues a tone has the tone's amplitude by then, but starts at phase 0. Any thread.
 inline BoardEvent boardEventOf(const CollisionEvent& e,
                                const std::array<double, limits::board::channels>& gains) noexcept {
     const auto rounded = [](double value, double low, double high) {
@@ -67,18 +67,17 @@ inline BoardEvent boardEventOf(const CollisionEvent& e,
     return b;
 }
 
-/// The line's room, as it is now.
+/// Timing of the line at present.
 struct LineRoom {
-    std::int64_t freeNs = 0;    ///< when it has sent what it was given
-    std::int64_t strikeNs = 0;  ///< that a strike takes on it
-    std::int64_t transitNs = 0; ///< from there until the board can play it
+    std::int64_t freeNs = 0;    ///< time at which everything written has been transmitted
+    std::int64_t strikeNs = 0;  ///< transmission time of an event
+    std::int64_t transitNs = 0; ///< from transmission until the board can play it
 };
 
-/// Strikes that wait for the line, by onset. When it is full, the weakest of all goes, and is counted. One
-/// thread.
+/// Events that are pending for the line, by onset. When full, the weakest is dropped and counted. One thread.
 class StrikeBacklog {
 public:
-    static constexpr int capacity = 32; // 44 ms of the line in the compact form: more would come too late
+    static constexpr int capacity = 32; // 44 ms of the line in the compact form: more would be late
 
     bool empty() const noexcept { return size_ == 0; }
     int size() const noexcept { return size_; }
@@ -106,8 +105,8 @@ public:
         --size_;
     }
 
-    /// Where a strike would come too late for those before it, the weakest of them all goes, and is counted.
-    /// What is late even as the first stays: it is not the line's fault.
+    /// Where an event would be late because of those before it, drops the weakest of them all and counts it.
+    /// An event that would be late even as the first stays, because dropping others would not help.
     void keepTo(const LineRoom& line) noexcept {
         for (int i = 1; i < size_;) {
             if (isInTime(line, i, i + 1) || !isInTime(line, i, 1)) {
@@ -133,7 +132,7 @@ private:
         --size_;
         ++thinned_;
     }
-    /// Whether that one is, after so many on the line, itself among them.
+    /// True if event `strike` is in time after `onTheLine` transmissions, its own included.
     bool isInTime(const LineRoom& line, int strike, int onTheLine) const noexcept {
         return line.freeNs + onTheLine * line.strikeNs + line.transitNs <=
                strikes_[static_cast<std::size_t>(strike)].onsetNs;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Consistent overhead byte stuffing (Cheshire and Baker, 1999): frames without zeros, so that a zero ends a
-// frame.
+// Consistent overhead byte stuffing (Cheshire and Baker, 1999): encodes frames without zero bytes, so that a
+// zero marks the end of a frame.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace physvib {
 
-/// Most bytes that `payload` bytes can become, without the final zero.
+/// Maximum encoded size of `payload` bytes, without the final zero.
 constexpr std::size_t cobsMaxEncoded(std::size_t payload) noexcept { return payload + payload / 254 + 1; }
 
-/// Writes the stuffed payload to `out` (at least cobsMaxEncoded bytes); its length. Any thread.
+/// Writes the encoded payload to `out` (at least cobsMaxEncoded bytes); returns its length. Any thread.
 constexpr std::size_t cobsEncode(std::span<const std::uint8_t> payload,
                                  std::span<std::uint8_t> out) noexcept {
-    std::size_t code = 0, end = 1; // `code`: where the length of the running group goes
+    std::size_t code = 0, end = 1; // `code`: index of the length byte of the current group
     out[0] = 1;
     for (const std::uint8_t byte : payload) {
         if (out[code] == 0xFF) {
@@ -32,7 +32,8 @@ constexpr std::size_t cobsEncode(std::span<const std::uint8_t> payload,
     return end;
 }
 
-/// Undoes cobsEncode; the payload's length, or -1 if the frame is broken or `out` too small. Any thread.
+/// Inverse of cobsEncode. Returns the payload's length, or -1 if the frame is invalid or `out` too small. Any
+/// thread.
 constexpr int cobsDecode(std::span<const std::uint8_t> frame, std::span<std::uint8_t> out) noexcept {
     std::size_t in = 0, end = 0;
     while (in < frame.size()) {

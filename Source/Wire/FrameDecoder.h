@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From bytes of the line to payloads whose check is right: whatever came before, the next zero begins anew.
+// Decodes the bytes of the link to checked payloads, and resynchronises at the next zero after an error.
 #pragma once
 #include "Wire/Messages.h"
 #include <array>
@@ -8,14 +8,15 @@
 
 namespace physvib::wire {
 
-/// One reader of one line. No heap; at most maxFrame bytes are remembered.
+/// One reader of one line. No heap; stores at most maxFrame bytes.
 class FrameDecoder {
 public:
-    /// Type and fields if `byte` ends a good frame (valid until the next call), else nothing.
+    /// Type and fields if `byte` completes a valid frame (valid until the next call), else empty.
     constexpr std::span<const std::uint8_t> feed(std::uint8_t byte) noexcept {
         if (byte != 0) {
             if (size_ < frame_.size()) frame_[size_] = byte;
-            size_ = std::min(size_ + 1, frame_.size() + 1); // one too many: too long to be ours
+            size_ = std::min(size_ + 1, frame_.size() + 1); // one beyond the maximum marks a frame that is
+                                                            // too long
             return {};
         }
         const std::size_t size = size_;

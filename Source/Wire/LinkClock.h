@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The board's clock as the computer sees it: offset and drift from pings, by the two envelopes of what is
-// possible.
+// Estimates offset and drift of the board's clock from pings.
 //
-// A ping leaves at a, the board reads its clock b, the answer is here at c. So the board's time at a is at
-// most b, and at c at least b: as lines over the computer's time, all points (a, b) lie above the clock, all
-// (c, b) below it. For a drift d, the room between the envelopes is what the fastest way there and back took;
-// a wrong drift tilts the points and leaves less. The room is a concave function of d: its maximum is the
-// drift, its middle the offset. A mean or a least-squares line is led astray by the random part of the
-// delays; the envelopes see only the fastest pings.
+// A ping is sent at a, the board reads its clock b, the answer arrives at c. So the board's clock at a is at
+// most b, and at c at least b: plotted over the computer's time, all points (a, b) lie above the clock's
+// line, all (c, b) below it. For a drift d, the distance between the two envelopes is the round trip of the
+// fastest pings; a wrong drift tilts the points and makes it smaller. The distance is a concave function of
+// d: its maximum gives the drift, the middle between the envelopes the offset. A mean or a least-squares line
+// would be biased by the random delays; the envelopes depend on the fastest pings only.
 #pragma once
 #include "Core/Limits.h"
 #include <algorithm>
@@ -20,16 +19,16 @@ namespace physvib {
 /// One thread.
 class LinkClock {
 public:
-    static constexpr int window = 256; // 26 s at 10 pings a second: the drift of a warming crystal stays
-                                       // constant
-    static constexpr int needed = 100; // pings until the estimate is used: two seconds of them; 64 were once
-                                       // 3 ms off
-    static constexpr double maxDrift = 0.02; // the board's internal oscillator: 1 % and its temperature
+    static constexpr int window = 256; // 26 s at 10 pings a second: the drift of a warming crystal is
+                                       // constant for so long
+    static constexpr int needed = 100; // pings before the estimate is used, two seconds of them; with 64 an
+                                       // error of 3 ms was seen
+    static constexpr double maxDrift = 0.02; // of the board's internal oscillator: 1 % plus temperature
 
     void clear() noexcept { count_ = next_ = 0; }
     bool isEmpty() const noexcept { return count_ == 0; }
 
-    /// The board counts in 32 bits, which are over after 6.2 days; this goes on. For the next `add`.
+    /// Extends the board's 32-bit frame counter, which wraps after 6.2 days. For the next `add`.
     double unwrapped(std::uint32_t frame, std::uint8_t fraction) const noexcept {
         const auto sinceLast = static_cast<std::int32_t>(frame - static_cast<std::uint32_t>(last_));
         return static_cast<double>(isEmpty() ? frame : last_ + sinceLast) + fraction / 256.0;
@@ -48,7 +47,7 @@ public:
 
     bool isReady() const noexcept { return count_ >= needed; }
 
-    /// The board's frame (between two, as a rule) at the computer's time `ns`.
+    /// The board's frame, usually fractional, at the computer's time `ns`.
     double frameAt(std::int64_t ns) const noexcept {
         return origin_.frames + (offset_ + seconds(ns) * (1.0 + drift_)) * rate;
     }
@@ -56,7 +55,8 @@ public:
     /// Relative to the computer's clock: 1e-6 is one ppm.
     double drift() const noexcept { return drift_; }
 
-    /// The longest way there of the pings remembered: what a play-out delay has to cover.
+    /// The longest transmission delay to the board among the stored pings; the output latency has to cover
+    /// it.
     double worstDelaySeconds() const noexcept {
         double worst = 0.0;
         for (int i = 0; i < count_; ++i)
@@ -64,7 +64,7 @@ public:
         return worst;
     }
 
-    /// The offset is not further off than this, if the delays keep to what was seen.
+    /// Maximum error of the offset, if delays stay within those seen.
     double uncertaintySeconds() const noexcept { return room(drift_).width() / 2.0; }
 
 private:
@@ -90,7 +90,7 @@ private:
 
     void estimate() noexcept {
         double low = -maxDrift, high = maxDrift;
-        for (int i = 0; i < 40 && isReady(); ++i) { // thirds: 0.02 becomes 2e-9
+        for (int i = 0; i < 40 && isReady(); ++i) { // ternary search: 0.02 becomes 2e-9
             const double third = (high - low) / 3.0;
             if (room(low + third).width() < room(high - third).width())
                 low += third;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The messages between a computer and the four-channel board: the one place that says which bytes they are.
+// The messages between a computer and the four-channel board; this file alone defines their bytes.
 //
 // On the line: COBS( type, fields, CRC-16 of both ), then a zero. All numbers are little-endian. The format
-// is append-only: later versions add fields at the end and new types; a reader skips what it does not know.
+// is append-only: later versions add fields at the end and new types; a reader ignores those that it does not
+// know.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Wire/Cobs.h"
@@ -15,14 +16,15 @@
 
 namespace physvib::wire {
 
-constexpr std::uint8_t protocolVersion = 2; // 2: legs
+constexpr std::uint8_t protocolVersion = 2; // 2: segments
 constexpr std::uint8_t legsSince = 2;
-constexpr int lineBitsPerSecond = 115200; // 8N1: 11,520 bytes a second, what the thesis' Bluetooth module
-                                          // does
-constexpr std::size_t maxPayload = 64;    // type, fields, CRC: room for telemetry to grow
+constexpr int lineBitsPerSecond = 115200; // 8N1: 11,520 bytes a second, the speed of the thesis' Bluetooth
+                                          // module
+constexpr std::size_t maxPayload = 64;    // type, fields, CRC; leaves space for more telemetry
 constexpr std::size_t maxFrame = cobsMaxEncoded(maxPayload) + 1;
-constexpr int defaultWatchdogMs = 500; // five pings missed: the computer is gone. No hello can make it longer
-constexpr int pingsPerSecond = 10;     // also what keeps the board from falling silent
+constexpr int defaultWatchdogMs = 500;  // five pings missed: the computer is gone. A Hello cannot make it
+                                        // longer
+constexpr int pingsPerSecond = 10;      // also keeps the board's watchdog from muting it
 constexpr int firstPingsPerSecond = 50; // until the clock is known
 
 enum class Type : std::uint8_t {
@@ -41,16 +43,16 @@ enum class Type : std::uint8_t {
     selfTestReply = 0x88
 };
 
-/// First message of a connection: sequence numbers begin anew, the board stops what it plays.
+/// First message of a connection: sequence numbers restart, the board stops all sound.
 struct Hello {
     static constexpr Type type = Type::hello;
     std::uint8_t version = protocolVersion;
-    std::uint16_t watchdogMs = defaultWatchdogMs; ///< without a message for so long, the board falls silent;
+    std::uint16_t watchdogMs = defaultWatchdogMs; ///< without a message for so long the board mutes itself;
                                                   ///< defaultWatchdogMs at most
     void visit(auto&& field) { field(version), field(watchdogMs); }
 };
 
-/// What the board is.
+/// Properties of the board.
 struct HelloReply {
     static constexpr Type type = Type::helloReply;
     std::uint8_t version = protocolVersion; ///< the board's, but no later than the computer's
@@ -59,15 +61,15 @@ struct HelloReply {
     std::uint16_t aheadFrames = 0; ///< an event has to arrive so many frames before its onset
     std::uint16_t watchdogMs = 0;  ///< as set by Hello
     std::uint8_t crystal = 0; ///< 1: clocked by the ST-Link's crystal, 0: by the internal oscillator (1 %)
-    std::uint8_t resets = 0;  ///< restarts that the hardware watchdog forced since power came
+    std::uint8_t resets = 0;  ///< restarts by the hardware watchdog since power-on
     void visit(auto&& field) {
         field(version), field(channels), field(sampleRateHz), field(maxModes), field(maxPending),
             field(aheadFrames), field(watchdogMs), field(crystal), field(resets);
     }
 };
 
-/// A collision. `sequence` counts strikes of either form, and legs; one that comes again (see StrikeOrder),
-/// or before a hello, is not played.
+/// An impact or other event. `sequence` counts events of both forms and segments. A repeated one (see
+/// StrikeOrder), or one before a Hello, is not played.
 struct Strike {
     static constexpr Type type = Type::strike;
     std::uint8_t sequence = 0;
@@ -79,12 +81,12 @@ struct Strike {
     }
 };
 
-/// The same in 16 bytes instead of 24 on the line, for a crowded link: no duration, coarse amplitudes, short
+/// The same in 16 bytes instead of 24 on the line, for a loaded link: no duration, coarse amplitudes, short
 /// time.
 struct CompactStrike {
     static constexpr Type type = Type::compactStrike;
     std::uint8_t sequence = 0;
-    std::uint16_t frameLow = 0; ///< of a frame at most four seconds away
+    std::uint16_t frameLow = 0; ///< low bits of a frame at most four seconds away
     std::uint16_t frequency16 = 0, decay16 = 0;
     std::array<std::int8_t, limits::board::channels> amplitudes{}; ///< 1/128 of full scale
     void visit(auto&& field) {
@@ -93,7 +95,7 @@ struct CompactStrike {
     }
 };
 
-/// A part of what moves. Numbered with the strikes.
+/// A segment of a moving tone. Shares the sequence numbers of events.
 struct Leg {
     static constexpr Type type = Type::leg;
     std::uint8_t sequence = 0;
@@ -108,7 +110,7 @@ struct Leg {
 
 struct Gains {
     static constexpr Type type = Type::gains;
-    /// 1/4096; negative: polarity turned; 0: muted
+    /// 1/4096; negative: inverted polarity; 0: muted
     std::array<std::int16_t, limits::board::channels> gains{};
     void visit(auto&& field) {
         for (auto& g : gains) field(g);
@@ -121,7 +123,7 @@ struct Ping {
     void visit(auto&& field) { field(id); }
 };
 
-/// The board's clock when the last byte of the ping came in.
+/// The board's clock when the last byte of the ping arrived.
 struct Pong {
     static constexpr Type type = Type::pong;
     std::uint8_t id = 0;
@@ -135,21 +137,21 @@ struct TelemetryRequest {
     void visit(auto&&) {}
 };
 
-/// Counts since power came; `lost` since the last hello.
+/// Counts since power-on; `lost` since the last Hello.
 struct Telemetry {
     static constexpr Type type = Type::telemetry;
     std::uint32_t frame = 0;
     std::uint32_t good = 0, bad = 0; ///< frames of the link
-    std::uint32_t lost = 0;          ///< gaps in the sequence of strikes and legs
-    std::uint32_t overruns = 0;      ///< bytes that came faster than they were taken
+    std::uint32_t lost = 0;          ///< gaps in the sequence of events and segments
+    std::uint32_t overruns = 0;      ///< bytes that arrived faster than they were read
     std::uint32_t played = 0, late = 0, dropped = 0, stolen = 0;
     std::uint32_t missedFrames = 0;     ///< the converters had to repeat a frame
-    std::uint32_t worstBlockCycles = 0; ///< of the processor, for one block, since the last telemetry
+    std::uint32_t worstBlockCycles = 0; ///< processor cycles for one block, maximum since the last telemetry
     std::uint16_t stackFree = 0;        ///< bytes never used
     std::uint8_t modes = 0, pending = 0;
-    std::uint8_t silenced = 0; ///< 1: fell silent for want of messages
-    std::uint16_t guarded = 0; ///< how often the guard began to act; wraps. 0 of an image without one
-    static constexpr std::size_t addedLater = 2; ///< bytes at the end, which an older image does not send
+    std::uint8_t silenced = 0; ///< 1: the watchdog muted the board
+    std::uint16_t guarded = 0; ///< how often the guard began to act; wraps. 0 from firmware without a guard
+    static constexpr std::size_t addedLater = 2; ///< bytes at the end that older firmware does not send
     void visit(auto&& field) {
         field(frame), field(good), field(bad), field(lost), field(overruns), field(played), field(late),
             field(dropped), field(stolen);
@@ -159,13 +161,13 @@ struct Telemetry {
     }
 };
 
-/// Silence at once; what waits is forgotten.
+/// Silence at once; pending events are dropped.
 struct StopAll {
     static constexpr Type type = Type::stopAll;
     void visit(auto&&) {}
 };
 
-/// Runs the kernel on a full bank of its own notes, and counts. What sounded is lost.
+/// Runs the kernel with all modes in use, and measures. Sounding modes are lost.
 struct SelfTest {
     static constexpr Type type = Type::selfTest;
     void visit(auto&&) {}
@@ -174,13 +176,13 @@ struct SelfTest {
 struct SelfTestReply {
     static constexpr Type type = Type::selfTestReply;
     std::uint16_t modes = 0;
-    std::uint32_t blockCycles = 0;    ///< one block of that many modes, by the processor's cycle counter
-    std::uint32_t cyclesPerBlock = 0; ///< what there is
-    std::uint32_t hash = 0;           ///< CRC-16 of the bits of the block: the same on every machine
+    std::uint32_t blockCycles = 0;    ///< for one block of that many modes, by the processor's cycle counter
+    std::uint32_t cyclesPerBlock = 0; ///< available cycles
+    std::uint32_t hash = 0;           ///< CRC-16 of the block's bits: the same on every machine
     void visit(auto&& field) { field(modes), field(blockCycles), field(cyclesPerBlock), field(hash); }
 };
 
-/// Puts numbers into bytes, least significant first.
+/// Writes numbers as bytes, least significant first.
 class Writer {
 public:
     explicit constexpr Writer(std::span<std::uint8_t> out)
@@ -197,7 +199,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Takes them back; past the end it gives zeros and says so.
+/// Reads them; past the end it gives zeros, and isComplete() is false.
 class Reader {
 public:
     explicit constexpr Reader(std::span<const std::uint8_t> in)
@@ -218,7 +220,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Writes the message as it goes on the line, with its final zero; the length. `out`: maxFrame bytes. Any
+/// Encodes the message for the line, with its final zero; returns the length. `out`: maxFrame bytes. Any
 /// thread.
 template <class Message>
 constexpr std::size_t encode(Message message, std::span<std::uint8_t> out) noexcept {
@@ -246,11 +248,10 @@ constexpr bool decode(std::span<const std::uint8_t> payload, Message& message) n
     return true;
 }
 
-/// How much finer the amplitudes of a Strike are than those of a CompactStrike.
+/// Ratio of the amplitude steps of CompactStrike and Strike.
 constexpr int compactStep = limits::board::amplitudeUnit / 128;
 
-/// True if only the amplitudes lose by the compact form, by at most half a step of the converters. Any
-/// thread.
+/// True if the compact form loses only precision of amplitudes, at most half a converter step. Any thread.
 constexpr bool fitsCompact(const BoardEvent& e) noexcept {
     return e.durationMs == 0 && std::ranges::all_of(e.amplitudes, [](int a) {
                return a >= -128 * compactStep && a < 127 * compactStep + compactStep / 2;
@@ -266,7 +267,7 @@ constexpr CompactStrike compact(const Strike& strike) noexcept {
     return c;
 }
 
-/// `now`: the reader's frame, four seconds or less from the event's.
+/// `now`: the reader's frame, at most four seconds from the event's.
 constexpr Strike expand(const CompactStrike& c, std::uint32_t now) noexcept {
     Strike s{c.sequence, {}};
     const auto ahead = static_cast<std::int16_t>(c.frameLow - static_cast<std::uint16_t>(now));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The gains that the computer's own renderer has for a strike that moves, at any time, so that a board can
-// have the same.
+// Computes the gains of a moving tone at any time exactly as the computer's renderer does, so that a board
+// can use the same.
 //
-// That renderer takes the law's gains at the ends of each tile of its frames, with a line between
+// That renderer evaluates the panning law at the ends of each tile of its frames and interpolates linearly
 // (Core/MovingTones.h).
 #pragma once
 #include "Core/CollisionEvent.h"
@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-/// Of one strike, on a session rendered at one rate. One thread.
+/// Of one event, in a session rendered at one rate. One thread.
 class PathGains {
 public:
     using Gains = std::array<double, limits::board::channels>;
@@ -25,11 +25,11 @@ public:
         , onset_{FrameClock{sampleRateHz}.at(moving.timeNs)}
         , endFrame_{FrameClock{sampleRateHz}.at(moving.timeNs + lifeNs).frame - onset_.frame} {}
 
-    /// That long after the onset. `gainsAt(event, x, y)`: Gains, of the panner.
+    /// `seconds` after the onset. `gainsAt(event, x, y)` returns the panner's Gains.
     template <class GainsAt>
     Gains at(double seconds, GainsAt& gainsAt) noexcept {
         constexpr std::int64_t tile = limits::tileFrames;
-        // from the onset's on, as all here
+        // frames here count from the onset's frame
         const double frame = std::max(0.0, seconds * rate_ - onset_.leadFrames);
         const std::int64_t before = onset_.frame % tile;
         const std::int64_t first = (static_cast<std::int64_t>(frame) + before) / tile * tile - before;
@@ -63,7 +63,7 @@ private:
     double rate_;
     FramePosition onset_;
     std::int64_t endFrame_;
-    std::int64_t from_ = -1, to_ = 0; // of the line below
+    std::int64_t from_ = -1, to_ = 0; // of the current tile
     Gains fromGains_{}, toGains_{};
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The self-test, on the board and on a computer: a full bank of known notes, struck over the next blocks and
-// not let out; then one block of it is counted in cycles, and its bits are hashed.
+// Self-test of board and computer: fills the mode bank with known notes over several blocks without output,
+// then counts the cycles of one block and hashes its bits.
 #pragma once
 #include "Core/BoardRenderer.h"
 #include "Wire/Crc16.h"
@@ -9,15 +9,15 @@
 
 namespace physvib::wire {
 
-/// Around each block of the renderer.
+/// Called around each block of the renderer.
 class SelfTestRun {
 public:
     void begin() noexcept { step_ = 1; }
     bool isRunning() const noexcept { return step_ != 0; }
 
-    /// Before a block: eight notes of the coming one, each of its own frequency and decay.
+    /// Before a block: adds eight notes, each with its own frequency and decay.
     void strike(BoardRenderer& renderer) noexcept {
-        renderer.letThrough(); // nobody hears it
+        renderer.letThrough(); // the block is not sent to the actuators
         for (int i = 0; i < notesPerBlock && step_ <= blocks; ++i) {
             const int note = (step_ - 1) * notesPerBlock + i;
             const auto amplitude = static_cast<std::int16_t>(20 + note);
@@ -29,7 +29,7 @@ public:
         }
     }
 
-    /// After a block that took `cycles`: true once, when the result is there.
+    /// After a block that took `cycles`: true once, when the result is complete.
     bool take(const BoardRenderer::Codes& block, std::uint32_t cycles, const BoardRenderer& renderer,
               SelfTestReply& reply) noexcept {
         if (step_++ <= blocks) return false;
@@ -45,7 +45,7 @@ private:
     int step_ = 0;
 };
 
-/// What a board must answer, but for the cycles. `renderer` loses what it holds.
+/// The answer expected from a board, except for the cycles. Resets `renderer`.
 inline SelfTestReply expectedSelfTest(BoardRenderer& renderer) noexcept {
     SelfTestRun test;
     SelfTestReply reply;

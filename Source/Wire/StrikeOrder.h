@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Which strikes of a line are new: a frame that comes again, at once or much later, must not be felt again.
+// Detects repeated event messages on the board link, so that an event is not played twice.
 #pragma once
 #include "Core/Limits.h"
 #include <cstdint>
 
 namespace physvib::wire {
 
-/// Of one connection, on the board. One thread.
+/// For one connection, on the board. One thread.
 class StrikeOrder {
 public:
-    /// A computer sends nothing that is 50 ms late; no line needs the rest.
+    /// A computer sends nothing later than 50 ms; the rest is margin.
     static constexpr std::int32_t mostLateFrames = limits::board::sampleRateHz / 4;
 
-    /// False if the strike was here before. `frame`: its onset; `now`: the frame that is rendered next.
+    /// False if the event was received before. `frame`: its onset; `now`: the frame that is rendered next.
     bool isNew(std::uint8_t sequence, std::uint32_t frame, std::uint32_t now) noexcept {
-        if (after(frame, now) < -mostLateFrames) return false; // the numbers have gone round since
+        if (after(frame, now) < -mostLateFrames) return false; // sequence numbers may have wrapped
         const auto gap = static_cast<std::uint8_t>(sequence - last_);
-        const bool isBehind = gap == 0 || gap >= 128; // or so many were lost, but then it is later than all
-                                                      // so far
+        const bool isBehind = gap == 0 || gap >= 128; // or that many were lost, but then its onset is later
+                                                      // than all so far
         if (isBehind && hasNewest_ && after(frame, newest_) <= 0) return false;
         lost_ += static_cast<std::uint8_t>(gap - 1);
         last_ = sequence;

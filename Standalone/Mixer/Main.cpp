@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The application `physvib-mixer`: its window, or pictures of it.
+// The application `physvib-mixer`.
 #include "Host/Devices/DeviceThread.h"
 #include "Host/Devices/NoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/MixerWindow.h"
-#include "Mixer/Window/Shots.h"
 #include "Options/Reference.h"
 #include "System/Interrupt.h"
 #include "System/Process.h"
@@ -14,14 +13,13 @@ namespace physvib {
 
 namespace {
 
-constexpr int exitFailed = 1, exitUsage = 2;
+constexpr int exitFailed = 1;
 constexpr const char* usage =
     R"(physvib-mixer [SESSION.json | SCENE.json | LAYOUT.json] [--device TYPE:NAME] [--summary]
     --summary: at the end, what the last session played, late and dropped
 physvib-mixer --study PROTOCOL [--participant CODE] [--number N] [--out FOLDER]
     opens the tab Studies with these, for a person who answers
-physvib-mixer --shot FILE.png [--state NAME] [--size 1280x683]   a picture of the window, without a display
-physvib-mixer --states | --help | --version
+physvib-mixer --help | --version
 )";
 
 /// The word after `option`; empty if there is none.
@@ -49,22 +47,13 @@ juce::File fileOf(const juce::ArgumentList& arguments) {
 std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     if (arguments.containsOption("--help|-h")) return std::cout << usage, 0;
     if (arguments.containsOption("--version")) return std::cout << "physvib-mixer " PHYSVIB_VERSION "\n", 0;
-    if (arguments.containsOption("--states"))
-        return std::cout << shotStates().joinIntoString("\n") << '\n', 0;
     if (const auto folder = valueOf(arguments, referenceWord); folder.isNotEmpty()) {
         OptionTable program{"physvib-mixer", "see a world, feel it, and mix what each actuator plays"};
         addUsage(program, usage);
         const std::string error = writeReference(program, folder.toStdString());
         return error.empty() ? 0 : (std::cerr << "physvib-mixer: " << error << '\n', exitFailed);
     }
-    if (!arguments.containsOption("--shot")) return {};
-    const auto path = valueOf(arguments, "--shot");
-    const auto state = valueOf(arguments, "--state");
-    if (path.isEmpty()) return std::cerr << "physvib-mixer: --shot: expected a file\n", exitUsage;
-    const auto error = takeShot(juce::File::getCurrentWorkingDirectory().getChildFile(path),
-                                state.isEmpty() ? shotStates()[0] : state, valueOf(arguments, "--size"));
-    if (error.isEmpty()) return 0;
-    return std::cerr << "physvib-mixer: " << error << '\n', error.startsWith("--") ? exitUsage : exitFailed;
+    return {};
 }
 
 void summarise(Desk& desk) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The library as a program in another language sees it.
 #include "Core/PanningLaws.h"
-#include "Io/Wav/WavFile.h"
 #include "Support/BegunStructs.h"
 #include "Support/RandomCalls.h"
+#include "Support/ReadWav.h"
 #include <atomic>
 #include <cmath>
 #include <cstddef>

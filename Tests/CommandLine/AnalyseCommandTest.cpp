@@ -83,7 +83,7 @@ TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
 
 TEST_F(Analyse, PublishedPercentCountsGiveThePublishedResolutions) {
     write("p.csv", publishedCounts);
-    const auto outcome = call("analyse percent-counts p.csv --picture p.png --export merged.csv");
+    const auto outcome = call("analyse percent-counts p.csv --picture p.svg --export merged.csv");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     EXPECT_EQ(outcome.out, "PHONE-LINEAR: 5 x 5\n"
@@ -97,7 +97,9 @@ TEST_F(Analyse, PublishedPercentCountsGiveThePublishedResolutions) {
                            "  sum 100.01 %, standard deviation 1.11\n"
                            "  by chance: shares do not say of how many responses they are; analyse "
                            "resolution of the trials does\n");
-    EXPECT_EQ(read("p.png").substr(1, 3), "PNG");
+    EXPECT_EQ(read("p.svg").rfind("<svg ", 0), 0u);
+    EXPECT_NE(read("p.svg").find("<title>PHONE-LINEAR: 5 x 5</title>"), std::string::npos)
+        << "the merged grid";
     EXPECT_NE(read("merged.csv").find("\nRING-LOGARITHM,4,7,"), std::string::npos);
     EXPECT_NE(call("analyse percent-counts p.csv --threshold 1.4286").out.find("PHONE-LINEAR: 7 x 3\n"),
               std::string::npos);
@@ -128,7 +130,7 @@ TEST_F(Analyse, ToleranceCountsNeighboursAsTheStimulus) {
     for (int i = 0; i < 20; ++i) text += "\"1,1\",\"1,2\"\n\"3,3\",\"3,3\"\n";
     write("g.csv", text);
     EXPECT_NE(call("analyse confusion g.csv").out.find("percent correct: 50.0"), std::string::npos);
-    const auto outcome = call("analyse confusion g.csv --tolerance 1 --picture g.png --export g-matrix.csv");
+    const auto outcome = call("analyse confusion g.csv --tolerance 1 --picture g.svg --export g-matrix.csv");
     EXPECT_NE(outcome.out.find("percent correct: 100.0"), std::string::npos);
     EXPECT_NE(outcome.out.find("corrected IT: 1.00 bit\n"), std::string::npos) << outcome.out;
     EXPECT_EQ(outcome.err, "");
@@ -189,7 +191,7 @@ std::string responses() {
 TEST_F(Analyse, ResponsesGiveAResolutionAndItsCountsGiveItAgain) {
     write("r.csv", responses());
     const auto outcome =
-        call("analyse resolution r.csv --picture r.png --counts counts.csv --export normals.csv");
+        call("analyse resolution r.csv --picture r.svg --counts counts.csv --export normals.csv");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.out.rfind("WIDE: 3 x 2\n", 0), 0u) << outcome.out;
     const auto untilChance = [](const std::string& text) { return text.substr(0, text.find("  by chance")); };
@@ -198,14 +200,14 @@ TEST_F(Analyse, ResponsesGiveAResolutionAndItsCountsGiveItAgain) {
               std::string::npos)
         << outcome.out;
     EXPECT_EQ(files().size(), 4u);
-    const std::string picture = read("r.png");
-    ASSERT_EQ(call("analyse resolution r.csv --picture r.png").exitCode, 0);
-    EXPECT_EQ(read("r.png"), picture) << "the same bytes again";
+    const std::string picture = read("r.svg");
+    ASSERT_EQ(call("analyse resolution r.csv --picture r.svg").exitCode, 0);
+    EXPECT_EQ(read("r.svg"), picture) << "the same bytes again";
 }
 
 TEST_F(Analyse, ResponsesThatAllowNoNormalAreNamedAndLeaveNothing) {
     write("r.csv", "condition,target_column,target_row,x,y\nA,1,1,0.5,0.5\n");
-    refuses("analyse resolution r.csv --picture r.png --counts c.csv", 1,
+    refuses("analyse resolution r.csv --picture r.svg --counts c.csv", 1,
             "r.csv: A: column 1, row 1: expected three or more responses", 1);
     write("r.csv", responses() + "WIDE,4,1,0.99,0.2\n");
     const auto outcome = call("analyse resolution r.csv");
@@ -220,7 +222,7 @@ TEST_F(Analyse, ResponsesThatAllowNoNormalAreNamedAndLeaveNothing) {
 TEST_F(Analyse, ChoicesAndRatings) {
     write("c.csv", "participant,condition,choice\nP1,pair=wood,RM\nP1,pair=steel,SV\nP2,pair=wood,RM\nP2,"
                    "pair=steel,RM\n");
-    const auto choices = call("analyse choices c.csv --picture c.png --export c-out.csv");
+    const auto choices = call("analyse choices c.csv --picture c.svg --export c-out.csv");
     ASSERT_EQ(choices.exitCode, 0) << choices.err;
     EXPECT_EQ(choices.out.rfind("all: RM 75.0 % (0.0 to 100.0), SV 25.0 % (0.0 to 100.0), 4 trials of 2 "
                                 "participants, signed ranks p = 1.000\n",
@@ -229,7 +231,7 @@ TEST_F(Analyse, ChoicesAndRatings) {
         << choices.out;
     write("r.csv",
           "participant,condition,realism,harmony,liking\nP1,AV-FV-DRV,76,68,71\nP2,AF-FF-DRF,36,42,36\n");
-    const auto ratings = call("analyse ratings r.csv --picture r.png --export r-out.csv");
+    const auto ratings = call("analyse ratings r.csv --picture r.svg --export r-out.csv");
     ASSERT_EQ(ratings.exitCode, 0) << ratings.err;
     EXPECT_NE(ratings.out.find("AV-FV-DRV: 1 trial, realism 76.0, harmony 68.0, liking 71.0\n"),
               std::string::npos)
@@ -246,7 +248,7 @@ TEST_F(Analyse, IconsAreThePatternsThatAreConfusedLeast) {
         text += i % 3 ? "AA-100,AA-100\n" : "AA-100,A-100\n";
     }
     write("c.csv", text);
-    const auto outcome = call("analyse icons c.csv --meanings 3 --picture i.png");
+    const auto outcome = call("analyse icons c.csv --meanings 3 --picture i.svg");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.out, "3 meanings need 1.58 bit\nall trials: 4 patterns on 2 actuators, 1.73 bit: "
                            "enough\n  A-100  100.0 % correct\n"
@@ -256,12 +258,13 @@ TEST_F(Analyse, IconsAreThePatternsThatAreConfusedLeast) {
 
 TEST_F(Analyse, SimulatedDataIsMarkedWhereverItGoes) {
     write("c.csv", "observer,stimulus,response\nsimulated-PHONE,a,a\nsimulated-PHONE,b,b\n");
-    const auto outcome = call("analyse confusion c.csv --export matrix.csv --picture s.png");
+    const auto outcome = call("analyse confusion c.csv --export matrix.csv --picture s.svg");
     EXPECT_EQ(outcome.out.rfind("SIMULATED", 0), 0u);
     EXPECT_EQ(read("matrix.csv").rfind("# physvib 0.1.0 analysis=confusion observer=simulated\n", 0), 0u);
     write("c.csv", "observer,stimulus,response\nperson,a,a\nperson,b,b\n");
-    ASSERT_EQ(call("analyse confusion c.csv --picture p.png").exitCode, 0);
-    EXPECT_NE(read("s.png"), read("p.png"));
+    ASSERT_EQ(call("analyse confusion c.csv --picture p.svg").exitCode, 0);
+    EXPECT_NE(read("s.svg").find(">SIMULATED<"), std::string::npos);
+    EXPECT_EQ(read("p.svg").find(">SIMULATED<"), std::string::npos);
 }
 
 } // namespace

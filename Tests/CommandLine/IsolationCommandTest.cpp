@@ -59,7 +59,7 @@ protected:
 
 TEST_F(Isolation, AFolderOfConditionsIsATableOfGammaWithCurves) {
     recordLayers();
-    const auto outcome = call("attenuation study --export all.csv --picture gamma.png");
+    const auto outcome = call("attenuation study --export all.csv --picture gamma.svg");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     std::istringstream lines{outcome.out};
     std::string line;
@@ -74,7 +74,9 @@ TEST_F(Isolation, AFolderOfConditionsIsATableOfGammaWithCurves) {
                 1e-4);
     const std::string all = read("all.csv");
     EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 9) << all;
-    EXPECT_EQ(read("gamma.png").substr(1, 3), "PNG");
+    const std::string picture = read("gamma.svg");
+    for (const char* words : {"<title>Isolation, axis x</title>", ">0030-15, 3 mm<"})
+        EXPECT_NE(picture.find(words), std::string::npos) << words;
 }
 
 TEST_F(Isolation, WhatIsMissingOfAStudyIsTold) {
@@ -82,7 +84,7 @@ TEST_F(Isolation, WhatIsMissingOfAStudyIsTold) {
     const std::string table = read("study/conditions.csv");
     write("study/conditions.csv", table + "reference"
                                           "z50-1.wav,0030-15,6,50,2.4,z\n");
-    refuses("attenuation study --picture a.png", 1,
+    refuses("attenuation study --picture a.svg", 1,
             "referencez50-1.wav: expected a reference of the same frequency, voltage and axis", 1);
     write("study/conditions.csv", table + "none.wav,0030-15,6,50,2.4,z\n");
     refuses("attenuation study", 1, "none.wav: cannot be read", 1);

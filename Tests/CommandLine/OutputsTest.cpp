@@ -179,15 +179,15 @@ TEST_F(Outputs, APictureIsNamedAsWhatItIs) {
         refuses(call + " " + option + " " + name, 2,
                 option + ": expected a name that ends in " + ending + ", found \"" + name + "\"", kept);
     };
-    expects("analyse confusion trials.csv", "--picture", ".png", "x.svg");
+    expects("analyse confusion trials.csv", "--picture", ".svg", "x.png");
     expects("analyse psychometric trials.csv", "--picture", ".svg", "x.png");
     expects("render drop --seconds 0.2", "--picture", ".png", "x.svg");
     expects("stimulus pattern ABA-250", "--picture", ".png", "x");
-    expects("attenuation sub", "--picture", ".png", "x.jpg");
+    expects("attenuation sub", "--picture", ".svg", "x.jpg");
     expects("render drop --seconds 0.2", "--movie", ".webp, .gif or .mp4", "x.avi");
     expects("play drop --device none", "--save", ".json", "x.txt");
-    EXPECT_EQ(call("analyse confusion trials.csv --picture x.png").exitCode, 0);
-    EXPECT_EQ(read("x.png").substr(1, 3), "PNG");
+    EXPECT_EQ(call("analyse confusion trials.csv --picture x.svg").exitCode, 0);
+    EXPECT_EQ(read("x.svg").rfind("<svg ", 0), 0u);
 }
 
 // A file system that fills up after so many bytes of each file: the limit on a file's size behaves like that.
@@ -200,7 +200,7 @@ TEST_F(Outputs, AFullDiskIsToldAndLeavesTheOldFiles) {
          {"o.wav", "o.csv", "o.png", "p.csv"}},
         {"stimulus pattern ABA-250 --out o.wav --picture o.png", {"o.wav", "o.png"}},
         {"calibrate --sweep o.wav --seconds 1", {"o.wav"}},
-        {"analyse confusion trials.csv --export o.csv --picture o.png", {"o.csv", "o.png"}}};
+        {"analyse confusion trials.csv --export o.csv --picture o.svg", {"o.csv", "o.svg"}}};
     for (const auto& [words, outputs] : calls) {
         ASSERT_EQ(call(words).exitCode, 0) << words;
         std::size_t most = 0;

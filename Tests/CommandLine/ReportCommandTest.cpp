@@ -213,34 +213,6 @@ TEST_F(Report, FitsHavePictures) {
     EXPECT_TRUE(has(read("p.svg"), "threshold "));
 }
 
-TEST_F(Report, TheThesisStandsBesideWhatFollowsFromIt) {
-    const auto outcome = call("report thesis --out t");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    const std::string html = page("t"), tests = read("t/tests.csv"), transfer = read("t/transfer.csv"),
-                      resolutions = read("t/resolutions.csv");
-    EXPECT_TRUE(has(tests, "\n5.3.2,realism: amplitude,F,1,19,13.8,0.0147,0.0014"))
-        << "a digit slipped: " << tests;
-    EXPECT_TRUE(has(tests, "412.5,0.017,impossible,NO,")) << tests;
-    EXPECT_TRUE(has(tests, "\n3.2.2,percent correct: configuration,F,1,11,0.21,0.658,0.65")) << tests;
-    EXPECT_EQ(count(tests, ",NO,"), 4u) << tests;
-    EXPECT_EQ(count(transfer, ",NO: "), 1u) << transfer;
-    EXPECT_TRUE(has(transfer.substr(transfer.rfind("RING-5x5")), "tolerance 1,25,2.62,")) << transfer;
-    for (const char* line : {"PHONE-LINEAR,", "PHONE-LOGARITHM,", "RING-LINEAR,", "RING-LOGARITHM,"})
-        EXPECT_TRUE(has(resolutions, line)) << resolutions;
-    for (const char* grid : {",5 x 5,5 x 5,", ",5 x 4,5 x 4,", ",6 x 4,6 x 4,", ",7 x 4,7 x 4,"})
-        EXPECT_TRUE(has(resolutions, grid)) << resolutions;
-    EXPECT_TRUE(has(html, "SIMULATED"));
-    EXPECT_EQ(count(html, ">SIMULATED</text>"), count(html, ">rehearsed (simulated)<"))
-        << "rehearsals' pictures, and no other";
-    EXPECT_GT(count(html, "<svg "), count(html, ">SIMULATED</text>"));
-    for (const char* study :
-         {"patterns", "phantom-grids", "phantom-places", "model-or-sound", "eight-methods"}) {
-        EXPECT_TRUE(has(html, std::string("href=\"") + study + "/index.html\"")) << study;
-        EXPECT_TRUE(has(page(std::string("t/") + study), ">SIMULATED</div>")) << study;
-    }
-    refuses("report thesis --out u --bids", 2, "report thesis: expected no --bids", 1);
-}
-
 TEST_F(Report, OneParticipantIsToldAndNotTested) {
     simulate("phantom-grids", 1);
     const auto outcome = call("report phantom-grids-P01.csv --out out");

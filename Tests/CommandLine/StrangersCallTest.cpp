@@ -65,7 +65,7 @@ TEST_F(StrangersCall, NoOptionOfAnyCommandLetsADesignOrAProtocolWrite) {
         if (option == "help") continue;
         const std::string word = "--" + option + "=thesis.tex";
         writeDesign("\"seconds\": 0.1, \"rate\": 8000, \"" + option + "\": \"thesis.tex\"");
-        const auto swept = call("sweep design.json --out s --jobs 1");
+        const auto swept = call("sweep design.json --out s");
         ASSERT_EQ(read("thesis.tex"), mine) << "a design's " << option;
         refused += isRefusedAsWriting(swept, word) ? 1 : 0;
         const auto runs = [&](const std::string& words) {

@@ -27,10 +27,10 @@ protected:
     /// The analysis succeeds, marks the data as simulated, and leaves a picture.
     std::string analyse(const std::string& kind, const std::string& files) const {
         const auto outcome =
-            call("analyse " + kind + files + " --picture " + kind + ".png --export " + kind + "-export.csv");
+            call("analyse " + kind + files + " --picture " + kind + ".svg --export " + kind + "-export.csv");
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         EXPECT_EQ(outcome.out.rfind("SIMULATED", 0), 0u) << outcome.out;
-        EXPECT_EQ(read(kind + ".png").substr(1, 3), "PNG");
+        EXPECT_EQ(read(kind + ".svg").rfind("<svg ", 0), 0u);
         EXPECT_EQ(outcome.out.find("nan"), std::string::npos);
         return outcome.out;
     }

@@ -60,12 +60,19 @@ std::string words(const CsvTable& table, std::size_t row, const std::string& nam
     return table.rows[row].cells[*table.column(name)];
 }
 
-TEST_F(SweepCommand, OneTableOfAllTasksWhateverTheNumberOfProcesses) {
-    const Outcome outcome = call("sweep design.json --out one --jobs 1");
+TEST_F(SweepCommand, OneTableOfAllTasksWhateverTheNumberOfCalls) {
+    const Outcome outcome = call("sweep design.json --out one");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.out, "one/index.csv  24 tasks, 24 rendered now\n");
     EXPECT_EQ(outcome.err, "");
-    ASSERT_EQ(call("sweep design.json --out three --jobs 3").exitCode, 0);
+    // As the page says: a part per processor, all at once.
+    ASSERT_EQ(std::system(("cd '" + folder_.string() +
+                           "' && seq 3 | xargs -P 3 -I {} '" PHYSVIB_PROGRAM
+                           "' sweep design.json --out three --part {}/3 >said")
+                              .c_str()),
+              0);
+    ASSERT_EQ(call("sweep design.json --out three --gather").exitCode, 0);
+    EXPECT_EQ(below("three/log", ".txt").size(), 3u) << "each did some";
     EXPECT_EQ(read("one/index.csv"), read("three/index.csv"));
     EXPECT_EQ(call("sweep design.json --out one").out, "one/index.csv  24 tasks, 0 rendered now\n");
     EXPECT_EQ(read("one/design.json"), read("design.json"));
@@ -118,7 +125,7 @@ TEST_F(SweepCommand, ARowIsWhatItsCallRenders) {
 }
 
 TEST_F(SweepCommand, PartsMakeTheWholeAndNothingTwice) {
-    EXPECT_EQ(call("sweep design.json --out parts --part 1/5 --jobs 2").out, "part 1/5  5 rendered\n");
+    EXPECT_EQ(call("sweep design.json --out parts --part 1/5").out, "part 1/5  5 rendered\n");
     const Outcome early = call("sweep design.json --out parts --gather");
     EXPECT_EQ(early.exitCode, 1);
     EXPECT_EQ(
@@ -126,8 +133,7 @@ TEST_F(SweepCommand, PartsMakeTheWholeAndNothingTwice) {
         << early.err;
     EXPECT_FALSE(fs::exists(folder_ / "parts/index.csv"));
     // Two at once in one folder: each does what the other does not.
-    const std::string sweep =
-        "'" PHYSVIB_PROGRAM "' sweep design.json --out parts --part 1/1 --jobs 2 >>said 2>&1";
+    const std::string sweep = "'" PHYSVIB_PROGRAM "' sweep design.json --out parts --part 1/1 >>said 2>&1";
     EXPECT_EQ(std::system(("cd '" + folder_.string() + "'; " + sweep + " & " + sweep + "; wait").c_str()), 0);
     ASSERT_EQ(call("sweep design.json --out parts --gather").exitCode, 0) << read("said") << read(".err");
     EXPECT_EQ(logged("parts", "begun"), 24u);
@@ -210,7 +216,7 @@ TEST_F(SweepCommand, ATaskThatFailsIsToldAndTheOthersAreKept) {
     write(
         "mixed.json",
         R"({"physvib_sweep": 1, "name": "m", "scenes": ["drop"], "seeds": [1], "layouts": ["phone4", "odd.json"], "methods": ["AV-FV-DRV", "AF-FF-DRF"], "options": {"seconds": 0.2, "rate": 8000}})");
-    const Outcome outcome = call("sweep mixed.json --out s --jobs 2");
+    const Outcome outcome = call("sweep mixed.json --out s");
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_EQ(outcome.err,
               "physvib: 1 task failed, the first: render drop --seed=1 --layout=odd.json --method=AF-FF-DRF "
@@ -251,8 +257,8 @@ TEST_F(SweepCommand, AJobArrayIsWrittenAndSubmitted) {
     EXPECT_NE(script.find("#SBATCH --array=1-1\n"), std::string::npos) << script;
     EXPECT_NE(script.find("#SBATCH --time=10:00\n"), std::string::npos) << script;
     // As Slurm would run it.
-    ASSERT_EQ(std::system(("cd / && SLURM_ARRAY_TASK_ID=1 SLURM_CPUS_PER_TASK=2 sh -c 'cd \"" +
-                           folder_.string() + "\" && sh submitted >said 2>&1'")
+    ASSERT_EQ(std::system(("cd / && SLURM_ARRAY_TASK_ID=1 sh -c 'cd \"" + folder_.string() +
+                           "\" && sh submitted >said 2>&1'")
                               .c_str()),
               0)
         << read("said");

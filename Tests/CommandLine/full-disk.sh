@@ -52,7 +52,7 @@ fills "$step" o.wav render drop --seconds 0.05 --rate 8000 --layout phone1 --out
 fills "$step" o.csv render drop --seconds 2 --events o.csv
 fills "$step" o.wav stimulus phantom --at 0.5,0.5 --layout phone1 --seconds 0.01 --rate 8000 --out o.wav
 fills "$step" o.csv analyse confusion trials.csv --export o.csv
-fills $((64 * step)) o.png analyse confusion trials.csv --picture o.png
+fills $((64 * step)) o.svg analyse confusion trials.csv --picture o.svg
 fills $((64 * step)) o.png render drop --seconds 0.5 --picture o.png
 fills $((64 * step)) o.wav calibrate --sweep o.wav --seconds 1 --rate 8000
 study "$step"

@@ -88,7 +88,7 @@ protected:
         move({1.0F, 0.0F}, {0.0F, -3.5F}, -3.5F); // about the foot at 0
         for (int step = 0; step < 3; ++step) {    // it stands
             begin();
-            FedContact foot = at(0.0F, GetParam() == FedPoints::byPlace ? FedPoints::byPlace : 4);
+            FedContact foot = at(0.0F, GetParam() == FedContact::byPlace ? FedContact::byPlace : 4);
             foot.approachMetresPerSecond = 0.0;
             touch(foot);
             end();
@@ -97,9 +97,9 @@ protected:
         begin();
         for (const bool isHead : {false, true}) {
             FedContact contact =
-                at(isHead ? 2.0F : 0.0F, GetParam() == FedPoints::byPlace ? FedPoints::byPlace
-                                         : isHead                         ? 9
-                                                                          : 4);
+                at(isHead ? 2.0F : 0.0F, GetParam() == FedContact::byPlace ? FedContact::byPlace
+                                         : isHead                          ? 9
+                                                                           : 4);
             if (impulseOfPair > 0.0) {
                 contact.impulseNewtonSeconds = impulseOfPair;
                 contact.isImpulseOfPair = true;
@@ -125,14 +125,14 @@ TEST_P(ToppledPoles, HaveTheShareOfTheirHeadWhereTheEngineTellsOnlyThePairs) {
     ASSERT_EQ(felt.size(), 1U);
     EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, 12.0 * 2.0 / 3.0, 0.02);
 }
-INSTANTIATE_TEST_SUITE_P(Points, ToppledPoles, testing::Values(0, FedPoints::byPlace));
+INSTANTIATE_TEST_SUITE_P(Points, ToppledPoles, testing::Values(0, FedContact::byPlace));
 
 TEST_F(ContactPoints, ABallThatRollsHasOnePointWhereverItIs) {
     set(2.0, 0.0125);
     for (int step = 0; step < 100; ++step) {
         move({3.0F * 0.01F * static_cast<float>(step), 0.1F}, {3.0F, -0.1F}, -30.0F);
         begin();
-        FedContact contact = at(3.0F * 0.01F * static_cast<float>(step), FedPoints::byPlace);
+        FedContact contact = at(3.0F * 0.01F * static_cast<float>(step), FedContact::byPlace);
         contact.approachMetresPerSecond = step == 0 ? 0.1 : 2.0; // whatever it says: nothing new touches
         touch(contact);
         end();
@@ -171,7 +171,7 @@ TEST_F(ContactPoints, APointThatGoesAndComesBackIsNew) {
 TEST_F(ContactPoints, WhatBeginsAndEndsWithinAStepIsFelt) {
     set(2.0, 0.0);
     begin();
-    FedContact contact = at(0.0F, FedPoints::none);
+    FedContact contact = at(0.0F, FedContact::noPoint);
     contact.approachMetresPerSecond = 2.0;
     EXPECT_EQ(feed.begin(contact), "");
     EXPECT_EQ(feed.end(ground, body), "");
@@ -252,7 +252,7 @@ TEST_F(ContactPoints, WhatCarriesOthersIsStruckByAllThatTheEnginePushes) {
         begin();
         for (int i = 0; i < points; ++i) {
             FedContact contact =
-                at(points == 1 ? 0.0F : static_cast<float>(i) - 0.5F, points == 1 ? FedPoints::none : i);
+                at(points == 1 ? 0.0F : static_cast<float>(i) - 0.5F, points == 1 ? FedContact::noPoint : i);
             contact.isSoft = true;
             contact.isPushWhole = isPushWhole;
             contact.impulseNewtonSeconds = pushed / points;

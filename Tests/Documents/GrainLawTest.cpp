@@ -11,15 +11,16 @@ TEST(GrainLaw, ComesBackAndIsTheLawOfAllElseWhereAFileNamesNone) {
     EnchanterLayout layout;
     ASSERT_TRUE(layoutPreset("phone4", layout));
     PhantomPanner panner{layout, PanningLaw::linear, 1.0, 1.0, 0.5};
-    EXPECT_FALSE(pannerJson(panner).contains("grain_law")) << "as before";
-    const auto back = [](const OrderedJson& written) {
+    constexpr PerChannel<PhantomPanner> kind{4};
+    EXPECT_FALSE(writeKind(kind, panner).contains("grain_law")) << "as before";
+    const auto back = [&](const OrderedJson& written) {
         const Json json = Json::parse(written.dump());
-        return readPanner({json, "panning"}, 4).grains();
+        return readKind(JsonField{json, "panning"}, kind).grains();
     };
-    EXPECT_EQ(back(pannerJson(panner)), Spread::layout);
+    EXPECT_EQ(back(writeKind(kind, panner)), Spread::layout);
     panner.setGrains(grainSpread);
-    EXPECT_EQ(pannerJson(panner)["grain_law"], "energy");
-    EXPECT_EQ(back(pannerJson(panner)), grainSpread);
+    EXPECT_EQ(writeKind(kind, panner)["grain_law"], "energy");
+    EXPECT_EQ(back(writeKind(kind, panner)), grainSpread);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the WAV reader.
 #include "Fuzzing.h"
-#include "Io/Wav/WavFile.h"
+#include "Support/ReadWav.h"
 #include <memory>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

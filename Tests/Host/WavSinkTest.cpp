@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Io/Wav/WavSink.h"
 #include "Host/Recordings/PlayedRecorder.h"
-#include "Io/Wav/WavFile.h"
 #include "Support/FileTesting.h"
 #include "Support/FullDisk.h"
+#include "Support/ReadWav.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -95,7 +95,7 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
                                              "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav"};
     auto scenes = filesIn(corpus / "scene");
     for (auto& scene : filesIn(source / "Source/Scene/Scenes")) scenes.push_back(std::move(scene));
-    const std::string table = " FILE --export e.csv --picture p.png";
+    const std::string table = " FILE --export e.csv --picture p.svg";
     return {{"scene",
              "json",
              scenes,

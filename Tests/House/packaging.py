@@ -24,7 +24,8 @@ mime = {"m": "http://www.freedesktop.org/standards/shared-mime-info"}
 kinds = ElementTree.parse(packaging / "physvib-mime.xml").getroot().findall("m:mime-type", mime)
 types = {kind.attrib["type"] for kind in kinds}
 marks = {match.attrib["value"].strip('"') for kind in kinds for match in kind.findall(".//m:match", mime)}
-for file in sorted([*(root / "Source" / "Scene").rglob("*.cpp"), *(root / "Source" / "Study" / "Files").glob("*.cpp")]):
+readers = [file for folder in ("Scene", "Live/Documents", "Lab") for file in sorted((root / "Source" / folder).rglob("*.cpp"))]
+for file in readers:
     for mark in re.findall(r'"(physvib_[a-z]+)"', file.read_text()): # a plug-in's state is no file
         expect(mark in marks, f"{file.name}: no MIME type for files with {mark}")
 columns = re.search(r'value="(time_s,[^"]*)"', (packaging / "physvib-mime.xml").read_text()).group(1).split(",")
@@ -52,6 +53,13 @@ for folder in ("Docs", "Firmware", "Plugin", "Source", "Standalone", "Tests"):
             path = file.relative_to(root).as_posix()
             last = [licence for pattern, licence in told if fnmatch.fnmatch(path, pattern)][-1]
             expect(names.get(own.group(1)) == last, f"debian/copyright: {path} is {own.group(1)}, told as {last}")
+
+# The package for programs in C++ has the modules that CMake installs, and no others.
+modules = re.search(r"^foreach\(room ([\w ]+)\)", (root / "Source/Package/CMakeLists.txt").read_text(), re.M).group(1).split()
+lines = (packaging / "debian" / "libphysvib-dev.install").read_text().split()
+for pattern, spelt in ((r"usr/lib/\*/libphysvib-(\w+)\.a", str.lower), (r"usr/include/physvib/([A-Z]\w+)", str)):
+    packed = sorted(found.group(1) for line in lines if (found := re.fullmatch(pattern, line)))
+    expect(packed == sorted(map(spelt, modules)), f"libphysvib-dev.install: {packed} of {pattern}, installed are {modules}")
 
 page = (root / "Docs" / "install.md").read_text()
 for name in re.findall(r"^Package: (\S+)$", (packaging / "debian" / "control.in").read_text(), re.M):

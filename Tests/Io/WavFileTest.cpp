@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a WAV file says of itself is not believed: bounded by the bytes that are there, refused by its limit.
-#include "Io/Wav/WavFile.h"
 #include "Support/FileTesting.h"
+#include "Support/ReadWav.h"
 #include "Support/WavBytes.h"
 #include <cstdio>
 #include <memory>

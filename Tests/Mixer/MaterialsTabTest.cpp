@@ -4,7 +4,7 @@
 #include "Host/Recordings/SessionWav.h"
 #include "Io/Wav/WavSink.h"
 #include "Live/Documents/SessionFile.h"
-#include "Mixer/Materials/MaterialShots.h"
+#include "Mixer/Knock.h"
 #include "MixerTesting.h"
 
 namespace physvib {

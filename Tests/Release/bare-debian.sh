@@ -75,7 +75,7 @@ there 'export LD_LIBRARY_PATH=/usr/lib/ardour7
     for name in PhysVib PhysVib-Pairs; do timeout 120 /usr/lib/ardour7/ardour-vst3-scanner -f /usr/lib/vst3/$name.vst3 >scan-$name.log 2>&1; done
     timeout 120 ardour7-lua ../ardour.lua session ABCDEF019182FAEB5068566250687973 2>&1 | grep "^Ardour: PhysVib on a track" || { cat scan-*.log; exit 1; }'
 
-there 'man physvib-render | grep -q -- --law && man physvib-mixer | grep -q -- --shot
+there 'man physvib-render | grep -q -- --law && man physvib-mixer | grep -q -- --summary
     for shell in bash zsh fish; do command -v $shell >/dev/null; done
     bash -n /usr/share/bash-completion/completions/physvib && zsh -n /usr/share/zsh/vendor-completions/_physvib
     fish -n /usr/share/fish/vendor_completions.d/physvib.fish

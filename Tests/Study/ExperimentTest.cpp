@@ -2,6 +2,7 @@
 // Studies trial by trial: what is presented, what is refused, what unlocks, and going on after a cut.
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/SimulatedObserver.h"
+#include "Study/StaircaseThreshold.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -301,7 +302,7 @@ TEST(Staircase, TwoDownOneUpFindsTheLevelOf71PercentCorrect) {
     constexpr double noiseDb = 3.0; // of either of two levels: 70.7 % at 0.545 sqrt(2) noise
     while (!stairs.isDone())
         stairs.answer(stairs.levelDb() + noiseDb * random.normal() > noiseDb * random.normal());
-    EXPECT_NEAR(stairs.thresholdDb(), 0.545 * std::sqrt(2.0) * noiseDb, 0.5);
+    EXPECT_NEAR(test::thresholdDb(stairs), 0.545 * std::sqrt(2.0) * noiseDb, 0.5);
     EXPECT_EQ(stairs.reversals().size(), 60u);
 }
 

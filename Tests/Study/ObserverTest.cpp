@@ -2,10 +2,10 @@
 // The simulated observer: blur fitted to published exact shares, what it predicts of the others, and what its
 // analysis says.
 #include "Lab/Study/InformationTransfer.h"
-#include "Lab/Study/PlaceBlur.h"
 #include "Lab/Study/Proportion.h"
-#include "Lab/Study/Published.h"
 #include "Lab/Study/SimulatedObserver.h"
+#include "Thesis/PlaceBlur.h"
+#include "Thesis/Published.h"
 #include <array>
 #include <cmath>
 #include <cstdio>

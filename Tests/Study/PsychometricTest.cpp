@@ -8,6 +8,7 @@
 #include "Lab/Statistics/QuestPlus.h"
 #include "Lab/Study/Staircase.h"
 #include "Stimuli/SeededRandom.h"
+#include "Study/StaircaseThreshold.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>
@@ -160,7 +161,7 @@ TEST(QuestPlus, NeedsTwoThirdsOfAStaircasesTrialsForItsError) {
         QuestPlus quest{questPlanOfTests()};
         while (quest.trials() < 2 * trials / 3) quest.answer(random.chance(truth.probability(quest.level())));
         staircaseTrials += trials, questTrials += quest.trials();
-        staircaseSquares += std::pow(staircase.thresholdDb() - wanted, 2);
+        staircaseSquares += std::pow(test::thresholdDb(staircase) - wanted, 2);
         questSquares += std::pow(quest.estimate().levelOf(std::sqrt(0.5)) - wanted, 2);
     }
     EXPECT_LE(questTrials, 2 * staircaseTrials / 3);

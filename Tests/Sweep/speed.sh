@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# speed.sh [BIN_FOLDER [TASKS (2000)]]: a sweep on one core and on two, with the bytes compared; killed twice and resumed; 100,000 tasks planned.
+# speed.sh [BIN_FOLDER [TASKS (2000)]]: a sweep by one call and by two at once, with the bytes compared; killed twice and resumed; 100,000 tasks planned.
 # Prints times and memory; a script beside the tests, as the machine may be shared.
 set -eu
 bin=${1:-$(cd "$(dirname "$0")/../.." && pwd)/build/release/bin} tasks=${2:-2000}
@@ -27,17 +27,21 @@ END
 
 design many $((tasks / 8))
 echo "load before: $(cut -d' ' -f1-3 /proc/loadavg)"
-echo "one core:  $(measured "$physvib" sweep many.json --out one --jobs 1)"; mv figures figures.one
-echo "two cores: $(measured "$physvib" sweep many.json --out two --jobs 2)"; mv figures figures.two
+# halves DESIGN FOLDER: both at once, and the table.
+cat >halves <<END
+seq 2 | xargs -P 2 -I {} '$physvib' sweep "\$1" --out "\$2" --part {}/2 && exec '$physvib' sweep "\$1" --out "\$2" --gather
+END
+echo "one core:  $(measured "$physvib" sweep many.json --out one)"; mv figures figures.one
+echo "two cores: $(measured sh halves many.json two)"; mv figures figures.two
 cmp one/index.csv two/index.csv
 paste -d' ' figures.one figures.two | awk '{ printf "two cores are %.2f times one; %.2f times the processor time\n", $1 / $3, $4 / $2 }'
 
-seconds=$(awk '{ printf "%.2f", $1 / 3 }' figures.two)
+seconds=$(awk '{ printf "%.2f", $1 / 3 }' figures.one)
 for time in first second; do
-    timeout -s KILL "$seconds" "$physvib" sweep many.json --out cut --jobs 2 >said 2>&1 && { echo "too fast to be killed"; exit 1; }
+    timeout -s KILL "$seconds" "$physvib" sweep many.json --out cut >said 2>&1 && { echo "too fast to be killed"; exit 1; }
     echo "killed for the $time time: $(find cut/tasks -name '*.csv' | wc -l) tasks done"
 done
-"$physvib" sweep many.json --out cut --jobs 2
+"$physvib" sweep many.json --out cut
 cmp one/index.csv cut/index.csv
 cat cut/log/*.txt | awk '$1 == "begun" { b++ } $1 == "finished" { f++; if (seen[$2]++) twice++ } END { printf "%d begun, %d finished, %d twice; the same bytes as uninterrupted\n", b, f, twice; exit twice > 0 }'
 

@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Draws the pictures of Docs/mixer.md and of the studies in the mixer, without a display.
-# Usage: mixer.sh MIXER [FOLDER]
+# Usage: mixer.sh SHOTS [FOLDER]; SHOTS is physvib-mixer-shots, a program of the tests
 set -eu
-mixer=$1
+shots=$1
 folder=${2:-Docs}
-for state in $("$mixer" --states); do
+for state in $("$shots" --states); do
     case $state in studies-*) name=$state ;; *) name=mixer-$state ;; esac
-    "$mixer" --shot "$folder/$name.png" --state "$state"
+    "$shots" "$folder/$name.png" "$state"
 done

@@ -51,7 +51,7 @@ for study in $("$physvib" study list | cut -d' ' -f1 | grep -v -e -thesis$); do
     look_at "$folder/$study"
 done
 rm -rf "${folder:?}/thesis"
-"$physvib" report thesis --out "$folder/thesis" >/dev/null
+"$(dirname "$physvib")/physvib-thesis" "$folder/thesis" >/dev/null # of the tests
 for page in "$folder/thesis" "$folder"/thesis/*/; do
     echo "${page#"$folder/"}"
     look_at "${page%/}"

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The sections of an equaliser, and their levels.
+// Design of the equaliser's second-order sections, and its maximum flat level.
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include <algorithm>
 
 namespace physvib {
 namespace {
 
-// sixth order
+// Q of the three sections of a sixth-order Butterworth filter
 constexpr double butterworthQ[] = {0.51763809020504148, 0.70710678118654752, 1.9318516525781366};
-constexpr double edgeRatio = 0.80;    // of a slope's corner to the band's edge: there it costs 0.3 dB
-constexpr double highestShare = 0.45; // of the rate: a corner above it is left to the converter's own filter
-constexpr RootPair atZero{-2.0, 1.0}; // 0 Hz twice
-constexpr RootPair atTop{2.0, 1.0};   // half the rate twice, as the bilinear transform puts them
+constexpr double edgeRatio = 0.80; // corner of a slope relative to the band's edge: costs 0.3 dB at the edge
+constexpr double highestShare = 0.45; // of the sample rate: for a higher corner the converter's own filter
+                                      // suffices
+constexpr RootPair atZero{-2.0, 1.0}; // double zero at 0 Hz
+constexpr RootPair atTop{2.0, 1.0}; // double zero at half the sample rate, where the bilinear transform puts
+                                    // it
 
 } // namespace
 
@@ -58,7 +60,7 @@ std::complex<double> ActuatorEqualiser::at(double frequencyHz) const noexcept {
 
 double ActuatorEqualiser::flatLevel(double driveLimit) const noexcept {
     if (!isOn()) return 0.0;
-    constexpr int steps = 400; // a resonance of Q 100 is wider than a step of a four-octave band
+    constexpr int steps = 400; // a resonance of Q 100 is wider than one step of a four-octave band
     double largest = 0.0;
     for (int i = 0; i <= steps; ++i)
         largest = std::max(largest, std::abs(at(band_.lowHz * std::pow(band_.highHz / band_.lowHz,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Makes a resonant actuator flat within its band: what goes in is what is felt, in units of the full scale at
-// resonance.
+// Equaliser that makes a resonant actuator flat within its band: the input is the acceleration, in units of
+// the full scale at resonance.
 //
-// The inverse of the resonance (Core/Actuators/Resonator.h) alone would boost without end: E(s) = HP(s) LP(s)
-// / H(s), with Butterworth slopes of fourth order whose edges lie outside the band, so that the band is flat
-// and what lies beyond is not driven. All four sections have their zeros and poles in the unit circle (or at
-// its ends): stable and minimal-phase.
+// The plain inverse of the resonance (Core/Actuators/Resonator.h) would boost without bound. So E(s) = HP(s)
+// LP(s) / H(s), with Butterworth slopes whose corners lie outside the band: the band is flat and frequencies
+// beyond it are not driven. All sections have their zeros and poles in the unit circle (or on it at 0 Hz and
+// half the rate): stable and minimal-phase.
 #pragma once
 #include "Core/Actuators/Biquad.h"
 #include "Core/Actuators/Resonator.h"
@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-/// What a channel is equalised for; without its figures: nothing.
+/// Resonance and band that a channel is equalised for; without figures it is not equalised.
 struct EqualisedActuator {
     Resonator resonator;
     FrequencyBand band;
@@ -23,25 +23,25 @@ struct EqualisedActuator {
 };
 using EqualisedActuators = std::array<EqualisedActuator, limits::maxEnchanters>;
 
-/// One channel. R only, but for prepare and the figures: any thread.
+/// One channel. Render thread (R) only; construction and figures: any thread.
 class ActuatorEqualiser {
 public:
     /// Passes everything unchanged.
     ActuatorEqualiser() = default;
 
-    /// Without figures, or with a band that does not lie below half the rate, all passes.
+    /// Without figures, or with a band that does not lie below half the rate, it passes everything unchanged.
     ActuatorEqualiser(const EqualisedActuator& actuator, int sampleRateHz) noexcept;
 
     bool isOn() const noexcept { return sections_ > 0; }
 
-    /// In place. `isSilent`: all of it is 0. True if there is nothing to hear.
+    /// In place. `isSilent`: all input is 0. True if all output is 0.
     bool process(float* io, int frames, bool isSilent) noexcept;
 
-    /// E at a frequency.
+    /// Frequency response E at a frequency.
     std::complex<double> at(double frequencyHz) const noexcept;
 
     /// The largest amplitude, in units of full scale at resonance, that every frequency of the band can have
-    /// while its drive stays within `driveLimit`; 0 if it is off.
+    /// while its drive stays within `driveLimit`; 0 if the equaliser is off.
     double flatLevel(double driveLimit = 1.0) const noexcept;
 
 private:

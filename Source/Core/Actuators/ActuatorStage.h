@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is done to each enchanter's channel on its own, before the linked limiter: equaliser, delay, gain,
-// polarity, mute.
+// Per-channel processing before the linked limiter: equaliser, delay, gain, polarity, mute.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Core/Actuators/ChannelDelay.h"
@@ -12,8 +11,8 @@
 
 namespace physvib {
 
-/// Per channel: out = gain * delayed, equalised in, every change in a ramp of limits::channelRampSeconds;
-/// before the first frame there is nothing to ramp from. R only, but for prepare: M.
+/// Per channel: out = gain * delayed, equalised in. Every change is a ramp of limits::channelRampSeconds,
+/// except before the first frame. Render thread (R) only; prepare: message thread (M).
 class ActuatorStage {
 public:
     /// All gains 1, nothing muted or delayed, equalisers at rest. False: no memory. M, not while rendering.
@@ -30,7 +29,7 @@ public:
         return prepareDelays(sampleRateHz);
     }
 
-    /// Goes on at another rate, all as it is, but what was on its way through an equaliser or a delay. False:
+    /// Continues at another sample rate. Settings stay; samples inside equalisers and delays are lost. False:
     /// no memory. M, not while rendering.
     bool changeRate(int sampleRateHz) noexcept {
         prepareEqualisers(sampleRateHz);
@@ -39,19 +38,19 @@ public:
         return prepareDelays(sampleRateHz);
     }
 
-    /// Negative gains turn the polarity.
+    /// Negative gains invert the polarity.
     void setGain(int channel, float gain) noexcept {
         gains_[index(channel)] = gain;
         aim(channel);
     }
 
-    /// Of all channels, on top of their gains.
+    /// Gain of all channels, multiplied with their own.
     void setLevel(float level) noexcept {
         level_ = level;
         for (int j = 0; j < channels_; ++j) aim(j);
     }
 
-    /// A muted channel is exactly silent after the ramp, and so has no say in the limiter.
+    /// After the ramp a muted channel is exactly silent, so it does not affect the limiter.
     void setMuted(int channel, bool muted) noexcept {
         muted_[index(channel)] = muted;
         aim(channel);
@@ -64,8 +63,8 @@ public:
         isAsleep_ = false;
     }
 
-    /// True if every channel leaves as it comes, but that it is to be kept for a delay that may be set later:
-    /// at kept[j].
+    /// True if every channel leaves unchanged. Its samples are still to be copied to kept[j], for a delay
+    /// that may be set later.
     bool passes(float** kept, int frames) noexcept {
         for (int j = 0; j < channels_; ++j) {
             const auto c = index(j);
@@ -75,14 +74,14 @@ public:
         }
         return true;
     }
-    /// Instead of process, where it passes: what is kept has been written, and is not silent.
+    /// Replaces process if `passes` was true: the copies have been written, and are not silent.
     void pass(int frames) noexcept {
         hasBegun_ = true;
         isAsleep_ = false;
         for (int j = 0; j < channels_; ++j) delays_[index(j)].pass(frames);
     }
 
-    /// In place. `isSilent`: all of it is 0. True if all of it is 0 afterwards: an equaliser rings out.
+    /// In place. `isSilent`: all input is 0. True if all output is 0: an equaliser may still decay.
     bool process(float* const* io, int frames, bool isSilent) noexcept {
         hasBegun_ = true;
         if (isSilent && isAsleep_) return true;
@@ -140,7 +139,7 @@ private:
     static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
     int channels_ = 0;
     bool hasBegun_ = false;
-    bool isAsleep_ = false; // nothing goes on in any channel, so that silence needs no look at them
+    bool isAsleep_ = false; // all channels are at rest, so that silence needs no processing
     int sampleRateHz_ = 48000;
     std::array<ChannelDelay<limits::maxDelayFrames>, width> delays_{};
     std::array<float, width> delaySeconds_{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A second-order section, and how the roots of an analogue one become its coefficients.
+// Second-order filter section (biquad), and the mapping of analogue roots to its coefficients.
 #pragma once
 #include <cmath>
 #include <complex>
@@ -11,9 +11,9 @@ namespace physvib {
 struct RootPair {
     double first = 0.0, second = 0.0;
 
-    /// The roots of s^2 + (w0/q) s + w0^2, each at exp(s / rate): in the unit circle, so that both the
-    /// section with these poles and its inverse are stable. Frequencies bend less than under the bilinear
-    /// transform.
+    /// The roots of s^2 + (w0/q) s + w0^2, each mapped to exp(s / rate). They lie in the unit circle, so both
+    /// the section with these poles and its inverse are stable. Frequency warping is smaller than under the
+    /// bilinear transform.
     static RootPair of(double frequencyHz, double q, double sampleRateHz) noexcept {
         const double angle = 2.0 * std::numbers::pi * frequencyHz / sampleRateHz, decay = 0.5 * angle / q;
         const double turn = angle * angle - decay * decay; // < 0: two real roots
@@ -21,8 +21,8 @@ struct RootPair {
         return {-2.0 * std::exp(-decay) * cosine, std::exp(-2.0 * decay)};
     }
 
-    /// The same roots under the bilinear transform, exact at `frequencyHz`: for slopes that end at half the
-    /// rate.
+    /// The same roots under the bilinear transform, exact at `frequencyHz`: for slopes that reach 0 at half
+    /// the rate.
     static RootPair bilinear(double frequencyHz, double q, double sampleRateHz) noexcept {
         const double k = std::tan(std::numbers::pi * frequencyHz / sampleRateHz), whole = 1.0 + k / q + k * k;
         return {2.0 * (k * k - 1.0) / whole, (1.0 - k / q + k * k) / whole};

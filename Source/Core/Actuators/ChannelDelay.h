@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A delay of one channel that can be changed while it plays: the old and the new place of reading are faded
-// over.
+// Delay line of one channel. Its delay can be changed while it plays: it cross-fades between the old and the
+// new read position.
 #pragma once
 #include "Core/Storage.h"
 #include <algorithm>
@@ -10,12 +10,12 @@
 
 namespace physvib {
 
-/// R only, but for prepare: M.
+/// Render thread (R) only; prepare: message thread (M).
 template <int Capacity>
 class ChannelDelay {
 public:
-    /// Rests at `frames`, with silence in it; `most`, at most Capacity, is the longest. False: no memory. M,
-    /// not while rendering.
+    /// Delay of `frames`, filled with silence; `most`, at most Capacity, is the longest delay. False: no
+    /// memory. M, not while rendering.
     bool prepare(int fadeFrames, int frames, int most = Capacity) noexcept {
         size_ = static_cast<std::size_t>(most) + 1;
         if (!ring_.resize(size_)) return false;
@@ -32,7 +32,7 @@ public:
 
     void moveTo(int frames) noexcept {
         frames = std::clamp(frames, 0, most_);
-        if (faded_ < fadeFrames_) { // one fade after the other
+        if (faded_ < fadeFrames_) { // a fade that is under way is finished first
             next_ = frames;
             return;
         }
@@ -42,25 +42,25 @@ public:
         faded_ = 0;
     }
 
-    /// True if what comes out is what goes in.
+    /// True if the output equals the input.
     bool isOut() const noexcept { return delay_ == 0 && faded_ == fadeFrames_; }
 
-    /// Nothing in it, and nothing changes.
+    /// True if the line holds only silence and no fade is under way.
     bool isResting() const noexcept { return silentFrames_ >= most_ && faded_ == fadeFrames_; }
 
-    /// When it isOut: where what passes next would be kept. Null: not in one piece.
+    /// While isOut: the memory for the next `frames` inputs. Null if it is not contiguous.
     float* placeFor(int frames) noexcept {
         const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1;
         return next + static_cast<std::size_t>(frames) <= size_ ? ring_.data() + next : nullptr;
     }
-    /// Instead of process: what passed is there, and is not silent.
+    /// Replaces process: the inputs have been written to placeFor, and are not silent.
     void pass(int frames) noexcept {
         write_ += static_cast<std::size_t>(frames);
         if (write_ >= size_) write_ -= size_;
         silentFrames_ = 0;
     }
 
-    /// In place. `isSilent`: all of the input is 0. True if all of the output is.
+    /// In place. `isSilent`: all input is 0. True if all output is 0.
     bool process(float* io, int frames, bool isSilent) noexcept {
         if (isSilent && silentFrames_ >= most_) {
             faded_ = std::min(fadeFrames_, faded_ + frames);
@@ -87,14 +87,14 @@ private:
         write_ = write_ + 1 == size_ ? 0 : write_ + 1;
         ring_[write_] = x;
     }
-    // Blocks are short: copies of a known size need no call.
+    // Blocks are short: copies of constant size need no library call.
     static void copy(const float* from, std::size_t count, float* to) noexcept {
         constexpr std::size_t whole = 16;
         std::size_t k = 0;
         for (; k + whole <= count; k += whole) std::memcpy(to + k, from + k, whole * sizeof(float));
         std::copy_n(from + k, count - k, to + k);
     }
-    // What passes is kept as well: a delay that is set later begins with it.
+    // Inputs are stored even without a delay: a delay that is set later starts with them.
     void keep(const float* x, std::size_t frames) noexcept {
         while (frames > 0) {
             const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1,
@@ -120,10 +120,10 @@ private:
     Storage<float, static_cast<std::size_t>(Capacity) + 1, true> ring_;
     std::size_t write_ = 0, size_ = 0;
     int delay_ = 0, before_ = 0, faded_ = 1, fadeFrames_ = 1, next_ = none;
-    int most_ = 0, silentFrames_ = 0; // put in last; no more than matters
+    int most_ = 0, silentFrames_ = 0; // silentFrames_: trailing silent inputs, at most most_
 };
 
-/// No delay where there is no room for one.
+/// No delay where there is no memory for one.
 template <>
 class ChannelDelay<0> {
 public:

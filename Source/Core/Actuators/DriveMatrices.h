@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What each enchanter is driven with so that coupled enchanters together do what one of them alone was to do:
-// complex matrices, one per frequency. They are computed elsewhere (Lab/Study/Coupling.h); the memory is the
-// caller's.
+// Compensation of mechanical coupling between actuators: complex drive matrices per frequency, which make
+// coupled actuators together vibrate as one alone would. Lab/Study/Coupling.h computes them; the caller owns
+// the memory.
 #pragma once
 #include "Core/Trigonometry.h"
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace physvib {
 
-/// Entries of matrix k: `entries[k][i * channels + j]`, the drive of channel i for a gain of 1 of channel j
-/// at frequencies[k]. Both lists outlive whoever uses them. Empty: drives are gains.
+/// `entries[k][i * channels + j]`: drive of channel i for a gain of 1 of channel j at frequencies[k]. Both
+/// lists must outlive this object. Empty: drives are the gains.
 struct DriveMatrices {
     std::span<const double> frequenciesHz;    ///< rising
     std::span<const Complex<double>> entries; ///< matrix by matrix, row by row
@@ -19,8 +19,9 @@ struct DriveMatrices {
 
     bool isOn() const noexcept { return !frequenciesHz.empty(); }
 
-    /// The drives in phase with the strike, and a quarter turn ahead of it. Linear between frequencies, the
-    /// nearest matrix beyond them. Each list holds `channels` numbers. Any thread, wait-free.
+    /// The drives in phase with the strike, and those a quarter turn ahead. Linear interpolation between
+    /// frequencies; beyond them the nearest matrix. Each list holds `channels` numbers. Any thread,
+    /// wait-free.
     void apply(double frequencyHz, const double* gains, double* inPhase, double* ahead) const noexcept {
         const auto above = static_cast<std::size_t>(std::ranges::lower_bound(frequenciesHz, frequencyHz) -
                                                     frequenciesHz.begin());

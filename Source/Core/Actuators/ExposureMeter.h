@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What really left for the hands, summed up while it plays: weighted for the exposure, plain for levels.
+// Meter of the samples that were sent to the actuators: weighted sums for vibration exposure, unweighted sums
+// and peaks for levels.
 #pragma once
 #include "Core/Actuators/HandWeighting.h"
 #include "Core/LatestValue.h"
@@ -14,21 +15,22 @@ namespace physvib {
 /// Per channel; 1 = full scale.
 struct ExposureSums {
     using Channels = std::array<double, static_cast<std::size_t>(limits::maxEnchanters)>;
-    Channels weighted{};       ///< integral of squared weighted samples over time, in s, from the very start
-    Channels plain{}, peaks{}; ///< the same without a weighting, and the largest sample, since `mark`
+    Channels weighted{}; ///< integral of squared weighted samples over time, in s, since the meter was made
+    Channels plain{}, peaks{}; ///< integral of squared unweighted samples, and the largest sample, since
+                               ///< `mark`
     std::uint32_t mark = 0;
 };
 
 class ExposureMeter {
 public:
-    /// The sums stay. M, not while R runs.
+    /// Keeps the sums. Message thread (M), not while the render thread (R) runs.
     void prepare(int sampleRateHz) noexcept {
         framesPerSecond_ = sampleRateHz;
         weightings_.fill(HandWeighting{sampleRateHz});
         isAtRest_.fill(true);
     }
 
-    /// The next samples of a channel, 1 to limits::maxBlockFrames. R, wait-free.
+    /// Adds the next samples of a channel, 1 to limits::maxBlockFrames. R, wait-free.
     void take(int channel, const float* samples, int frames) noexcept PHYSVIB_NONBLOCKING {
         const auto j = static_cast<std::size_t>(channel);
         startAgainIfTold();
@@ -46,10 +48,10 @@ public:
         sums_.plain[j] += plain / framesPerSecond_;
         sums_.peaks[j] = peak;
         isAtRest_[j] = isSilent && weighted < faded * frames;
-        if (isAtRest_[j]) weightings_[j].clear(); // before its tail gets denormal
+        if (isAtRest_[j]) weightings_[j].clear(); // before its tail becomes denormal
     }
 
-    /// Tells what was summed up so far. R, wait-free, once a block.
+    /// Publishes the sums so far. R, wait-free, once per block.
     void publish() noexcept PHYSVIB_NONBLOCKING {
         startAgainIfTold();
         published_.write(sums_);
@@ -58,7 +60,7 @@ public:
     /// One reader on one other thread.
     const ExposureSums& read() noexcept { return published_.read(); }
 
-    /// Plain sums and peaks start again with the next block, and carry the mark that is returned. The
+    /// Restarts unweighted sums and peaks with the next block; they then carry the returned mark. The
     /// reader's thread, wait-free.
     std::uint32_t restart() noexcept { return wanted_.fetch_add(1, std::memory_order_relaxed) + 1; }
 

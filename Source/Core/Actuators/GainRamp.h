@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A gain that moves in a straight line to its next value: no step, no click; bit-transparent once it rests
-// at 1.
+// Gain that changes linearly to a new value without clicks; bit-transparent once it rests at 1.
 #pragma once
 #include <algorithm>
 #include <cmath>
 
 namespace physvib {
 
-/// One gain for any number of channels. R only, but for prepare: M.
+/// One gain for any number of channels. Render thread (R) only; prepare: message thread (M).
 class GainRamp {
 public:
-    /// Rests at `gain`; a change of 1 takes `secondsPerUnit`. M, not while rendering.
+    /// Rests at `gain`; a change by 1 takes `secondsPerUnit`. M, not while rendering.
     void prepare(int sampleRateHz, double secondsPerUnit, float gain) noexcept {
         pace_ = step_ = static_cast<float>(1.0 / (secondsPerUnit * sampleRateHz));
         now_ = target_ = gain;
@@ -21,20 +20,20 @@ public:
         pace_ = step_;
     }
 
-    /// As moveTo, but there after `frames` at the latest.
+    /// As moveTo, but finished after at most `frames` frames.
     void moveTo(float gain, int frames) noexcept {
         target_ = gain;
-        // rounding must not cost a frame more
+        // the margin keeps rounding from adding a frame
         pace_ = std::max(step_, 1.001f * std::abs(gain - now_) / static_cast<float>(frames));
     }
-    /// At once: for what nobody hears yet.
+    /// Without a ramp: for a channel that is not audible yet.
     void jumpTo(float gain) noexcept { now_ = target_ = gain; }
     bool isResting() const noexcept { return now_ == target_; }
-    /// What it is applied to stays as it is.
+    /// True if applying it changes nothing.
     bool isOne() const noexcept { return now_ == 1.0f && target_ == 1.0f; }
 
     float now() const noexcept { return now_; }
-    /// From here on it is never less.
+    /// Lower bound of the gain from now on.
     float leastAhead() const noexcept { return std::min(now_, target_); }
     /// The gain of the next frame.
     float next() noexcept {
@@ -42,7 +41,7 @@ public:
         return now_;
     }
 
-    /// As apply, on silence.
+    /// As apply, for silent samples.
     void pass(int frames) noexcept {
         for (int n = 0; n < frames && !isResting(); ++n) step();
     }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// How loud a channel may be in the next tile, given what has left it: the law of OutputGuard. No heap, and
-// one layout on every processor, so that a board can use it.
+// The gain rule of OutputGuard and BoardGuard: how large a channel's gain may be in the next tile, given the
+// samples already sent. No heap, and the same memory layout on every processor, so that a board can use it.
 //
-// Two sums per channel, in seconds at full scale. Area: no stretch of the last 250 ms (up to 312 ms: it is
-// kept in five parts) may hold more than 12.5 ms of one sign, so no mean over 250 ms exceeds
-// limits::guardShare, nor does one if the channel is muted in between. Load: what a low-pass of
-// limits::slowestToneHz lets through, squared, forgotten within a second, and half of what the filter would
-// still give of what it holds. Both grow by what a tile adds, so the gain is the room that is left: it closes
-// before a bound is reached. What closes it again and again lowers the gain at which it rests, until a tone
-// passes whole at that gain. Below half of both bounds it rises, within limits::guardReleaseSeconds.
+// Two quantities per channel, in seconds at full scale. Area: no stretch of the last 250 ms (up to 312 ms,
+// because it is stored in five parts) may hold more than 12.5 ms of one sign. So no mean over 250 ms exceeds
+// limits::guardShare, even if the channel is muted in between. Load: the squared output of a low-pass at
+// limits::slowestToneHz, with a forgetting time of a second, plus half of what the filter's state would still
+// put out. Both grow by what a tile adds, so the gain follows the remaining margin and closes before a bound
+// is reached. A signal that closes it repeatedly lowers the resting gain, until the tone passes undistorted
+// at that gain. Below half of both bounds the gain rises, within limits::guardReleaseSeconds.
 #pragma once
 #include "Core/Limits.h"
 #include <algorithm>
@@ -20,25 +20,25 @@ namespace physvib {
 
 namespace limits {
 constexpr double guardShare = 0.05; // of full scale: a quarter of a percent of its power, whatever else plays
-constexpr double guardSeconds = 0.25; // a mean over less is a vibration that is felt
+constexpr double guardSeconds = 0.25; // a mean over a shorter time is a perceptible vibration
 constexpr float guardLoad = 0.00125f; // of full scale squared, below slowestToneHz: half of it passes at that
                                       // very frequency
-constexpr float guardPerLoad = 7000.0f;     // the gain closes over the last ninth of it
-constexpr float guardReleaseSeconds = 1.0f; // silence to full gain: slower than what it turns down
-constexpr float guardRestSeconds = 0.1f;    // how fast the gain comes to rest: a few periods of such a tone
+constexpr float guardPerLoad = 7000.0f;     // the gain closes over the last ninth of the load
+constexpr float guardReleaseSeconds = 1.0f; // from silence to full gain: slower than the signals that it
+                                            // reduces
+constexpr float guardRestSeconds = 0.1f;    // time constant of the resting gain: a few periods of such a tone
 } // namespace limits
 
-/// Where a guard stands. `rendered` has lower bounds than `last`, which therefore seldom has anything left to
-/// do.
+/// Position of a guard in the signal path. `rendered` has lower bounds than `last`, so `last` seldom acts.
 enum class GuardPlace { rendered, last };
 
-/// R only, but for prepare: M.
+/// Render thread (R) only; prepare: message thread (M).
 template <int Most>
 class GuardLaw {
 public:
     using Row = std::array<float, static_cast<std::size_t>(Most)>; ///< of each channel
 
-    /// Nothing has left. M, not while rendering.
+    /// Resets the sums. M, not while rendering.
     void prepare(int channels, GuardPlace place) noexcept {
         channels_ = static_cast<std::uint32_t>(channels);
         place_ = place;
@@ -46,10 +46,9 @@ public:
         clear();
     }
 
-    /// How long a tile lasts from now on, at most about 1 ms; what has left stays known. M, not while
-    /// rendering.
+    /// Duration of a tile from now on, at most about 1 ms; the sums stay. M, not while rendering.
     void setTile(float seconds) noexcept {
-        constexpr float zone = 3.0f; // tiles; fewer, and a ramp of one tile would overshoot
+        constexpr float zone = 3.0f; // tiles; with fewer, a ramp of one tile would overshoot
         const bool isLast = place_ == GuardPlace::last;
         tile_ = seconds;
         maxArea_ = static_cast<float>(limits::guardShare * limits::guardSeconds) -
@@ -61,7 +60,8 @@ public:
         partTiles_ = static_cast<int>(limits::guardSeconds / (parts * seconds)) + 1;
     }
 
-    /// `areas` of the tile that has just left, seconds at full scale. False: the next one is played as it is.
+    /// `areas` of the tile that has just been sent, in seconds at full scale. False: the next tile is played
+    /// unchanged.
     bool take(const Row& areas) noexcept {
         std::size_t silent = 0;
         while (silent < channels_ && areas[silent] == 0.0f) ++silent;
@@ -77,23 +77,23 @@ public:
         return acts;
     }
 
-    /// Of the next tile: its gain goes in a straight line from one to the other.
+    /// Gain at the start of the next tile; it changes linearly to to() at its end.
     float from(std::size_t channel) const noexcept { return from_[channel]; }
     float to(std::size_t channel) const noexcept { return to_[channel]; }
 
     bool isAtRest() const noexcept {
         return silentSeconds_ >= forgetSeconds;
-    }                                             ///< nothing is known of what left
-    float gain() const noexcept { return gain_; } ///< the least of all channels; 1: it does nothing
+    }                                             ///< no sum is left: silent for long
+    float gain() const noexcept { return gain_; } ///< lowest of all channels; 1: no reduction
     std::uint32_t episodes() const noexcept {
         return episodes_;
     } ///< how often it began to act, since prepare
 
 private:
-    static constexpr int parts = 4; // whole ones, and the one that goes on
+    static constexpr int parts = 4; // complete ones, beside the current one
     static constexpr float forgetSeconds = 8.0f, root2 = 1.41421356f;
 
-    // Apart, as is endPart: a board keeps what runs for every tile in a small memory of its own.
+    // Not inlined, like endPart: a board keeps only per-tile code in its small fast memory.
     [[gnu::noinline]] void clear() noexcept {
         for (Row* row : {&sum_, &high_, &low_, &oldHigh_, &oldLow_, &slow_, &speed_, &load_}) row->fill(0.0f);
         for (auto& row : highs_) row.fill(0.0f);
@@ -107,8 +107,8 @@ private:
         part_ = 0;
     }
 
-    // A Butterworth low-pass of the second order in steps of a tile; the quadratic form is what the square of
-    // its output adds up to if nothing more comes in. Returns the least of the new gains.
+    // A second-order Butterworth low-pass in steps of a tile. The quadratic form is the energy that its
+    // output would still have without further input. Returns the lowest of the new gains.
     float follow(const Row& areas) noexcept {
         constexpr auto w = static_cast<float>(6.283185307 * limits::slowestToneHz);
         const float step = w * tile_;
@@ -130,15 +130,15 @@ private:
             from_[j] = to_[j];
             to_[j] = std::max(0.0f, std::min(room, rest_[j]));
             least = std::min(least, to_[j]);
-            // Above half of a bound it only falls: a tone that is turned down finds one gain, and keeps its
-            // shape.
+            // Above half of a bound it only falls: a reduced tone gets one constant gain and keeps its
+            // waveform.
             const bool mayRise = most < 0.5f * maxArea_ && load < 0.5f * maxLoad_;
             rest_[j] = mayRise ? std::min(1.0f, rest_[j] + rise_) : rest_[j] - fall_ * (rest_[j] - to_[j]);
         }
         return least;
     }
 
-    // Sums begin at 0 again, so that they stay as exact as they are.
+    // Sums restart at 0, so that they stay exact.
     [[gnu::noinline]] void endPart() noexcept {
         highs_[part_] = high_;
         lows_[part_] = low_;
@@ -154,13 +154,14 @@ private:
         }
     }
 
-    std::uint32_t channels_ = 0, part_ = 0; // of 32 bits, so that a board and a computer have one layout
+    std::uint32_t channels_ = 0, part_ = 0; // of 32 bits, so that boards and computers have one layout
     GuardPlace place_ = GuardPlace::last;
     float tile_ = 0.0f, maxArea_ = 0.0f, perArea_ = 0.0f, maxLoad_ = 0.0f, rise_ = 0.0f, fall_ = 0.0f,
           silentSeconds_ = 0.0f, gain_ = 1.0f;
     int partTiles_ = 1, partTile_ = 0;
     std::uint32_t episodes_ = 0;
-    Row sum_{}, high_{}, low_{}, oldHigh_{}, oldLow_{}; // since the part began; of it; of those before
+    Row sum_{}, high_{}, low_{}, oldHigh_{}, oldLow_{}; // since the part began; extremes within it; extremes
+                                                        // of earlier parts
     std::array<Row, parts> highs_{}, lows_{};
     Row slow_{}, speed_{}, load_{}, from_{}, to_{}, rest_{};
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bilinear transform bends what lies above a tenth of the rate, by a decibel and more at 5 kHz. So poles
-// are put where they are, and zeros where the magnitude is right at three frequencies (after Vicanek 2016).
+// Digital filter design of the hand-arm weighting W_h. The bilinear transform would warp frequencies above a
+// tenth of the rate, by a decibel and more at 5 kHz. So poles are mapped exactly, and zeros are chosen so
+// that the magnitude matches at three frequencies (after Vicanek 2016).
 #include "Core/Actuators/HandWeighting.h"
 #include <algorithm>
 #include <numbers>
@@ -31,7 +32,7 @@ double transition(double hz) noexcept {
     return std::abs((laplace(hz) + w) * w / pole(laplace(hz), transitionHz, transitionQ));
 }
 
-/// As `magnitude` at 0 Hz, `lowHz` and `highHz`.
+/// Section with these poles whose magnitude matches at 0 Hz, `lowHz` and `highHz`.
 Biquad matched(RootPair poles, double rateHz, double (*magnitude)(double), double lowHz,
                double highHz) noexcept {
     const auto squareAt = [&](double f) {
@@ -59,7 +60,7 @@ double handWeighting::gain(double hz) noexcept { return highPass(hz) * lowPass(h
 HandWeighting::HandWeighting(int sampleRateHz) noexcept
     : sampleRateHz_{static_cast<double>(sampleRateHz)} {
     const RootPair low = RootPair::bilinear(lowHz, bandQ, sampleRateHz_);
-    // 1 at half the rate; nothing bends so far down
+    // 1 at half the rate; warping is negligible at such low frequencies
     sections_ = {
         Biquad{0.25 * (1.0 - low.first + low.second), {-2.0, 1.0}, low},
         matched(RootPair::of(highHz, bandQ, sampleRateHz_), sampleRateHz_, lowPass, 0.5 * highHz, highHz),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much vibration a hand has taken: the weighting W_h of ISO 5349-1 at any rate, and the daily exposure
-// A(8).
+// Hand-arm vibration exposure: the frequency weighting W_h of ISO 5349-1 at any sample rate, and the daily
+// exposure A(8).
 #pragma once
 #include "Core/Actuators/Biquad.h"
 #include "Core/StandardGravity.h"
@@ -10,13 +10,13 @@
 
 namespace physvib {
 
-/// W_h as the standard's annex A has it: a band of second order, times a transition from acceleration to
+/// W_h as in the standard's annex A: a second-order band-pass, times a transition from acceleration to
 /// velocity.
 namespace handWeighting {
 constexpr double lowHz = 6.310, highHz = 1258.9, bandQ = 0.70710678118654752; // 10^0.8 and 10^3.1 Hz
 constexpr double transitionHz = 15.915, transitionQ = 0.64;                   // 100 rad/s
 
-/// Any thread.
+/// Magnitude of W_h. Any thread.
 double gain(double frequencyHz) noexcept;
 } // namespace handWeighting
 
@@ -24,7 +24,7 @@ double gain(double frequencyHz) noexcept;
 constexpr double exposureActionValue = 2.5, exposureLimitValue = 5.0;
 constexpr double exposureReferenceSeconds = 8.0 * 3600.0;
 
-/// A(8) in m/s^2 of the integral of squared weighted acceleration, in g^2 s; and back. Any thread.
+/// A(8) in m/s^2 from the integral of squared weighted acceleration, in g^2 s; and the inverse. Any thread.
 inline double dailyExposure(double squareGSeconds) noexcept {
     return standardGravity * std::sqrt(squareGSeconds / exposureReferenceSeconds);
 }
@@ -32,7 +32,8 @@ inline double squareGSecondsOf(double dailyExposure) noexcept {
     return dailyExposure * dailyExposure / (standardGravity * standardGravity) * exposureReferenceSeconds;
 }
 
-/// W_h on samples: within 0.1 dB of gain() from 8 to 1000 Hz at every rate of limits::. One thread at a time.
+/// W_h as a filter: within 0.1 dB of gain() from 8 to 1000 Hz at every rate that limits:: allows. One thread
+/// at a time.
 class HandWeighting {
 public:
     HandWeighting() = default;

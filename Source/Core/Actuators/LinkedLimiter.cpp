@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Sliding minimum, linear release, moving average, delayed multiply.
+// Implementation of the look-ahead limiter: sliding minimum, linear release, moving average, delayed
+// multiplication.
 #include "Core/Actuators/LinkedLimiter.h"
+#include "Core/Actuators/LimiterKernel.h"
 #include "Core/Modes/TileKernel.h"
 #include <algorithm>
 #include <bit>
@@ -41,7 +43,7 @@ bool LinkedLimiter::prepare(int sampleRateHz, int channels, bool enabled, Instru
 
 void LinkedLimiter::setCeiling(int channel, float ceiling) noexcept {
     const auto j = static_cast<std::size_t>(channel);
-    if (frame_ == 0) { // there is nothing to ramp from
+    if (frame_ == 0) { // before the first frame the ceiling needs no ramp
         ceilings_[j].jumpTo(ceiling);
         return boundBy(j, ceiling);
     }
@@ -96,7 +98,7 @@ void LinkedLimiter::processAll(const float* const* in, float* const* out, int fr
     }
 }
 
-// Channel by channel, so that the loops over frames are vectors.
+// Processes channel by channel, so that the loops over frames are vectorised.
 void LinkedLimiter::processPart(const LimiterLines& lines) noexcept {
     if (!takeIn(lines) && isResting()) {
         rest(lines.frames);
@@ -124,7 +126,7 @@ void LinkedLimiter::giveOut(const LimiterLines& lines, const float* gains) noexc
         delayAndLimit(lines.line(j), lines.out[j] + lines.first, lines.frames, gains, bounds_[j]);
 }
 
-// Sizes are compared as integers, which order as the floats do (IEEE 754).
+// Magnitudes are compared as integers, which order as the floats do (IEEE 754).
 bool LinkedLimiter::cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits,
                                     float* line) noexcept {
     constexpr std::int32_t least = 0x00800000;
@@ -141,8 +143,7 @@ bool LinkedLimiter::cleanAndCompare(const float* samples, std::size_t frames, st
     return most > mostBits;
 }
 
-// The gain, in units, that keeps every channel that is heard at its ceiling, and what the limiter makes of
-// it.
+// For each frame: the gain that keeps every channel within its ceiling, then the limiter's smoothed gain.
 void LinkedLimiter::followGains(const LimiterLines& lines, Gains& gains) noexcept {
     std::array<double, partMost> excess;
     excess.fill(1);
@@ -164,7 +165,7 @@ void LinkedLimiter::followGains(const LimiterLines& lines, Gains& gains) noexcep
     }
 }
 
-// Nothing was over for a window and nothing is: the gain is 1, and the next window starts from here.
+// No sample needed a reduction for a whole window: the gain is 1, and the sliding minimum restarts here.
 void LinkedLimiter::rest(std::size_t frames) noexcept {
     gain_ = 1.0f;
     frame_ += static_cast<std::int64_t>(frames);
@@ -174,7 +175,8 @@ void LinkedLimiter::rest(std::size_t frames) noexcept {
     candidateCount_ = 1;
 }
 
-// The product may round up past the ceiling by its last bit, or down into the denormals.
+// Rounding may lift the product above the ceiling by one bit, or lower it into the denormals; both are
+// corrected.
 void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains,
                                   float ceiling) const noexcept {
     const float* const delayed = line + front() - latencyFrames();
@@ -186,7 +188,7 @@ void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frame
     std::copy_n(line + frames, front(), line);
 }
 
-// The classic monotone queue: whoever needs more gain than a newcomer will never be the minimum again.
+// Monotone queue: an entry that needs at least the newcomer's gain can never be the minimum again.
 std::int64_t LinkedLimiter::slidingMinimum(std::int64_t needed) noexcept {
     const auto at = [this](std::size_t k) -> Candidate& {
         return candidates_[(front_ + k) % candidates_.size()];

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// One gain for all channels, so that a phantom stays where it is while no channel exceeds its ceiling.
+// Linked look-ahead limiter: one gain for all channels, so that a phantom stays in place while no channel
+// exceeds its ceiling.
 //
-// Look-ahead limiter of W frames (limits::limiterLookAheadSeconds): the least gain any of the last W frames
-// needs (sliding minimum), released linearly, averaged over W frames, applied to the input of W - 1 frames
-// ago. Each value averaged is at most what the delayed frame needs, so the ceiling holds; the average bounds
-// the attack's slope by 1/W a frame, the release by 1/(limits::limiterReleaseSeconds * rate). Gains are
+// Window of W frames (limits::limiterLookAheadSeconds): the lowest gain that any of the last W frames needs
+// (sliding minimum), released linearly, averaged over W frames, applied to the input of W - 1 frames ago.
+// Each averaged value is at most what the delayed frame needs, so the ceiling holds. The average limits the
+// attack's slope to 1/W per frame, the release to 1/(limits::limiterReleaseSeconds * rate). Gains are
 // integers (2^30 = 1): their running sum neither drifts nor differs between machines, and the gain returns to
-// exactly 1. A ceiling that changes is a ramp, of limits::channelRampSeconds at most: each frame needs the
-// gain for the ceiling of its own time.
+// exactly 1. A change of ceiling is a ramp of at most limits::channelRampSeconds: each frame is limited by
+// the ceiling of its own time.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
-#include "Core/Actuators/LimiterKernel.h"
 #include "Core/Limits.h"
 #include "Core/Modes/InstructionSet.h"
 #include "Core/Storage.h"
@@ -19,24 +19,26 @@
 
 namespace physvib {
 
+struct LimiterKernel;
+struct LimiterLines;
+
 /// R only, but for prepare: M.
 class LinkedLimiter {
 public:
-    /// Forgets everything; ceilings 1. Disabled, it only delays and cleans. The bits do not depend on the set
-    /// of instructions. False: no memory. M, not while rendering.
+    /// Resets everything; ceilings 1. If disabled, it only delays and replaces invalid samples. The bits do
+    /// not depend on the instruction set. False: no memory. M, not while rendering.
     bool prepare(int sampleRateHz, int channels, bool enabled,
                  InstructionSet set = InstructionSet::best) noexcept;
 
-    /// Largest absolute sample of that channel, > 0 and finite; after the first frame, in a ramp.
+    /// Largest absolute sample of that channel, > 0 and finite. After the first frame it changes in a ramp.
     void setCeiling(int channel, float ceiling) noexcept;
 
-    /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
-    /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite). `isSilent`: all of it
-    /// is +0, so that once the delayed frames are as well there is nothing to do. True if it leaves silence
-    /// as it came.
+    /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier. NaN, infinite
+    /// and denormal samples become 0 (those that are not finite are counted). `isSilent`: all input is +0; if
+    /// the delayed frames are 0 too, nothing is computed. True if the output is silent.
     bool process(float* const* io, int frames, bool isSilent = false) noexcept;
 
-    /// The same from `in` to `out`, and `in` is written to `kept` as well. Only where it canPass.
+    /// The same from `in` to `out`, and `in` is copied to `kept`. Only if canPass.
     void pass(const float* const* in, float* const* out, int frames, float* const* kept) noexcept;
     bool canPass() const noexcept { return kernel_ != nullptr; }
 
@@ -76,30 +78,31 @@ private:
     int window_ = 1;
     bool enabled_ = true;
     std::int64_t releaseStep_ = unit;
-    static constexpr std::size_t step = LimiterLines::padding,
-                                 floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
+    static constexpr std::size_t step = 16, // floats of the widest vector
+        floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
     // of latencyFrames(), whole vectors
     std::size_t front() const noexcept {
         return (static_cast<std::size_t>(window_) + step - 2) / step * step;
     }
     const LimiterKernel* kernel_ = nullptr;
-    std::array<GainRamp, width> ceilings_{}; // of what comes in
-    std::array<float, width> bounds_{}; // of what goes out, the highest of a ramp's; infinite if it is off
-    std::array<std::int32_t, width> mostBits_{}; // sizes up to here are neither over, the lowest of a ramp's,
-                                                 // nor infinite
-    std::int64_t settledFrame_ = 0;              // from here on no frame has a ramp's ceiling
+    std::array<GainRamp, width> ceilings_{}; // of the input
+    std::array<float, width> bounds_{}; // ceiling of the output, during a ramp the highest; infinite if the
+                                        // limiter is off
+    std::array<std::int32_t, width> mostBits_{}; // magnitudes up to this need no reduction, even at the
+                                                 // lowest ceiling of a ramp, and are finite
+    std::int64_t settledFrame_ = 0; // from here on no delayed frame is subject to a ramp's ceiling
     int rampFrames_ = 1;
     bool isSettled_ = true;
-    Storage<float, width * floatsPerLine, true> lines_; // of each channel the last latencyFrames() inputs, in
+    Storage<float, width * floatsPerLine, true> lines_; // per channel the last latencyFrames() inputs, in
                                                         // order
-    std::int64_t silentFrames_ = 0;                     // up to now
+    std::int64_t silentFrames_ = 0;                     // trailing silent inputs
     int position_ = 0;                                  // in the ring of `window_` gains
     std::int64_t frame_ = 0;
     struct Candidate {
         std::int64_t needed = unit;
         std::int64_t frame = 0;
     };
-    std::array<Candidate, windowMax + 1> candidates_{}; // rising needs: the front is the window's minimum
+    std::array<Candidate, windowMax + 1> candidates_{}; // rising gains: the front is the window's minimum
     std::size_t front_ = 0;
     std::size_t candidateCount_ = 0;
     std::int64_t released_ = unit;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The last stage before an actuator: a gain per channel that keeps its mean over 250 ms, and what lies below
-// 5 Hz, within limits::guardShare of full scale, whatever was summed. Nobody feels either, and a coil grows
-// warm of it.
+// Protection stage before the actuators: a gain per channel that keeps its mean over 250 ms, and its content
+// below 5 Hz, within limits::guardShare of full scale, whatever was summed. Neither is felt, and both only
+// warm a coil.
 //
-// It decides at the ends of tiles of a third of a millisecond, on a grid from the first frame on, of whole
-// numbers: the samples do not depend on the blocks. Where the law leaves the gain at 1, a sample stays as it
-// is. How: GuardLaw.
+// It decides at the ends of tiles of a third of a millisecond on an absolute grid of whole frames, so samples
+// do not depend on block sizes. While the gain is 1, samples stay unchanged. Rule: GuardLaw.
 #pragma once
 #include "Core/Actuators/GuardLaw.h"
 #include <cmath>
@@ -14,16 +13,16 @@
 
 namespace physvib {
 
-/// R only, but for prepare: M.
+/// Render thread (R) only; prepare: message thread (M).
 class OutputGuard {
 public:
-    /// Nothing has left. M, not while rendering.
+    /// Resets the sums. M, not while rendering.
     void prepare(int sampleRateHz, int channels, GuardPlace place) noexcept {
         channels_ = static_cast<std::size_t>(channels);
         law_.prepare(channels, place);
         changeRate(sampleRateHz);
     }
-    /// What has left stays known. M, not while rendering.
+    /// Changes the sample rate and keeps the sums. M, not while rendering.
     void changeRate(int sampleRateHz) noexcept {
         tile_ = std::max(1, static_cast<int>(std::lround(sampleRateHz * tileSeconds)));
         law_.setTile(static_cast<float>(tile_) / static_cast<float>(sampleRateHz));
@@ -33,15 +32,15 @@ public:
         acts_ = hasSums_ = false;
     }
 
-    /// Which frame process() gets next: tiles lie on the grid of these, so that samples do not depend on the
-    /// output latency either. Without it they lie on the grid of the frames since prepare. R.
+    /// Sets the absolute number of the next frame. Tiles lie on the grid of these numbers, so that samples do
+    /// not depend on the output latency. Without it the grid starts at prepare. R.
     void moveTo(std::int64_t frame) noexcept {
         const auto at = static_cast<int>((frame % tile_ + tile_) % tile_);
         if (at != filled_ && hasSums_) endTile();
         filled_ = at;
     }
 
-    /// In place: io[channel][0..frames), finite, up to 8 times full scale; null: nothing leaves there.
+    /// In place: io[channel][0..frames), finite, up to 8 times full scale; null: a channel without output.
     /// `isSilent`: all of it is 0.
     void process(float* const* io, int frames, bool isSilent = false) noexcept {
         if (isSilent && !hasSums_ && law_.isAtRest()) {
@@ -56,14 +55,14 @@ public:
         }
     }
 
-    float gain() const noexcept { return law_.gain(); } ///< the least of all channels; 1: it does nothing
+    float gain() const noexcept { return law_.gain(); } ///< lowest of all channels; 1: no reduction
     std::uint32_t episodes() const noexcept {
         return law_.episodes();
     } ///< how often it began to act, since prepare
 
 private:
     static constexpr double tileSeconds = 1.0 / 3000.0;
-    static constexpr float unit = 2097152.0f; // 2^21 are full scale: 64 frames of 8 times that stay within 32
+    static constexpr float unit = 2097152.0f; // 2^21 is full scale: 64 frames of 8 times full scale fit 32
                                               // bits
     static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
 

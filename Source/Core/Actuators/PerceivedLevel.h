@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: MIT
-// How strong a hit is felt at its frequency, made up for in its amplitude.
+// Frequency weighting of amplitudes towards equal perceived strength.
 #pragma once
 #include <algorithm>
 #include <cmath>
 
 namespace physvib {
 
-/// Weights amplitudes, which are accelerations, towards what feels as strong at 250 Hz. The threshold of
-/// detection as a displacement is flat to 40 Hz and falls by 12 dB per octave to its best at about 250 Hz
-/// (Verrillo 1963, large contactors at the thenar, as retold by Gescheider and Verrillo; unverified against
-/// the paper, and displacement is assumed). Above that it rises, which is taken as flat, the least that it
-/// can be. An acceleration is (2 pi f)^2 times a displacement: as one, the threshold rises by 12 dB per
-/// octave, is flat from 40 to 250 Hz, and rises again. Half of it, in dB, is made up for, and at most a
+/// Weights amplitudes, which are accelerations, towards what feels as strong at 250 Hz. The detection
+/// threshold as a displacement is flat to 40 Hz and falls by 12 dB per octave to its minimum at about 250 Hz
+/// (Verrillo 1963, large contactors at the thenar, as reported by Gescheider and Verrillo; unverified against
+/// the paper, and displacement is assumed). Above that it rises; it is taken as flat here, the smallest
+/// possible rise. Acceleration is (2 pi f)^2 times displacement: as an acceleration the threshold rises by 12
+/// dB per octave, is flat from 40 to 250 Hz, and rises again. Half of it, in dB, is compensated, at most by a
 /// factor of 2. Any thread.
 struct PerceivedLevel {
-    static constexpr double flatLowHz = 40.0, flatHighHz = 250.0; ///< one threshold acceleration in between
+    static constexpr double flatLowHz = 40.0, flatHighHz = 250.0; ///< constant threshold acceleration in
+                                                                  ///< between
     static constexpr double greatestWeight = 2.0;                 ///< from 500 Hz on; its inverse up to 20 Hz
 
-    bool isWeighted = false; ///< false: amplitudes stay as they are
+    bool isWeighted = false; ///< false: amplitudes stay unchanged
 
-    /// Of an amplitude at a frequency > 0: sqrt((f / 40)^2) below 40 Hz, 1, sqrt((f / 250)^2) above 250 Hz;
-    /// 0.5 to 2.
+    /// Weight of a frequency > 0: sqrt((f / 40)^2) below 40 Hz, 1, sqrt((f / 250)^2) above 250 Hz; 0.5 to 2.
     static constexpr double weight(double frequencyHz) noexcept {
         const double nearest = std::clamp(frequencyHz, flatLowHz, flatHighHz);
         return std::clamp(frequencyHz / nearest, 1.0 / greatestWeight, greatestWeight);
     }
 
-    /// The weighted amplitude. Nothing is raised above full scale, or further above it.
+    /// The weighted amplitude. Weighting raises no amplitude above full scale, and none that already exceeds
+    /// it.
     double operator()(double amplitude, double frequencyHz) const noexcept {
         if (!isWeighted) return amplitude;
         const double most = std::max(std::abs(amplitude), 1.0);
@@ -35,9 +36,8 @@ struct PerceivedLevel {
     bool operator==(const PerceivedLevel&) const = default;
 };
 
-/// About the weakest peak acceleration, in g, that is felt at a frequency, by the same curve: 0.1 um at 250
-/// Hz (20 dB below 1 um) is 0.025 g. An assumption: people, places and contactors differ by 10 dB. Any
-/// thread.
+/// Approximate detection threshold in g at a frequency, by the same curve: 0.1 um at 250 Hz (20 dB below 1
+/// um) is 0.025 g. An assumption: people, places and contactors differ by 10 dB. Any thread.
 constexpr double detectionThresholdG(double frequencyHz) noexcept {
     constexpr double lowestG = 0.025;
     const double share =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a linear actuator makes of its drive: a mass on a spring, moved by a force, felt as the acceleration
+// Linear model of a resonant actuator: a mass on a spring, driven by a force; the output is the acceleration
 // of its case.
 #pragma once
 #include <cmath>
@@ -8,9 +8,9 @@
 
 namespace physvib {
 
-/// H(s) = (1/Q) s^2 / (s^2 + (w0/Q) s + w0^2), w0 = 2 pi resonanceHz: acceleration for drive, 1 at the
-/// resonance. Above it H falls to the plateau 1/Q, below it with 12 dB per octave. LRA, voice coil and loaded
-/// piezo bender alike.
+/// H(s) = (1/Q) s^2 / (s^2 + (w0/Q) s + w0^2), w0 = 2 pi resonanceHz: acceleration per drive, 1 at the
+/// resonance. Above it H falls to the plateau 1/Q, below it by 12 dB per octave. Valid for LRA, voice coil
+/// and loaded piezo bender.
 struct Resonator {
     double resonanceHz = 0.0; ///< > 0; 0: not known
     double q = 0.0;           ///< > 0; 0: not known
@@ -23,14 +23,14 @@ struct Resonator {
         return -ratio * ratio / q / std::complex<double>(1.0 - ratio * ratio, ratio / q);
     }
 
-    /// What is left when the drive ends falls by exp(-t ringDownPerSecond): nothing shorter can be shown
+    /// After the drive ends the vibration falls by exp(-t ringDownPerSecond): shorter decays are impossible
     /// without braking.
     double ringDownPerSecond() const noexcept { return std::numbers::pi * resonanceHz / q; }
 
     bool operator==(const Resonator&) const = default;
 };
 
-/// Frequencies that an actuator is meant to play.
+/// The frequency range that an actuator is meant to play.
 struct FrequencyBand {
     double lowHz = 0.0, highHz = 0.0; ///< 0 < lowHz < highHz; 0, 0: not known
     bool isKnown() const noexcept { return lowHz > 0.0 && highHz > lowHz; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An actuator in numbers, to try equalisers and measurements on: drive in, acceleration out.
+// Simulated actuator to test equalisers and measurements with: drive in, acceleration out.
 #pragma once
 #include "Core/Actuators/Biquad.h"
 #include "Core/Actuators/Resonator.h"
@@ -7,8 +7,8 @@
 
 namespace physvib {
 
-/// Drive is cut at +-driveLimit, as an amplifier's supply does; what passes moves the resonator. One thread
-/// at a time.
+/// The drive is clipped at +-driveLimit, as by an amplifier's supply, and then drives the resonator. One
+/// thread at a time.
 class SimulatedActuator {
 public:
     /// `resonator` known; sample rate in Hz, above twice its resonance.
@@ -18,8 +18,8 @@ public:
         response_.scale(1.0 / std::abs(response_.at(resonator.resonanceHz, sampleRateHz)));
     }
 
-    /// Acceleration, in units of that at the resonance for a drive of 1; a frame of drive in units of full
-    /// scale. Wait-free.
+    /// One frame of drive in units of full scale to acceleration in units of that at the resonance for a
+    /// drive of 1. Wait-free.
     double process(double drive) noexcept {
         return response_.process(std::clamp(drive, -driveLimit_, driveLimit_));
     }

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// The thesis' vibration converter (5.1.3): what is rendered becomes what an actuator understands. Write your
-// own.
+// Interface for converting rendered samples to another actuator's format (the thesis' vibration converter,
+// 5.1.3), and an example: on-off steps for simple motors.
 #pragma once
 #include <cmath>
 
 namespace physvib {
 
-/// Takes a render block by block, from frame 0 on and without gaps. Whoever renders says on which thread: in
-/// an audio callback nothing may block or allocate.
+/// Receives a render block by block, from frame 0 on without gaps. The caller decides on which thread; in an
+/// audio callback it must not block or allocate.
 class VibrationConverter {
 public:
     virtual ~VibrationConverter() = default;
 
-    /// channels[channel][0..frames), 1 = an enchanter's full scale. False stops the render.
+    /// channels[channel][0..frames), 1 = an actuator's full scale. False stops the render.
     virtual bool convert(const float* const* channels, int frames) = 0;
 };
 
-/// For a motor that is on or off (a phone's own, an ERM): on for each step in which a sample exceeds the
-/// threshold. A step, not a sample: a sine crosses any threshold hundreds of times a second, a motor takes
-/// tens of milliseconds.
+/// For a motor that is only on or off (a phone's own, an ERM): on for each step in which a sample exceeds the
+/// threshold. Steps instead of samples, because a sine crosses any threshold hundreds of times a second,
+/// while a motor reacts in tens of milliseconds.
 class OnOffSteps {
 public:
     static constexpr long long stepsPerSecond = 100; ///< the thesis' rendering loop
@@ -29,7 +29,7 @@ public:
         : rate_{sampleRateHz}
         , threshold_{static_cast<float>(threshold)} {}
 
-    /// One frame of one channel. `change(stepIndex, isOn)` is called where a step differs from the one
+    /// One frame of one channel. `change(stepIndex, isOn)` is called for a step that differs from the one
     /// before.
     template <class Change>
     void take(float sample, Change change) {
@@ -40,7 +40,7 @@ public:
         isLoud_ = false;
         ++step_;
     }
-    bool isOn() const noexcept { return isOn_; }       ///< R.
+    bool isOn() const noexcept { return isOn_; }       ///< Render thread (R).
     long long steps() const noexcept { return step_; } ///< complete ones
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which vector instructions the mode bank runs on: chosen at run time, so that one program suits every
-// machine.
+// The vector instruction sets that the mode bank can use, chosen at run time so that one binary suits every
+// processor.
 #pragma once
 #include <array>
 #include <string_view>
@@ -8,8 +8,8 @@
 namespace physvib {
 
 /// Sets with fused multiply-adds (avx2, avx512, neon) give the same bytes as each other; sse4 and scalar
-/// differ from them by rounding. `scalar` is double precision throughout: the oracle, and the same bytes on
-/// every machine.
+/// differ from them by rounding. `scalar` computes in double precision throughout: it is the reference and
+/// gives the same bytes on every machine.
 enum class InstructionSet { best, scalar, sse4, avx2, avx512, neon };
 
 constexpr std::array<std::string_view, 6> instructionSetNames{"best", "scalar", "sse4",
@@ -19,7 +19,7 @@ constexpr std::string_view nameOf(InstructionSet set) noexcept {
     return instructionSetNames[static_cast<std::size_t>(set)];
 }
 
-/// Whether this program and this processor can run it; `best` and `scalar` always can. Any thread.
+/// True if this build and this processor can run it; `best` and `scalar` always can. Any thread.
 bool isAvailable(InstructionSet set) noexcept;
 
 } // namespace physvib

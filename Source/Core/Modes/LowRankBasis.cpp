@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Three-term recurrence with re-orthogonalisation (Stieltjes' procedure), on half a tile by symmetry.
+// The polynomials by a three-term recurrence with re-orthogonalisation (Stieltjes' procedure). By symmetry
+// half a tile suffices.
 #include "Core/Modes/LowRankBasis.h"
 #include <cmath>
 
@@ -7,7 +8,8 @@ namespace physvib {
 
 LowRankBasis::LowRankBasis() noexcept {
     const auto at = [this](std::size_t k, std::size_t t) -> double& { return values_[k * half + t]; };
-    const auto dot = [&](std::size_t a, std::size_t b) { // over the whole tile, for two of equal symmetry
+    const auto dot = [&](std::size_t a, std::size_t b) { // over the whole tile, for two polynomials of equal
+                                                         // symmetry
         double sum = 0;
         for (std::size_t t = 0; t < half; ++t) sum += 2 * at(a, t) * at(b, t);
         return sum;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Striking, merging, gating, stealing and retiring of modes.
+// The life of modes in the bank: striking, merging, gating, stealing and retiring.
 #include "Core/Modes/ModeBank.h"
 #include "Core/Modes/ModeIncrements.h"
+#include "Core/Modes/ModeTable.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -43,14 +44,14 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
     enterTile(fromFrame);
     finishStrikes();
     const double ratio = sampleRateHz / rate_;
-    const auto moved = [=](std::int64_t frame) { // a frame before or after `fromFrame`, as far away in time
+    const auto moved = [=](std::int64_t frame) { // the frame at the same distance in time from `toFrame`
         return frame == Strike::never
                    ? frame
                    : toFrame + static_cast<std::int64_t>(static_cast<double>(frame - fromFrame) * ratio);
     };
     tileStart_ = toFrame - toFrame % tile;
     rate_ = sampleRateHz;
-    nextEnd_ = toFrame; // to be found anew
+    nextEnd_ = toFrame; // forces the next tile to recompute it
     index_.clear();
     for (int i = 0; i < activeCount_; ++i) {
         const int slot = active_[static_cast<std::size_t>(i)];
@@ -82,7 +83,7 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
 
 bool ModeBank::strike(const Strike& strike, const double* gains) noexcept {
     const bool isGated = strike.closeFrame != Strike::never;
-    // ends between two frames: no sample of it
+    // the strike ends between two frames, so it has no sample
     if (isGated && strike.closeFrame <= strike.onset.frame) return true;
     if (isGated && freeGateCount_ == 0) return false;
     enterTile(strike.onset.frame);
@@ -97,7 +98,7 @@ bool ModeBank::strike(const Strike& strike, const double* gains) noexcept {
     return !isGated || openGate(slot, strike, gains);
 }
 
-// The mode that it is merged into, or a new one.
+// The slot of the mode that the strike merges with, or of a new mode.
 int ModeBank::slotFor(const Strike& strike) noexcept {
     const auto hash = static_cast<std::uint32_t>(
         std::bit_cast<std::uint64_t>(strike.frequencyHz) * 0x9e3779b97f4a7c15 >> 32);
@@ -122,7 +123,7 @@ int ModeBank::slotFor(const Strike& strike) noexcept {
 
 void ModeBank::add(int slot, const Strike& strike, const double* gains) noexcept {
     Mode& m = mode(slot);
-    if (tiles_.isOn()) { // rebased together with the strike
+    if (tiles_.isOn()) { // tiles_ rebases the amplitudes when it processes the strike
         const std::int64_t octaves = m.decayIncrement * (tileStart_ - m.referenceFrame);
         m.referenceFrame = tileStart_;
         return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_),
@@ -137,7 +138,7 @@ void ModeBank::add(int slot, const Strike& strike, const double* gains) noexcept
     refreshTile(slot);
 }
 
-// Strikes may wait for others of their tile, until somebody looks at amplitudes.
+// Strikes of one tile are collected; this processes them before amplitudes are read.
 void ModeBank::finishStrikes() noexcept { tiles_.finishStrikes(); }
 
 ModeBank::Mode ModeBank::modeFor(const Strike& strike) const noexcept {
@@ -185,11 +186,11 @@ void ModeBank::recycle(int slot) noexcept {
     else
         index_.erase(mode(slot).hash(), slot);
     if (tiles_.isOn()) tiles_.remove(slot);
-    mode(slot).life = 0; // gates that are still open find nothing to close
+    mode(slot).life = 0; // so that open gates of the slot's earlier mode are ignored
     freeSlots_[static_cast<std::size_t>(freeCount_++)] = slot;
 }
 
-// From `frame` on the mode decays faster: same phase, no step, gone within milliseconds.
+// From `frame` on the mode decays faster, with unchanged phase and no step, and ends within milliseconds.
 void ModeBank::fade(int slot, std::int64_t frame, double perSecond) noexcept {
     rebase(slot);
     Mode& m = mode(slot);
@@ -200,7 +201,7 @@ void ModeBank::fade(int slot, std::int64_t frame, double perSecond) noexcept {
     m.isFading = true;
     m.endFrame = std::min(m.endFrame, frame + m.lifeFrames);
     nextEnd_ = std::min(nextEnd_, m.endFrame);
-    // so that nothing changes at `frame`
+    // the faster decay, extrapolated back to the tile's start, leaves the level at `frame` unchanged
     const double backwards = decayFactor<double>((before - m.decayIncrement) * (frame - tileStart_));
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
@@ -253,7 +254,7 @@ void ModeBank::fillPowers(int slot) noexcept {
     }
 }
 
-// What follows from a mode's increments.
+// Recomputes everything that depends on a mode's increments.
 void ModeBank::shape(int slot) noexcept {
     fillPowers(slot);
     if (!tiles_.isOn()) return;
@@ -269,7 +270,7 @@ void ModeBank::shape(int slot) noexcept {
     renewCarrier(slot);
 }
 
-// Brings the amplitudes' decay to the tile's first frame.
+// Moves the amplitudes' reference to the tile's first frame.
 void ModeBank::rebase(int slot) noexcept {
     Mode& m = mode(slot);
     if (m.referenceFrame == tileStart_) return;
@@ -300,7 +301,7 @@ void ModeBank::refreshTile(int slot) noexcept {
     }
 }
 
-// A mode has changed other than by a strike: what is left of its tile is to be made again.
+// To be called if a mode was changed other than by a strike: the rest of its tile is rendered again.
 void ModeBank::redoTile(int slot, std::int64_t frame) noexcept {
     tiles_.redoFrom(mode(slot).isGated, static_cast<int>(frame - tileStart_));
 }
@@ -330,7 +331,8 @@ void ModeBank::retireModes() noexcept {
     activeCount_ = kept;
 }
 
-// Carriers are multiplied on, and set from their integers every so many tiles, a few slots at a time.
+// Carriers advance by multiplication. To bound rounding errors they are recomputed from their integers every
+// renewalTiles tiles, a few slots at a time.
 void ModeBank::refreshAll(bool isNextTile) noexcept {
     if (tiles_.isOn()) {
         if (isNextTile) tiles_.advance();
@@ -366,7 +368,7 @@ void ModeBank::closeNextGate() noexcept {
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(gate.slot) + static_cast<std::size_t>(j)];
         if (m.openGates == 0)
-            z = {}; // exact silence, whatever rounding has left
+            z = {}; // exact silence, without rounding residue
         else
             z -= phasor * gateGains_[static_cast<std::size_t>(gate.entry * channels_ + j)];
     }
@@ -380,7 +382,7 @@ Turn ModeBank::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase
         static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
     const auto leadDecay =
         static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
-    // A gate may close long after its own strike has died away inside a mode that others keep alive.
+    // A gate may close long after its own strike has decayed, if other strikes keep the mode alive.
     constexpr std::int64_t inaudible = 120 * static_cast<std::int64_t>(octaveUnit);
     const std::int64_t age = m.referenceFrame - onset.frame;
     const bool hasDied = age > 0 && m.decayIncrement > 0 && age > inaudible / m.decayIncrement;

@@ -1,63 +1,64 @@
 // SPDX-License-Identifier: MIT
-// The sounding modes. Decaying sinusoids are linear, so strikes of equal (frequency, decay) merge exactly
-// into one mode with one complex amplitude per channel: cost is bounded by the number of materials, not of
-// collisions.
+// The bank of sounding modes. Decaying sinusoids are linear, so strikes of equal (frequency, decay) merge
+// exactly into one mode with one complex amplitude per channel. Cost grows with the number of materials that
+// sound at once, not with the number of collisions.
 //
-// A mode's phase is an integer (2^64 = one turn) that is linear in the absolute frame number, its decay a
-// fixed-point number of octaves: neither drifts, both are the same bits on every machine, and together they
-// are the merge key. At each tile of the absolute frame grid the amplitudes are brought to the tile's first
-// frame from these integers. Where there are vector instructions, ModeTiles renders whole tiles; else the
-// scalar kernel sums sample by sample.
+// A mode's phase is an integer (2^64 = one turn), linear in the absolute frame number; its decay is a
+// fixed-point number of octaves. Neither drifts, both are the same bits on every machine, and together they
+// are the merge key. At each tile of the absolute frame grid the amplitudes are computed for the tile's first
+// frame from these integers. With vector instructions ModeTiles renders whole tiles; otherwise the scalar
+// kernel sums sample by sample.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/FrameClock.h"
 #include "Core/Modes/ModeIndex.h"
-#include "Core/Modes/ModeTable.h"
 #include "Core/Modes/ModeTiles.h"
 #include "Core/Storage.h"
 #include "Core/TimeOrdered.h"
+#include "Core/Trigonometry.h"
 #include <array>
 #include <cstdint>
 
 namespace physvib {
 
-/// One strike, already on the frame grid and panned.
+/// One strike (excitation of a mode), already on the frame grid and panned.
 struct Strike {
     double frequencyHz = 0.0; ///< below half the sample rate
     double decayPerSecond = 0.0;
     double amplitude = 0.0;
     FramePosition onset;
-    std::int64_t closeFrame = never; ///< first frame that is silent again; `never`: when it has decayed
+    std::int64_t closeFrame = never; ///< first frame that is silent again; `never`: it decays fully
     std::uint64_t phase = 0;         ///< at the onset, in turns / 2^64: 0 is a sine
     static constexpr std::int64_t never = INT64_MAX;
 };
 
-/// Its memory follows channels and modes, and is taken when it is prepared. R only, but for prepare: M.
+/// Memory depends on channels and modes and is allocated in prepare. Render thread (R) only; prepare: message
+/// thread (M).
 class ModeBank {
 public:
     static constexpr int tile = limits::tileFrames;
     static constexpr int slotCount = limits::maxModes + limits::maxFadingModes;
 
-    /// Silence, for this rate and number of channels (1 to limits::maxEnchanters). A set of instructions that
-    /// is not available means the scalar kernel. `modes`: that sound at once without one being stolen, 1 to
-    /// limits::maxModes; `gates`: strikes with a duration that are open at once. False: no memory for them,
-    /// and it is not to be used. M, not while rendering.
+    /// Silence, for this sample rate and number of channels (1 to limits::maxEnchanters). An instruction set
+    /// that is not available selects the scalar kernel. `modes`: modes that sound at once before one is
+    /// stolen, 1 to limits::maxModes; `gates`: strikes with a duration that sound at once. False: no memory;
+    /// do not use the bank. M, not while rendering.
     bool prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best,
                  int modes = limits::maxModes, int gates = limits::maxGates) noexcept;
 
-    /// What it runs on. Any thread after prepare.
+    /// The instruction set in use. Any thread after prepare.
     InstructionSet instructionSet() const noexcept { return tiles_.set(); }
 
-    /// Goes on at another rate and frame: what sounded at the old `fromFrame` sounds on at the new `toFrame`,
+    /// Continues at another sample rate and frame: what sounded at `fromFrame` continues at `toFrame`, and
     /// gates close after the same time. M, not while rendering.
     void moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept;
 
-    /// Frames only go forward. `gains`: one per channel. The strike's frame is the next one to be rendered,
-    /// or, if takesStrikesAhead(), a later one of the same tile, with no gate to be closed before it. False
-    /// if too many strikes with a duration are open: then nothing has changed.
+    /// `gains`: one per channel. Frames only go forward: the strike's frame is the next one to be rendered,
+    /// or, if takesStrikesAhead(), a later one of the same tile with no gate to be closed before it. False,
+    /// and nothing has changed, if too many gates are open.
     bool strike(const Strike& strike, const double* gains) noexcept;
 
-    /// How many strikes with a duration find room now.
+    /// How many more strikes with a duration can be accepted now.
     int freeGates() const noexcept { return freeGateCount_; }
 
     bool takesStrikesAhead() const noexcept { return tiles_.isOn(); }
@@ -68,16 +69,16 @@ public:
     /// Closes that gate; to be called when its frame is the next one to be rendered.
     void closeNextGate() noexcept;
 
-    /// From `frame` on, the next one to be rendered, everything fades: as a stolen mode does, unless it is to
-    /// go faster.
+    /// Fades out all modes from `frame` on, which is the next one to be rendered; by default as fast as
+    /// stolen modes.
     void fadeAll(std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
 
     /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. False
-    /// if all are 0.
+    /// if all samples are 0.
     bool render(float* const* out, std::int64_t first, int frames) noexcept;
 
-    /// Instead of render, if there are tiles: where each channel's frames from `first` on stand already.
-    /// False: nowhere, and render is to be called.
+    /// Alternative to render, without a copy: pointers to each channel's samples from frame `first` on. False
+    /// if they do not exist in that form; then call render.
     bool sumsAt(const float** at, std::int64_t first) noexcept;
 
     int liveModes() const noexcept { return activeCount_; }
@@ -89,13 +90,13 @@ private:
         double decayPerSecond = 0.0;
         std::uint64_t phaseIncrement = 0; // turns / 2^64 per frame
         std::int64_t decayIncrement = 0;  // octaves / 2^56 per frame
-        std::int64_t referenceFrame = 0;  // amplitudes are as of this frame's decay; their phase is absolute
-        std::int64_t endFrame = 0;        // over from here on
-        std::int64_t lifeFrames = 0;      // of a strike
-        std::uint32_t life = 0;           // tells this use of the slot from earlier ones
+        std::int64_t referenceFrame = 0;  // amplitudes are those at this frame's decay; their phase is
+                                          // absolute
+        std::int64_t endFrame = 0;        // first frame after its end
+        std::int64_t lifeFrames = 0;      // life of a strike
+        std::uint32_t life = 0;           // distinguishes this use of the slot from earlier ones
         int openGates = 0;
-        bool isGated = false; // gated strikes do not merge with free ones, so that closing can leave exact
-                              // zeros
+        bool isGated = false; // gated and other strikes do not merge, so that closing can leave exact zeros
         bool isFading = false;
         std::uint64_t hash() const noexcept { return modeHash(phaseIncrement, decayIncrement, isGated); }
         bool isOf(const Strike& s) const noexcept { // sufficient, not necessary: other frequencies may have
@@ -111,7 +112,7 @@ private:
     struct Gate {
         int slot = 0;
         std::uint32_t life = 0;
-        int entry = 0; // where its gains stand
+        int entry = 0; // index of its gains
         FramePosition onset;
         std::uint64_t phase = 0;
     };
@@ -151,7 +152,7 @@ private:
     static constexpr auto tileSize = static_cast<std::size_t>(tile);
     static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
     static constexpr auto gateCount = static_cast<std::size_t>(limits::maxGates);
-    static constexpr std::size_t padding = tiles::channelsPerLine; // tiles read whole lines
+    static constexpr std::size_t padding = tiles::channelsPerLine; // because tiles read whole cache lines
     template <class T, std::size_t most>
     using Room = Storage<T, most, true>;
 
@@ -164,15 +165,15 @@ private:
     int activeCount_ = 0;
     int freeCount_ = 0;
     int fadingCount_ = 0;
-    std::int64_t nextEnd_ = Strike::never; // no mode ends earlier
+    std::int64_t nextEnd_ = Strike::never; // no mode ends before this frame
     std::uint64_t stolen_ = 0;
     std::uint32_t lives_ = 0;
     Room<Mode, slots> slotModes_;
-    ModeIndex<slotCount> index_; // of modes that do not fade
+    ModeIndex<slotCount> index_; // of modes that are not fading
     ModeTiles tiles_;
-    std::array<std::int32_t, 256> recent_{}; // slots that were struck, by their frequency's bits
-    Room<Complex<double>, slots * width + padding> amplitudes_; // as of the mode's reference frame
-    Room<Complex<double>, slots * width> tileAmplitudes_;       // as of the tile's first frame; scalar kernel
+    std::array<std::int32_t, 256> recent_{}; // slots that were struck recently, by hash of the frequency
+    Room<Complex<double>, slots * width + padding> amplitudes_; // at the mode's reference frame
+    Room<Complex<double>, slots * width> tileAmplitudes_; // at the tile's first frame; scalar kernel only
     Room<double, slots * tileSize> cosPowers_;
     Room<double, slots * tileSize> sinPowers_;
     TimeOrdered<Gate, limits::maxGates, true> gates_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mode in integers: how far it turns and falls per frame, and how long it is heard.
+// Converts a mode's frequency and decay to integer increments per frame, and to its life in frames.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/Trigonometry.h"
@@ -9,29 +9,29 @@
 
 namespace physvib {
 
-/// turns / 2^64 per frame. Any thread, as all of these.
+/// Turns / 2^64 per frame. Any thread, as all functions here.
 inline std::uint64_t phaseIncrementOf(double frequencyHz, double rate) noexcept {
     return static_cast<std::uint64_t>(frequencyHz / rate * 18446744073709551616.0);
 }
 
-/// octaves / 2^56 per frame.
+/// Octaves / 2^56 per frame.
 inline std::int64_t decayIncrementOf(double decayPerSecond, double rate) noexcept {
     return static_cast<std::int64_t>(decayPerSecond / rate * (std::numbers::log2e * octaveUnit) + 0.5);
 }
 
-/// Until it has fallen by limits::retireDecibels; INT64_MAX: it does not.
+/// Frames until the level has fallen by limits::retireDecibels; INT64_MAX if it does not decay.
 inline std::int64_t lifeFramesOf(std::int64_t decayIncrement) noexcept {
     constexpr auto octaves = static_cast<std::int64_t>(
         limits::retireDecibels / (20.0 * (std::numbers::ln2 / std::numbers::ln10)) * octaveUnit);
     return decayIncrement == 0 ? INT64_MAX : octaves / decayIncrement + 1;
 }
 
-/// The phase, in turns / 2^64, that a tone has after so many turns, from 0 on.
+/// The phase, in turns / 2^64, of a tone that began at phase 0, after `turns` turns.
 inline std::uint64_t phaseAfter(double turns) noexcept {
     return static_cast<std::uint64_t>((turns - std::floor(turns)) * 18446744073709551616.0);
 }
 
-/// What is left of an amplitude of 1 that decays.
+/// The factor by which an amplitude has decayed after `seconds`.
 inline double shareLeft(double decayPerSecond, double seconds) noexcept {
     const double octaves = decayPerSecond * seconds * std::numbers::log2e;
     return octaves < 120.0 ? decayFactor<double>(static_cast<std::int64_t>(octaves * octaveUnit)) : 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a mode's increments to its slot: a hash table with linear probing, so that a strike does not search
-// all modes.
+// Hash table from a mode's increments to its slot, with linear probing, so that a strike need not search all
+// modes.
 #pragma once
 #include "Core/Storage.h"
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// Of a mode's increments; its top bits are good (Fibonacci hashing, Knuth vol. 3, 6.4).
+/// Hash of a mode's increments; its top bits are well mixed (Fibonacci hashing, Knuth vol. 3, 6.4).
 inline std::uint64_t modeHash(std::uint64_t phaseIncrement, std::int64_t decayIncrement,
                               bool isGated) noexcept {
     const std::uint64_t mixed =
@@ -18,12 +18,12 @@ inline std::uint64_t modeHash(std::uint64_t phaseIncrement, std::int64_t decayIn
     return (mixed ^ mixed >> 31) * 0x9e3779b97f4a7c15;
 }
 
-/// At most `Slots` slots. The caller keeps the keys: it gives a hash, and says whether a slot is the one
-/// meant.
+/// At most `Slots` slots. The caller keeps the keys: it supplies the hash, and compares the key of a slot.
 template <int Slots>
 class ModeIndex {
 public:
-    /// Empty, for so many slots; before, it has room for none. False: no memory. M, not while rendering.
+    /// Empties the table and makes room for `slots` slots; there is no room before the first call. False: no
+    /// memory. Message thread (M), not while rendering.
     bool resize(int slots) noexcept {
         bits_ = bitsFor(slots);
         size_ = std::size_t{1} << bits_;
@@ -33,7 +33,7 @@ public:
     }
     void clear() noexcept { std::fill_n(entries_.data(), size_, Entry{}); }
 
-    /// The slot for which `isMeant(slot)` holds, -1 if there is none.
+    /// The slot for which `isMeant(slot)` is true, -1 if there is none.
     template <class Predicate>
     int find(std::uint64_t hash, Predicate isMeant) const noexcept {
         for (std::size_t at = home(hash); entries_[at].slot >= 0; at = after(at))
@@ -47,7 +47,8 @@ public:
         entries_[at] = {tag(hash), slot};
     }
 
-    /// The slot was inserted with this hash. Later entries move up, so that no gap hides them.
+    /// Removes a slot that was inserted with this hash. Later entries move up, so that linear probing still
+    /// finds them.
     void erase(std::uint64_t hash, int slot) noexcept {
         std::size_t gap = home(hash);
         while (entries_[gap].slot != slot) gap = after(gap);

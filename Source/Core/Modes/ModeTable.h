@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sounding modes as a kernel reads them, and the scalar kernel: the oracle that faster ones are held
-// against.
+// The sounding modes of one tile as a kernel reads them, and the scalar kernel, the reference for the vector
+// kernels.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/Trigonometry.h"
@@ -9,8 +9,8 @@
 
 namespace physvib {
 
-/// A view of a ModeBank for one tile. Mode slot s has limits::tileFrames powers and `channels` amplitudes:
-/// at frame k of the tile, channel j of it is im(amplitudes[s * channels + j] * p_s^k).
+/// View of a ModeBank for one tile. Mode slot s has limits::tileFrames powers and `channels` amplitudes. Its
+/// signal at frame k of the tile in channel j is im(amplitudes[s * channels + j] * p_s^k).
 struct ModeTable {
     const int* slots = nullptr; ///< the active slots, in the order in which they are summed
     int count = 0;
@@ -21,8 +21,8 @@ struct ModeTable {
 };
 
 /// Writes frames [first, first + frames) of the tile to out[j][0..frames). Each sample depends on its own
-/// frame only, so any partition of a tile gives the same bits; it is rounded to float once, at the end. R,
-/// wait-free.
+/// frame only, so any partition of a tile gives the same bits; it is rounded to float once, at the end.
+/// Render thread (R), wait-free.
 inline void renderScalar(const ModeTable& table, float* const* out, int first, int frames) noexcept {
     constexpr auto tile = static_cast<std::size_t>(limits::tileFrames);
     for (int j = 0; j < table.channels; ++j) {

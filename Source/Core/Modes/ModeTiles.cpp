@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Packing rows, making tiles, adding strikes.
+// Tile rendering with vector kernels: packing coefficient rows, rendering tiles, adding strikes.
 #include "Core/Modes/ModeTiles.h"
+#include "Core/Modes/LowRankBasis.h"
+#include "Core/Modes/TileKernel.h"
 
 namespace physvib {
 
@@ -11,6 +13,8 @@ const TileKernel* tileKernel(InstructionSet) noexcept { return nullptr; }
 bool isAvailable(InstructionSet set) noexcept {
     return set == InstructionSet::best || set == InstructionSet::scalar || tileKernel(set) != nullptr;
 }
+
+InstructionSet ModeTiles::set() const noexcept { return isOn() ? kernel_->set : InstructionSet::scalar; }
 
 bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcept {
     static const LowRankBasis basis;
@@ -67,7 +71,7 @@ void ModeTiles::add(int slot, const TileMode& mode) noexcept {
     highest_ = std::max(highest_, slot + 1);
 }
 
-// The last row of the layer takes the place of the one that goes.
+// The layer's last row replaces the removed one.
 void ModeTiles::remove(int slot) noexcept {
     Place& place = places_[index(slot)];
     const auto rank = index(place.rank);
@@ -92,7 +96,7 @@ void ModeTiles::setCarrier(int slot, Complex<double> carrier) noexcept {
 }
 
 void ModeTiles::setAmplitudes(int slot, const Complex<double>* amplitudes) noexcept {
-    // Whole lines: what stands behind the last channel is never summed.
+    // Whole cache lines: values behind the last channel are never summed.
     float* line = amplitudes_.data() + index(slot) * index(floatsPerSlot_);
     for (int j = 0; j < channels_; j += tiles::channelsPerLine, line += 16) {
         for (int k = 0; k < tiles::channelsPerLine; ++k) {
@@ -120,12 +124,12 @@ void ModeTiles::redoFrom(bool isGated, int frame) noexcept {
 
 void ModeTiles::settle() noexcept {
     if (std::min(layers_[0].redo, layers_[1].redo) == tiles::frames) return;
-    finishStrikes(); // of which what is redone follows
+    finishStrikes(); // because the tile is rendered from the amplitudes after them
     if (layers_[0].redo < tiles::frames) make(layers_[0], false);
     if (layers_[1].redo < tiles::frames) make(layers_[1], true);
 }
 
-// Frames before `redo` stay as they are.
+// Renders the layer's tile again; frames before `redo` stay.
 void ModeTiles::make(Layer& layer, bool isGated) noexcept {
     const auto from = index(layer.redo);
     layer.redo = tiles::frames;
@@ -227,7 +231,7 @@ bool ModeTiles::render(float* const* out, int first, int count) noexcept {
     return !isPlain() || layers_[0].hasBase;
 }
 
-// Base and tails; before the first strike there is the base alone.
+// Base plus tails; before the first strike the base alone.
 void ModeTiles::addTails(const Layer& layer, float* const* out, int first, int count) const noexcept {
     constexpr int panel = 16; // whole vectors
     const int before = std::clamp((layer.tailsFrom - first) / panel * panel, 0, count);

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The mode bank's memory for vector kernels: rows by rank, rounded amplitudes, carriers, and the tile being
-// played.
+// Working memory of the mode bank for vector kernels: coefficient rows by rank, rounded amplitudes, carriers,
+// and the current tile.
 //
-// A tile is made whole when its first frame is due; a strike inside it adds its own tail to the frames that
-// are left, so it costs O(channels), not O(modes). Gated modes are a layer of their own: closing a gate
-// renders that layer again and leaves the bits of the other alone (Docs/decisions/0002).
+// A tile is rendered whole when its first frame is due. A strike inside it adds its own tail to the remaining
+// frames, which costs O(channels), not O(modes). Gated modes are a separate layer: closing a gate renders
+// that layer again and leaves the bits of the other unchanged (Docs/decisions/0002).
 #pragma once
 #include "Core/Modes/InstructionSet.h"
-#include "Core/Modes/LowRankBasis.h"
-#include "Core/Modes/TileKernel.h"
+#include "Core/Modes/TileLayers.h"
 #include "Core/Storage.h"
+#include "Core/Trigonometry.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
 namespace physvib {
+
+class LowRankBasis;
+struct TileKernel;
 
 /// What a slot's mode is, as far as tiles need it. Powers: 64 of each, double precision, for as long as the
 /// mode lives.
@@ -26,59 +29,57 @@ struct TileMode {
     bool isGated = false;
 };
 
-/// R only, but for prepare: M. Off when there is no kernel.
+/// Render thread (R) only; prepare: message thread (M). Off when there is no kernel.
 class ModeTiles {
 public:
     static constexpr int slotCount = limits::maxModes + limits::maxFadingModes;
 
-    /// Nothing sounds; off, and without memory, if the set has no kernel here. At most slotCount slots.
-    /// False: no memory for them.
+    /// Silence; off, and without memory, if there is no kernel for the set. At most slotCount slots. False:
+    /// no memory.
     bool prepare(int channels, InstructionSet set, int slotsMost) noexcept;
     bool isOn() const noexcept { return kernel_ != nullptr; }
-    InstructionSet set() const noexcept { return isOn() ? kernel_->set : InstructionSet::scalar; }
+    InstructionSet set() const noexcept;
 
     void add(int slot, const TileMode& mode) noexcept;
     void remove(int slot) noexcept;
 
-    /// The mode's phase and decay at the tile's first frame; its amplitudes, one per channel (readable in
+    /// The mode's phase and decay at the tile's first frame, and its amplitudes, one per channel (readable in
     /// whole lines of tiles::channelsPerLine).
     void setCarrier(int slot, Complex<double> carrier) noexcept;
     void setAmplitudes(int slot, const Complex<double>* amplitudes) noexcept;
 
-    /// The next tile: all carriers move on by one tile. Their errors grow by 1e-11 each time, so renew them
-    /// in between.
+    /// Advances all carriers to the next tile. Errors grow by 1e-11 per call, so carriers must be renewed.
     void advance() noexcept;
-    /// Nothing of this tile is made yet.
+    /// Starts a tile: none of it is rendered yet.
     void begin() noexcept;
-    /// How often: then an error is at most 3e-9.
+    /// Tiles between renewals of a carrier: its error stays below 3e-9.
     static constexpr int renewalTiles = 256;
     int slotsInUse() const noexcept { return highest_; }
 
-    /// What this layer plays from that frame of the tile on follows from the amplitudes as they are when it
-    /// is next needed.
+    /// The layer's samples from that frame of the tile on are to be rendered again, from the amplitudes as
+    /// they are when the samples are next needed.
     void redoFrom(bool isGated, int frame) noexcept;
 
-    /// To be called before amplitudes change by a strike at `from`: what is to be redone is redone without
-    /// it.
+    /// To be called before a strike changes amplitudes: pending re-rendering is done without that strike.
     void settle() noexcept;
-    /// What a strike is turned by, and what its mode's carrier and amplitudes are brought to the tile's first
-    /// frame by.
+    /// Phase and decay by which a strike is turned at its onset; those of its mode's carrier; and the decay
+    /// that brings the mode's amplitudes to the tile's first frame.
     struct StrikeTurns {
         Turn onset;
         std::uint64_t carrierPhase = 0;
         std::int64_t decayOctaves = 0;
     };
-    /// Adds a strike from frame `from` of the tile on, there and to the mode's amplitudes. It may wait for
-    /// others until finishStrikes.
+    /// Adds a strike from frame `from` of the tile on, to the tile and to the mode's amplitudes. It may be
+    /// deferred until finishStrikes.
     void strike(int slot, int from, const StrikeTurns& turns, double amplitude, const double* gains,
                 Complex<double>* amplitudes) noexcept;
-    /// To be called before amplitudes are read, or anything but strikes changes them.
+    /// To be called before amplitudes are read, or are changed by anything but strikes.
     void finishStrikes() noexcept {
         if (strikes_.count > 0) strikeAll();
     }
 
-    /// Where frames from `first` on of the tile stand, if each channel is one sum; else false, and render
-    /// makes it.
+    /// Pointers to each channel's samples from frame `first` on of the tile, if each channel is a single sum.
+    /// Otherwise false: use render.
     bool sumsAt(const float** at, int first) noexcept;
     /// out[j][0..frames) = frames [first, first + frames) of the tile. False if all of them are zero.
     bool render(float* const* out, int first, int frames) noexcept;
@@ -95,7 +96,7 @@ private:
     using PerSlot = Room<double, padded>;
     using RoundedPerSlot = Room<float, padded>;
 
-    // Rows of one rank: those of free modes from the front, of gated ones from the back, each without gaps.
+    // Rows of one rank: ungated modes from the front, gated ones from the back, each without gaps.
     struct Place {
         int rank = 0;
         int row = 0;
@@ -103,11 +104,11 @@ private:
         bool isUsed = false;
     };
     struct Layer {
-        Room<float, width * frames> base;   // modes as of the tile's first frame
+        Room<float, width * frames> base;   // modes as at the tile's first frame
         Room<double, width * frames> tails; // strikes since then
         std::array<int, rankCount> counts{};
-        int redo = tiles::frames;      // frames from here on are not made yet
-        int tailsFrom = tiles::frames; // all of them are 0 before it
+        int redo = tiles::frames;      // frames from here on are not rendered yet
+        int tailsFrom = tiles::frames; // tails are 0 before this frame
         bool hasBase = false;
         bool hasTails() const noexcept { return tailsFrom < tiles::frames; }
     };
@@ -123,7 +124,7 @@ private:
     bool takeMemory() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
     void strikeAll() noexcept;
-    // the sum of free modes, or nothing
+    // the output is the sum of ungated modes, or silence
     bool isPlain() const noexcept {
         return !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase;
     }
@@ -132,7 +133,8 @@ private:
                !layers_[1].hasTails();
     }
 
-    static constexpr std::array<std::size_t, rankCount> floatsBefore = [] { // of rows of lower rank, per slot
+    static constexpr std::array<std::size_t, rankCount> floatsBefore = [] { // offset of a rank's rows, per
+                                                                            // slot
         std::array<std::size_t, rankCount> offsets{};
         for (std::size_t r = 1; r < rankCount; ++r)
             offsets[r] = offsets[r - 1] + 2 * static_cast<std::size_t>(tiles::ranks[r - 1]);
@@ -145,8 +147,8 @@ private:
     const LowRankBasis* basis_ = nullptr;
     int slots_ = 0, channels_ = 0, floatsPerSlot_ = 0, highest_ = 0;
     Room<Place, slots> places_;
-    std::array<Layer, 2> layers_; // free, gated
-    TileStrikes strikes_;         // that wait, all of one layer
+    std::array<Layer, 2> layers_; // ungated, gated
+    TileStrikes strikes_;         // deferred strikes, all of one layer
     bool areGated_ = false;
     Room<double, 2 * width * TileStrikes::most> scaled_;
     PerSlot re_, im_, stepRe_, stepIm_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel of the board's legs. Most of their cost is in `add`; a block takes a hundred instructions a leg
-// and frame.
+// Kernel of the board's moving-tone segments. Most of their cost is in `add`; a block takes a hundred
+// instructions per segment and frame.
 #include "Core/Modes/MovingLegs.h"
 #include <algorithm>
 
@@ -11,12 +11,12 @@ constexpr int blockFrames = PhasorBank::blockFrames;
 
 constexpr std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
-// Frames of a leg that lie before `now`; less than none if it waits.
+// Frames since a segment's first frame; negative while it is pending.
 constexpr std::int32_t ageOf(std::uint32_t first, std::uint32_t now) noexcept {
     return static_cast<std::int32_t>(now - first);
 }
 
-// Of so many frames, 1 or more: no further down than floats go.
+// Octaves of decay after `frames` frames, 1 or more; bounded so that the factor stays a normal float.
 std::int64_t octavesAfter(std::uint16_t decay16, std::uint32_t frames) noexcept {
     constexpr std::int64_t most = 120 * static_cast<std::int64_t>(octaveUnit);
     const std::int64_t perFrame = boardOctaves(decay16);

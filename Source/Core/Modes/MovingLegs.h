@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What moves on the board: legs that wait for their first frame or sound.
+// Player of moving-tone segments on the four-channel board: segments that are pending or sounding.
 //
-// A leg keeps one phasor, as a mode of PhasorBank does, and two gains per channel, of which a line makes
-// those of each frame. They are added in the order in which they came: so it does not matter when, and a
-// computer holds the same bits.
+// A segment keeps one phasor, as a mode of PhasorBank does, and a start and an end gain per channel, between
+// which gains are interpolated. Segments are summed in order of arrival, so that a computer computes the same
+// bits as the board.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Core/Modes/PhasorBank.h"
@@ -12,7 +12,7 @@
 
 namespace physvib {
 
-/// All memory is inside the object. R only.
+/// All memory is inside the object. Render thread (R) only.
 class MovingLegs {
 public:
     static constexpr int capacity = limits::board::maxLegs;
@@ -20,19 +20,19 @@ public:
     void clear() noexcept { count_ = 0; }
     int count() const noexcept { return count_; }
 
-    /// False if there is no room, or nothing of it lies at or after frame `now`, which is rendered next. Of a
-    /// leg that is late the rest is played, as if nothing had been missed. `leg` is playable.
+    /// False if there is no room, or if the segment ends before frame `now`, which is rendered next. A late
+    /// segment is played from where it would be by then. `leg` is playable.
     bool add(const BoardLeg& leg, std::uint32_t now) noexcept;
 
-    /// Adds them to the block that begins at `frame`, each of them right after the one before. What is over
-    /// is forgotten.
+    /// Adds all segments to the block that begins at `frame`; blocks are consecutive. Segments that have
+    /// ended are removed.
     void render(std::uint32_t frame, PhasorBank::Block& io) noexcept;
 
 private:
     struct Slot {
         std::uint32_t frame;
         std::uint16_t frames;
-        Complex<float> phasor, turn; // the former at its first frame, or at the block's if that is later
+        Complex<float> phasor, turn; // phasor: at its first frame, or at the block's if that is later
         std::array<std::int16_t, static_cast<std::size_t>(limits::board::channels)> start, end;
     };
     static void renderSlot(Slot& slot, std::int32_t age, PhasorBank::Block& io) noexcept;

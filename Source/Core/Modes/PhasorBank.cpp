@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Striking, merging, cutting and stealing of the board's modes, and their kernel.
+// Kernel of the board's mode bank, and the life of its modes: striking, merging, cutting and stealing.
 #include "Core/Modes/PhasorBank.h"
 #include <algorithm>
 #include <bit>
@@ -12,7 +12,7 @@ namespace {
 constexpr int frames = PhasorBank::blockFrames;
 constexpr float residueFactor = 0.875f; // 60 dB in 52 frames, 6.5 ms: as short as limits::stealFadePerSecond
 constexpr float residueSilence = 1.0f / (1 << 20);
-constexpr float phasorSilence = 1.0e-12f; // squared: far below retireOctaves, far above where floats end
+constexpr float phasorSilence = 1.0e-12f; // squared: far below retireOctaves, far above the smallest float
 constexpr float amplitudeStep = 1.0f / limits::board::amplitudeUnit;
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
@@ -20,10 +20,10 @@ constexpr std::int32_t between(std::uint32_t from, std::uint32_t to) noexcept {
     return static_cast<std::int32_t>(to - from);
 }
 
-// Where channel `c` stands in the order "loudest, ratio 0, ratio 1, ratio 2".
+// Index of channel `c` in the order "loudest, ratio 0, ratio 1, ratio 2".
 constexpr int place(int c, int loudest) noexcept { return c == loudest ? 0 : (c == 0 ? loudest : c); }
 
-// p: f on the link's grid as turns / 2^64 per frame, and tau.
+// p: phase advance and decay per frame.
 Complex<float> turnOf(const BoardEvent& event) noexcept {
     constexpr double perStep = 1.0 / (limits::board::gridPerHz * limits::board::sampleRateHz);
     constexpr auto phase = static_cast<std::uint64_t>(18446744073709551616.0 * perStep);
@@ -49,8 +49,8 @@ struct Loaded {
     Complex<float> b, c, d, phasor, turn;
 };
 
-// One load of ten registers takes 11 cycles; for ten loads Arm's manual says 20 (6 % of the board's load, if
-// it is right).
+// Arm's manual: one load of ten registers takes 11 cycles, ten loads take 20 (6 % of the board's load; not
+// measured).
 inline Loaded load(const PhasorBank::Mode& mode) noexcept {
 #ifdef PHYSVIB_CORTEX_M
     register float b0 asm("s0"), b1 asm("s1"), c0 asm("s2"), c1 asm("s3"), d0 asm("s4"), d1 asm("s5"),
@@ -65,8 +65,8 @@ inline Loaded load(const PhasorBank::Mode& mode) noexcept {
 #endif
 }
 
-// Keeps the compiler from starting a frame before the last is done: on the board, 16 sums, the phasor and the
-// ratios just fill the 32 registers; without this, sums move to the stack (7 % more instructions).
+// Keeps the compiler from starting a frame before the last is done. On the board 16 sums, the phasor and the
+// ratios just fit into 32 registers; otherwise sums are spilled to the stack (7 % more instructions).
 inline Complex<float> nextFrame(Complex<float> w) noexcept {
 #ifdef PHYSVIB_CORTEX_M
     asm volatile("" : "+t"(w.re), "+t"(w.im));
@@ -94,7 +94,7 @@ void PhasorBank::render(std::uint32_t frame, Block& out) noexcept {
     renderModes(all + ends_[2], all + ends_[3], d, b, c, a);
 }
 
-// 84 instructions a mode for 16 samples, as all sums stay in registers.
+// 84 instructions per mode for 16 samples, because all sums stay in registers.
 void PhasorBank::renderModes(Mode* from, const Mode* to, Row& a, Row& b, Row& c, Row& d) noexcept {
     if (from == to) return;
     float a0 = a[0], a1 = a[1], a2 = a[2], a3 = a[3], b0 = b[0], b1 = b[1], b2 = b[2], b3 = b[3];
@@ -142,7 +142,7 @@ void PhasorBank::renderResidue(Block& io) noexcept {
     }
 }
 
-// What ends within the block gives its last frames and leaves.
+// A mode that ends within the block writes its last frames and is removed.
 void PhasorBank::retire(Block& io) noexcept {
     nextEnd_ = frame_ + 0x7FFFFFFF;
     for (int i = 0; i < liveModes();) {
@@ -174,7 +174,7 @@ int PhasorBank::groupOf(int i) const noexcept {
     return group;
 }
 
-// A free slot at the end of the group; each group behind it moves one of its modes.
+// A free slot at the end of the group; one mode of each later group moves to free it.
 int PhasorBank::open(int group) noexcept {
     for (int g = channels - 1; g > group; --g) {
         if (ends_[at(g - 1)] != ends_[at(g)]) moveMode(ends_[at(g)], ends_[at(g - 1)]);
@@ -183,7 +183,7 @@ int PhasorBank::open(int group) noexcept {
     return ends_[at(group)]++;
 }
 
-// Forgets mode i. Others move, but none to a slot before i.
+// Removes mode i. Other modes move, but none to a slot before i.
 void PhasorBank::close(int i) noexcept {
     const int group = groupOf(i);
     --ends_[at(group)];
@@ -205,7 +205,7 @@ PhasorBank::Phasors PhasorBank::phasorsOf(int i) const noexcept {
     return all;
 }
 
-// Moves the mode to its group; its new slot, or -1 if nothing is left of it.
+// Moves the mode to the group of its loudest channel. Returns its new slot, or -1 if it has decayed.
 int PhasorBank::setPhasors(int i, const Phasors& phasors) noexcept {
     int loudest = 0;
     for (int j = 1; j < channels; ++j)
@@ -244,7 +244,7 @@ void PhasorBank::strike(const BoardEvent& event, std::uint32_t onset, Block& io)
     gated_[at(i)] = isGated;
     const auto turn = modes_[at(i)].turn;
 
-    Complex<float> w{1.0f, 0.0f}; // of this strike alone, up to the end of the block
+    Complex<float> w{1.0f, 0.0f}; // of this strike alone, from its onset to the end of the block
     Phasors all = phasorsOf(i);
     std::array<float, at(channels)> gains;
     for (int j = 0; j < channels; ++j)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The board's sounding modes. A mode is one decaying phasor w that turns by p each frame: im(w) is the signal
-// of its loudest channel; the other three channels are that phasor times a constant complex ratio each. A
-// strike adds to all four and the loudest is chosen anew, so strikes of equal frequency and decay merge
-// exactly, whatever their channels, at the cost of one mode.
+// The mode bank of the four-channel board. A mode is one decaying phasor w that is multiplied by p each
+// frame: im(w) is the signal of its loudest channel; each other channel is w times a constant complex ratio.
+// A strike adds to all four channels and the loudest is chosen anew, so strikes of equal frequency and decay
+// merge exactly, whatever their channels, at the cost of one mode.
 //
-// ModeBank does the same for a computer, from integers and for any number of channels; here everything is
-// float, and small: 49 bytes a mode, four channels, four frames at a time. The order of every operation is
-// fixed (no contraction), so that the board and a computer hold the same bits.
+// ModeBank does the same for a computer, from integers and for any number of channels. Here everything is
+// float and small: 49 bytes per mode, four channels, four frames at a time. The order of every operation is
+// fixed (no contraction), so that the board and a computer compute the same bits.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Core/Trigonometry.h"
@@ -15,7 +15,7 @@
 
 namespace physvib {
 
-/// All memory is inside the object. R only.
+/// All memory is inside the object. Render thread (R) only.
 class PhasorBank {
 public:
     static constexpr int channels = limits::board::channels;
@@ -24,8 +24,8 @@ public:
     using Row = std::array<float, static_cast<std::size_t>(blockFrames)>; ///< of one channel
     using Block = std::array<Row, static_cast<std::size_t>(channels)>;
 
-    /// What the kernel reads. If channel c is the loudest, ratio i belongs to channel i + 1, but ratio c - 1
-    /// to channel 0.
+    /// Data that the kernel reads. If channel c is the loudest, ratio i belongs to channel i + 1, except
+    /// ratio c - 1, which belongs to channel 0.
     struct Mode {
         std::array<Complex<float>, static_cast<std::size_t>(channels - 1)> ratios;
         Complex<float> phasor; // w at the next block's first frame
@@ -35,11 +35,11 @@ public:
     /// Silence.
     void clear() noexcept;
 
-    /// Writes the block that begins at `frame`, each of them right after the one before.
+    /// Writes the block that begins at `frame`; blocks are consecutive.
     void render(std::uint32_t frame, Block& out) noexcept;
 
-    /// After render: adds an event that begins at frame `onset` of the block just written, to it and to what
-    /// follows.
+    /// After render: adds an event with its onset at frame `onset` of the block just written, to that block
+    /// and to later ones.
     void strike(const BoardEvent& event, std::uint32_t onset, Block& io) noexcept;
 
     int liveModes() const noexcept { return ends_.back(); }
@@ -64,13 +64,13 @@ private:
     int setPhasors(int i, const Phasors& phasors) noexcept;
     void setEnd(int i, std::uint32_t end) noexcept;
 
-    std::array<Mode, slots> modes_{};              // in the order of their loudest channel
-    std::array<std::uint32_t, slots> keys_{};      // frequency16 and decay16: what merges
-    std::array<std::uint32_t, slots> endFrames_{}; // from here on it is over
+    std::array<Mode, slots> modes_{};              // sorted by loudest channel
+    std::array<std::uint32_t, slots> keys_{};      // frequency16 and decay16: the merge key
+    std::array<std::uint32_t, slots> endFrames_{}; // first frame after the mode's end
     std::array<bool, slots> gated_{};              // strikes with a duration are cut, so they do not merge
     // modes whose loudest is channel c end before slot ends_[c]
     std::array<int, static_cast<std::size_t>(channels)> ends_{};
-    // where stolen modes stood; decays without a step
+    // values of stolen modes, which decay to 0 without a step
     std::array<float, static_cast<std::size_t>(channels)> residue_{};
     std::uint32_t frame_ = 0;   // first of the block last rendered
     std::uint32_t nextEnd_ = 0; // no mode ends before this frame

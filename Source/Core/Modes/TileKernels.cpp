@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The vector kernels: one text, compiled once per instruction set by Highway, chosen at run time.
+// The vector kernels of the mode bank and the limiter: one source, compiled per instruction set by Highway,
+// chosen at run time.
 //
 // Lanes hold polynomial coefficients as (sine, cosine) pairs, so one 64-bit broadcast of an amplitude (re,
-// im) serves both products. A panel of 16 floats times a few channels stays in registers while modes stream
-// by; after 64 modes it is added to sums in double precision. Every lane does the same operations in the same
-// order whatever the vector's width: sets with fused multiply-adds agree to the bit.
+// im) serves both products. A panel of 16 floats times a few channels stays in registers while modes are
+// read; after 64 modes it is added to sums in double precision. Every lane does the same operations in the
+// same order whatever the vector's width: sets with fused multiply-adds agree to the bit.
 #include "Core/Modes/TileKernel.h"
+#include "Core/Trigonometry.h"
 
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
@@ -16,7 +18,7 @@
 #include "Core/Actuators/LimiterKernels.inc"
 #include <numbers>
 
-#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128 // for those there is renderScalar
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128 // these two use renderScalar
 HWY_BEFORE_NAMESPACE();
 namespace physvib::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -25,7 +27,8 @@ using Panel = hn::CappedTag<float, 16>; // eight coefficients
 using Line = hn::CappedTag<float, 8>;   // the amplitudes of four channels
 using Doubles = hn::CappedTag<double, 8>;
 constexpr std::size_t frames = tiles::frames, panelFloats = 16;
-constexpr std::size_t chunkModes = 64;    // amplitudes and rows of so many stay in the first-level cache
+constexpr std::size_t chunkModes = 64;    // amplitudes and rows of this many modes fit into the first-level
+                                          // cache
 constexpr std::size_t chunkChannels = 16; // channels of one pass over the rows
 
 // Channels whose sums stay in registers: 8 sums hide the latency of a multiply-add.
@@ -54,7 +57,7 @@ HWY_INLINE void addPanel(const Rows& rows, const float* amplitudes, std::size_t 
         hn::Vec<Panel> part[vectors];
         for (std::size_t v = 0; v < vectors; ++v) part[v] = hn::Load(d, row + v * lanes);
         for (std::size_t j = 0; j < channels; ++j) {
-            double pair; // two floats as one value, never computed with
+            double pair; // two floats copied as one value; never used as a number
             hwy::CopySameSize(reinterpret_cast<const double*>(amplitudes + 2 * j), &pair);
             const auto z = hn::BitCast(d, hn::Set(pairs, pair));
             for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = hn::MulAdd(z, part[v], sum[j][v]);
@@ -131,8 +134,8 @@ void addModes(const TileLayer& layer, const TileModes& modes, std::size_t firstC
     }
 }
 
-// out[t] = sum over k of c[k] U_k(t): even and odd polynomials apart, so that half the frames give the other
-// half.
+// out[t] = sum over k of c[k] U_k(t). Even and odd polynomials are summed separately, so that one half of the
+// frames yields the other.
 template <std::size_t channels>
 HWY_INLINE void expand(const double* coefficients, std::size_t rank, const float* basis, float* out) {
     const Panel d;
@@ -212,19 +215,19 @@ void advance(const TileCarriers& carriers) {
     }
 }
 
-// Of each strike.
+// Values of each strike.
 struct Onsets {
     HWY_ALIGN double re[TileStrikes::most]; // phasors at their mode's reference
     HWY_ALIGN double im[TileStrikes::most];
-    HWY_ALIGN double turnedRe[TileStrikes::most]; // these by their carrier
+    HWY_ALIGN double turnedRe[TileStrikes::most]; // those, multiplied by the carrier
     HWY_ALIGN double turnedIm[TileStrikes::most];
     HWY_ALIGN double carrierRe[TileStrikes::most];
     HWY_ALIGN double carrierIm[TileStrikes::most];
     HWY_ALIGN double decay[TileStrikes::most];
 };
 
-// The mode's amplitudes decay, move by a strike and are rounded for the tiles that follow, in whole lines:
-// what stands behind the last channel is never summed.
+// Decays a mode's amplitudes, adds a strike and rounds them for the following tiles, in whole cache lines:
+// values behind the last channel are never summed.
 HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, std::size_t channels,
                                 Complex<double> onset, double decay) {
     const Doubles d;
@@ -250,7 +253,7 @@ HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, std::
         }
 }
 
-// What the strikes add to a channel of gain 1. Frames of a panel before a strike's first are 0.
+// The samples that the strikes add to a channel of gain 1. Frames of a panel before a strike's onset are 0.
 HWY_INLINE void fillWaves(const TileStrikes& s, const Onsets& onsets, double* waves) {
     const Doubles d;
     constexpr std::size_t lanes = hn::MaxLanes(Doubles());
@@ -268,8 +271,8 @@ HWY_INLINE void fillWaves(const TileStrikes& s, const Onsets& onsets, double* wa
     }
 }
 
-// Some frames of some channels stay in registers while the strikes pass by that have begun by the end of
-// them.
+// Adds the strikes' samples to the tails. A step of frames of a few channels stays in registers while all
+// strikes are added that begin before the step's end.
 template <std::size_t channels>
 HWY_INLINE void addToTails(const TileStrikes& s, const double* waves, const double* scaled, double* tails) {
     const Doubles d;
@@ -296,8 +299,8 @@ HWY_INLINE void addToTails(const TileStrikes& s, const double* waves, const doub
     }
 }
 
-// unitPhasor and decayFactor of Core/Trigonometry.h, step by step the same, of some at once: one alone is a
-// long row of steps that wait for each other.
+// unitPhasor and decayFactor of Core/Trigonometry.h with the same operations, for several values at once. One
+// value alone would be a long chain of dependent operations.
 struct Phasors {
     hn::Vec<Doubles> re, im;
 };
@@ -340,7 +343,7 @@ HWY_INLINE hn::Vec<Doubles> decayFactors(const std::int64_t* octaves) {
     return hn::Mul(power, hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(fixed, 1023), whole))));
 }
 
-// The products are spelt out: GCC 12 fuses those of scalars to one rounding, whatever it is told.
+// Products are written out, because GCC 12 contracts scalar products whatever its options say.
 HWY_INLINE void turnOnsets(const TileStrikes& s, Onsets& onsets) {
     const Doubles d;
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); i += hn::MaxLanes(Doubles())) {
@@ -395,7 +398,7 @@ void sum(const float* base, const double* tails, int count, float* out) {
     for (; k < all; ++k) out[k] = static_cast<float>(static_cast<double>(base[k]) + tails[k]);
 }
 
-// The two ends anywhere, all between on whole vectors: a store across two cache lines costs two.
+// Unaligned stores at both ends, aligned ones in between: a store across two cache lines costs double.
 HWY_INLINE void clearChannel(float* out, std::size_t count) {
     const Panel d;
     constexpr std::size_t lanes = hn::MaxLanes(Panel()), bytes = lanes * sizeof(float);
@@ -406,7 +409,8 @@ HWY_INLINE void clearChannel(float* out, std::size_t count) {
     float *const last = out + count - lanes,
                  *at = out + (bytes - reinterpret_cast<std::uintptr_t>(out) % bytes) / sizeof(float);
     hn::StoreU(hn::Zero(d), d, out);
-    for (; at + 2 * lanes < last; at += 3 * lanes) { // a loop of one store would become a call
+    for (; at + 2 * lanes < last; at += 3 * lanes) { // the compiler would turn a loop of one store into a
+                                                     // call of memset
         hn::StoreU(hn::Zero(d), d, at);
         hn::StoreU(hn::Zero(d), d, at + lanes);
         hn::StoreU(hn::Zero(d), d, at + 2 * lanes);

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Energies of modes, shared between two motors, and what a motor needs to follow them.
+// Implementation of the conversion from events to motor commands: the energy of modes is shared between two
+// motors, and each motor's command is computed from its model.
 #include "Core/Pads/PadMotors.h"
 
 namespace physvib {
 namespace {
 
 double secondsOf(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
-// up: never below a threshold
+// rounded up, so that a command does not fall below a threshold
 double inHundredths(double command) noexcept {
     return std::clamp(std::ceil(100.0 * command - 1e-9) / 100.0, 0.0, 1.0) + 0.0;
 }
-constexpr double nearEnough = 0.03; // of full strength: nobody feels it, and it would cost a command
+constexpr double nearEnough = 0.03; // of full strength: an imperceptible difference that would cost a command
 
-/// 0: all of it in the left grip, 1: in the right one.
+/// 0: all in the left grip, 1: all in the right one.
 double sideOf(const CollisionEvent& event, double x, double y, const PhantomPanner& grips) noexcept {
     PhantomPanner::Gains gains{};
     grips.gainsAt(event, x, y, gains);
@@ -69,8 +70,8 @@ std::int64_t PadMotors::dueNs() const noexcept {
     return waits_ > 0 ? std::max(soonest, waiting_.front().startNs) : never;
 }
 
-// Frequency says how the energy is shared in the middle, place moves it to one grip, and nothing of it is
-// lost.
+// Frequency determines the energy's split at the centre; place moves energy to one grip. The sum is
+// preserved.
 PadMotors::Energies PadMotors::shared(double energy, double heavyShare, double side) const noexcept {
     const double low = heavyShare * (1.0 - law_.side + 2.0 * law_.side * (1.0 - side)),
                  high = (1.0 - heavyShare) * (1.0 - law_.side + 2.0 * law_.side * side);
@@ -94,7 +95,7 @@ double PadMotors::wanted(double amplitude) const noexcept {
     return leastFelt + (1.0 - leastFelt) * std::pow(std::min(1.0, amplitude), law_.exponent);
 }
 
-// A hit that is to be felt is felt, if only by the motor that has most of it.
+// An impact above the perception floor drives at least the motor with the larger share.
 void PadMotors::begin(const Voice& voice, double level) noexcept {
     const double whole = std::sqrt(voice.low + voice.high) * level;
     double low = std::sqrt(voice.low) * level, high = std::sqrt(voice.high) * level;
@@ -110,7 +111,7 @@ void PadMotors::begin(const Voice& voice, double level) noexcept {
     add(voice);
 }
 
-// Modes of one decay are one; a full store forgets its weakest.
+// Modes of equal decay are merged; a full store drops its weakest.
 void PadMotors::add(const Voice& voice) noexcept {
     for (std::size_t i = 0; i < ringing_ && voice.mayMerge(); ++i) {
         Voice& there = voices_[i];

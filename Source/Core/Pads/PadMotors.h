@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// From events to commands of a game controller's two motors.
+// Converts events to commands of a game controller's two rumble motors.
 //
-// What all modes would do is summed as energy, so that a weak hit never ends a strong one. The sum is shared
-// between the motors by frequency and place. A model of each motor says how strong it is by now: at an onset
-// it is overdriven until it is as strong as the hit asks for, and while anything is to be felt no command is
-// below its threshold. The same events give the same commands, live and offline, as all times are those of
-// the events.
+// The levels of all modes are summed as energy, so that a weak impact never ends a strong one. The sum is
+// shared between the motors by frequency and place. A model of each motor estimates its current strength. At
+// an onset the motor is overdriven until it reaches the impact's strength; while anything is perceptible no
+// command is below its threshold. All times are those of the events, so the same events give the same
+// commands, live and offline.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/Pads/PadLaw.h"
@@ -15,49 +15,49 @@
 
 namespace physvib {
 
-/// What both motors are to do from then on; steps of 1/100, as no motor follows finer ones.
+/// Commands of both motors from `timeNs` on, in steps of 1/100: motors do not resolve finer ones.
 struct PadCommand {
     std::int64_t timeNs = 0;
     double low = 0.0, high = 0.0;
     bool isSame(const PadCommand& other) const noexcept { return low == other.low && high == other.high; }
 };
 
-/// No memory is allocated, nothing waits. One thread at a time.
+/// Neither allocates nor blocks. One thread at a time.
 class PadMotors {
 public:
     static constexpr std::int64_t never = INT64_MAX;
-    static constexpr double leastFelt = 0.2; ///< strength of the weakest hit that is to be felt; assumed
-    static constexpr std::int64_t kickNs = 80'000'000; ///< an onset is overdriven for so long at most
+    static constexpr double leastFelt = 0.2; ///< strength of the weakest perceptible impact; assumed
+    static constexpr std::int64_t kickNs = 80'000'000; ///< maximum time for which an onset is overdriven
 
     explicit PadMotors(const PadLaw& law) noexcept
         : law_{law} {}
 
-    /// A layout of two, one per grip, over that field. Any thread.
+    /// A layout of two places, one per grip, over that field. Any thread.
     static PhantomPanner gripsOf(const PhantomPanner& field) noexcept;
 
-    /// An event at the session time at which it is to be felt; late ones begin at once. Clips are left out,
-    /// as nothing is known of their level. False if too many wait.
+    /// Adds an event at the session time at which it is to be felt; late events begin at once. Clips are
+    /// skipped, because their level is not known. False if too many are pending.
     bool strike(const CollisionEvent& event, const PhantomPanner& grips) noexcept;
 
-    /// What rings then, and what would be felt before, is forgotten; the next command is not before it.
+    /// Ends all voices and discards events before `atNs`; the next command is not earlier.
     void stop(std::int64_t atNs) noexcept;
 
-    /// When the next command is due, never before the last one and the law's interval; never: motors are at
-    /// rest.
+    /// When the next command is due, not before the law's interval has passed since the last; `never`: the
+    /// motors are at rest.
     std::int64_t dueNs() const noexcept;
 
-    /// The command that is due; everything is `level` times as strong, and nothing is felt at 0.
+    /// The command that is due, with all strengths multiplied by `level`; 0 stops the motors.
     PadCommand next(double level) noexcept;
 
     std::uint64_t lost() const noexcept { return lost_; } ///< events for which there was no room
 
 private:
     struct Voice {
-        std::int64_t startNs = 0, endNs = 0; // both earlier than felt, by the law's lead; cut at (0: rings
-                                             // out)
+        std::int64_t startNs = 0, endNs = 0; // both earlier than felt, by the law's lead; endNs 0: decays
+                                             // fully
         double decayPerSecond = 0.0;
         double low = 0.0, high = 0.0;          // energy at the start
-        double energy = 0.0, heavyShare = 0.0; // of what moves, whose place is looked at again
+        double energy = 0.0, heavyShare = 0.0; // of a moving event, whose place is recomputed
         double fromSide = 0.0, toSide = 0.0;   // 0: left, 1: right
         std::int64_t travelNs = 0;
         bool mayMerge() const noexcept { return endNs == 0 && travelNs == 0; }
@@ -66,8 +66,8 @@ private:
         double low = 0.0, high = 0.0;
     };
     struct State {
-        double strength = 0.0, command = 0.0; // as modelled; the last one
-        double kick = 0.0;                    // strength that an onset asks for; 0: none
+        double strength = 0.0, command = 0.0; // as modelled; last command
+        double kick = 0.0;                    // strength requested by an onset; 0: none
         std::int64_t kickEndNs = 0;
     };
 
@@ -90,8 +90,8 @@ private:
     std::array<Voice, 64> voices_{};
     std::size_t waits_ = 0, ringing_ = 0;
     State low_, high_;
-    std::int64_t lastNs_ = INT64_MIN / 2; // of the last command
-    std::int64_t stopNs_ = INT64_MIN / 2; // nothing is commanded before
+    std::int64_t lastNs_ = INT64_MIN / 2; // time of the last command
+    std::int64_t stopNs_ = INT64_MIN / 2; // no command is sent before it
     std::uint64_t lost_ = 0;
 };
 

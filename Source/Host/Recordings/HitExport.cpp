@@ -49,13 +49,9 @@ FrequencyScale scaleOf(const Clip& clip, const FrequencyScale& usual) {
     return device.highHz > device.lowHz ? FrequencyScale{device.lowHz, device.highHz} : usual;
 }
 
-std::string count(std::size_t number, const std::string& what) {
-    return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
-}
-
 std::string summary(const ClipPart& part, std::size_t bytes) {
-    return part.path + "  " + count(part.clip.channels.size(), "channel") + ", " +
-           fixedNumber(part.clip.seconds(), 2) + " s, " + count(part.clip.points(), "keyframe") + ", " +
+    return part.path + "  " + counted(part.clip.channels.size(), "channel") + ", " +
+           fixedNumber(part.clip.seconds(), 2) + " s, " + counted(part.clip.points(), "keyframe") + ", " +
            fixedNumber(static_cast<double>(bytes) * 1e-3, 1) + " kB\n";
 }
 

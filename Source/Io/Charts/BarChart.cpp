@@ -148,13 +148,12 @@ std::string barChart(const BarChart& chart) {
     const auto rows = bracketRows(chart.brackets);
     const double brackets =
         rows.empty() ? 0.0 : bracketHeight * static_cast<double>(*std::ranges::max_element(rows) + 1);
-    const double titleHeight =
-        8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chartWidth - 16.0, titleSize).size());
-    const double top = titleHeight + legendHeight(legend, right - leftEdge) + 8.0;
+    const double titleBottom = titleHeight(chart.frame.title, chartWidth);
+    const double top = titleBottom + legendHeight(legend, right - leftEdge) + 8.0;
     const PlotArea area{leftEdge, top + brackets + 8.0, right, top + brackets + 8.0 + plotHeight};
     Svg svg{chart.frame.name, chartWidth, area.bottom + labels + 24.0};
     drawTitle(svg, chart.frame.title, chartWidth);
-    drawLegend(svg, legend, {leftEdge, titleHeight}, right - leftEdge);
+    drawLegend(svg, legend, {leftEdge, titleBottom}, right - leftEdge);
     const BarDrawing drawing{chart, svg, area, valueAxis(chart)};
     drawValueAxis(svg, area, drawing.axis, chart.valueWords);
     drawing.bars();

@@ -59,11 +59,14 @@ std::vector<std::string> wrapped(std::string_view words, double width, double si
     return lines;
 }
 
-double drawTitle(Svg& svg, const std::string& title, double width) {
+double titleHeight(const std::string& title, double width) {
+    return 8.0 + 18.0 * static_cast<double>(wrapped(title, width - 16.0, titleSize).size());
+}
+
+void drawTitle(Svg& svg, const std::string& title, double width) {
     double y = 0.0;
     for (const std::string& line : wrapped(title, width - 16.0, titleSize))
         svg.text({8.0, y += 18.0}, line, {titleSize, Anchor::start, 0.0, true});
-    return y + 8.0;
 }
 
 void drawValueAxis(Svg& svg, const PlotArea& area, const ChartAxis& axis, const std::string& words) {

@@ -37,8 +37,9 @@ void drawLegend(Svg& svg, const std::vector<LegendItem>& items, ChartPoint corne
 /// Lines of words that fit into `width`. Any thread (allocates).
 std::vector<std::string> wrapped(std::string_view words, double width, double size);
 
-/// The title at the top, in lines; the height that it takes.
-double drawTitle(Svg& svg, const std::string& title, double width);
+/// The title at the top, in lines, and the height that it takes.
+double titleHeight(const std::string& title, double width);
+void drawTitle(Svg& svg, const std::string& title, double width);
 
 void drawValueAxis(Svg& svg, const PlotArea& area, const ChartAxis& axis, const std::string& words);
 void drawAxisBelow(Svg& svg, const PlotArea& area, const ChartAxis& axis, const std::string& words);

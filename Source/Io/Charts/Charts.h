@@ -19,6 +19,10 @@ struct ChartFrame {
 /// A value and its interval.
 struct ChartValue {
     double value = 0.0, least = 0.0, most = 0.0; ///< all alike: no interval is drawn
+
+    static ChartValue around(double value, double halfInterval = 0.0) noexcept {
+        return {value, value - halfInterval, value + halfInterval};
+    }
 };
 
 /// A mark of significance between two groups.
@@ -113,6 +117,9 @@ std::string barChart(const BarChart& chart);
 std::string lineChart(const LineChart& chart);
 std::string gridChart(const GridChart& chart);
 std::string placeChart(const PlaceChart& chart);
+
+/// Charts as one picture: side by side where there is room, then in rows.
+std::string chartSheet(const std::vector<std::string>& charts);
 
 /// "***" below 0.001, "**" below 0.01, "*" below 0.05, else "n.s.".
 std::string significanceMark(double p);

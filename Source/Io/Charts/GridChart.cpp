@@ -84,9 +84,8 @@ double widest(const std::vector<std::string>& labels) {
 } // namespace
 
 std::string gridChart(const GridChart& chart) {
-    const double titleHeight =
-        8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chart.width - 16.0, titleSize).size());
-    const double left = 26.0 + widest(chart.rows) + 6.0, right = chart.width - 10.0, top = titleHeight + 6.0;
+    const double titleBottom = titleHeight(chart.frame.title, chart.width);
+    const double left = 26.0 + widest(chart.rows) + 6.0, right = chart.width - 10.0, top = titleBottom + 6.0;
     const double cell = std::min((right - left) / static_cast<double>(chart.columns.size()), 64.0);
     const double height = chart.shape * cell * static_cast<double>(chart.rows.size());
     const PlotArea area{left, top, left + cell * static_cast<double>(chart.columns.size()), top + height};

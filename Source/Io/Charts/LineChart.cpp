@@ -96,13 +96,12 @@ std::string lineChart(const LineChart& chart) {
         }
     const auto legend = legendOf(chart);
     const double left = 66.0, right = chart.width - 16.0;
-    const double titleHeight =
-        8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chart.width - 16.0, titleSize).size());
-    const double top = titleHeight + legendHeight(legend, right - left) + 10.0;
+    const double titleBottom = titleHeight(chart.frame.title, chart.width);
+    const double top = titleBottom + legendHeight(legend, right - left) + 10.0;
     const PlotArea area{left, top, right, std::max(top + 160.0, chart.height - 48.0)};
     Svg svg{chart.frame.name, chart.width, area.bottom + 48.0};
     drawTitle(svg, chart.frame.title, chart.width);
-    drawLegend(svg, legend, {left, titleHeight}, right - left);
+    drawLegend(svg, legend, {left, titleBottom}, right - left);
     const LineDrawing drawing{chart, svg, area,
                               axisOf(chart.isLogarithmic, chart.xRange, xs.least, xs.most, 8),
                               axisOf(chart.isLogarithmic, chart.yRange, ys.least, ys.most)};

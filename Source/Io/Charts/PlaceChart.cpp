@@ -123,10 +123,9 @@ struct PlaceDrawing {
 } // namespace
 
 std::string placeChart(const PlaceChart& chart) {
-    const double titleHeight =
-        8.0 + 18.0 * static_cast<double>(wrapped(chart.frame.title, chart.width - 16.0, titleSize).size());
+    const double titleBottom = titleHeight(chart.frame.title, chart.width);
     const double width = chart.width - 16.0;
-    const PlotArea area{8.0, titleHeight, 8.0 + width, titleHeight + width * fieldShape};
+    const PlotArea area{8.0, titleBottom, 8.0 + width, titleBottom + width * fieldShape};
     Svg svg{chart.frame.name, chart.width, area.bottom + 8.0};
     drawTitle(svg, chart.frame.title, chart.width);
     const PlaceDrawing drawing{chart, svg, area};

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Elements as text.
 #include "Io/Charts/Svg.h"
+#include "Io/Charts/Charts.h"
 #include "Io/Text/CleanText.h"
+#include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
 #include <array>
 #include <cmath>
@@ -24,6 +26,27 @@ constexpr std::array<std::string_view, chartStyles> hatchPaths{"",
                                                                "M0 4H8M4 0V8",
                                                                "M-2 10L10 -2M-2 -2L10 10"};
 constexpr std::array<double, chartStyles> hatchWidths{0.0, 1.6, 2.6, 1.6, 1.8, 1.8, 1.4, 1.2};
+
+constexpr std::string_view svgBegin = "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 ";
+
+std::string svgHead(double width, double height) {
+    std::string out{svgBegin};
+    appendPixels(out, width);
+    out += ' ';
+    appendPixels(out, height);
+    out += "\" width=\"";
+    appendPixels(out, width);
+    out += "\" height=\"";
+    appendPixels(out, height);
+    return out + "\" font-family=\"Helvetica, Arial, sans-serif\">\n";
+}
+
+/// The size that svgHead() wrote.
+ChartPoint sizeOf(std::string_view svg) {
+    svg.remove_prefix(svgBegin.size());
+    const std::string_view width = takeUntil(' ', svg), height = takeUntil('"', svg);
+    return {parseNumber<double>(width).value_or(0.0), parseNumber<double>(height).value_or(0.0)};
+}
 
 } // namespace
 
@@ -218,16 +241,8 @@ void Svg::whisker(ChartPoint from, ChartPoint to, Stroke stroke) {
 }
 
 std::string Svg::finish(std::string_view words, bool isSimulated) const {
-    std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 ";
-    appendPixels(out, width_);
-    out += ' ';
-    appendPixels(out, height_);
-    out += "\" width=\"";
-    appendPixels(out, width_);
-    out += "\" height=\"";
-    appendPixels(out, height_);
-    out += "\" font-family=\"Helvetica, Arial, sans-serif\">\n<title>" + markup(words) +
-           (isSimulated ? " (simulated)" : "") + "</title>\n";
+    std::string out = svgHead(width_, height_) + "<title>" + markup(words) +
+                      (isSimulated ? " (simulated)" : "") + "</title>\n";
     if (hatches_ != 0) {
         out += "<defs>";
         for (std::size_t style = 0; style < chartStyles; ++style) {
@@ -255,6 +270,30 @@ std::string Svg::finish(std::string_view words, bool isSimulated) const {
         appendPixels(out, -57.2957795 * std::atan2(height_, width_));
         out += ")\" dy=\"0.35em\">SIMULATED</text>\n";
     }
+    return out + "</svg>\n";
+}
+
+std::string chartSheet(const std::vector<std::string>& charts) {
+    constexpr double mostWidth = 1040.0; // three grids, or one chart of bars
+    if (charts.size() == 1) return charts.front();
+    double x = 0.0, y = 0.0, width = 0.0, height = 0.0; // of the row: y, height
+    std::string body;
+    for (const std::string& chart : charts) {
+        const ChartPoint size = sizeOf(chart);
+        if (x > 0.0 && x + size.x > mostWidth) {
+            y += height;
+            x = height = 0.0;
+        }
+        body += "<g transform=\"translate(";
+        appendPixels(body, x);
+        body += ' ';
+        appendPixels(body, y);
+        body += ")\">\n" + chart + "</g>\n";
+        x += size.x;
+        width = std::max(width, x);
+        height = std::max(height, size.y);
+    }
+    std::string out = svgHead(width, y + height) + body;
     return out + "</svg>\n";
 }
 

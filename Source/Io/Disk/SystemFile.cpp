@@ -71,7 +71,8 @@ RemovedOnEnd::RemovedOnEnd(const SystemFile& file, const std::filesystem::path& 
         Removal* none = nullptr;
         if (removals[i].compare_exchange_strong(none, removal.get())) slot_ = static_cast<int>(i);
     }
-    if (slot_ >= 0) removal.release(); // else there are more files at once than any call writes
+    // the slot owns it; without one there are more files at once than any call writes
+    if (slot_ >= 0) static_cast<void>(removal.release());
 }
 
 RemovedOnEnd::RemovedOnEnd(RemovedOnEnd&& other) noexcept

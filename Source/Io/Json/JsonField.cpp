@@ -82,6 +82,14 @@ int JsonField::wholeNumber() const {
     return static_cast<int>(found);
 }
 
+int JsonField::wholeWithin(int least, int most) const {
+    const int found = wholeNumber();
+    if (found < least || found > most)
+        fail("expected " + std::to_string(least) + " to " + std::to_string(most) + ", found " +
+             std::to_string(found));
+    return found;
+}
+
 bool JsonField::truth() const {
     if (!value_.is_boolean()) failType("true or false");
     return value_.get<bool>();

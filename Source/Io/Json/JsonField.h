@@ -39,6 +39,7 @@ public:
     double numberUpTo(double most) const; ///< from 0 on
     double numberWithin(double least, double most) const;
     int wholeNumber() const;
+    int wholeWithin(int least, int most) const;
     bool truth() const;
     /// One line of at most so many bytes.
     std::string text(std::size_t mostBytes = limits::maxNameBytes) const;
@@ -46,7 +47,10 @@ public:
     std::string line() const;
     /// Index of the word it is among `names`.
     std::size_t oneOf(std::span<const std::string_view> names) const;
+    /// The value as a file of its own.
+    std::string fileText() const { return value_.dump(-1, ' ', false, Json::error_handler_t::replace); }
     bool isNull() const { return value_.is_null(); }
+    bool isText() const { return value_.is_string(); }
     bool isNumber() const { return value_.is_number(); }
     bool isArray() const { return value_.is_array(); }
     bool isObject() const { return value_.is_object(); }

@@ -34,16 +34,6 @@ constexpr Utf8Character firstCharacter(std::string_view text) noexcept {
                                                                    : Utf8Character{code, bytes};
 }
 
-/// Any thread.
-constexpr bool isUtf8(std::string_view text) noexcept {
-    while (!text.empty()) {
-        const std::size_t bytes = firstCharacter(text).bytes;
-        if (bytes == 0) return false;
-        text.remove_prefix(bytes);
-    }
-    return true;
-}
-
 /// Whether a terminal or a text box would do something instead of showing it: control characters (both sets),
 /// line and paragraph ends, marks that turn the direction of what follows.
 constexpr bool isControl(std::uint32_t code) noexcept {

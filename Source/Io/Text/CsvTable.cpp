@@ -6,6 +6,7 @@
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -153,7 +154,7 @@ Result<CsvTable> readCsvTable(std::string_view text, std::string_view name, CsvH
         if (table.rows.size() == limits::maxTableRows) return tooMany(row, limits::maxTableRows, " rows");
         if ((table.rows.size() + 1) * table.columns.size() > limits::maxTableCells)
             return tooMany(row, limits::maxTableCells, " cells in all");
-        table.rows.push_back(std::move(row));
+        table.rows.push_back({row.line, std::exchange(row.cells, {})});
         row.cells.reserve(table.columns.size());
         return std::string{};
     };

@@ -41,6 +41,11 @@ noexcept {
     return number;
 }
 
+/// "1 trial", "2 trials". Any thread.
+inline std::string counted(std::size_t number, std::string_view what) {
+    return std::to_string(number).append(" ").append(what).append(number == 1 ? "" : "s");
+}
+
 /// A limit as a person writes it (1000000, not 1e+06), for messages. Any thread.
 inline std::string plainNumber(double number) {
     char digits[340];

@@ -143,12 +143,6 @@ std::int64_t numberAt(std::string_view bytes, std::size_t at, std::size_t width)
 
 std::string streamWav(std::FILE& file, SoundTaker& taker) { return WavReader{file}.read(taker); }
 
-Result<SampledSound> readWav(std::FILE& file) {
-    SoundKeeper keeper;
-    if (auto fault = streamWav(file, keeper); !fault.empty()) return Failure{fault};
-    return std::move(keeper.sound);
-}
-
 std::int64_t wavFileBytes(std::string_view head) noexcept {
     constexpr std::size_t idBytes = 4, longSizeAt = 20; // of RF64, in its chunk ds64
     if (head.size() < wavSizeBytes) return 0;

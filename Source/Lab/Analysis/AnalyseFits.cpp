@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A fit per participant, a mean with its interval per condition.
-#include "Lab/Analysis/AnalyseFits.h"
-#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/FitCharts.h"
 #include "Lab/Statistics/Bootstrap.h"
@@ -30,10 +29,6 @@ std::string meanWords(const char* name, const std::vector<double>& values, int d
     if (values.size() > 1)
         words += " (" + fixedNumber(mean.least, decimals) + " to " + fixedNumber(mean.most, decimals) + ")";
     return words;
-}
-
-std::string peopleWords(std::size_t n) {
-    return std::to_string(n) + (n == 1 ? " participant" : " participants");
 }
 
 std::string prefixOf(const std::string& condition) {
@@ -105,7 +100,7 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
         if (thresholds.empty()) return nobodyFitted(o, report);
         const int decimals = decimalsOf(Moments(jnds).mean);
         out << prefixOf(condition.name) << meanWords("threshold", thresholds, decimals) << ", "
-            << meanWords("JND", jnds, decimals) << ", " << peopleWords(thresholds.size()) << '\n';
+            << meanWords("JND", jnds, decimals) << ", " << counted(thresholds.size(), "participant") << '\n';
     }
     report.words = out.str();
     report.table = table.text();
@@ -137,12 +132,12 @@ AnalysisReport analysePowerLaw(const AnalysisJob& o) {
                 .cell(own.trials)
                 .cell(own.law.exponent)
                 .cell(own.law.factor)
-                .cell(own.law.determination);
-            table.endRow();
+                .cell(own.law.determination)
+                .endRow();
         }
         if (exponents.empty()) return nobodyFitted(o, report);
         out << prefixOf(condition.name) << meanWords("exponent", exponents, 3) << ", "
-            << peopleWords(exponents.size()) << '\n';
+            << counted(exponents.size(), "participant") << '\n';
     }
     report.words = out.str();
     report.table = table.text();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Perceptual resolutions in words and tables.
-#include "Lab/Analysis/AnalyseGrids.h"
-#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
-#include "Lab/Pictures/StudyPictures.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include <cmath>
 #include <sstream>
 
@@ -58,8 +57,7 @@ void exportMerged(ExportTable& table, const PercentCounts& counts, const Percept
     const PercentCounts grid = merged(counts, resolution.ties.front());
     for (std::size_t r = 0; r < grid.rows; ++r)
         for (std::size_t c = 0; c < grid.columns; ++c) {
-            table.cell(grid.condition).cell(r + 1).cell(c + 1).cell(grid.at(r, c));
-            table.endRow();
+            table.cell(grid.condition).cell(r + 1).cell(c + 1).cell(grid.at(r, c)).endRow();
         }
 }
 
@@ -74,8 +72,7 @@ void exportNormals(ExportTable& table, const ConditionResolution& made) {
         for (const double number :
              {n.meanX, n.meanY, n.varianceX, n.varianceY, n.covariance, made.counts.percent[i]})
             table.cell(number);
-        table.cell(std::size_t{n.isBorrowed});
-        table.endRow();
+        table.cell(std::size_t{n.isBorrowed}).endRow();
     }
 }
 
@@ -86,11 +83,19 @@ void warnOfSum(const PercentCounts& counts, std::vector<std::string>& warnings) 
                            fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));
 }
 
+ChartFrame frameOf(const ConditionResolution& one, const std::vector<std::string>& charts, bool isSimulated) {
+    return {chartName(charts.size()), one.condition, isSimulated};
+}
+
+void addCounts(std::vector<std::string>& charts, const ConditionResolution& one, bool isSimulated) {
+    charts.push_back(countsChart(frameOf(one, charts, isSimulated), one.counts));
+    if (!one.resolution.ties.empty()) charts.push_back(mergedChart(frameOf(one, charts, isSimulated), one));
+}
+
 } // namespace
 
 AnalysisReport analyseResolution(const AnalysisJob& o) {
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readLocations(files); });
+    const auto data = readStudyFiles(o, readLocations);
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
@@ -121,15 +126,21 @@ AnalysisReport analyseResolution(const AnalysisJob& o) {
     report.words = out.str();
     report.table = table.text();
     report.counts = percentCountsCsv(counts, provenance);
-    report.picture = [made, words = pictureWords(o.files, data.value.isSimulated)] {
-        return resolutionPicture(made, words);
+    report.picture = [made, conditions = data.value.conditions, isSimulated = report.isSimulated] {
+        std::vector<std::string> charts;
+        for (std::size_t c = 0; c < made.size(); ++c) {
+            const auto frame = [&] { return frameOf(made[c], charts, isSimulated); };
+            charts.push_back(responsesChart(frame(), made[c], conditions[c].trials));
+            charts.push_back(territoryChart(frame(), made[c]));
+            addCounts(charts, made[c], isSimulated);
+        }
+        return chartSheet(charts);
     };
     return report;
 }
 
 AnalysisReport analysePercentCounts(const AnalysisJob& o) {
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readPercentCounts(files); });
+    const auto data = readStudyFiles(o, readPercentCounts);
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
@@ -138,7 +149,7 @@ AnalysisReport analysePercentCounts(const AnalysisJob& o) {
     for (const auto& condition : data.value.conditions) {
         const PercentCounts& counts = condition.trials.front();
         warnOfSum(counts, report.warnings);
-        made.push_back({counts.condition, {}, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
+        made.push_back({counts.condition, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
         tell(out, counts, made.back().resolution, o.thresholdPercent);
         out << "  by chance: shares do not say of how many responses they are; analyse resolution of the "
                "trials does\n";
@@ -146,8 +157,10 @@ AnalysisReport analysePercentCounts(const AnalysisJob& o) {
     }
     report.words = out.str();
     report.table = table.text();
-    report.picture = [made, words = pictureWords(o.files, data.value.isSimulated)] {
-        return resolutionPicture(made, words);
+    report.picture = [made, isSimulated = report.isSimulated] {
+        std::vector<std::string> charts;
+        for (const ConditionResolution& one : made) addCounts(charts, one, isSimulated);
+        return chartSheet(charts);
     };
     return report;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Confusion matrices in words and tables.
-#include "Lab/Analysis/AnalyseLabels.h"
-#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
-#include "Lab/Pictures/StudyPictures.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/InformationTransfer.h"
 #include "Lab/Study/Proportion.h"
@@ -19,8 +18,7 @@ namespace {
 using Data = StudyData<IdentificationTrial>;
 
 Result<Data> readTrials(const AnalysisJob& o) {
-    auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readIdentification(files); });
+    auto data = readStudyFiles(o, readIdentification);
     if (!data || o.tolerance == 0) return data;
     for (auto& condition : data.value.conditions) {
         for (const auto& trial : condition.trials)
@@ -76,8 +74,8 @@ void exportMatrix(ExportTable& table, const std::string& condition, const Partic
                 .cell(own.participant)
                 .cell(matrix.label(i))
                 .cell(matrix.label(j))
-                .cell(std::size_t{matrix.count(i, j)});
-            table.endRow();
+                .cell(std::size_t{matrix.count(i, j)})
+                .endRow();
         }
 }
 
@@ -87,12 +85,9 @@ void exportTransfer(ExportTable& table, const std::string& condition, const Part
         .cell(own.participant)
         .cell(std::size_t{own.matrix.trials()})
         .cell(100.0 * static_cast<double>(own.matrix.correct()) / trials)
-        .cell(own.transfer.bits);
-    if (own.transfer.canBeCorrected())
-        table.cell(own.transfer.correctedBits());
-    else
-        table.cell("");
-    table.endRow();
+        .cell(own.transfer.bits)
+        .cell(own.transfer.canBeCorrected() ? std::optional{own.transfer.correctedBits()} : std::nullopt)
+        .endRow();
 }
 
 /// What participants transfer each by themselves: the mean in words, everyone in both tables.
@@ -119,8 +114,8 @@ std::string patternsOf(const ConfusionMatrix& matrix) {
         for (int k = 0; k < pattern->count; ++k)
             enchanters = std::max(enchanters, pattern->enchanters[static_cast<std::size_t>(k)] + 1);
     }
-    return std::to_string(matrix.stimuli()) + " patterns on " + std::to_string(enchanters) +
-           (enchanters == 1 ? " actuator" : " actuators");
+    return std::to_string(matrix.stimuli()) + " patterns on " +
+           counted(static_cast<std::size_t>(enchanters), "actuator");
 }
 
 std::string nameOr(const std::string& name, const char* other) { return name.empty() ? other : name; }
@@ -135,7 +130,7 @@ AnalysisReport analyseConfusion(const AnalysisJob& o) {
     ExportTable table{"confusion", data.value.isSimulated, "condition,participant,stimulus,response,count"};
     ExportTable each{"confusion-participants", data.value.isSimulated,
                      "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
-    std::vector<ConfusionPanel> panels;
+    std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
     for (const auto& condition : data.value.conditions) {
         const ConfusionMatrix matrix{condition.trials};
         const InformationTransfer it = informationTransfer(matrix);
@@ -144,13 +139,16 @@ AnalysisReport analyseConfusion(const AnalysisJob& o) {
         if (!condition.name.empty()) out << printable(condition.name) << '\n';
         tell(out, condition.name.empty() ? "" : "  ", matrix, it);
         tellAndExport(out, condition.name.empty() ? "" : "  ", condition, table, each);
-        panels.push_back({nameOr(condition.name, "all trials"), matrix, it});
+        matrices.emplace_back(nameOr(condition.name, "all trials"), matrix);
     }
     report.words = out.str();
     report.table = table.text();
     report.participants = each.text();
-    report.picture = [panels, words = pictureWords(o.files, data.value.isSimulated)] {
-        return confusionPicture(panels, words);
+    report.picture = [matrices, isSimulated = report.isSimulated] {
+        std::vector<std::string> charts;
+        for (const auto& [name, matrix] : matrices)
+            charts.push_back(confusionChart({chartName(charts.size()), name, isSimulated}, matrix));
+        return chartSheet(charts);
     };
     return report;
 }
@@ -166,29 +164,30 @@ AnalysisReport analyseIcons(const AnalysisJob& o) {
         matrices.emplace_back(condition.name, ConfusionMatrix{condition.trials});
     std::ranges::stable_sort(matrices, {}, [](const auto& m) { return m.second.stimuli(); });
     ExportTable table{"icons", data.value.isSimulated, "condition,stimulus,percent_correct"};
-    std::vector<IconPanel> panels;
+    std::string chosen; // the condition that the icons are of
+    std::vector<std::pair<std::string, ChartValue>> icons;
     for (const auto& [name, matrix] : matrices) {
         const InformationTransfer it = informationTransfer(matrix);
         const bool isEnough = it.bestBits() >= bitsFor(o.meanings);
         out << printable(nameOr(name, "all trials")) << ": " << patternsOf(matrix) << ", "
             << bits(it.bestBits()) << ": " << (isEnough ? "enough" : "too little") << '\n';
-        if (!isEnough || !panels.empty()) continue;
-        panels.push_back({nameOr(name, "all trials"), {}});
+        if (!isEnough || !icons.empty()) continue;
+        chosen = nameOr(name, "all trials");
         for (const std::size_t i : leastConfused(matrix, o.meanings)) {
             const double share = shareCorrect(matrix, i);
             out << "  " << printable(matrix.label(i)) << "  " << percent(share) << " % correct\n";
-            table.cell(name).cell(matrix.label(i)).cell(100.0 * share);
-            table.endRow();
-            panels.back().icons.push_back({matrix.label(i), share});
+            table.cell(name).cell(matrix.label(i)).cell(100.0 * share).endRow();
+            icons.emplace_back(matrix.label(i), ChartValue::around(100.0 * share));
         }
     }
-    if (panels.empty())
+    if (icons.empty())
         report.error = o.files.front() + ": expected a condition that transfers " +
                        bits(bitsFor(o.meanings)) + ", found none";
     report.words = out.str();
     report.table = table.text();
-    report.picture = [panels, words = pictureWords(o.files, data.value.isSimulated)] {
-        return iconPicture(panels, words);
+    report.picture = [chosen, icons, isSimulated = report.isSimulated] {
+        return barsChart({chartName(0), "Tactile icons: " + chosen, isSimulated}, "stimulus", "correct (%)",
+                         icons, 100.0);
     };
     return report;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Errors of pointing in words and a table: means over participants of means over targets.
-#include "Lab/Analysis/AnalyseGrids.h"
-#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Statistics/Moments.h"
 #include <algorithm>
 #include <charconv>
@@ -39,9 +38,8 @@ void tellErrors(std::ostream& out, const std::string& condition, const std::vect
     const auto people = participantErrors(trials);
     const auto most = std::ranges::max_element(people, {}, &ParticipantError::targets);
     const bool hasY = !isOnALine(trials);
-    out << printable(condition) << ": " << trials.size() << " trials of " << people.size()
-        << (people.size() == 1 ? " participant" : " participants") << ", up to " << most->targets
-        << " targets\n"
+    out << printable(condition) << ": " << trials.size() << " trials of "
+        << counted(people.size(), "participant") << ", up to " << most->targets << " targets\n"
         << "  distance from the target: " << overParticipants(people, &ParticipantError::distance) << '\n'
         << "  constant error, x: " << overParticipants(people, &ParticipantError::constantX) << '\n';
     if (hasY)
@@ -59,8 +57,7 @@ void tellErrors(std::ostream& out, const std::string& condition, const std::vect
 
 AnalysisReport analysePlaces(const AnalysisJob& o) {
     if (const auto fault = unitFault(o.columns); !fault.empty()) return {fault};
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readPlaces(files); });
+    const auto data = readStudyFiles(o, readPlaces);
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
@@ -73,11 +70,9 @@ AnalysisReport analysePlaces(const AnalysisJob& o) {
             table.cell(condition.name).cell(one.participant).cell(one.target).cell(one.trials);
             for (const double number : {one.trueX, one.trueY, one.constantX, one.constantY})
                 table.cell(number);
-            if (one.trials > 1)
-                table.cell(one.variable);
-            else
-                table.cell("");
-            table.cell(one.distance).endRow();
+            table.cell(one.trials > 1 ? std::optional{one.variable} : std::nullopt)
+                .cell(one.distance)
+                .endRow();
         }
     }
     report.words = out.str();

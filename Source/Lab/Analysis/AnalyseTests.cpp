@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A line per effect, in words and as a tidy table.
-#include "Lab/Analysis/AnalyseTests.h"
-#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/LongTableCsv.h"
 #include "Lab/Statistics/Pairs.h"
@@ -51,12 +50,8 @@ std::string exported(const std::string& name, bool isSimulated, const TestReport
         table.cell(line.effect);
         for (const auto& number :
              {line.df1, line.df2, line.statistic, line.p, line.pCorrected, line.epsilon, line.effectSize})
-            if (number)
-                table.cell(*number);
-            else
-                table.cell("");
-        table.cell(line.n);
-        table.endRow();
+            table.cell(number);
+        table.cell(line.n).endRow();
     }
     return table.text();
 }

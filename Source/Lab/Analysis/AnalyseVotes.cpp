@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shares and means in words and tables.
-#include "Lab/Analysis/AnalyseVotes.h"
-#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
-#include "Lab/Pictures/StudyPictures.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include <algorithm>
 #include <sstream>
 
@@ -15,8 +14,7 @@ void tell(std::ostream& out, const ChoiceSummary& summary) {
     for (const ChoiceShare& share : summary.shares)
         out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' '
             << percent(share.share) << " % (" << percent(share.least) << " to " << percent(share.most) << ')';
-    out << ", " << summary.trials << (summary.trials == 1 ? " trial of " : " trials of ")
-        << summary.participants << (summary.participants == 1 ? " participant" : " participants");
+    out << ", " << counted(summary.trials, "trial") << " of " << counted(summary.participants, "participant");
     if (summary.p) out << ", signed ranks " << chanceWords(*summary.p);
     out << '\n';
 }
@@ -39,18 +37,23 @@ void tell(std::ostream& out, const LevelSummary& s) {
     if (s.halfInterval > 0.0)
         out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to "
             << fixedNumber(s.estimate + s.halfInterval, 1) << " dB";
-    out << ", " << s.trials << (s.trials == 1 ? " trial of " : " trials of ") << s.participants
-        << (s.participants == 1 ? " participant" : " participants");
+    out << ", " << counted(s.trials, "trial") << " of " << counted(s.participants, "participant");
     if (s.kind == LevelTrial::Kind::staircase)
         out << ", " << s.reversals << " reversals that a trial followed";
     out << '\n';
 }
 
+template <class Summary>
+std::vector<const Summary*> pointersTo(const std::vector<Summary>& summaries) {
+    std::vector<const Summary*> pointers;
+    for (const Summary& summary : summaries) pointers.push_back(&summary);
+    return pointers;
+}
+
 } // namespace
 
 AnalysisReport analyseChoices(const AnalysisJob& o) {
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readChoices(files); });
+    const auto data = readStudyFiles(o, readChoices);
     if (!data) return {data.error};
     const auto summaries = summariseChoices(data.value.conditions.front().trials);
     ExportTable table{"choices", data.value.isSimulated,
@@ -73,25 +76,22 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
                 .cell(std::size_t{share.hits})
                 .cell(std::size_t{summary.trials});
             for (const double part : {share.share, share.least, share.most}) table.cell(100.0 * part);
-            table.cell(summary.participants).cell(100.0 * share.median);
-            if (summary.p)
-                table.cell(*summary.p);
-            else
-                table.cell("");
-            table.endRow();
+            table.cell(summary.participants).cell(100.0 * share.median).cell(summary.p).endRow();
         }
     }
     report.words = out.str();
     report.table = table.text();
-    report.picture = [summaries, words = pictureWords(o.files, data.value.isSimulated)] {
-        return choicePicture(summaries, words);
+    report.picture = [summaries, isSimulated = report.isSimulated] {
+        std::vector<std::string> groups;
+        for (const ChoiceSummary& summary : summaries) groups.push_back(summary.condition);
+        return sharesChart({chartName(0), "Shares of the alternatives", isSimulated}, "condition", groups,
+                           pointersTo(summaries));
     };
     return report;
 }
 
 AnalysisReport analyseRatings(const AnalysisJob& o) {
-    const auto ratings =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readRatings(files); });
+    const auto ratings = readStudyFiles(o, readRatings);
     if (!ratings) return {ratings.error};
     const auto& [scales, data] = ratings.value;
     const auto summaries = summariseRatings(data.conditions.front().trials);
@@ -102,8 +102,7 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
     bool hasIntervals = false;
     for (const auto& summary : summaries) {
         hasIntervals |= std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; });
-        out << wholeLabel(summary.condition) << ": " << summary.trials
-            << (summary.trials == 1 ? " trial" : " trials");
+        out << wholeLabel(summary.condition) << ": " << counted(summary.trials, "trial");
         for (std::size_t s = 0; s < scales.size(); ++s) {
             out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
@@ -117,15 +116,14 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
     if (hasIntervals) out << "+-: half of the 95 % interval over participants\n";
     report.words = out.str();
     report.table = table.text();
-    report.picture = [scales = scales, summaries, words = pictureWords(o.files, data.isSimulated)] {
-        return ratingPicture(scales, summaries, words);
+    report.picture = [scales = scales, summaries, isSimulated = report.isSimulated] {
+        return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, pointersTo(summaries));
     };
     return report;
 }
 
 AnalysisReport analyseLevels(const AnalysisJob& o) {
-    const auto data =
-        readStudyFiles(o, [](const std::vector<NamedText>& files) { return readLevels(files); });
+    const auto data = readStudyFiles(o, readLevels);
     if (!data) return {data.error};
     const auto summaries = summariseLevels(data.value.conditions.front().trials);
     ExportTable table{
@@ -148,13 +146,13 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
             .cell(s.reversals)
             .cell(s.estimate)
             .cell(s.deviation)
-            .cell(s.halfInterval);
-        table.endRow();
+            .cell(s.halfInterval)
+            .endRow();
     }
     report.words = out.str();
     report.table = table.text();
-    report.picture = [summaries, words = pictureWords(o.files, data.value.isSimulated)] {
-        return levelPicture(summaries, words);
+    report.picture = [summaries, isSimulated = report.isSimulated] {
+        return chartSheet(levelCharts(summaries, isSimulated));
     };
     return report;
 }

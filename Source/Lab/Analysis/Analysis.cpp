@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The list of all analyses, and which of them fit a table.
-#include "Lab/Analysis/Analysis.h"
-#include "Lab/Analysis/AnalyseFits.h"
-#include "Lab/Analysis/AnalyseGrids.h"
-#include "Lab/Analysis/AnalyseLabels.h"
-#include "Lab/Analysis/AnalyseTests.h"
-#include "Lab/Analysis/AnalyseVotes.h"
+#include "Lab/Analysis/Analyses.h"
 #include "Lab/Files/TrialColumns.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
@@ -142,13 +137,6 @@ AnalysisReport analyse(const std::string& name, const AnalysisJob& job) {
     AnalysisReport report = found->run(job);
     if (!report.error.empty()) report.error += otherKindWords(*found, job);
     return report;
-}
-
-PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated) {
-    PictureWords words{{}, "physvib " PHYSVIB_VERSION, isSimulated};
-    words.source = std::filesystem::path{files.front()}.filename().string();
-    if (files.size() > 1) words.source += " and " + std::to_string(files.size() - 1) + " more";
-    return words;
 }
 
 } // namespace physvib

@@ -38,12 +38,11 @@ struct AnalysisJob : StudySources {
 
 /// What an analysis has found.
 struct AnalysisReport {
-    std::string error;                   ///< one line; then only `words` may hold something
-    bool isSimulated = false;            ///< a simulated observer answered, not a person
-    std::vector<std::string> warnings{}; ///< a line each
-    std::string words{};                 ///< its figures, in lines
-    /// PNG bytes, watermarked if simulated; M, while JUCE is initialised
-    std::function<std::string()> picture{};
+    std::string error;                             ///< one line; then only `words` may hold something
+    bool isSimulated = false;                      ///< a simulated observer answered, not a person
+    std::vector<std::string> warnings{};           ///< a line each
+    std::string words{};                           ///< its figures, in lines
+    std::function<std::string()> picture{};        ///< SVG, watermarked if simulated; empty: none
     std::string table{}, counts{}, participants{}; ///< CSV
     std::vector<TestLine> lines{};                 ///< of a test
 };

@@ -7,8 +7,8 @@
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Pictures/StudyPictures.h"
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,9 +57,6 @@ auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t most
     return reader(files);
 }
 
-/// What stands around a picture of these files' results.
-PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated);
-
 /// A table that grows cell by cell, for statistics packages.
 class ExportTable {
 public:
@@ -83,6 +80,10 @@ public:
         separate();
         appendNumber(text_, number);
         return *this;
+    }
+    /// Empty where there is none.
+    ExportTable& cell(const std::optional<double>& number) {
+        return number ? cell(*number) : cell(std::string_view{});
     }
     void endRow() {
         text_ += '\n';

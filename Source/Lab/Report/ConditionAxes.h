@@ -9,6 +9,13 @@
 
 namespace physvib {
 
+/// That of a condition; none: null.
+template <class Summary>
+const Summary* conditionNamed(const std::vector<Summary>& all, const std::string& name) {
+    const auto found = std::ranges::find(all, name, &Summary::condition);
+    return found == all.end() ? nullptr : &*found;
+}
+
 struct ConditionAxes {
     std::vector<std::string> series, groups; ///< one empty series: conditions are groups
     std::vector<std::string> factors;        ///< for --within; empty: one condition

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A report as it grows: the page, the tables beside it, and the tests that both and the script in R repeat.
 #pragma once
+#include "Io/Charts/Charts.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Report/ReportTrials.h"
@@ -49,8 +50,10 @@ public:
     std::vector<TestLine> test(const std::string& kind, AnalysisJob options, const std::string& name,
                                bool isLong = false);
 
-    /// A name for the next chart.
-    std::string chartName() { return "chart" + std::to_string(++charts_); }
+    /// Of the next chart, whose name no other has.
+    ChartFrame frame(std::string title) {
+        return {"chart" + std::to_string(++charts_), std::move(title), isSimulated()};
+    }
 
     const std::vector<ReportTest>& tests() const noexcept { return tests_; }
     const std::map<std::string, std::string>& tables() const noexcept { return tables_; }

@@ -98,8 +98,7 @@ void tellOrders(ReportBuilder& report) {
     ExportTable table{"orders", report.isSimulated(), "participant,place,condition"};
     for (const auto& [participant, order] : orders)
         for (std::size_t place = 0; place < order.size(); ++place) {
-            table.cell(participant).cell(place + 1).cell(order[place]);
-            table.endRow();
+            table.cell(participant).cell(place + 1).cell(order[place]).endRow();
         }
     report.addTable("orders.csv", table.text());
     report.page.subheading("Orders of the conditions");
@@ -129,8 +128,8 @@ void tellPower(ReportBuilder& report) {
         table.cell("paired t, d")
             .cell(effect)
             .cell(power.at(effect, 0.05))
-            .cell(power.at(effect, 0.05 / static_cast<double>(pairs)));
-        table.endRow();
+            .cell(power.at(effect, 0.05 / static_cast<double>(pairs)))
+            .endRow();
     }
     if (const std::size_t trials = choiceTrialsOf(report.trials.all); trials > 0) {
         const SharePower shares{people, trials};
@@ -142,8 +141,7 @@ void tellPower(ReportBuilder& report) {
                                    : std::string{"more than 95 %"}) +
                               " or more is found in 80 % of the studies. Participants who differ need more.");
         for (const double share : {0.52, 0.55, 0.6, 0.65, 0.7, 0.8}) {
-            table.cell("signed ranks, share").cell(share).cell(shares.at(share)).cell("");
-            table.endRow();
+            table.cell("signed ranks, share").cell(share).cell(shares.at(share)).cell("").endRow();
         }
     }
     report.addTable("power.csv", table.text());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Identified labels: information transfer, percent correct, by condition and by stimulus.
-#include "Io/Charts/Charts.h"
 #include "Io/Text/NameList.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ConditionAxes.h"
 #include "Lab/Report/ReportSections.h"
@@ -15,7 +15,7 @@ namespace {
 using Identified = StudyData<IdentificationTrial>;
 
 struct IdentifiedCondition {
-    std::string name;
+    std::string condition;
     ConfusionMatrix matrix;
     InformationTransfer transfer;
     std::vector<double> shares, bits; ///< of participants, in percent and bits
@@ -43,12 +43,7 @@ std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolera
 
 ChartValue withInterval(const std::vector<double>& values) {
     const Moments moments{values};
-    return {moments.mean, moments.mean - moments.halfInterval(), moments.mean + moments.halfInterval()};
-}
-
-const IdentifiedCondition* named(const std::vector<IdentifiedCondition>& all, const std::string& name) {
-    const auto found = std::ranges::find(all, name, &IdentifiedCondition::name);
-    return found == all.end() ? nullptr : &*found;
+    return ChartValue::around(moments.mean, moments.halfInterval());
 }
 
 /// A bar per condition; `value` gives it.
@@ -59,7 +54,7 @@ std::vector<BarSeries> barsOf(const ConditionAxes& axes, const std::vector<Ident
     for (std::size_t s = 0; s < axes.series.size(); ++s) {
         series.push_back({axes.series[s], {}});
         for (std::size_t g = 0; g < axes.groups.size(); ++g) {
-            const auto* const condition = named(all, axes.conditionOf(s, g));
+            const auto* const condition = conditionNamed(all, axes.conditionOf(s, g));
             series.back().bars.push_back(condition ? std::optional{value(*condition)} : std::nullopt);
         }
     }
@@ -86,7 +81,7 @@ void markPairs(BarChart& chart, const std::vector<TestLine>& lines, const Condit
 std::vector<double> ceilingsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all) {
     std::vector<double> most;
     for (std::size_t g = 0; g < axes.groups.size(); ++g) {
-        const auto* const condition = named(all, axes.conditionOf(0, g));
+        const auto* const condition = conditionNamed(all, axes.conditionOf(0, g));
         most.push_back(condition ? condition->transfer.mostBits : 0.0);
     }
     return most;
@@ -104,8 +99,7 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
         rows = std::max(rows, cell->row);
         columns = std::max(columns, cell->column);
     }
-    GridChart chart{{report.chartName(), condition.name + (tolerance ? ", 1 step of tolerance" : ""),
-                     report.isSimulated()},
+    GridChart chart{report.frame(condition.condition + (tolerance ? ", 1 step of tolerance" : "")),
                     "row",
                     "column",
                     {},
@@ -136,22 +130,6 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
     return gridChart(chart);
 }
 
-std::string confusionChart(ReportBuilder& report, const IdentifiedCondition& condition) {
-    const ConfusionMatrix& matrix = condition.matrix;
-    GridChart chart{
-        {report.chartName(), condition.name, report.isSimulated()}, "stimulus", "response", {}, {}, {}};
-    for (std::size_t i = 0; i < matrix.stimuli(); ++i) chart.rows.push_back(matrix.label(i));
-    for (std::size_t j = 0; j < matrix.responses(); ++j) chart.columns.push_back(matrix.label(j));
-    const auto totals = matrix.stimulusTotals();
-    for (std::size_t i = 0; i < matrix.stimuli(); ++i)
-        for (std::size_t j = 0; j < matrix.responses(); ++j) {
-            const double share = 100.0 * matrix.count(i, j) / static_cast<double>(totals[i]);
-            chart.values.push_back(share > 0.0 ? std::optional{share} : std::nullopt);
-        }
-    chart.most = 100.0;
-    return gridChart(chart);
-}
-
 bool isGrid(const std::vector<IdentifiedCondition>& all) {
     return std::ranges::all_of(all,
                                [](const auto& c) { return parseGridCell(c.matrix.label(0)).has_value(); });
@@ -170,7 +148,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     report.addTable(values, confusion.participants);
     const auto all = conditionsOf(data, tolerance);
     std::vector<std::string> names;
-    for (const auto& condition : all) names.push_back(condition.name);
+    for (const auto& one : all) names.push_back(one.condition);
     const ConditionAxes axes = ConditionAxes::of(names);
     std::vector<TestLine> pairs;
     if (axes.factors.size() == 2 && !tolerance)
@@ -185,30 +163,22 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
         pairs = report.test("pairs", test, "pairs-percent-correct" + suffix + ".csv");
     }
     const bool hasPeople = all.front().shares.size() > 1;
-    BarChart it{{report.chartName(), "Information transfer" + words, report.isSimulated()},
-                "condition",
-                "IT (bit)",
-                axes.groups,
-                barsOf(axes, all, [](const auto& c) {
-                    return ChartValue{c.transfer.bits, c.transfer.bits, c.transfer.bits};
-                })};
+    BarChart it{report.frame("Information transfer" + words), "condition", "IT (bit)", axes.groups,
+                barsOf(axes, all, [](const auto& c) { return ChartValue::around(c.transfer.bits); })};
     it.ceilings = ceilingsOf(axes, all);
     it.ceilingWords = "most possible";
     report.page.figure({barChart(it)}, "Information transfer of all participants' trials together" + words +
                                            " (as thesis Fig. 3.11, 4.2): one estimate per condition, so it "
                                            "has no interval. Dotted: log2 of the number of stimuli.");
     if (hasPeople) {
-        it.frame = {report.chartName(), "Information transfer of participants" + words, report.isSimulated()};
+        it.frame = report.frame("Information transfer of participants" + words);
         it.series = barsOf(axes, all, [](const auto& c) { return withInterval(c.bits); });
         report.page.figure({barChart(it)},
                            "Mean of the participants' own information transfer" + words +
                                ", 95 % intervals over participants. Few trials make everyone's too high: "
                                "compare conditions of as many stimuli and trials only.");
     }
-    BarChart pc{{report.chartName(), "Percent correct" + words, report.isSimulated()},
-                "condition",
-                "correct (%)",
-                axes.groups,
+    BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
     pc.most = 100.0;
     if (!pairs.empty()) markPairs(pc, pairs, axes);
@@ -223,7 +193,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
         charts.push_back(isGrid(all)
                              ? stimulusChart(report, all[c],
                                              tolerance ? withTolerance(trials, tolerance) : trials, tolerance)
-                             : confusionChart(report, all[c]));
+                             : confusionChart(report.frame(all[c].condition), all[c].matrix));
     }
     std::erase(charts, std::string{});
     if (charts.empty()) return;

@@ -10,7 +10,7 @@
 namespace physvib {
 
 struct ReportJob {
-    std::vector<std::string> files;           ///< of one study; or `thesis` alone (see ThesisReport.h)
+    std::vector<std::string> files;           ///< of one study
     std::vector<ColumnName> columns{};        ///< of another program's tables
     double guess = PsychometricModel{}.guess; ///< of psychometric functions, where no protocol knows it
     std::string folder;                       ///< all that is written lies in it
@@ -18,7 +18,6 @@ struct ReportJob {
     std::string peoplePath{}; ///< who the participants are (see StudyFacts.h); empty: nothing is known
     std::string ethics{}, consent{}, noise{}; ///< sentences for the page; empty: to be filled in
 
-    bool isThesis() const { return files == std::vector<std::string>{"thesis"}; }
     bool operator==(const ReportJob&) const = default;
 };
 

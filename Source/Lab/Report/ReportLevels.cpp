@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Levels: thresholds with the functions behind them, matches, magnitudes.
-#include "Io/Charts/Charts.h"
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/FitCharts.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Study/LevelTrials.h"
@@ -34,8 +34,7 @@ void tellThresholds(ReportBuilder& report) {
     std::vector<std::string> charts;
     for (const auto& condition : data.value.conditions)
         charts.push_back(psychometricChart(
-            {report.chartName(), condition.name.empty() ? "Psychometric functions" : condition.name,
-             report.isSimulated()},
+            report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
             condition.trials, fit.model, words));
     report.page.figure(
         charts, "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
@@ -56,10 +55,8 @@ void tellMagnitudes(ReportBuilder& report) {
     if (!words.error.empty()) return;
     std::vector<std::string> charts;
     for (const auto& condition : data.value.conditions)
-        charts.push_back(
-            powerLawChart({report.chartName(), condition.name.empty() ? "Magnitudes" : condition.name,
-                           report.isSimulated()},
-                          condition.trials, "level"));
+        charts.push_back(powerLawChart(report.frame(condition.name.empty() ? "Magnitudes" : condition.name),
+                                       condition.trials, "level"));
     report.page.figure(charts,
                        "Magnitude estimations: geometric means over participants with 95 % intervals, and "
                        "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
@@ -84,18 +81,12 @@ std::string valuesOf(std::string_view stimulus) {
 }
 
 std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
-    BarChart chart{{report.chartName(), "Matched levels", report.isSimulated()},
-                   "stimulus",
-                   "level (dB)",
-                   {},
-                   {{"", {}}}};
-    for (const LevelSummary& s : summaries) {
-        if (s.kind != LevelTrial::Kind::adjustment) continue;
-        chart.groups.push_back(valuesOf(s.stimulus));
-        chart.series.front().bars.push_back(
-            ChartValue{s.estimate, s.estimate - s.halfInterval, s.estimate + s.halfInterval});
-    }
-    return chart.groups.size() < 2 ? std::string{} : barChart(chart);
+    const ChartFrame frame = report.frame("Matched levels");
+    std::vector<std::pair<std::string, ChartValue>> bars;
+    for (const LevelSummary& s : summaries)
+        if (s.kind == LevelTrial::Kind::adjustment)
+            bars.emplace_back(valuesOf(s.stimulus), ChartValue::around(s.estimate, s.halfInterval));
+    return bars.size() < 2 ? std::string{} : barsChart(frame, "stimulus", "level (dB)", bars);
 }
 
 /// Matches at the end of their range may lie beyond it.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Places pointed at: responses and normals, perceived rows and columns, territories, percent counts.
-#include "Io/Charts/Charts.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Report/CountsChart.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/ResponseMap.h"
@@ -17,45 +16,13 @@ struct PlacesOf {
     ConditionResolution resolution;
 };
 
-PlaceChart fieldOf(ReportBuilder& report, const PlacesOf& one) {
-    PlaceChart chart{{report.chartName(), one.condition, report.isSimulated()},
-                     one.resolution.normals.rows,
-                     one.resolution.normals.columns};
-    const auto& normals = one.resolution.normals.normals;
-    for (std::size_t i = 0; i < normals.size(); ++i)
-        if (normals[i].responses > 0)
-            chart.ellipses.push_back({i, normals[i].meanX, normals[i].meanY, normals[i].varianceX,
-                                      normals[i].varianceY, normals[i].covariance});
-    return chart;
-}
-
-std::string responsesChart(ReportBuilder& report, const PlacesOf& one) {
-    PlaceChart chart = fieldOf(report, one);
-    for (const LocationTrial& trial : one.trials)
-        chart.places.push_back({static_cast<std::size_t>(trial.targetRow - 1) * chart.columns +
-                                    static_cast<std::size_t>(trial.targetColumn - 1),
-                                trial.x, trial.y});
-    return placeChart(chart);
-}
-
-std::string territoryChart(ReportBuilder& report, const PlacesOf& one) {
-    constexpr std::size_t columns = 164, rows = 85; // fine enough for a page; percent counts use every pixel
-    PlaceChart chart = fieldOf(report, one);
-    for (const std::uint16_t owner : likelihoodMap(one.resolution.normals, columns, rows))
-        chart.territory.push_back(owner);
-    chart.mapColumns = columns;
-    for (const PlaceEllipse& e : chart.ellipses) chart.labels.push_back({e.target, e.x, e.y});
-    chart.ellipses.clear();
-    return placeChart(chart);
-}
-
 /// Mean perceived place against the intended one, over participants. `isRow`: rows, else columns.
 std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std::vector<PlacesOf>& places,
                            bool isRow) {
     const auto participant = all.column("participant"), condition = all.column("condition"),
                target = all.column(isRow ? "target_row" : "target_column"),
                at = all.column(isRow ? "y" : "x"), phase = all.column("phase");
-    LineChart chart{{report.chartName(), isRow ? "Perceived row" : "Perceived column", report.isSimulated()},
+    LineChart chart{report.frame(isRow ? "Perceived row" : "Perceived column"),
                     isRow ? "intended target row" : "intended target column",
                     isRow ? "perceived, share of the height" : "perceived, share of the width",
                     {}};
@@ -80,9 +47,8 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
             // so that intervals do not hide each other
             const double offset =
                 0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1));
-            series.points.push_back({line + offset,
-                                     {moments.mean, moments.mean - moments.halfInterval(),
-                                      moments.mean + moments.halfInterval()}});
+            series.points.push_back(
+                {line + offset, ChartValue::around(moments.mean, moments.halfInterval())});
         }
         chart.series.push_back(std::move(series));
     }
@@ -131,18 +97,11 @@ void tellPlaces(ReportBuilder& report) {
     std::ranges::sort(places, {}, &PlacesOf::condition);
     std::vector<std::string> responses, territories, counts, grids;
     for (const PlacesOf& one : places) {
-        responses.push_back(responsesChart(report, one));
-        territories.push_back(territoryChart(report, one));
-        counts.push_back(
-            countsChart({report.chartName(), one.condition, report.isSimulated()}, one.resolution.counts));
-        const auto& ties = one.resolution.resolution.ties;
-        if (!ties.empty())
-            grids.push_back(
-                countsChart({report.chartName(),
-                             one.condition + ": " + std::to_string(ties.front().columnGroups.size()) + " x " +
-                                 std::to_string(ties.front().rowGroups.size()),
-                             report.isSimulated()},
-                            merged(one.resolution.counts, ties.front())));
+        responses.push_back(responsesChart(report.frame(one.condition), one.resolution, one.trials));
+        territories.push_back(territoryChart(report.frame(one.condition), one.resolution));
+        counts.push_back(countsChart(report.frame(one.condition), one.resolution.counts));
+        if (!one.resolution.resolution.ties.empty())
+            grids.push_back(mergedChart(report.frame(one.condition), one.resolution));
     }
     report.page.figure(responses,
                        "Every response (dots, coloured by target) and the normal distribution of each "

@@ -33,13 +33,6 @@ private:
     const CsvTable& table_;
 };
 
-double medianOf(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::ranges::sort(values);
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 struct Attended {
     std::string number, observer;
     std::size_t main = 0, training = 0, unanswered = 0;
@@ -73,10 +66,6 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
         }
     }
     return people;
-}
-
-std::string count(std::size_t n, const char* what) {
-    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
 /// Of a built-in protocol, once and all together.
@@ -123,8 +112,7 @@ void tellCalls(ReportBuilder& report) {
     ExportTable table{"stimuli", report.isSimulated(), "condition,session,stimulus,trials,call"};
     for (const auto& [key, trials] : calls) {
         const auto& [condition, session, stimulus, call] = key;
-        table.cell(condition).cell(session).cell(stimulus).cell(trials).cell(call);
-        table.endRow();
+        table.cell(condition).cell(session).cell(stimulus).cell(trials).cell(call).endRow();
     }
     report.addTable("stimuli.csv", table.text());
     report.page.subheading("How stimuli were made");
@@ -189,13 +177,10 @@ void tellDoses(ReportBuilder& report) {
             table.cell(key.first).cell(key.second).cell(column).cell(own.size());
             // levels follow answers, exposure adds up
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
-            table.cell(*std::ranges::min_element(own));
-            if (hasMean)
-                table.cell(sum / static_cast<double>(own.size()));
-            else
-                table.cell("");
-            table.cell(*std::ranges::max_element(own));
-            table.endRow();
+            table.cell(*std::ranges::min_element(own))
+                .cell(hasMean ? std::optional{sum / static_cast<double>(own.size())} : std::nullopt)
+                .cell(*std::ranges::max_element(own))
+                .endRow();
         }
     }
     report.page.subheading("Levels and exposure");
@@ -295,11 +280,8 @@ void tellParticipants(ReportBuilder& report) {
             .cell(own.observer)
             .cell(own.main)
             .cell(own.training)
-            .cell(own.unanswered);
-        if (own.seconds.empty())
-            table.cell("");
-        else
-            table.cell(medianOf(own.seconds));
+            .cell(own.unanswered)
+            .cell(own.seconds.empty() ? std::nullopt : std::optional{median(own.seconds)});
         if (!facts.people.empty()) {
             const PersonFacts* const person = facts.person(code);
             const PersonFacts one = person != nullptr ? *person : PersonFacts{};
@@ -312,8 +294,8 @@ void tellParticipants(ReportBuilder& report) {
         if (!facts.isExcluded(code)) most = std::max(most, own.main - own.adaptive);
     }
     report.addTable("participants.csv", table.text());
-    report.page.paragraph(count(people.size(), "participant") + " in " +
-                          count(report.trials.files.size(), "file") + ".");
+    report.page.paragraph(counted(people.size(), "participant") + " in " +
+                          counted(report.trials.files.size(), "file") + ".");
     if (!report.trials.sharedNote.empty()) report.page.note(report.trials.sharedNote);
     tellFacts(report, people);
     if (people.size() == 1)
@@ -332,11 +314,11 @@ void tellParticipants(ReportBuilder& report) {
                                  " trials, others have up to " + std::to_string(most) +
                                  ": tests leave out who lacks a combination of levels");
         if (own.unanswered > 0)
-            exclusions.push_back("participant " + code + ": " + count(own.unanswered, "trial") +
+            exclusions.push_back("participant " + code + ": " + counted(own.unanswered, "trial") +
                                  " without an answer left out");
     }
     if (report.trials.rowsLeftOut > 0)
-        exclusions.push_back(count(report.trials.rowsLeftOut, "row") +
+        exclusions.push_back(counted(report.trials.rowsLeftOut, "row") +
                              " with nothing in one of the named columns left out");
     report.page.subheading("Exclusions");
     if (exclusions.empty())

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Opinions: shares of forced choices, ratings on scales.
-#include "Io/Charts/Charts.h"
 #include "Io/Text/CsvText.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/ConditionAxes.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/Votes.h"
@@ -38,46 +39,6 @@ bool hasWord(std::string_view condition, const std::string& factor, const std::s
     return false;
 }
 
-const ChoiceSummary* named(const std::vector<ChoiceSummary>& all, const std::string& name) {
-    const auto found = std::ranges::find(all, name, &ChoiceSummary::condition);
-    return found == all.end() ? nullptr : &*found;
-}
-
-ChartValue shareValue(const ChoiceShare& share) {
-    return {100.0 * share.share, 100.0 * share.least, 100.0 * share.most};
-}
-
-/// The p of all bars of a figure, corrected by Holm for their number.
-TestReport correctedOver(const std::vector<const ChoiceSummary*>& summaries) {
-    TestReport report;
-    for (const ChoiceSummary* summary : summaries) {
-        TestLine& line = report.lines.emplace_back();
-        line.effect = summary->condition;
-        line.p = summary->p;
-    }
-    correctForNumber(report, Correction::holm);
-    return report;
-}
-
-/// A bar per alternative and summary; the first alternative's bar is marked if two differ from one half.
-std::string shareChart(ReportBuilder& report, const std::string& title, const std::string& words,
-                       const std::vector<std::string>& groups,
-                       const std::vector<const ChoiceSummary*>& summaries) {
-    BarChart chart{{report.chartName(), title, report.isSimulated()}, words, "chosen (%)", groups, {}};
-    for (const ChoiceShare& share : summaries.front()->shares)
-        chart.series.push_back({share.alternative, {}});
-    const TestReport corrected = correctedOver(summaries);
-    for (std::size_t i = 0; i < summaries.size(); ++i)
-        for (std::size_t s = 0; s < chart.series.size(); ++s) {
-            chart.series[s].bars.push_back(shareValue(summaries[i]->shares[s]));
-            const auto& p = corrected.lines[i].pCorrected;
-            if (s == 0) chart.series[s].marks.push_back(p && *p < 0.05 ? significanceMark(*p) : "");
-        }
-    chart.most = 100.0;
-    chart.reference = {100.0 / static_cast<double>(chart.series.size()), "chance"};
-    return barChart(chart);
-}
-
 void tellChoiceTests(ReportBuilder& report,
                      const std::vector<std::pair<std::string, std::vector<std::string>>>& factors,
                      const std::string& alternative) {
@@ -98,9 +59,7 @@ std::string combinationChart(ReportBuilder& report, const std::vector<ChoiceTria
                              const std::pair<std::string, std::vector<std::string>>& first,
                              const std::pair<std::string, std::vector<std::string>>& second,
                              const std::string& alternative) {
-    BarChart chart{{report.chartName(),
-                    "Chosen: " + alternative + ", by " + first.first + " and " + second.first,
-                    report.isSimulated()},
+    BarChart chart{report.frame("Chosen: " + alternative + ", by " + first.first + " and " + second.first),
                    second.first,
                    "chosen (%)",
                    second.second,
@@ -116,7 +75,8 @@ std::string combinationChart(ReportBuilder& report, const std::vector<ChoiceTria
             std::optional<ChartValue> bar;
             for (const ChoiceSummary& summary : summariseChoices(chosen))
                 for (const ChoiceShare& share : summary.shares)
-                    if (share.alternative == alternative) bar = shareValue(share);
+                    if (share.alternative == alternative)
+                        bar = ChartValue{100.0 * share.share, 100.0 * share.least, 100.0 * share.most};
             chart.series.back().bars.push_back(bar);
         }
     }
@@ -136,30 +96,19 @@ struct RatedFactor {
 constexpr RatedFactor ratedFactors[] = {
     {"A", "amplitude", "AV", "AF"}, {"F", "frequency", "FV", "FF"}, {"DR", "decay rate", "DRV", "DRF"}};
 
-const RatingSummary* rated(const std::vector<RatingSummary>& all, const std::string& name) {
-    const auto found = std::ranges::find(all, name, &RatingSummary::condition);
-    return found == all.end() ? nullptr : &*found;
-}
-
-ChartValue scoreOf(const RatingSummary& summary, std::size_t scale) {
-    const double mean = summary.means[scale], half = summary.halfIntervals[scale];
-    return {mean, mean - half, mean + half};
-}
-
 /// The three factors of the thesis' methods, a panel per scale, marked by the scale's analysis of variance.
 std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<std::string>& scales,
                                       const std::vector<RatingSummary>& summaries,
                                       const std::vector<std::vector<TestLine>>& tests) {
     std::vector<std::string> charts;
     for (std::size_t s = 0; s < scales.size(); ++s) {
-        BarChart chart{{report.chartName(), scales[s], report.isSimulated()},
-                       "",
-                       "mean score (0 to 100)",
-                       {},
-                       {{"varied", {}}, {"fixed", {}}}};
+        BarChart chart{
+            report.frame(scales[s]), "", "mean score (0 to 100)", {}, {{"varied", {}}, {"fixed", {}}}};
         for (const RatedFactor& factor : ratedFactors) {
-            const auto *const varied = rated(summaries, factor.varied), *const fixed =
-                                                                            rated(summaries, factor.fixed);
+            const auto *const varied = conditionNamed(summaries, factor.varied), *const fixed =
+                                                                                     conditionNamed(
+                                                                                         summaries,
+                                                                                         factor.fixed);
             if (!varied || !fixed) continue;
             std::string mark;
             for (const TestLine& line : tests[s])
@@ -172,24 +121,6 @@ std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<s
         charts.push_back(barChart(chart));
     }
     return charts;
-}
-
-std::string conditionsChart(ReportBuilder& report, const std::vector<std::string>& scales,
-                            const std::vector<RatingSummary>& summaries,
-                            const std::set<std::string>& conditions) {
-    BarChart chart{{report.chartName(), "Mean scores", report.isSimulated()},
-                   "condition",
-                   "mean score (0 to 100)",
-                   {},
-                   {}};
-    for (const std::string& scale : scales) chart.series.push_back({scale, {}});
-    for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) { // AV-FV-DRV first
-        if (!conditions.contains(at->condition)) continue;
-        chart.groups.push_back(at->condition);
-        for (std::size_t s = 0; s < scales.size(); ++s) chart.series[s].bars.push_back(scoreOf(*at, s));
-    }
-    chart.most = 100.0;
-    return barChart(chart);
 }
 
 } // namespace
@@ -209,7 +140,7 @@ void tellChoices(ReportBuilder& report) {
     const auto factors = factorsOf(trials);
     for (const auto& [name, values] : factors)
         for (const std::string& value : values)
-            if (const auto* const summary = named(summaries, name + "=" + value);
+            if (const auto* const summary = conditionNamed(summaries, name + "=" + value);
                 summary && values.size() > 1) {
                 groups.push_back(value);
                 chosen.push_back(summary);
@@ -222,8 +153,8 @@ void tellChoices(ReportBuilder& report) {
     std::string names;
     for (const auto& [name, values] : factors) names.append(names.empty() ? "all; by " : ", ").append(name);
     report.page.figure(
-        {shareChart(report, "Shares of the alternatives", names.empty() ? "condition" : names, groups,
-                    chosen)},
+        {sharesChart(report.frame("Shares of the alternatives"), names.empty() ? "condition" : names, groups,
+                     chosen)},
         "Mean of the participants' shares (as thesis Fig. 5.8, which has medians), 95 % intervals over "
         "participants. Marks: signed ranks of the shares against one half, corrected by Holm for the bars of "
         "this figure: * p < 0.05, ** p < 0.01, *** p < 0.001.");
@@ -261,7 +192,7 @@ void tellRatings(ReportBuilder& report) {
             test.within = {report.trials.all.column("stimulus") ? "stimulus" : "condition"};
         else
             for (const RatedFactor& factor : ratedFactors)
-                if (rated(summaries, factor.varied) && rated(summaries, factor.fixed))
+                if (conditionNamed(summaries, factor.varied) && conditionNamed(summaries, factor.fixed))
                     test.within.emplace_back(factor.name);
         report.page.subheading(scales[s]);
         tests[s] = report.test("anova", test, "anova-" + fileWord(scales[s]) + ".csv");
@@ -275,7 +206,10 @@ void tellRatings(ReportBuilder& report) {
             "Mean scores by factor (as thesis Fig. 5.13), 95 % intervals over participants. Marks: main "
             "effect in the analysis of variance of that scale (two levels each, so no pairs are to be "
             "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05.");
-    report.page.figure({conditionsChart(report, scales, summaries, conditions)},
+    std::vector<const RatingSummary*> shown;
+    for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) // AV-FV-DRV first
+        if (conditions.contains(at->condition)) shown.push_back(&*at);
+    report.page.figure({scoresChart(report.frame("Mean scores"), scales, shown)},
                        "Mean scores by condition (as thesis Fig. 5.14), 95 % intervals over participants.");
 }
 

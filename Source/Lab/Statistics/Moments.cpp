@@ -13,6 +13,13 @@ double largestMagnitude(std::span<const double> values) noexcept {
     return largest;
 }
 
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    std::ranges::sort(values);
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
 Moments::Moments(std::span<const double> values) noexcept
     : n{values.size()} {
     for (const double v : values) mean += v / static_cast<double>(n);

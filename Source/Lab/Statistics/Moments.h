@@ -3,11 +3,15 @@
 #pragma once
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace physvib {
 
 /// Of values, whatever their signs; 0 of none. Any thread.
 double largestMagnitude(std::span<const double> values) noexcept;
+
+/// The middle value, or the mean of the two in the middle; 0 of none. Any thread.
+double median(std::vector<double> values);
 
 struct Moments {
     std::size_t n = 0;

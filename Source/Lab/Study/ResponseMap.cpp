@@ -173,10 +173,9 @@ PercentCounts percentCounts(const ResponseNormals& normals, const std::vector<st
 
 ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
                                      double thresholdPercent) {
-    ConditionResolution made{std::move(condition), responseNormals(trials), {}, {}, {}};
+    ConditionResolution made{std::move(condition), responseNormals(trials), {}, {}};
     if (!made.normals.fault.empty()) return made;
-    made.map = likelihoodMap(made.normals);
-    made.counts = percentCounts(made.normals, made.map, made.condition);
+    made.counts = percentCounts(made.normals, likelihoodMap(made.normals), made.condition);
     made.resolution = perceptualResolution(made.counts, thresholdPercent);
     return made;
 }

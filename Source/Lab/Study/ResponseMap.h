@@ -57,7 +57,6 @@ PercentCounts percentCounts(const ResponseNormals& normals, const std::vector<st
 struct ConditionResolution {
     std::string condition;
     ResponseNormals normals; ///< after a fault the rest is empty
-    std::vector<std::uint16_t> map;
     PercentCounts counts;
     PerceptualResolution resolution;
 };

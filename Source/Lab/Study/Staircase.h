@@ -33,14 +33,6 @@ public:
         levelDb_ = std::clamp(levelDb_ + direction * stepDb_, plan_.leastDb, plan_.mostDb);
     }
 
-    /// Mean level of the later half of the reversals; the present level before there are two.
-    double thresholdDb() const {
-        if (reversals_.size() < 2) return levelDb_;
-        const std::size_t first = reversals_.size() / 2;
-        double sum = 0.0;
-        for (std::size_t i = first; i < reversals_.size(); ++i) sum += reversals_[i];
-        return sum / static_cast<double>(reversals_.size() - first);
-    }
     const std::vector<double>& reversals() const noexcept { return reversals_; }
 
 private:

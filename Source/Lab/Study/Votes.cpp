@@ -13,13 +13,6 @@
 namespace physvib {
 namespace {
 
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::ranges::sort(values);
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 /// "size=small" of "pair=wood size=small": the factors of a condition's name.
 std::vector<std::string> factorsOf(const std::string& condition) {
     std::vector<std::string> parts;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fields of controls and panners, with their ranges.
 #include "Live/Documents/ControlJson.h"
+#include "Live/Documents/Mix.h"
 #include "Scene/LayoutJson.h"
 #include "Scene/SceneFileLimits.h"
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace physvib {
 namespace {
-
-constexpr double leastExponent = 1e-3, mostExponent = 100.0;
 
 int readChannel(const JsonField& field, int channels) {
     const int found = field.wholeNumber();
@@ -28,16 +27,16 @@ void expectFields(const JsonField& json, std::vector<std::string_view> known, st
 
 } // namespace
 
-PhantomPanner readPanner(const JsonField& json, int channels) {
+PhantomPanner readKind(const JsonField& json, const PerChannel<PhantomPanner>& kind) {
     json.expectObject({"layout", "law", "exponent", "field_m", "grain_law"});
-    const auto layout = readLayoutFields(json["layout"]).geometry;
-    if (layout.count > channels)
-        json["layout"].fail("expected at most " + std::to_string(channels) +
+    const auto layout = readKind(json["layout"], Own<LayoutDescription>{}).geometry;
+    if (layout.count > kind.channels)
+        json["layout"].fail("expected at most " + std::to_string(kind.channels) +
                             " actuators, as many as there are channels");
     const JsonField field = json["field_m"];
     if (field.arraySize() != 2) field.fail("expected [width, height]");
     PhantomPanner panner{layout, panningLaws[json["law"].oneOf(panningLawNames)].law,
-                         json["exponent"].numberWithin(leastExponent, mostExponent),
+                         exponentRange(json["exponent"]),
                          field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres),
                          field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
     // missing: as all else
@@ -56,7 +55,7 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
         expectFields(json, {}, otherField);
     else if (one.holds == Holds::panner) {
         expectFields(json, {one.field}, otherField);
-        control.panner = readPanner(json[one.field], channels);
+        control.panner = readKind(json[one.field], PerChannel<PhantomPanner>{channels});
     } else {
         expectFields(json, {"channel", one.field}, otherField);
         control.channel = readChannel(json["channel"], channels);
@@ -68,8 +67,8 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
     return control;
 }
 
-OrderedJson pannerJson(const PhantomPanner& panner) {
-    OrderedJson json{{"layout", OrderedJson::parse(layoutJson(describeLayout("", panner.layout())))},
+OrderedJson writeKind(const PerChannel<PhantomPanner>&, const PhantomPanner& panner) {
+    OrderedJson json{{"layout", writeKind(Own<LayoutDescription>{}, describeLayout("", panner.layout()))},
                      {"law", nameOf(panner.law())},
                      {"exponent", panner.exponent()},
                      {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
@@ -82,7 +81,8 @@ OrderedJson controlJson(const RenderControl& control) {
     // no other is asked for
     const auto one = std::ranges::find(controlTable, control.kind, &ControlDescription::kind);
     OrderedJson json{{"control", one->name}};
-    if (one->holds == Holds::panner) json[one->field] = pannerJson(control.panner);
+    if (one->holds == Holds::panner)
+        json[one->field] = writeKind(PerChannel<PhantomPanner>{}, control.panner);
     if (one->holds == Holds::number || one->holds == Holds::truth) json["channel"] = control.channel + 1;
     if (one->holds == Holds::number) json[one->field] = static_cast<double>(control.value);
     if (one->holds == Holds::truth) json[one->field] = control.value != 0.0f;

@@ -2,6 +2,7 @@
 // Render controls and panners as parts of JSON files and lines. For the .cpp files of Files.
 #pragma once
 #include "Core/RenderControl.h"
+#include "Io/Json/FieldTable.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/NameList.h"
@@ -32,12 +33,12 @@ inline constexpr auto controlTable = std::to_array<ControlDescription>({
 inline constexpr auto controlNames = namesOf(controlTable);
 
 /// Layout, law, exponent and field; at most `channels` enchanters. Throws JsonError.
-PhantomPanner readPanner(const JsonField& json, int channels);
+PhantomPanner readKind(const JsonField& json, const PerChannel<PhantomPanner>& kind);
 
 /// A control without its time; `otherFields` may stand beside it. Throws JsonError.
 RenderControl readControl(const JsonField& json, int channels, std::string_view otherField = {});
 
-OrderedJson pannerJson(const PhantomPanner& panner);
+OrderedJson writeKind(const PerChannel<PhantomPanner>& kind, const PhantomPanner& panner);
 OrderedJson controlJson(const RenderControl& control); ///< without its time
 
 } // namespace physvib

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Number by number the lesser one, and a note of each.
 #include "Live/Documents/DeskLimits.h"
-#include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/MixJson.h"
 #include "Live/Documents/StripGroups.h"
@@ -76,18 +75,11 @@ std::string lowerTo(const DeskLimits& most, Mix& mix) {
     return notes.words();
 }
 
-std::string deskLimitsText(const DeskLimits& limits) {
-    return OrderedJson{{"level_db", limits.levelDb}, {"strips", stripsJson(limits.strips, Outputs::chosen)}}
-        .dump();
-}
+std::string deskLimitsText(const DeskLimits& limits) { return writeTable(limits).dump(); }
 
 std::optional<DeskLimits> readDeskLimits(std::string_view text) {
     auto read = readJson(text, "settings", mostTextBytes, [](const Json& root) {
-        const JsonField json{root, {}};
-        json.expectObject({"level_db", "strips"});
-        const JsonField strips = json["strips"];
-        return DeskLimits{json["level_db"].numberWithin(leastStripDb, 0.0),
-                          readStrips(strips, static_cast<int>(strips.arraySize()), Outputs::chosen)};
+        return kinds::Object<DeskLimits>{}(JsonField{root, {}});
     });
     return read ? std::optional{std::move(read.value)} : std::nullopt;
 }

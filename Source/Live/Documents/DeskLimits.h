@@ -17,6 +17,11 @@ struct DeskLimits {
     static DeskLimits of(const Mix& mix);
 };
 
+void visitFields(auto& v, FieldsOf<DeskLimits>) {
+    v.field("level_db", &DeskLimits::levelDb, masterRangeDb);
+    v.field("strips", &DeskLimits::strips, kinds::Objects<Strip>{});
+}
+
 /// Lowers `mix` to `most`: its master level, and on each output the gain and the ceiling; what is silent
 /// there stays so. An enchanter on an output that is not in use there gets none. What was lowered, in words
 /// for people; empty: nothing. Any thread.

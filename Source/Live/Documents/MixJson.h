@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: MIT
-// The desk of a mixer, and its parts, as parts of other files. For the .cpp files of Files.
+// The mixer's state and its parts as parts of other files. For the .cpp files of modules with files.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
-#include "Io/Json/JsonField.h"
-#include "Io/Json/JsonLines.h"
 #include "Live/Documents/Mix.h"
+#include "Scene/LayoutJson.h"
 
 namespace physvib {
 
-/// Everything but scene and seed, which are those of the session's last take. Throws JsonError.
+/// Everything but scene and seed. Throws JsonError, as all that reads.
 Mix readMix(const JsonField& json);
-OrderedJson mixJson(const Mix& mix);
 
-/// Where strips leave: by outputs that each names, or by the channel of their own number.
-enum class Outputs { chosen, inOrder };
-
-/// As many strips as there are enchanters. Throws JsonError.
-std::vector<Strip> readStrips(const JsonField& list, int enchanters, Outputs outputs);
-OrderedJson stripsJson(std::span<const Strip> strips, Outputs outputs);
-
-/// One per channel, null for those that are played as they are. Throws JsonError.
-EqualisedActuators readEqualised(const JsonField& list, int channels);
-OrderedJson equalisedJson(const EqualisedActuators& equalised, int channels);
-
-FrequencyBand readBand(const JsonField& json); ///< throws JsonError
-OrderedJson bandJson(const FrequencyBand& band);
+std::vector<Strip> readKind(const JsonField& list, const PerChannel<std::vector<Strip>>& kind);
+OrderedJson writeKind(const PerChannel<std::vector<Strip>>& kind, const std::vector<Strip>& strips);
+std::vector<Strip> readKind(const JsonField& list, const kinds::PluginStrips& kind);
+OrderedJson writeKind(const kinds::PluginStrips& kind, const std::vector<Strip>& strips);
+GainLane readKind(const JsonField& list, const Own<GainLane>& kind);
+OrderedJson writeKind(const Own<GainLane>& kind, const GainLane& lane);
+FrequencyBand readKind(const JsonField& json, const Own<FrequencyBand>& kind);
+OrderedJson writeKind(const Own<FrequencyBand>& kind, const FrequencyBand& band);
+EqualisedActuators readKind(const JsonField& list, const PerChannel<EqualisedActuators>& kind);
+OrderedJson writeKind(const PerChannel<EqualisedActuators>& kind, const EqualisedActuators& equalised);
 
 } // namespace physvib

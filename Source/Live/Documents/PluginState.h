@@ -6,6 +6,7 @@
 #include "Io/Result.h"
 #include "Live/Documents/Mix.h"
 #include "Scene/Scene.h"
+#include "Scene/World/Simulation.h"
 #include <array>
 #include <cstdint>
 #include <string>
@@ -27,6 +28,9 @@ enum class TransportMode {
     restartOnPlay ///< it starts at its seed whenever the transport starts or jumps, and is silent while that
                   ///< stands
 };
+
+// as TransportMode
+inline constexpr std::array<std::string_view, 2> transportNames{"free", "restart-on-play"};
 
 enum class NoteKind {
     strike, ///< sounds a material at a place, at once
@@ -78,12 +82,25 @@ struct NoteVoice {
     bool operator==(const NoteVoice&) const = default;
 };
 
-/// The limits of what a state says of a voice, 1/s, s, exponent, semitones.
+/// Limits of the numbers of a voice: 1/s, s, exponent, semitones.
 struct NoteVoiceLimits {
     static constexpr double leastDecayPerSecond = 0.5, mostDecayPerSecond = 200.0,
                             leastReleaseSeconds = 0.005, mostReleaseSeconds = 10.0;
     static constexpr double leastExponent = 0.1, mostExponent = 10.0, mostSemitones = 96.0;
 };
+
+void visitFields(auto& v, FieldsOf<NoteVoice>) {
+    using V = NoteVoice;
+    using L = NoteVoiceLimits;
+    v.field("pitch", &V::pitch, kinds::OneOf{notePitchNames});
+    v.field("places", &V::places, kinds::OneOf{notePlaceNames});
+    v.field("held", &V::isHeld, kinds::truth);
+    v.field("loudest", &V::isLoudest, kinds::truth);
+    v.field("decay_per_s", &V::decayPerSecond, kinds::within(L::leastDecayPerSecond, L::mostDecayPerSecond));
+    v.field("release_s", &V::releaseSeconds, kinds::within(L::leastReleaseSeconds, L::mostReleaseSeconds));
+    v.field("velocity_exponent", &V::velocityExponent, kinds::within(L::leastExponent, L::mostExponent));
+    v.field("bend_semitones", &V::bendSemitones, kinds::within(0.0, L::mostSemitones));
+}
 
 /// A controller that moves a parameter over its whole range.
 struct ControllerRule {
@@ -92,8 +109,14 @@ struct ControllerRule {
     bool operator==(const ControllerRule&) const = default;
 };
 
+void visitFields(auto& v, FieldsOf<ControllerRule>) {
+    v.field("controller", &ControllerRule::controller, kinds::whole(0, 119));
+    v.field("parameter", &ControllerRule::parameter, kinds::text);
+}
+
 /// A number in the parameter's unit; the word of a choice, of which version 1 wrote the place.
 using ParameterValue = std::variant<double, std::string>;
+using ParameterValues = std::vector<std::pair<std::string, ParameterValue>>; // by their ids
 
 struct PluginState {
     Scene scene;
@@ -109,9 +132,39 @@ struct PluginState {
     NoteVoice voice;
     std::vector<NoteRule> notes; ///< others as the voice says
     std::vector<ControllerRule> controllers;
-    int editorWidth = 0, editorHeight = 0;                          ///< in pixels; 0: as it comes
-    std::vector<std::pair<std::string, ParameterValue>> parameters; ///< by their ids
+    int editorWidth = 0, editorHeight = 0; ///< in pixels; 0: as it comes
+    ParameterValues parameters;
 };
+
+namespace kinds {
+struct LayoutFile {}; ///< a layout whose errors name it as a file
+struct Notes {
+    const Scene* scene;
+};
+} // namespace kinds
+struct EditorSize {}; // a kind as well
+
+void visitFields(auto& v, FieldsOf<PluginState>) {
+    using S = PluginState;
+    v.version("physvib_plugin_state", pluginStateVersion);
+    v.field("scene", &S::scene, Own<Scene>{});
+    v.field("seed", &S::seed, Own<std::uint32_t>{});
+    v.field("steps_per_second", &S::stepsPerSecond,
+            kinds::whole(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond));
+    v.field("layout", &S::layout, kinds::LayoutFile{});
+    v.field("strips", &S::strips, kinds::PluginStrips{v.object.layout.geometry.count},
+            Need::required.from(2));
+    v.field("equalised", &S::equalised, PerChannel<EqualisedActuators>{v.object.layout.geometry.count},
+            Need::required.from(2));
+    v.field("limiter", &S::limiterEnabled, kinds::truth);
+    v.field("transport", &S::transport, kinds::OneOf{transportNames});
+    v.field("direct", &S::isDirect, kinds::truth, Need::required.from(3));
+    v.field("voice", &S::voice, kinds::Object<NoteVoice>{}, Need::required.from(5));
+    v.field("notes", &S::notes, kinds::Notes{&v.object.scene});
+    v.field("controllers", &S::controllers, Own<std::vector<ControllerRule>>{});
+    v.field("editor_px", both(&S::editorWidth, &S::editorHeight), EditorSize{}, Need::optional.from(2));
+    v.field("parameters", &S::parameters, Own<ParameterValues>{});
+}
 
 /// The state that `text` describes; or, of the first thing that is wrong, one line
 /// `name: notes[3].x: expected a number from 0 to 1, found 2`. Parameters and controllers may bear any ids.

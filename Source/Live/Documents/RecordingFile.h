@@ -3,6 +3,7 @@
 // still the same.
 #pragma once
 #include "Io/Disk/ContentHash.h"
+#include "Io/Json/FieldTable.h"
 #include "Io/Result.h"
 #include <charconv>
 #include <cstdint>
@@ -22,6 +23,15 @@ struct RecordingFile {
                         ///< what is synthetic
     bool operator==(const RecordingFile&) const = default;
 };
+
+void visitFields(auto& v, FieldsOf<RecordingFile>) {
+    using R = RecordingFile;
+    v.field("frequency_hz", &R::frequencyHz, kinds::positive);
+    v.field("file", &R::path, kinds::text);
+    v.field("hash", &R::hash, kinds::text, Need::optional);
+    v.field("decay_per_s", &R::decayPerSecond, kinds::positive, Need::optional);
+    v.field("matched", &R::isMatched, kinds::truth, Need::optional);
+}
 
 /// The seed of "synthetic-7", a contact that nobody recorded; none: it is a file's path. Any thread.
 inline std::optional<std::uint32_t> syntheticSeed(std::string_view path) noexcept {

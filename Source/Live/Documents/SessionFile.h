@@ -8,6 +8,9 @@
 #include "Live/Documents/Mix.h"
 #include "Live/Documents/SessionLog.h"
 #include "Scene/World/SceneRun.h"
+#include "Scene/World/Simulation.h"
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,10 +18,15 @@
 
 namespace physvib {
 
-/// The version of the format that is written, and the newest that is read.
-constexpr int sessionFormatVersion = 8; // 2: desk, strikes, slow motion; 3: recordings, gain, perceived
-                                        // level; 4: drags by metres of the screen; 5: strikes that move; 6:
-                                        // clips; 7: law of grains, scenes of version 2; 8: groups, lanes
+/// The version of the format that is written, and the newest that is read. 2: desk, strikes, slow motion; 3:
+/// recordings, gain, perceived level; 4: drags by metres of the screen; 5: strikes that move; 6: clips; 7:
+/// law of grains, scenes of version 2; 8: groups, lanes.
+constexpr int sessionFormatVersion = std::max(7, stripsVersion);
+
+inline constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};     // as ImpactTiming
+inline constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"}; // as ImpactLocation
+
+using Ceilings = std::array<float, limits::maxEnchanters>;
 
 /// A session as it was played.
 struct SavedSession {
@@ -27,13 +35,69 @@ struct SavedSession {
     int channels = 0;     ///< outputs, at least as many as any layout of the session has enchanters
     bool limiterEnabled = true;
     /// drive ceiling per channel
-    std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale();
+    Ceilings ceilings = RendererSettings::fullScale();
     std::int64_t lengthNs = 0;
     SessionLog log;                 ///< at least one take
     std::optional<Mix> mix{};       ///< the desk as it was left, if the session was played on one
     EqualisedActuators equalised{}; ///< per channel
     EventShaping shaping{};         ///< of all collisions
 };
+
+/// What a session and the first line of its journal have.
+void visitSetup(auto& v) {
+    using S = SavedSession;
+    constexpr auto run = &S::run;
+    v.field("steps_per_second", in(run, &SceneRun::stepsPerSecond),
+            kinds::whole(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond));
+    v.field("timing", in(run, &SceneRun::timing), kinds::OneOf{timingNames});
+    v.field("location", in(run, &SceneRun::location), kinds::OneOf{locationNames});
+    v.field("limiter", &S::limiterEnabled, kinds::truth);
+    v.field("channels", &S::channels, kinds::whole(1, limits::maxEnchanters));
+    v.field("panning", &S::panner, PerChannel<PhantomPanner>{v.object.channels});
+}
+void visitChannels(auto& v) {
+    using S = SavedSession;
+    v.field("ceilings", &S::ceilings, PerChannel<Ceilings>{v.object.channels}, Need::optional);
+    v.field("equalised", &S::equalised, PerChannel<EqualisedActuators>{v.object.channels},
+            Need::optional.from(2));
+    v.field("shaping", &S::shaping, kinds::Object<EventShaping>{}, Need::optional.from(2));
+}
+
+void visitFields(auto& v, FieldsOf<SavedSession>) {
+    v.version("physvib_session", sessionFormatVersion);
+    v.field("seconds", &SavedSession::lengthNs, kinds::Time{});
+    visitSetup(v);
+    v.part("takes");
+    visitChannels(v);
+    v.part("controls", Need::optional);
+    v.part("recordings", Need::optional.from(3));
+    v.part("clips", Need::optional.from(6));
+    v.part("strikes", Need::optional.from(2));
+    v.part("desk", Need::optional.from(2));
+}
+
+struct JournalHead; // a SavedSession in the first line of a journal
+constexpr int journalFormatVersion = 1;
+void visitFields(auto& v, FieldsOf<JournalHead>) {
+    v.version("physvib_session", sessionFormatVersion);
+    v.version("journal", journalFormatVersion);
+    visitSetup(v);
+    visitChannels(v);
+}
+
+void visitFields(auto& v, FieldsOf<EventShaping>) {
+    using S = EventShaping;
+    constexpr auto method = &S::method;
+    v.field("method", method, Own<RenderingMethod>{}, Need::filled);
+    v.field("fixed_amplitude", in(method, &RenderingMethod::fixedAmplitude),
+            kinds::upTo(limits::maxAmplitude), Need::filled);
+    v.field("holds_level", in(method, &RenderingMethod::holdsLevel), kinds::truth, Need::optional.from(3));
+    v.field("remap_hz", in(&S::remap, &FrequencyRemap::band), Own<FrequencyBand>{}, Need::optional);
+    v.field("gain", &S::gain, kinds::upTo(limits::maxAmplitude), Need::optional.from(3));
+    v.field("perceived_level", in(&S::perceived, &PerceivedLevel::isWeighted), kinds::truth,
+            Need::optional.from(3));
+    v.field("gamma", &S::truncation, kinds::within(0.0, S::mostTruncation), Need::optional.from(3));
+}
 
 /// The session that `text` describes; or, of the first thing that is wrong, one line `name:
 /// takes[0].scene.bodies[1]...`. Unknown and repeated fields are errors. Any thread.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lines out and in.
 #include "Live/Documents/SessionJournalText.h"
-#include "Io/Json/JsonText.h"
 #include "Live/Documents/SessionJson.h"
 #include "Scene/JsonReader.h"
 #include "Scene/SceneFileLimits.h"
@@ -12,7 +11,6 @@
 namespace physvib {
 namespace {
 
-constexpr const char* journalField = "journal";
 // a scene takes more in lines for people
 constexpr std::size_t mostBytes = limits::maxSessionFileBytes / 4 * 3;
 
@@ -36,8 +34,8 @@ public:
         if (json.has("recordings")) detail::readRecordingsChange(json["recordings"], session_.log);
         if (json.has("clip")) detail::readClipFile(json["clip"], session_.log);
         if (json.has("strike")) session_.log.strikes.push_back(detail::readStrike(json["strike"]));
-        if (json.has("world_end_s")) take(json).worldEndNs = detail::readTime(json["world_end_s"]);
-        if (json.has("seconds")) session_.lengthNs = detail::readTime(json["seconds"]);
+        if (json.has("world_end_s")) take(json).worldEndNs = kinds::Time{}(json["world_end_s"]);
+        if (json.has("seconds")) session_.lengthNs = kinds::Time{}(json["seconds"]);
     }
 
     SavedSession finish() {
@@ -48,18 +46,14 @@ public:
     }
 
 private:
-    void begin(const JsonField& json) {
-        session_ = detail::readSessionHead(json, {journalField});
-        checkVersion(json, journalField, journalFormatVersion);
-    }
+    void begin(const JsonField& json) { readTable<SavedSession, JournalHead>(json, session_); }
     SceneTake& take(const JsonField& json) {
         if (session_.log.takes.empty()) json.fail("expected a take first");
         return session_.log.takes.back();
     }
     void addTake(const JsonField& json) {
-        json.expectObject({"start_s", "seed", "scene"});
         auto& takes = session_.log.takes;
-        takes.push_back(detail::readTakeStart(json, takes.empty() ? nullptr : &takes.back()));
+        takes.push_back(detail::readTakeStart(json, takes.empty() ? nullptr : &takes.back(), true));
     }
     void addInput(const JsonField& json) {
         SceneTake& last = take(json);
@@ -123,7 +117,7 @@ Result<SavedSession> readJournal(std::string_view text, std::string_view name) {
 JournalLines::JournalLines(const SavedSession& session, std::filesystem::path folder)
     : channels_{session.channels}
     , folder_{std::move(folder)}
-    , head_{jsonLine(detail::sessionHeadJson(session, true)) + "\n"}
+    , head_{jsonLine(writeTable<SavedSession, JournalHead>(session)) + "\n"}
     , bytes_{head_.size()} {}
 
 std::string JournalLines::take(SessionLog& log, std::int64_t sessionNs) {
@@ -148,7 +142,7 @@ std::string JournalLines::linesOf(SessionLog& log, std::int64_t sessionNs) {
     std::string text;
     for (SceneTake& take : log.takes) {
         if (!std::exchange(isBegun_, true)) {
-            text += lineOf("take", detail::takeStartJson(take, before_.scene ? &before_ : nullptr, false));
+            text += lineOf("take", detail::takeStartJson(take, before_.scene ? &before_ : nullptr, true));
             inputs_ = 0;
             lastStall_ = {-1};
         }
@@ -156,10 +150,10 @@ std::string JournalLines::linesOf(SessionLog& log, std::int64_t sessionNs) {
             text += lineOf("input", detail::inputJson(input, *take.scene));
         inputs_ += std::exchange(take.inputs, {}).size();
         for (const WorldStall& stall : take.stalls)
-            if (std::exchange(lastStall_, stall) != stall) text += lineOf("stall", detail::stallJson(stall));
+            if (std::exchange(lastStall_, stall) != stall) text += lineOf("stall", writeTable(stall));
         take.stalls.clear();
         if (&take == &log.takes.back()) break;
-        text += lineOf("world_end_s", detail::seconds(take.worldEndNs));
+        text += lineOf("world_end_s", kinds::Time{}.write(take.worldEndNs));
         isBegun_ = false;
         before_.scene = take.scene;
     }
@@ -169,14 +163,14 @@ std::string JournalLines::linesOf(SessionLog& log, std::int64_t sessionNs) {
     for (const RecordingsChange& change : log.recordings)
         text += lineOf("recordings", detail::recordingsJson(change, folder_));
     for (const ClipFile& clip : log.clips) text += lineOf("clip", detail::clipJson(clip, folder_));
-    for (const CollisionEvent& strike : log.strikes) text += lineOf("strike", detail::strikeJson(strike));
+    for (const CollisionEvent& strike : log.strikes) text += lineOf("strike", writeTable(strike));
     log.panners.clear();
     log.channels.clear();
     log.recordings.clear();
     log.clips.clear();
     log.strikes.clear();
-    OrderedJson told{{"seconds", detail::seconds(sessionNs)}};
-    if (!log.takes.empty()) told["world_end_s"] = detail::seconds(log.takes.back().worldEndNs);
+    OrderedJson told{{"seconds", kinds::Time{}.write(sessionNs)}};
+    if (!log.takes.empty()) told["world_end_s"] = kinds::Time{}.write(log.takes.back().worldEndNs);
     return text + jsonLine(told) + "\n";
 }
 

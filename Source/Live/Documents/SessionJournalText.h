@@ -14,8 +14,6 @@
 
 namespace physvib {
 
-constexpr int journalFormatVersion = 1;
-
 /// Whether a session file is a journal. Any thread.
 bool isJournal(std::string_view text) noexcept;
 

@@ -1,19 +1,64 @@
 // SPDX-License-Identifier: MIT
-// Parts that whole session files and journals have in common. For the .cpp files of Files.
+// Parts that whole session files and journals have in common. For the .cpp files of this folder.
 #pragma once
-#include "Io/Json/JsonField.h"
-#include "Io/Json/JsonLines.h"
+#include "Live/Documents/ControlJson.h"
+#include "Live/Documents/MixJson.h"
 #include "Live/Documents/SessionFile.h"
-#include <initializer_list>
-#include <string_view>
+#include "Scene/SceneFileLimits.h"
+#include <cmath>
 
-namespace physvib::detail {
+namespace physvib {
+
+void visitFields(auto& v, FieldsOf<WorldStall>) {
+    v.field("time_s", &WorldStall::worldNs, kinds::Time{});
+    v.field("seconds", &WorldStall::lengthNs, kinds::Time{});
+    v.field("steps", &WorldStall::steps, kinds::whole(1, 1'000'000'000), Need::optional.from(2));
+}
+
+/// A run's scene is left out if it is the one of the run before. In a journal its end, inputs and stalls
+/// follow line by line.
+void visitTake(auto& v, bool isJournal) {
+    v.field("start_s", &SceneTake::startNs, kinds::Time{});
+    if (!isJournal) v.field("world_end_s", &SceneTake::worldEndNs, kinds::Time{});
+    v.field("seed", &SceneTake::seed, kinds::upTo(4294967295.0));
+    v.part("scene", Need::optional);
+    if (!isJournal) v.part("inputs", Need::optional), v.part("stalls", Need::optional);
+}
+struct JournalTake;
+void visitFields(auto& v, FieldsOf<SceneTake>) { visitTake(v, false); }
+void visitFields(auto& v, FieldsOf<JournalTake>) { visitTake(v, true); }
+
+/// A strike apart from the world.
+void visitFields(auto& v, FieldsOf<CollisionEvent>) {
+    using E = CollisionEvent;
+    using C = StrikeCourse;
+    constexpr auto course = &E::course;
+    constexpr auto travel = in(course, &C::travelNs);
+    v.field("time_s", &E::timeNs, kinds::Time{});
+    v.field("frequency_hz", &E::frequencyHz, kinds::positive);
+    v.field("decay_per_s", &E::decayPerSecond, kinds::number);
+    v.field("amplitude", &E::amplitude, kinds::number);
+    v.field("x_m", &E::x, kinds::number);
+    v.field("y_m", &E::y, kinds::number);
+    v.field("duration_s", &E::durationNs, kinds::Time{}, Need::optional);
+    if (v.has("travel_s", travel)) {
+        v.field("to_x_m", in(course, &C::toX), kinds::number);
+        v.field("to_y_m", in(course, &C::toY), kinds::number);
+        v.field("travel_s", travel, kinds::Time{});
+    }
+    v.field("since_s", in(course, &C::sinceNs), kinds::Time{}, Need::optional.from(5));
+    v.field("spread", in(course, &C::spread), kinds::OneOf{spreadNames}, Need::optional.from(5));
+}
+
+Ceilings readKind(const JsonField& list, const PerChannel<Ceilings>& kind);
+OrderedJson writeKind(const PerChannel<Ceilings>& kind, const Ceilings& ceilings);
+RenderingMethod readKind(const JsonField& json, const Own<RenderingMethod>& kind);
+OrderedJson writeKind(const Own<RenderingMethod>& kind, const RenderingMethod& method);
+
+namespace detail {
 
 // Reading; all throw JsonError.
-std::int64_t readTime(const JsonField& seconds);
-/// What stands before the lists; `others` may stand beside it.
-SavedSession readSessionHead(const JsonField& root, std::initializer_list<std::string_view> others);
-SceneTake readTakeStart(const JsonField& json, const SceneTake* before);
+SceneTake readTakeStart(const JsonField& json, const SceneTake* before, bool isJournal);
 WorldStall readStall(const JsonField& json, const SceneTake& take); ///< not before the last of the take
 void readTimedControl(const JsonField& json, SavedSession& session);
 void readRecordingsChange(const JsonField& json, SessionLog& log);
@@ -21,14 +66,11 @@ CollisionEvent readStrike(const JsonField& json);
 void readClipFile(const JsonField& json, SessionLog& log);
 
 // Writing.
-double seconds(std::int64_t ns);
-OrderedJson sessionHeadJson(const SavedSession& session, bool isJournal);
-OrderedJson takeStartJson(const SceneTake& take, const SceneTake* before, bool withEnd);
+OrderedJson takeStartJson(const SceneTake& take, const SceneTake* before, bool isJournal);
 OrderedJson inputJson(const LiveInput& input, const Scene& scene);
-OrderedJson stallJson(const WorldStall& stall);
 OrderedJson timedControlJson(const RenderControl& control);
-OrderedJson recordingsJson(const RecordingsChange& change, const std::filesystem::path& folder);
-OrderedJson strikeJson(const CollisionEvent& strike);
-OrderedJson clipJson(const ClipFile& clip, const std::filesystem::path& folder);
+OrderedJson recordingsJson(RecordingsChange change, const std::filesystem::path& folder);
+OrderedJson clipJson(ClipFile clip, const std::filesystem::path& folder);
 
-} // namespace physvib::detail
+} // namespace detail
+} // namespace physvib

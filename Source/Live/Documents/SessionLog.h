@@ -3,12 +3,25 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Live/Documents/RecordingFile.h"
+#include "Scene/SceneFileLimits.h"
 #include "Scene/SceneTake.h"
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 namespace physvib {
+
+namespace kinds {
+/// Seconds in files, nanoseconds here.
+struct Time {
+    std::int64_t operator()(const auto& json) const {
+        return std::llround(json.numberUpTo(static_cast<double>(limits::maxSessionNs) * 1e-9) * 1e9);
+    }
+    /// The double that is nearest to the decimal number.
+    double write(std::int64_t ns) const { return static_cast<double>(ns) / 1e9; }
+};
+} // namespace kinds
 
 /// A change of layout or law, at a session time.
 struct PannerChange {
@@ -31,12 +44,25 @@ struct RecordingsChange {
     bool operator==(const RecordingsChange&) const = default;
 };
 
+void visitFields(auto& v, FieldsOf<RecordingsChange>) {
+    v.field("time_s", &RecordingsChange::timeNs, kinds::Time{});
+    v.field("files", &RecordingsChange::files, kinds::Objects<RecordingFile>{});
+}
+
 /// One channel of a clip, which strikes of its file's frequency play.
 struct ClipFile {
     RecordingFile file; ///< always with its hash
     int channel = 0;
     bool operator==(const ClipFile&) const = default;
 };
+
+void visitFields(auto& v, FieldsOf<ClipFile>) {
+    constexpr auto file = &ClipFile::file;
+    v.field("frequency_hz", in(file, &RecordingFile::frequencyHz), kinds::positive);
+    v.field("file", in(file, &RecordingFile::path), kinds::text);
+    v.field("channel", &ClipFile::channel, kinds::whole(0, limits::maxEnchanters - 1), Need::optional);
+    v.field("hash", in(file, &RecordingFile::hash), kinds::text);
+}
 
 struct SessionLog {
     std::vector<SceneTake> takes;             ///< one after the other; the last goes on

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a door's clips come from: reading files is not this room's, and each door reads what it was given.
+// Callback by which an input of messages supplies clips. This module reads no files: each input (lines, OSC)
+// reads them from its own folder.
 #pragma once
 #include "Core/EnchanterLayout.h"
 #include "Io/Result.h"
@@ -11,13 +12,13 @@
 namespace physvib {
 
 struct LoadedClip {
-    std::vector<ContactRecording> channels; ///< one or more, of one file, at one rate, as long as one
-                                            ///< another; their file tells path and hash
-    std::vector<EnchanterPlace> shares;     ///< of the field, 0 to 1, one per channel; none: the file has no
-                                            ///< places
+    std::vector<ContactRecording> channels; ///< one or more, of one file, equal in rate and length; their
+                                            ///< `file` has path and hash
+    std::vector<EnchanterPlace> shares; ///< places as shares of the field, 0 to 1, one per channel; empty:
+                                        ///< the file has no places
 };
 
-/// By the name in a message: the clip, or one line. Called on the thread of the door.
+/// Loads the clip of the name in a message, or returns a one-line error. Called on the input's thread.
 using ClipSource = std::function<Result<LoadedClip>(const std::string& name)>;
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which complaints are said, so that whoever sends much nonsense does not fill a log or a line: each cause
-// once in a while.
+// Rate limit for error reports per cause, so that many faulty messages do not flood a log or an input's reply
+// line.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace physvib {
 
-/// Of one cause at most one complaint in `everyNs`, and of all causes together at most `mostCauses`; the
-/// others are counted. The clock is the caller's. One thread at a time.
+/// At most one report per cause in `everyNs`, and at most `mostCauses` causes in that time; the others are
+/// counted. The caller supplies the clock. One thread at a time.
 class ComplaintLimit {
 public:
     static constexpr std::size_t mostCauses = 16;
@@ -19,10 +19,10 @@ public:
     explicit ComplaintLimit(std::int64_t everyNs) noexcept
         : everyNs_{everyNs} {}
 
-    /// Whether this one is said.
+    /// True if this error is to be reported.
     bool take(std::string_view reason, std::int64_t nowNs) noexcept {
         const std::uint64_t cause = causeOf(reason);
-        Said* place = nullptr; // of this cause, or a free one
+        Said* place = nullptr; // entry of this cause, or a free one
         for (Said& one : said_) {
             const bool isFree = one.untilNs <= nowNs;
             if (!isFree && one.cause == cause) return ++leftOut_, false;
@@ -33,11 +33,11 @@ public:
         return true;
     }
 
-    /// How many were not said since this was asked last.
+    /// How many were suppressed since the last call.
     std::uint64_t takeLeftOut() noexcept { return std::exchange(leftOut_, 0); }
 
-    /// The same for all reasons that differ only in what was found, in numbers and in words between quotes.
-    /// Any thread.
+    /// Hash that is equal for errors that differ only in what was found, in numbers and in quoted words. Any
+    /// thread.
     static constexpr std::uint64_t causeOf(std::string_view reason) noexcept {
         std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
         bool isQuoted = false;

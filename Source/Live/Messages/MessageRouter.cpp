@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names, times and answers.
+// Routes messages: looks up the name, checks values and time, acts, and answers queries.
 #include "Live/Messages/MessageRouter.h"
 #include "Core/ClipNumber.h"
 #include "Io/Disk/FileLimits.h"
@@ -14,10 +14,10 @@ namespace physvib {
 
 namespace {
 
-// of any rate: what is that much later has a later frame
+// one frame at the lowest rate, so that a later time by this much is a later frame at any rate
 constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz;
 
-/// Of a path whose law the felt place does not follow; else empty.
+/// A note if the felt position lags behind the path's position under this panning law; else empty.
 std::string lagNote(Spread spread, const PhantomPanner& panner) {
     constexpr double meant = 0.3, nobodyFeels = 0.05;
     for (const auto& one : panningLaws) {
@@ -107,7 +107,7 @@ std::vector<CollisionEvent> MessageRouter::strikesOf(const MessageDescription& d
                : (*strikes)(values, session_.world().state().scene->materials, session_.shaping());
 }
 
-// Before a file is read for it. What is left of the time is looked at again when it has been.
+// Checks the time before a file is read. It is computed again afterwards, because reading takes time.
 void MessageRouter::expectTime(const MessageValues& values, const MessageTag* tag) {
     const std::lock_guard lock{mutex_};
     MessageTag tried = tag == nullptr ? MessageTag{} : *tag;
@@ -119,8 +119,8 @@ std::int64_t MessageRouter::nowNs() const {
         {std::int64_t{0}, session_.timeline().presentNs() - session_.timeline().toldAheadNs(), latestNs_});
 }
 
-// Session times that are over are refused: what is rendered again would not be what was felt. Who sends tags
-// cannot know: such a message is late, and done at once.
+// Session times in the past are refused: a render of the log would differ from what was felt. A sender of
+// time tags cannot know the session time, so a late tag is marked and acted on at once.
 std::int64_t MessageRouter::timeOf(const MessageValues& values, MessageTag* tag) const {
     values.expectOneOf({"at", "in"});
     if (tag != nullptr) {
@@ -155,21 +155,21 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
     const double sceneGain = session_.shaping().gain;
     for (CollisionEvent& strike : strikes) {
         strike.timeNs += start;
-        // a level is of full scale, in every scene
+        // levels are shares of full scale in every scene, so the scene's gain is divided out
         if (sceneGain > 0.0 && !isClip(strike.frequencyHz)) strike.amplitude /= sceneGain;
     }
     if (auto taken = session_.take({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
 }
 
-// Kept before it is struck: a strike finds its samples. Reading and keeping takes long; no other door waits
-// for it.
+// Keeps the clip in the session before its events, so that they find its samples. Reading takes long; it does
+// not block other inputs.
 std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, const ClipSource& clips,
                                                 const PhantomPanner& panner, std::string& note) {
     if (!clips) values.fail("file", "expected no clips here: no folder was given to read them from");
     if (values.word("file").empty()) values.fail("file", "expected a file's name");
     const auto loaded = clips(values.word("file"));
     if (!loaded) values.fail("file", loaded.error);
-    auto strikes = clipStrikes(values, loaded.value, panner); // refused before anything is kept
+    auto strikes = clipStrikes(values, loaded.value, panner); // checked before anything is kept
     const auto number = session_.keepClip(loaded.value.channels);
     if (!number)
         values.fail("file", "expected no more than " + std::to_string(mostClips) +
@@ -181,7 +181,7 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
     return strikes;
 }
 
-// Of two messages of one moment, the second acts on the first.
+// If two messages have the same time, the second acts after the first.
 void MessageRouter::stop(std::int64_t at) {
     if (at == latestNs_) at = latestNs_ = at + frameNs;
     if (auto taken = session_.take({Stop{}, at}); !taken) throw MessageError{taken.error};

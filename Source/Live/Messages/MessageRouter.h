@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one road of messages, whichever door they come by: checked against the table, timed, and handed to the
-// session.
+// Common entry of all messages, whichever input they come from: checks them against the table, gives them a
+// time, and passes them to the session.
 #pragma once
 #include "Io/Result.h"
 #include "Live/Documents/PlainMessage.h"
@@ -16,22 +16,22 @@ namespace physvib {
 
 class MessageValues;
 
-/// When a message is meant that a door has got with a time of its own.
+/// The time tag with which a message arrived at an input.
 struct MessageTag {
     std::int64_t sessionNs = 0;
-    bool isLate = false; ///< told by the router: that time was over, and it was done at once
+    bool isLate = false; ///< set by the router: the time had passed, so the message acted at once
 };
 
-/// For any number of doors at once. Any thread but R.
+/// For any number of inputs at once. Any thread but the render thread (R).
 class MessageRouter {
 public:
     /// `session` outlives it.
     explicit MessageRouter(Session& session) noexcept
         : session_{session} {}
 
-    /// Does what the message says, all of it or nothing; at the time of its tag, if it has one, as with `at`.
-    /// The answer of a query, or a note on what was done (without a name: nothing to tell), or one line.
-    /// `clips` is where this door's clips come from; none: it takes none.
+    /// Does what the message says, completely or not at all; with a tag at its time, as with `at`. Returns
+    /// the answer of a query, a note (an empty name: none), or a one-line error. `clips` loads this input's
+    /// clips; empty: it accepts no clips.
     Result<PlainMessage> take(const PlainMessage& message, MessageTag* tag = nullptr,
                               const ClipSource& clips = {});
 
@@ -49,9 +49,9 @@ private:
     std::int64_t nowNs() const;
 
     Session& session_;
-    std::mutex mutex_;          // guards what follows
-    std::int64_t latestNs_ = 0; // of what was asked for "now": a stop comes after it, and the next one not
-                                // before
+    std::mutex mutex_;          // guards the following member
+    std::int64_t latestNs_ = 0; // time of the newest event that was requested for "now": a stop comes after
+                                // it, and the next such event not before
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strikes, patterns, phantoms and paths.
+// Computes the events of the messages strike, pattern, phantom, path and clip.
 #include "Live/Messages/MessageStrikes.h"
 #include "Core/ToneEnd.h"
 #include "Io/Text/NumberText.h"
@@ -26,7 +26,7 @@ CollisionEvent toneOf(const MessageValues& values, const EnchanterPlace& at, dou
     return tone;
 }
 
-/// Of a tone that begins at its phase 0: it ends where what is played of it crosses zero.
+/// For a tone that begins at phase 0: moves its end to a zero crossing of the frequency that is played.
 CollisionEvent softlyEnded(CollisionEvent tone, const EventShaping& shaping) {
     if (tone.durationNs > 0) tone.durationNs = softEndNs(shaping(tone).frequencyHz, tone.durationNs);
     return tone;
@@ -107,7 +107,7 @@ std::vector<CollisionEvent> patternStrikes(const MessageValues& values, const st
 
 namespace {
 
-/// Places and when they are reached, from 0 on or later.
+/// A path: places and the times at which they are reached, from 0 on or later.
 struct Route {
     std::vector<EnchanterPlace> places;
     std::vector<double> times;
@@ -127,7 +127,7 @@ double distance(const EnchanterPlace& a, const EnchanterPlace& b) {
     return std::hypot(b.xMetres - a.xMetres, b.yMetres - a.yMetres);
 }
 
-/// At one speed; of places one after the other that are the same, the first.
+/// Constant speed; of consecutive equal places only the first is used.
 Route steadyRoute(const MessageValues& values) {
     Route route;
     for (const EnchanterPlace& place : values.places()) {
@@ -155,15 +155,16 @@ Route timedRoute(const MessageValues& values) {
     return route;
 }
 
-/// The last leg ends softly, at a crossing of the whole tone; what would begin after it is not there.
+/// Ends the last segment at a zero crossing of the whole tone. Segments that would begin after that are
+/// removed.
 void endSoftly(std::vector<CollisionEvent>& legs, const EventShaping& shaping) {
     const auto& last = legs.back();
     const std::int64_t end = softEndNs(shaping(last).frequencyHz, last.course.sinceNs + last.durationNs);
-    while (legs.back().course.sinceNs >= end) legs.pop_back(); // the first begins at 0
+    while (legs.back().course.sinceNs >= end) legs.pop_back(); // the first one begins at 0, so one remains
     legs.back().durationNs = end - legs.back().course.sinceNs;
 }
 
-/// One tone from leg to leg: each goes on where the one before is.
+/// One tone in segments: each continues the phase of the one before.
 std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route& route,
                                        const EventShaping& shaping) {
     std::vector<CollisionEvent> legs;
@@ -181,8 +182,8 @@ std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route&
     return legs;
 }
 
-/// Still vibrations that overlap, in phase: one tone that is somewhere else each time. Each begins and ends
-/// at a crossing of it.
+/// Overlapping stationary vibrations in phase: one tone that is at another place each time. Each begins and
+/// ends at a zero crossing of the tone.
 std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Route& route, int count,
                                          const EventShaping& shaping) {
     const double length = strokeSeconds(count, route.seconds());
@@ -248,7 +249,7 @@ std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const Loade
         strike.amplitude = values.number("level");
         strike.x = at.xMetres;
         strike.y = at.yMetres;
-        // its last sample, too
+        // so that the last sample is included
         strike.durationNs =
             nanoseconds(static_cast<double>(channel.samples.size()) / channel.sampleRateHz) + 1;
         strike.course.spread = values.spread();

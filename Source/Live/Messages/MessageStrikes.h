@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a message to what is struck.
+// Converts a message to the events that it plays.
 #pragma once
 #include "Core/EventShaping.h"
 #include "Live/Messages/ClipSource.h"
@@ -9,23 +9,24 @@
 
 namespace physvib {
 
-/// Tactile Brush (Israr and Poupyrev 2011): the onset of the next stroke is so much later, by a share of the
-/// stroke and in s.
+/// Tactile Brush (Israr and Poupyrev 2011): delay between stroke onsets, as a share of the stroke plus a
+/// constant in s.
 constexpr double strokeOnsetShare = 0.32, strokeOnsetSeconds = 0.0473;
 
-/// Strokes of so many seconds feel like one motion if they begin this long after each other. Any thread.
+/// Onset delay at which strokes of `strokeSeconds` are felt as one motion. Any thread.
 constexpr double strokeOnsetsSeconds(double strokeSeconds) noexcept {
     return strokeOnsetShare * strokeSeconds + strokeOnsetSeconds;
 }
 
-/// How long each of `strokes` (2 or more) is, so that all take `seconds`; 0 or less: there is no time for so
-/// many. Any thread.
+/// Length of each of `strokes` (2 or more) so that all together take `seconds`; 0 or less: there is not
+/// enough time. Any thread.
 constexpr double strokeSeconds(int strokes, double seconds) noexcept {
     return (seconds - strokeOnsetSeconds * (strokes - 1)) / (strokeOnsetShare * (strokes - 1) + 1.0);
 }
 
-/// Of a `clip`: each channel from time 0 on, where it belongs, without the frequency under which the session
-/// keeps it. `panner` says where the enchanters are. Throws MessageError. Any thread but R.
+/// Events of a `clip`: one per channel, from time 0 on, at its place, without the frequency under which the
+/// session keeps it. `panner` supplies the actuators' places. Throws MessageError. Any thread but the render
+/// thread (R).
 std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const LoadedClip& clip,
                                         const PhantomPanner& panner);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every message that a session takes, in one table: inputs (lines, OSC) read it, Docs/messages.md is held
-// against it.
+// Table of all messages that a session accepts, with their arguments. The inputs (lines, OSC) read it; a test
+// compares it with Docs/messages.md.
 #pragma once
 #include "Core/Limits.h"
 #include <array>
@@ -22,32 +22,33 @@ struct MessageArgument {
     enum class Type {
         number, ///< from `least` to `most`
         word,
-        place,  ///< an enchanter's letter, or x and y in metres of the field
+        place,  ///< an actuator's letter, or x and y in metres of the field
         places, ///< letters, or x, y, x, y...
         numbers ///< rising, each from `least` to `most`
     };
     std::string_view name;
     Type type = Type::number;
     double least = 0.0, most = 0.0;
-    std::string_view usual; ///< what stands for it if it is left out, as in a line; empty: see `meaning`
+    std::string_view usual; ///< default value as it is written in a line; empty: see `meaning`
     std::string_view meaning;
 };
 
 struct MessageDescription {
-    /// What is struck, in time order, from time 0 on. What is cut ends at the zero crossing nearest to its
-    /// end, of the frequency that the shaping has played. `materials` are the scene's. Throws MessageError.
-    /// Any thread but R. In MessageStrikes.cpp.
+    /// The events of a message, in time order, from time 0 on. An event that is cut ends at the zero crossing
+    /// nearest to its end, at the frequency that the shaping plays. `materials` are the scene's. Throws
+    /// MessageError. Any thread but the render thread (R). In MessageStrikes.cpp.
     using Strikes = std::vector<CollisionEvent>(const MessageValues& values,
                                                 const std::vector<Material>& materials,
                                                 const EventShaping& shaping);
-    /// Of a query. Any thread but R. In MessageRouter.cpp.
+    /// The answer of a query. Any thread but R. In MessageRouter.cpp.
     using Answer = PlainMessage(const Session& session);
     struct Clip {};
     struct Stop {};
 
     std::string_view name, meaning;
-    std::span<const MessageArgument> arguments;      ///< without those that all but queries have
-    std::variant<Strikes*, Answer*, Clip, Stop> act; ///< what the router does with it
+    std::span<const MessageArgument> arguments;      ///< without the time arguments, which all messages but
+                                                     ///< queries have
+    std::variant<Strikes*, Answer*, Clip, Stop> act; ///< what the router does for it
 
     constexpr bool isQuery() const noexcept { return std::holds_alternative<Answer*>(act); }
 };
@@ -56,10 +57,10 @@ namespace messages {
 
 using Type = MessageArgument::Type;
 constexpr double mostSeconds = 3600.0;        // of one vibration
-constexpr double mostAheadSeconds = 86'400.0; // a day's programme, sent in the morning
+constexpr double mostAheadSeconds = 86'400.0; // a day's programme can be sent in advance
 constexpr int mostPlaces = 64, mostPulses = 64;
 
-/// What a name means is the same in every message.
+/// An argument's name means the same in every message.
 inline constexpr MessageArgument frequency{"frequency_hz",         Type::number, limits::slowestToneHz,
                                            limits::maxFrequencyHz, "205",        "of the tone"};
 inline constexpr MessageArgument level{"level", Type::number, 0.0,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Types and ranges of the table, places and letters.
+// Checks a message's values against the types and ranges of the table, and resolves places and actuator
+// letters.
 #include "Live/Messages/MessageValues.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
@@ -10,7 +11,7 @@ namespace physvib {
 
 namespace {
 
-constexpr double farthestMetres = 1e6; // no field is larger
+constexpr double farthestMetres = 1e6; // beyond every field
 
 bool isOnSomeField(double metres) { return std::abs(metres) <= farthestMetres; }
 

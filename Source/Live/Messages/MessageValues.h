@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The values of one message, asked for by the names in the table; each refusal is worded here, for every
-// door.
+// Typed access to the values of one message, by argument name. All error texts are made here, so every input
+// reports the same.
 #pragma once
 #include "Core/PhantomPanner.h"
 #include "Live/Documents/PlainMessage.h"
@@ -13,33 +13,33 @@
 
 namespace physvib {
 
-/// What is wrong with a message: one line. Never leaves this room.
+/// A one-line error about a message. Not thrown out of this module.
 struct MessageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// All throw MessageError. Any thread but R.
+/// All methods throw MessageError. Any thread but the render thread (R).
 class MessageValues {
 public:
-    /// Of a message in the table. Both outlive it. Throws of a value that the message does not have, or has
-    /// twice.
+    /// For a message of the table; both must outlive this object. Throws if a value is unknown to the
+    /// message, or occurs twice.
     MessageValues(const PlainMessage& message, const MessageDescription& description,
                   const PhantomPanner& panner);
 
     bool has(std::string_view name) const { return find(name) != nullptr; }
-    double number(std::string_view name) const; ///< or what is usual
+    double number(std::string_view name) const; ///< or the default
     int wholeNumber(std::string_view name) const;
-    std::string word(std::string_view name) const; ///< or what is usual
+    std::string word(std::string_view name) const; ///< or the default
     bool isWord(std::string_view name) const;
     std::vector<double> numbers(std::string_view name) const;
-    Spread spread() const;        ///< of `law`
+    Spread spread() const;        ///< of the argument `law`
     EnchanterPlace place() const; ///< in metres of the field
     std::vector<EnchanterPlace> places() const;
 
-    /// Where that enchanter is, in metres of the field.
+    /// The actuator's place, in metres of the field.
     EnchanterPlace enchanter(std::string_view name, char letter) const;
 
-    /// At most one of these has been given.
+    /// Throws if more than one of these was given.
     void expectOneOf(std::initializer_list<std::string_view> names) const;
     [[noreturn]] void fail(std::string_view name, const std::string& what) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The link's thread: search, greet, synchronise, send.
+// The link thread: finds the board, performs the handshake, synchronises clocks, sends events.
 #include "Live/Session/BoardLink.h"
 #include <algorithm>
 #include <chrono>
@@ -12,18 +12,21 @@ namespace {
 constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
 constexpr std::int64_t helloEvery = 250 * ms, telemetryEvery = second, gainsEvery = second,
                        searchEvery = second / 2;
-constexpr std::int64_t firstGainsAgain = 8 * ms;      // then after twice as long each time: silence is not a
-                                                      // second late where a line loses it
-constexpr std::int64_t givenUpAfter = 3 * second / 2; // a silent line is opened again
-constexpr std::int64_t tooOld = 50 * ms;              // a strike this late is not worth the line
-constexpr std::int64_t lineAhead = 4 * ms;   // in the system's buffers at most: the rest can still be thinned
-constexpr double marginMs = 4.0 + 3.0 + 2.1; // lineAhead, this thread's naps, one strike on the line
-constexpr std::int64_t longestAnswer = second; // no line delays an answer by more
-// nor does a clock that runs on differ by as much
+constexpr std::int64_t firstGainsAgain = 8 * ms; // later gains are repeated at doubled intervals: if the line
+                                                 // loses a mute, it is delayed by milliseconds, not by a
+                                                 // second
+constexpr std::int64_t givenUpAfter = 3 * second / 2; // without any answer for so long, the line is closed
+                                                      // and opened again
+constexpr std::int64_t tooOld = 50 * ms;              // an event later than this is not sent
+constexpr std::int64_t lineAhead = 4 * ms; // limit for data in the system's buffers: what is not written yet
+                                           // can still be thinned
+constexpr double marginMs = 4.0 + 3.0 + 2.1;   // lineAhead, this thread's sleeps, one event on the line
+constexpr std::int64_t longestAnswer = second; // an answer is never later than this
+// the clock of a board that did not restart differs by less
 constexpr double restartFrames = limits::board::sampleRateHz;
-constexpr int crowded = 4; // from here on strikes go in the compact form
+constexpr int crowded = 4; // with more pending events the compact form is sent
 
-/// Why nothing is sent to this board; empty: it is what this program plays on.
+/// Why the board cannot be used; empty if it fits this program.
 std::string refusal(const wire::HelloReply& board) {
     if (board.version < 1 || board.version > wire::protocolVersion)
         return "expected a board of protocol 1 to " + std::to_string(wire::protocolVersion) + ", found " +
@@ -38,12 +41,12 @@ std::string refusal(const wire::HelloReply& board) {
     return {};
 }
 
-constexpr std::size_t compactBytes = 16;   // of a strike in the compact form on the line
-constexpr std::int64_t earlyLeg = 40 * ms; // ahead: it can be sent later as well
-constexpr std::size_t legBytes = 36;       // of a leg
-constexpr double besidesMs = 3.0;          // of the line: pings, gains, the last strikes in the long form
+constexpr std::size_t compactBytes = 16;   // of an event in the compact form on the line
+constexpr std::int64_t earlyLeg = 40 * ms; // a segment due later than this can also be sent later
+constexpr std::size_t legBytes = 36;       // of a segment
+constexpr double besidesMs = 3.0;          // line time for pings, gains and the last events in the long form
 
-// The board's counter at a frame, or between two.
+// The board's wrapping frame counter of an unwrapped, fractional frame.
 std::uint32_t wrapped(double frame) {
     return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(frame)));
 }
@@ -122,7 +125,7 @@ void BoardLink::askSource() {
     if (source_ != nullptr) source_->feed();
 }
 
-// Tries the next port, and gives it time to answer.
+// Opens the next port; the handshake follows.
 void BoardLink::search() {
     now_.state = State::searching;
     if (nowNs() < nextSearchNs_) {
@@ -169,7 +172,7 @@ void BoardLink::receive() {
 
 void BoardLink::handle(std::span<const std::uint8_t> payload) {
     heardNs_ = nowNs();
-    // the first of several
+    // only the first of several replies
     if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting)
         return meet(hello);
     if (wire::Pong pong; wire::decode(payload, pong) && now_.state >= State::synchronising) return take(pong);
@@ -181,8 +184,8 @@ void BoardLink::meet(const wire::HelloReply& board) {
     if (auto fault = refusal(board); !fault.empty()) return disconnect(now_.port + ": " + fault);
     now_.board = board;
     now_.trouble.clear();
-    nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // it may have been without power, and plays at its own
-                                                       // again
+    nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // the board may have been switched off and lost its
+                                                       // gains
     now_.state = State::synchronising;
     sequence_ = 0xFF;
     legEnds_.clear();
@@ -190,7 +193,7 @@ void BoardLink::meet(const wire::HelloReply& board) {
     ++now_.connections;
 }
 
-// An answer to a ping that nobody sent, or that is answered already, says nothing of the clock.
+// A pong without a ping, or a second one, is useless for the clock.
 void BoardLink::take(const wire::Pong& pong) {
     const std::int64_t sentNs = std::exchange(pingSentNs_[pong.id], 0);
     if (sentNs == 0 || heardNs_ - sentNs > longestAnswer) return;
@@ -204,7 +207,8 @@ void BoardLink::take(const wire::Pong& pong) {
 void BoardLink::greet() {
     if (nowNs() < nextHelloNs_) return;
     nextHelloNs_ = nowNs() + helloEvery;
-    line_->write(std::array<std::uint8_t, 1>{0}); // ends what an earlier connection may have left
+    line_->write(std::array<std::uint8_t, 1>{0}); // ends a frame that an earlier connection may have left
+                                                  // incomplete
     send(wire::Hello{});
 }
 
@@ -253,10 +257,10 @@ bool BoardLink::takesLeg(std::int64_t dueNs) {
     if (!line_ || now_.state != State::ready || !playsLegs() || !isLineFree(now)) return false;
     const std::uint32_t played = wrapped(clock_.frameAt(now));
     std::erase_if(legEnds_, [=](std::uint32_t end) { return static_cast<std::int32_t>(end - played) <= 0; });
-    const std::size_t kept = dueNs - now > earlyLeg ? 2 : 0; // for a tone that begins meanwhile
+    const std::size_t kept = dueNs - now > earlyLeg ? 2 : 0; // reserved for tones that begin meanwhile
     if (legEnds_.size() + kept >= limits::board::maxLegs) return false;
     const std::scoped_lock lock{mutex_};
-    return !orders_.stopAll; // it would be forgotten as soon as it is there
+    return !orders_.stopAll; // the pending stop would delete it at once
 }
 
 std::int64_t BoardLink::legReadyNs() const {

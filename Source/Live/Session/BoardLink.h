@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The four-channel board from the computer's side: a thread of its own (L) that finds it, keeps its clock and
-// sends.
+// The computer's side of the four-channel vibration board: a link thread that finds the board, tracks its
+// clock and sends events.
 //
-// L owns the serial line and all state of the connection. Strikes come by a wait-free queue, orders and the
-// status under a lock that nobody holds while waiting. A strike leaves as soon as the line is free, at most
-// `sendAheadMs` before its onset; what the line cannot carry is thinned (StrikeBacklog). When the board is
-// silent for too long, the line is closed and opened again, for as long as the link lives.
+// The link thread owns the serial line and all state of the connection. Events arrive through a wait-free
+// queue, orders and the status under a lock that is never held while waiting. An event is sent as soon as the
+// line is free, at most `sendAheadMs` before its onset; excess events are thinned (StrikeBacklog). If the
+// board is silent for too long, the line is closed and opened again, as long as this object exists.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Live/Session/SerialLine.h"
@@ -22,71 +22,70 @@
 
 namespace physvib {
 
-/// As a port: the first on which a board answers.
+/// Port name: the first port on which a board answers.
 inline constexpr const char* anyBoard = "auto";
 
-/// A moment of the link, for people.
+/// State of the link, for display.
 struct BoardLinkStatus {
     enum class State { searching, greeting, synchronising, ready };
     State state = State::searching;
     std::string port, trouble;                   ///< trouble: why there is no connection
-    wire::HelloReply board;                      ///< as it answered last
+    wire::HelloReply board;                      ///< its latest reply
     wire::Telemetry telemetry;                   ///< the newest
     std::optional<wire::SelfTestReply> selfTest; ///< after requestSelfTest
-    double playOutMs = 0.0; ///< an onset has to be known so long before it is felt; 0: not yet known
-    double driftPpm = 0.0;  ///< the board's clock against this computer's
-    std::uint64_t sent = 0, thinned = 0, refused = 0; ///< strikes: sent; lost for want of line; not playable
-                                                      ///< or too old, as legs may be
-    std::uint64_t legs = 0, coarseLegs = 0; ///< of what moves: sent; of these longer than their law asks for,
-                                            ///< for want of line
+    double playOutMs = 0.0; ///< time by which an event must be known before it is felt; 0: not known yet
+    double driftPpm = 0.0;  ///< the board's clock relative to this computer's
+    std::uint64_t sent = 0, thinned = 0, refused = 0; ///< events: sent; dropped for lack of bandwidth;
+                                                      ///< refused as unplayable or too old, segments included
+    std::uint64_t legs = 0, coarseLegs = 0; ///< segments of moving tones: sent; sent in longer pieces than
+                                            ///< planned for lack of bandwidth
     std::uint64_t connections = 0, badFrames = 0;
 };
 
-/// Somebody whom the link asks for strikes and orders, about once a millisecond.
+/// Callback that the link thread calls for events and orders, about once a millisecond.
 class BoardSource {
 public:
     virtual ~BoardSource() = default;
-    /// L; may push, order, and send legs. Quick.
+    /// Link thread. May push, order, and send segments. Must be quick.
     virtual void feed() = 0;
 };
 
 class BoardLink {
 public:
-    static constexpr std::int64_t sendAheadMs = 80; // the board holds 64 strikes, the line brings 58 in this
-                                                    // time
+    static constexpr std::int64_t sendAheadMs = 80; // the board stores 64 events, the line transmits 58 in
+                                                    // this time
 
-    /// `port`: a path, or anyBoard. M.
+    /// `port`: a path, or anyBoard. Message thread (M).
     explicit BoardLink(std::string port);
     ~BoardLink();
     BoardLink(const BoardLink&) = delete;
     BoardLink& operator=(const BoardLink&) = delete;
 
-    /// Waits until the board is ready and has told how it does; empty, or why not. A port that could never be
-    /// opened is not waited for long, a board that starts is. Any thread but L.
+    /// Waits until the board is ready and has sent telemetry. Empty, or the error. Gives up early on a port
+    /// that could never be opened, but waits for a board that is starting. Any thread but the link thread.
     std::string awaitReady(const std::function<bool()>& goesOn) const;
 
     /// The clock of BoardStrike::onsetNs. Any thread.
     static std::int64_t nowNs() noexcept;
 
-    /// False if the queue is full; the queue counts it. One producer, wait-free.
+    /// False, and counted, if the queue is full. One producer, wait-free.
     bool push(const BoardStrike& strike) noexcept { return strikes_.push(strike); }
 
-    /// Whether the board that answered last plays legs: else what moves has to be strikes. L, as what
-    /// follows.
+    /// True if the connected board plays segments; otherwise moving tones are sent as series of events. Link
+    /// thread, as the next five.
     bool playsLegs() const noexcept { return now_.board.version >= wire::legsSince; }
-    /// Whether it could be sent one now that is due then: there is a clock, and room on the line and on the
-    /// board.
+    /// True if a segment that is due then can be sent now: the clock is known, and line and board have room.
     bool takesLeg(std::int64_t dueNs);
-    /// The board's frame then, between two as a rule; while there is a clock.
+    /// The board's frame at that time, usually fractional; only while the clock is known.
     double frameAt(std::int64_t steadyNs) const noexcept { return clock_.frameAt(steadyNs); }
-    /// When a leg that is sent now can be played.
+    /// The earliest time at which a segment that is sent now can be played.
     std::int64_t legReadyNs() const;
-    /// Sends it; one that is over by then is counted as refused. While it takes one.
+    /// Sends a segment; one that is over by legReadyNs() is counted as refused. Only if takesLeg().
     void sendLeg(const BoardLeg& leg, bool isCoarse);
     void refuseLeg() noexcept { ++now_.refused; }
 
-    /// From now on L asks this one, or nobody (null), and nobody else pushes. When it returns, L is not in
-    /// the one before. M.
+    /// Sets the source that the link thread calls, or none (null); only that source may push. On return the
+    /// link thread is not inside the previous one. M.
     void follow(BoardSource* source);
 
     void stopAll() {
@@ -95,8 +94,8 @@ public:
     void requestSelfTest() {
         order([](Orders& o) { o.selfTest = true; });
     }
-    /// Negative gains turn the polarity; -8 to 8. Repeated, soon at first, since a line may lose them and a
-    /// board its power.
+    /// Negative gains invert the polarity; -8 to 8. Sent repeatedly, at first at short intervals, because the
+    /// line may lose them and the board may be switched off.
     void setGains(const std::array<double, limits::board::channels>& gains);
 
     BoardLinkStatus status() const;
@@ -133,25 +132,24 @@ private:
 
     const std::string wanted_;
     EventQueue<BoardStrike, 1024> strikes_;
-    std::mutex sourceMutex_; // guards source_, taken first
+    std::mutex sourceMutex_; // guards source_, locked first
     BoardSource* source_ = nullptr;
     mutable std::mutex mutex_; // guards orders_ and published_
     Orders orders_;
     BoardLinkStatus published_;
     std::atomic<bool> stop_{false};
 
-    // What follows belongs to L.
+    // The following members belong to the link thread.
     std::unique_ptr<SerialLine> line_;
     wire::FrameDecoder decoder_;
     LinkClock clock_;
     StrikeBacklog backlog_;
     BoardLinkStatus now_;
     std::optional<wire::Gains> gains_;
-    std::array<std::int64_t, 256> pingSentNs_{}; // 0: not on its way
+    std::array<std::int64_t, 256> pingSentNs_{}; // 0: no ping with this id is unanswered
     std::int64_t heardNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0, nextGainsNs_ = 0,
                  gainsPauseNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
-    std::vector<std::uint32_t> legEnds_; // of legs on their way or on the board: the frames from which on
-                                         // they are over
+    std::vector<std::uint32_t> legEnds_; // end frames of segments in transit or on the board
     std::size_t searched_ = 0;           // ports tried so far
     std::uint8_t pingId_ = 0, sequence_ = 0xFF;
     std::thread thread_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From session time and a panner to onsets and four amplitudes.
+// Converts session events to board events: session time to board time, places to four amplitudes, moving
+// tones to segments.
 #include "Live/Session/BoardOutput.h"
 #include "Core/ClipNumber.h"
 #include "Live/Session/BoardWords.h"
@@ -10,8 +11,9 @@ namespace physvib {
 namespace {
 
 constexpr std::int64_t secondNs = 1'000'000'000;
-constexpr std::int64_t mostLateNs = 40'000'000; // a whole leg: nothing of it can be felt
-constexpr std::int64_t spareNs = 2'000'000; // with less to spare a leg is long, so that the next is not late
+constexpr std::int64_t mostLateNs = 40'000'000; // the length of a segment: one this late has passed entirely
+constexpr std::int64_t spareNs = 2'000'000; // with less margin a longer segment is made, so that the next one
+                                            // is not late
 
 } // namespace
 
@@ -40,7 +42,7 @@ void BoardOutput::follow(FeltOutput* device) {
 }
 
 void BoardOutput::made(const CollisionEvent& event) noexcept {
-    // the board has no recordings; a full queue counts what nobody takes
+    // the board has no recordings; a full queue counts the events that it drops
     if (!isClip(event.frequencyHz)) events_.push(event);
 }
 
@@ -73,7 +75,7 @@ void BoardOutput::feed() {
     setGains();
 }
 
-// A layout waits for the first event of its time, the others for the moment at which they are felt.
+// A layout is applied with the first event of its time, other controls when their time is felt.
 void BoardOutput::takeControls() {
     for (RenderControl control; controls_.pop(control);)
         (control.kind == RenderControl::Kind::panner ? layouts_ : others_).push_back(control);
@@ -96,7 +98,7 @@ void BoardOutput::apply(const RenderControl& control) {
     if (control.kind == RenderControl::Kind::mute) muted_[channel] = control.value != 0.0f;
 }
 
-// Not before the link would send them: a path of a minute must not fill its queue.
+// Not earlier than the link would send them: a path of a minute must not fill its queue.
 void BoardOutput::takeSteps() {
     const std::int64_t until = BoardLink::nowNs() + BoardLink::sendAheadMs * 1'000'000;
     for (BoardSteps& steps : steps_)
@@ -115,8 +117,8 @@ void BoardOutput::move(const CollisionEvent& event) {
         steps_.emplace_back(event);
 }
 
-// Of all, the leg that is due first; as many as there is room for, and not before the link would send strikes
-// of that time.
+// Sends segments in order of due time, as many as there is room for, and not earlier than the link would send
+// events of that time.
 void BoardOutput::takeLegs() {
     const std::int64_t now = BoardLink::nowNs();
     std::erase_if(
@@ -128,7 +130,7 @@ void BoardOutput::takeLegs() {
         if (first == paths_.end() || first->isOver()) return;
         const std::int64_t due = clock_.steadyAt(first->nextNs());
         if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.takesLeg(due)) sendLeg(*first);
-        // the line is gone, or others take it
+        // the line is gone or busy
         else if (due < now - mostLateNs)
             first->skip(), link_.refuseLeg();
         else
@@ -161,7 +163,7 @@ void BoardOutput::setGains() {
 }
 
 void BoardOutput::strike(const CollisionEvent& event) {
-    if (!isPlayable(event)) return; // as the renderer, which counts it
+    if (!isPlayable(event)) return; // the renderer counts it
     takeLayouts(event.timeNs);
     link_.push({clock_.steadyAt(event.timeNs), boardEventOf(event, gainsAt(event, event.x, event.y))});
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A session on a board beside its device: each collision is felt on both at the same moment.
+// Sink that plays a session on a vibration board together with the audio device: each collision is felt on
+// both at the same time.
 //
-// The device's blocks say when a moment of the session is felt (FeltClock); the link knows which frame of the
-// board that is. Both play the same events from the same panner; the device's master level and silence are
-// the board's as well. Controls act when they are felt on the device, but for strikes on their way to the
-// board: a stop forgets those.
+// FeltClock converts session time to the time at which the device plays it; the link converts that to a frame
+// of the board. Both use the same events and panner; the device's master level and mute apply to the board
+// too. Controls act when they are felt on the device, except that a stop discards events in transit to the
+// board.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/PhantomPanner.h"
@@ -20,14 +21,14 @@
 
 namespace physvib {
 
-/// Works on L while it follows a device.
+/// Runs on the link thread while it follows a device.
 class BoardOutput final : public Sink, private BoardSource {
 public:
-    /// For a board that is not waited for: the link needs 20 to 40 ms. More than that is told as trouble.
+    /// For a board that is not waited for: the link needs 20 to 40 ms. A board that needs more is reported.
     static constexpr double usualLatencySeconds = 0.05;
 
-    /// The board at `port`, or anyBoard; `panner`: the session's, of at most four. It has to know what it
-    /// plays `latencySeconds` before, or as long as the link says when it is ready. M.
+    /// The board at `port`, or anyBoard; `panner`: the session's, of at most four actuators. Events must be
+    /// known `latencySeconds` ahead, or longer if the link requires it once it is ready. Message thread (M).
     BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds = 0.0);
     ~BoardOutput() override { follow(nullptr); }
 
@@ -39,7 +40,7 @@ public:
     SinkState state() const override;
     std::string summary(const std::function<bool()>& goesOn) const override;
 
-    /// Collisions that the queue to the link had no room for. Any thread.
+    /// Events and controls dropped because a queue to the link was full. Any thread.
     std::uint64_t untold() const noexcept { return events_.overflows() + controls_.overflows(); }
     /// Any thread.
     BoardLinkStatus status() const { return link_.status(); }
@@ -57,27 +58,30 @@ private:
     void takeLegs();
     void sendLeg(BoardPath& path);
 
-    // of each, the leg that sounds and the next
+    // two per moving tone: the sounding segment and the next
     static constexpr std::ptrdiff_t mostPaths = limits::board::maxLegs / 2;
 
     const std::string port_; // as it is wanted
     BoardLink link_;
     double latencySeconds_;
-    bool isAwaited_ = false;                  // so that is what the board needs
-    wire::Telemetry before_;                  // when it became ready: a board counts on from call to call
-    EventQueue<CollisionEvent, 1024> events_; // in session time, as the renderer gets them; L reads
+    bool isAwaited_ = false; // then latencySeconds_ is what the board needs
+    wire::Telemetry before_; // telemetry when it became ready: a board's counters are never reset
+    EventQueue<CollisionEvent, 1024> events_; // in session time, as the renderer gets them; read by the link
+                                              // thread
     EventQueue<RenderControl, 256> controls_;
-    FeltOutput* device_ = nullptr; // M, while L is not in feed()
+    FeltOutput* device_ = nullptr; // set by M, while the link thread is not in feed()
 
-    // L
+    // Link thread:
     int rateHz_ = 0; // of the session
     FeltClock clock_;
     PhantomPanner panner_;
-    std::vector<RenderControl> layouts_, others_; // that wait for their time
-    std::vector<BoardPath> paths_;  // what moves, until its end is felt: another may go on where it is over
-    std::vector<BoardSteps> steps_; // what moves, beyond those, or on a board that has no legs
+    std::vector<RenderControl> layouts_, others_; // pending until their time
+    std::vector<BoardPath> paths_;  // moving tones, kept until their end is felt: another path may continue
+                                    // there
+    std::vector<BoardSteps> steps_; // moving tones as series of events: for further ones, or for a board
+                                    // without segments
     std::array<double, limits::board::channels> gains_{1.0, 1.0, 1.0, 1.0};
-    std::optional<std::array<double, limits::board::channels>> sent_; // to the link
+    std::optional<std::array<double, limits::board::channels>> sent_; // gains that the link has
     std::array<bool, limits::board::channels> muted_{};
 };
 

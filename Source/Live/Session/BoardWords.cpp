@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counters of both ends of the line.
+// Formats the counters of the link and the board as text.
 #include "Live/Session/BoardWords.h"
 #include "Io/Text/NumberText.h"
 #include <chrono>
@@ -8,7 +8,7 @@ namespace physvib {
 namespace {
 
 using State = BoardLinkStatus::State;
-constexpr std::int64_t newsWithinNs = 1'500'000'000; // telemetry comes once a second
+constexpr std::int64_t newsWithinNs = 1'500'000'000; // telemetry is sent once a second
 
 std::string count(std::uint64_t n) { return std::to_string(n); }
 

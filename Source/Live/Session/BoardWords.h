@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a link and its board have done, in words.
+// Texts about a board link: its state for display, and a summary after playing.
 #pragma once
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/Sink.h"
@@ -8,11 +8,11 @@
 
 namespace physvib {
 
-/// Of a board that is wanted at `port`, and is told strikes so long before they are felt. Any thread, as what
-/// follows.
+/// State of a board that is wanted at `port` and gets events `latencySeconds` before they are felt. Any
+/// thread, as the next function.
 SinkState sinkStateOf(const BoardLinkStatus& board, const std::string& port, double latencySeconds);
 
-/// Lines on what was sent and played since `before`, as soon as the board has told it, or a moment later.
+/// Lines on what was sent and played since `before`. Waits briefly for newer telemetry.
 std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
                          const std::function<bool()>& goesOn);
 

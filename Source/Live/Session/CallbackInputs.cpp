@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stamped with session time where they are born; what is for the world waits for whoever steps it.
+// Gives inputs of the render call their session time and queues them for the renderer and the world.
 #include "Live/Session/CallbackInputs.h"
 #include <utility>
 #include <variant>
@@ -20,9 +20,9 @@ bool CallbackInputs::control(RenderControl control, int frame) noexcept {
 bool CallbackInputs::silence(int frame) noexcept {
     RenderControl control;
     control.kind = RenderControl::Kind::silence;
-    control.timeNs = time_.nextRenderedNs(frame); // which leaves us now
+    control.timeNs = time_.nextRenderedNs(frame); // the samples that leave now
     control.untilNs = time_.nextNs(frame);
-    // strikes that come behind it stand before the world's
+    // then events of the render call are earlier in session time than the world's events of the same frame
     control.value = time_.isBornDirect() ? 1.0f : 0.0f;
     return controls_.push(control);
 }
@@ -60,7 +60,7 @@ void CallbackInputs::handTo(SessionWorld& world) {
     }
 }
 
-// Each is a body of its own; the oldest makes room.
+// Each spawned body has a new name; the oldest is removed when there are too many.
 void CallbackInputs::addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action) {
     std::string& name = names_[spawns_ % names_.size()];
     if (!name.empty()) world.addInput(timeNs, RemoveAction{name});

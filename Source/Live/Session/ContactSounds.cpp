@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Resampled.
+// Resamples recordings of contacts to the renderer's sample rate.
 #include "Live/Session/ContactSounds.h"
 #include "Core/SamplePeak.h"
 #include <algorithm>
@@ -8,9 +8,9 @@
 namespace physvib {
 namespace {
 
-/// `ratio` times as many samples; empty if there is no memory.
+/// Resamples by `ratio`; empty if there is no memory.
 std::vector<float> converted(const std::vector<float>& in, double ratio) {
-    constexpr double most = 256.0; // of the converter at a time: a recording may have 100 Hz
+    constexpr double most = 256.0; // limit of the converter per pass; a recording may have 100 Hz
     if (ratio > most) return converted(converted(in, most), ratio / most);
     if (1.0 / ratio > most) return converted(converted(in, 1.0 / most), ratio * most);
     std::vector<float> out(
@@ -24,7 +24,7 @@ std::vector<float> converted(const std::vector<float>& in, double ratio) {
     return src_simple(&data, SRC_SINC_BEST_QUALITY, 1) == 0 ? out : std::vector<float>{};
 }
 
-/// At that rate, with the same peak.
+/// The recording at that rate, with the same peak.
 std::vector<float> resampled(const ContactRecording& recording, int rateHz) {
     if (recording.sampleRateHz == rateHz) return recording.samples;
     auto out = converted(recording.samples, static_cast<double>(rateHz) / recording.sampleRateHz);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recorded contacts, made fit for a renderer: at its rate.
+// Recordings of contacts, as read from files and resampled to the renderer's rate.
 #pragma once
 #include "Core/RecordedContact.h"
 #include "Live/Documents/RecordingFile.h"
@@ -9,24 +9,24 @@
 
 namespace physvib {
 
-/// A recording as it was read, from its onset on, at its level.
+/// A recording from its onset on, with its original level.
 struct ContactRecording {
-    double frequencyHz = 0.0; ///< of the events that it stands for
+    double frequencyHz = 0.0; ///< of the events that play it
     int sampleRateHz = 0;
     std::vector<float> samples;
-    RecordingFile file{}; ///< what it was read from, with its hash
-    std::string note{};   ///< a line for people on what was taken away when it was read; mostly empty
+    RecordingFile file{}; ///< its file, with hash
+    std::string note{};   ///< a line for the user on what reading has removed; usually empty
     bool operator==(const ContactRecording&) const = default;
 };
 
 /// The files of recordings. Any thread.
 std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordings);
 
-/// Their notes, each once. Any thread.
+/// Their notes, without duplicates. Any thread.
 std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings);
 
-/// Recordings at one rate, and the list of them that a renderer takes; both live as long as this object,
-/// which stays where it is. Any thread but R.
+/// Recordings at one rate, and the list of them for a renderer. Both are valid as long as this object, which
+/// must not move meanwhile. Any thread but the render thread (R).
 class ContactSounds {
 public:
     ContactSounds() = default;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What all that follows a device has to know of it: when a moment is felt, how loud, and whether at all.
+// State of an output device for the sinks that follow it: when a session time is felt, the master level, and
+// mute.
 #pragma once
 #include "Live/Session/SilenceHolders.h"
 #include <algorithm>
@@ -8,20 +9,21 @@
 
 namespace physvib {
 
-/// At `steadyNs` of the steady clock, hands feel what happened at `sessionNs`.
+/// What happened at `sessionNs` is felt at `steadyNs` of the steady clock.
 struct FeltMoment {
     std::int64_t sessionNs = 0, steadyNs = 0;
-    std::int64_t behindNs = 0; ///< by which what is felt lies behind the present: L, and the device's own
+    std::int64_t behindNs = 0; ///< lag of the felt time behind the present: play-out latency plus the
+                               ///< device's own
     int sampleRateHz = 0;      ///< of the block
 };
 
 class FeltOutput {
 public:
-    /// `isEnded`, if there is one, outlives it: while it is true, nothing is felt. M.
+    /// `isEnded`, if given, outlives it: while it is true, the output is silent. Message thread (M).
     explicit FeltOutput(const std::atomic<bool>* isEnded = nullptr)
         : isEnded_{isEnded} {}
 
-    /// Of the newest block that the session went on with; {}: none yet. Any thread but R.
+    /// Of the newest block; {}: none yet. Any thread but the render thread (R).
     FeltMoment felt() const noexcept {
         for (;;) {
             const auto before = writes_.load(std::memory_order_acquire);
@@ -32,20 +34,20 @@ public:
         }
     }
 
-    /// Master level, as a gain from 0 to 1. Any thread, wait-free, as what follows.
+    /// Master level, a gain from 0 to 1. Any thread, wait-free, as the next ones.
     float level() const noexcept { return level_.load(std::memory_order_relaxed); }
     void setLevel(float level) noexcept {
         level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed);
     }
 
-    /// Nothing is felt, whatever the level.
+    /// True if the output is muted, whatever the level.
     bool isSilent() const noexcept {
         return silence_.isSilent() || (isEnded_ && isEnded_->load(std::memory_order_relaxed));
     }
-    /// Who holds it silent.
+    /// The requests for silence by input.
     SilenceHolders& silence() noexcept { return silence_; }
-    /// The wish of a person at the machine: silent within a block, or back in a ramp, whoever has asked for
-    /// silence.
+    /// The user's choice at this computer: silent within a block, or, regardless of all requests for silence,
+    /// sounding again in a ramp.
     void setSilent(bool silent) noexcept {
         silent ? void(silence_.ask(SilenceHolder::machine)) : silence_.liftAll();
     }
@@ -68,8 +70,8 @@ private:
     const std::atomic<bool>* const isEnded_;
     SilenceHolders silence_;
     std::atomic<float> level_{0.0f};
-    // A moment, whole for any number of readers: while it is written, the count is odd, and each part shows
-    // who reads it that it was.
+    // A seqlock for any number of readers: the count is odd during a write, and a reader repeats if it has
+    // changed.
     std::atomic<std::uint64_t> writes_{0};
     std::atomic<std::int64_t> sessionNs_{0}, steadyNs_{0}, behindNs_{0};
     std::atomic<int> sampleRateHz_{0};

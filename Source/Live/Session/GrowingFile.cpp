@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All that waits goes at once, or waits on.
+// Appends all pending lines at once, or keeps them pending if the disk fails.
 #include "Live/Session/GrowingFile.h"
 
 namespace physvib {

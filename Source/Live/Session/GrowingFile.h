@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file that grows by whole lines while something plays, whatever the disk does meanwhile.
+// A log file that grows by whole lines while a session plays, and tolerates temporary disk errors.
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include <cstddef>
@@ -9,22 +9,22 @@
 
 namespace physvib {
 
-/// What cannot be written waits, so that the file never ends inside a line; the next call tries again. One
-/// thread at a time.
+/// Lines that cannot be written stay pending, so that the file never ends inside a line; the next call
+/// retries. One thread at a time.
 class GrowingFile {
 public:
-    /// Goes on at the end of the file, and nobody else does meanwhile.
+    /// Continues at the end of the file, and locks it against other writers.
     void open(const std::filesystem::path& path);
 
-    /// Adds whole lines, behind what waits.
+    /// Adds whole lines, after the pending ones.
     void append(std::string_view lines);
 
-    /// What was written is on the disk, or error() says why not.
+    /// Flushes to disk; on failure error() has the reason.
     void sync() {
         if (error_.empty() && !file_.sync()) fail(file_.reason());
     }
 
-    /// Empty, or one line: why something waits, or that more than maxWaitingBytes would have to; then it
+    /// Empty, or one line: why lines are pending, or that maxWaitingBytes were exceeded; after that the file
     /// grows no more.
     const std::string& error() const noexcept { return error_; }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// One place, or two ears.
+// Renders the audio of contacts on one channel, or panned to two.
 #include "Live/Session/HeardContacts.h"
 
 namespace physvib {
 
 namespace {
 
-// As loud wherever it is.
+// Constant power at every place.
 PhantomPanner betweenEars(double fieldWidthMetres, double fieldHeightMetres) noexcept {
     const EnchanterLayout ears{1.0, 1.0, 2, {{{0.0, 0.5}, {1.0, 0.5}}}};
     return {ears, PanningLaw::energy, 1.0, fieldWidthMetres, fieldHeightMetres};
@@ -59,7 +59,7 @@ void HeardContacts::render(float* const* out, int frames) noexcept PHYSVIB_NONBL
     Source source{*this};
     renderer_->render(source, out, frames);
     for (PlayedEvent told; renderer_->played().pop(told);) {
-    } // the enchanters' renderer has told of them
+    } // discarded: the actuators' renderer has reported them
 }
 
 } // namespace physvib

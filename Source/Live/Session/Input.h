@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is done to a session from outside: by a mouse, a line, a message, a program or a beat.
+// The inputs to a session from outside: by mouse, text line, message, program or sequencer.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/RenderControl.h"
@@ -15,27 +15,27 @@
 
 namespace physvib {
 
-/// Events apart from the world (a test pulse, a material to be heard), at their own times after the input's;
-/// the caller's until it is taken.
+/// Events that no world produced (a test pulse, a material preview), at their own times after the input's.
+/// The caller keeps them alive during the call.
 struct Strikes {
     std::span<const CollisionEvent> events;
-    bool canBeStopped = false; ///< each waits in the session until its time, up to which a Stop can take it
-                               ///< back
+    bool canBeStopped = false; ///< events stay in the session until their time, and a Stop can discard them
+                               ///< until then
 };
 
-/// What sounds fades out, and what waits for then or later is forgotten.
+/// Fades out what sounds, and discards pending events from its time on.
 struct Stop {};
 
-/// Events play these instead of modes; none: modes. Recordings that sound fade out.
+/// Recordings that events play instead of modes; empty: modes. Sounding recordings fade out.
 struct PlayedRecordings {
     std::vector<ContactRecording> recordings;
 };
 
-/// Gains of the strips that have a lane, by themselves or by their group, follow the time of the scene from
-/// now on, as faders that are moved: they act at its steps, and are logged. A gain that is told otherwise
-/// holds until the scene goes on.
+/// From now on automated gains (lanes) follow the scene's time, of each strip that has a lane itself or by
+/// its group. They act at the world's steps like moved faders, and are logged. A gain that is set otherwise
+/// holds until the scene time advances.
 struct Lanes {
-    std::shared_ptr<const Mix> mix; ///< null: none do
+    std::shared_ptr<const Mix> mix; ///< null: no lanes
 };
 
 /// One input of any kind.
@@ -44,8 +44,8 @@ struct Input {
 
     /// An Action acts in the world; a RenderControl changes how later events are rendered.
     std::variant<Action, RenderControl, PlayedRecordings, Strikes, Stop, Lanes> what;
-    /// The session time at which it acts; of Strikes and a Stop, what is over by then is late. The others act
-    /// now.
+    /// Session time at which it acts. Strikes and Stop may be in the future; if that time is past they are
+    /// late. All other inputs act now.
     std::int64_t timeNs = now;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What one thread has read and another has still to do, in order. So reading waits for nothing, and finds
-// silence in what comes behind.
+// Bounded queue from a thread that reads input to a thread that acts on it. The reader is never blocked, so
+// it can react to a request for silence further behind.
 #pragma once
 #include <chrono>
 #include <condition_variable>
@@ -12,14 +12,14 @@
 
 namespace physvib {
 
-/// One thread pushes, another pops. Neither is R.
+/// One thread pushes, another pops. Neither may be the render thread (R).
 template <class Item>
 class InputQueue {
 public:
-    static constexpr std::size_t mostBytes = 16 << 20; ///< of what waits
-    static constexpr std::size_t itemBytes = 256;      ///< what each takes beside its text
+    static constexpr std::size_t mostBytes = 16 << 20; ///< limit for pending items
+    static constexpr std::size_t itemBytes = 256;      ///< counted per item beside its text
 
-    /// False, and nothing changes, while there is no room.
+    /// False, and nothing changes, while the queue is full.
     bool push(Item&& item, std::size_t textBytes) {
         const std::size_t bytes = textBytes + itemBytes;
         {
@@ -32,13 +32,13 @@ public:
         return true;
     }
 
-    /// Whether something waits, or comes in that time.
+    /// Waits for an item; false after the time-out.
     bool wait(std::chrono::milliseconds patience) {
         std::unique_lock lock{mutex_};
         return came_.wait_for(lock, patience, [this] { return !items_.empty(); });
     }
 
-    /// The first, if one waits.
+    /// The first item, if any.
     std::optional<Item> pop() {
         const std::lock_guard lock{mutex_};
         if (items_.empty()) return std::nullopt;
@@ -49,9 +49,9 @@ public:
     }
 
 private:
-    std::mutex mutex_; // guards what follows
+    std::mutex mutex_; // guards the following members
     std::condition_variable came_;
-    std::deque<std::pair<Item, std::size_t>> items_; // and its bytes
+    std::deque<std::pair<Item, std::size_t>> items_; // with their sizes in bytes
     std::size_t bytes_ = 0;
 };
 

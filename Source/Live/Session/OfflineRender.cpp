@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list as the source of an offline render.
+// Offline rendering of an event list: makes the list the renderer's event source.
 #include "Live/Session/OfflineRender.h"
 #include "Core/OfflineLoop.h"
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A whole list of events to samples, as fast as the machine allows: what the live renderer would play,
-// without delay.
+// Renders a list of events offline, as fast as possible, to the samples that the live renderer would play,
+// without latency.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/HapticRenderer.h"
@@ -11,21 +11,21 @@
 
 namespace physvib {
 
-/// How long, and in what pieces; the pieces do not change the samples.
+/// Length and block size of a render; the block size does not change the samples.
 struct OfflineSettings {
     RendererSettings renderer;
     std::int64_t frames = 0;
     int blockFrames = 256;                     ///< 1 to limits::maxBlockFrames
     std::span<const RenderControl> controls{}; ///< in time order
-    RecordedContacts contacts{};               ///< from the start
-    OnsetMarks* marks = nullptr;               ///< write one channel more
+    RecordedContacts contacts{};               ///< in use from the start
+    OnsetMarks* marks = nullptr;               ///< if given, adds a trigger channel
 };
 
-/// Takes channels[channel][0..frames), the next frames in order; false stops the render.
+/// Receives channels[channel][0..frames), the next frames in order; false stops the render.
 using BlockConsumer = std::function<bool(const float* const* channels, int frames)>;
 
-/// Renders frames 0 to settings.frames of `events` (in time order); the limiter's latency is taken out, so
-/// that frame n is time n/rate. The renderer's final status. M only, any number at once.
+/// Renders frames 0 to settings.frames of `events` (in time order). The limiter's latency is removed, so that
+/// frame n is time n/rate. Returns the renderer's final status. Message thread (M) only, any number at once.
 RenderStatus renderOffline(std::span<const CollisionEvent> events, const OfflineSettings& settings,
                            const BlockConsumer& consume);
 

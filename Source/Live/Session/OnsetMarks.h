@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A channel for machines: a pulse at the sample of each onset, for boxes that note when something was felt.
+// Trigger output: a channel with a pulse at the sample of each onset, for equipment that records event times.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include <algorithm>
@@ -11,20 +11,19 @@
 
 namespace physvib {
 
-/// Of which strikes.
+/// The events that are marked.
 enum class MarkedOnsets {
-    all,     ///< each that begins; not the later legs of a path, whose tone goes on
-    hits,    ///< two bodies that met: no grains, nothing that is struck apart from a world
-    messages ///< what is struck apart from a world
+    all,     ///< every onset; not the later segments of a path, which continue a tone
+    hits,    ///< impacts of two bodies: neither grains nor events that no world produced
+    messages ///< events that no world produced
 };
 inline constexpr std::array<std::string_view, 3> markedOnsetsNames{"all", "hits", "messages"};
 constexpr std::string_view nameOf(MarkedOnsets which) noexcept {
     return markedOnsetsNames[static_cast<std::size_t>(which)];
 }
 
-/// Full scale from the first frame at or after the onset on, else 0. Each onset has an edge of its own: a
-/// pulse ends early, so that it has rested before the next. Only those that come leastApartSeconds or less
-/// after an edge share its pulse.
+/// Full scale from the first frame at or after the onset, else 0. A pulse ends early if necessary, so that
+/// each onset has its own rising edge. Only onsets within leastApartSeconds after an edge share its pulse.
 class OnsetMarks {
 public:
     static constexpr double pulseSeconds = 0.002, restSeconds = 0.00025, leastApartSeconds = 0.0005;
@@ -32,8 +31,8 @@ public:
     explicit OnsetMarks(MarkedOnsets which) noexcept
         : which_{which} {}
 
-    /// The next sample is that of `firstFrame`, which may be below 0; nothing is marked yet. M, not while
-    /// rendering.
+    /// Starts with the sample of `firstFrame`, which may be below 0, and without onsets. Message thread (M),
+    /// not while rendering.
     void prepare(int sampleRateHz, std::int64_t firstFrame) noexcept {
         const auto framesOf = [=](double seconds) {
             return static_cast<std::int64_t>(std::ceil(seconds * sampleRateHz));
@@ -46,12 +45,12 @@ public:
         lastEdge_ = offFrame_ = INT64_MIN / 2;
     }
 
-    /// It is played from that frame on, of which no sample has been rendered yet: restSeconds ahead at least,
-    /// for the pulse before it. R, wait-free.
+    /// The event is played from `frame` on. That frame must be at least restSeconds after the last rendered
+    /// sample, so that an earlier pulse can end. Render thread (R), wait-free.
     void strike(const CollisionEvent& event, std::int64_t frame) noexcept {
         if (!isMarked(event)) return;
         if (frame <= lastEdge_ + apart_) return count(shared_);
-        // not while blocks are as long as they may be
+        // cannot happen with blocks of the permitted length
         if (last_ - first_ == edges_.size()) return count(shared_);
         edges_[last_++ % edges_.size()] = lastEdge_ = frame;
         count(made_);

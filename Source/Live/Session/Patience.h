@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long somebody waits for a world to be simulated before the first sample: a stranger's scene may ask for
-// hours.
+// Time limit for simulating a scene before its first sample: a user's scene may take hours.
 #pragma once
 #include "Io/Text/NumberText.h"
 #include "Live/Session/ThreadTime.h"
@@ -9,15 +8,15 @@
 
 namespace physvib {
 
-/// A StepWatch that says no once simulating has taken `seconds` of processor time more than what is simulated
-/// lasts: a busy machine is no slow world. What the renderer makes does not depend on it, only whether it is
-/// made. For the thread that makes it and simulates; stays where it is.
+/// A StepWatch that stops once the simulation has used `seconds` more processor time than the simulated time.
+/// Processor time is used because a busy machine is not a slow scene. It affects only whether a render is
+/// made, not its samples. For the thread that creates it and simulates; must not be moved.
 class Patience {
 public:
-    static constexpr double usualSeconds = 4.0; // our own scenes are simulated a hundred times faster than
-                                                // they last
+    static constexpr double usualSeconds = 4.0; // the built-in scenes simulate a hundred times faster than
+                                                // real time
 
-    /// Infinity waits for ever.
+    /// Infinity: no limit.
     explicit Patience(double seconds)
         : seconds_{seconds} {}
 
@@ -27,7 +26,7 @@ public:
         return takenSeconds_ <= seconds_ + simulatedSeconds_;
     }
 
-    /// Empty, or that it has come to an end.
+    /// Empty, or the error that the limit was exceeded.
     std::string fault() const {
         if (takenSeconds_ <= seconds_ + simulatedSeconds_) return {};
         return "expected a world that is simulated as fast as it lasts, found " +

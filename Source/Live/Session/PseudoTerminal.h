@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Where a simulated board speaks: a pseudo-terminal, which libserialport does not open. Windows has none.
+// Pseudo-terminal as a serial line, for simulated boards; libserialport does not open these. Not available on
+// Windows.
 #pragma once
 #include "Live/Session/SerialLine.h"
 
 namespace physvib {
 
-/// Also by another name, as links give one that stays. Any thread but R.
+/// Resolves symbolic links. Any thread but the render thread (R).
 bool isPseudoTerminal(const std::string& path);
 
-/// As openSerialLine().
+/// See openSerialLine().
 std::unique_ptr<SerialLine> openPseudoTerminal(const std::string& path, std::string& error);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// POSIX: open, poll, termios.
+// Pseudo-terminals on POSIX: open, poll, termios.
 #if !defined(_WIN32)
 #include "Live/Session/PseudoTerminal.h"
 #include <cerrno>

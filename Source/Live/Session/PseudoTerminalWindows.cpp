@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Windows has no pseudo-terminals that a program could open by name: all lines are ports.
+// On Windows, which has no pseudo-terminals that a program can open by name: all lines are serial ports.
 #if defined(_WIN32)
 #include "Live/Session/PseudoTerminal.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The recordings that a session has played, each set once at each rate, and the clips that it keeps.
+// Storage of a session's recordings: each set once per sample rate, and its clips.
 #pragma once
 #include "Core/ClipNumber.h"
 #include "Live/Session/ContactSounds.h"
@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// A clip, at each rate that was asked for.
+/// A clip at each requested sample rate.
 class ClipSound {
 public:
     ClipSound(ContactRecording clip)
@@ -21,7 +21,7 @@ public:
         return std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz) != sounds_.end();
     }
 
-    /// Takes long at first. Lives as long as this object, wherever it is moved.
+    /// The first call for a rate takes long. Valid as long as this object, even if it is moved.
     std::span<const float> at(int sampleRateHz) {
         auto known = std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz);
         if (known == sounds_.end())
@@ -29,7 +29,7 @@ public:
         return known->sounds.contacts().front().samples;
     }
 
-    /// The most that it has at any of these rates, or as it was read.
+    /// Its number of samples at the highest of these rates, or at its own rate if that is higher.
     double samplesAt(const std::vector<int>& rates) const {
         const double most = rates.empty() ? 0.0 : *std::ranges::max_element(rates);
         return static_cast<double>(clip_.samples.size()) * std::max(1.0, most / clip_.sampleRateHz);
@@ -44,11 +44,13 @@ private:
     std::vector<AtRate> sounds_;
 };
 
-/// All there were: R may still know any. One thread at a time; Session guards it by its input mutex.
+/// Keeps every set for the session's life, because the render thread (R) may still use any. One thread at a
+/// time: Session guards it by its input mutex.
 class RecordingSets {
 public:
-    /// What a renderer takes of them at that rate, and of the clips, also of those that are added later; it
-    /// lives as long as this object. Where there are no recordings, events that are no clips play their mode.
+    /// The list for a renderer at that rate: these recordings and all clips, including those that are added
+    /// later. Valid as long as this object. If there are no recordings, events that are not clips play their
+    /// mode.
     RecordedContacts at(int sampleRateHz, const std::vector<ContactRecording>& recordings) {
         const auto known = std::ranges::find_if(sets_, [&](const Set& set) {
             return set.sampleRateHz == sampleRateHz && set.recordings == recordings;
@@ -62,7 +64,7 @@ public:
         return set.played();
     }
 
-    /// Of the lists that there are.
+    /// The rates of the stored lists.
     std::vector<int> rates() const {
         std::vector<int> all;
         for (const Set& set : sets_) all.push_back(set.sampleRateHz);
@@ -71,9 +73,10 @@ public:
 
     const std::deque<ClipSound>& clips() const noexcept { return clips_; }
 
-    /// One more, as clip clips().size(), less than mostClips; quickly, if it is at all rates(). R may be
-    /// looking through any list: it reads the names of the places for clips, which stay, and the samples of
-    /// this one only for a strike that is told to it after this call.
+    /// Adds a clip with the number clips().size(), which must be below mostClips. Fast if it is at all
+    /// rates() already. R may be searching any list meanwhile: it reads the frequencies of the clips'
+    /// entries, which do not change, and reads this clip's samples only for an event that is sent after this
+    /// call.
     void add(ClipSound clip) {
         clips_.push_back(std::move(clip));
         for (Set& set : sets_) fill(set, clips_.size() - 1);

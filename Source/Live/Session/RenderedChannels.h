@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The channels that a session renders: the actuators', behind them what is heard of each hit, and last the
-// marks of onsets.
+// The channels that a session renders: those of the actuators, then the audio of contacts, then the trigger
+// output.
 #pragma once
 #include "Core/ClipNumber.h"
 #include "Live/Session/HeardContacts.h"
@@ -13,20 +13,19 @@
 
 namespace physvib {
 
-/// Part of a session; the actuators' own are rendered elsewhere.
+/// Part of a session; HapticRenderer renders the actuators' own.
 class RenderedChannels {
 public:
-    /// How many tell what is heard of each hit, in sync with the actuators: 0, 1, or left and right.
+    /// Number of channels with the audio of contacts, in sync with the actuators: 0, 1, or left and right.
     int heard() const noexcept { return heard_ ? heard_->ears() : 0; }
 
-    /// Of the last one: a pulse at each onset. Neither gains nor ceilings nor delays act on it. Null: there
-    /// is none.
+    /// Trigger output on the last channel: a pulse at each onset. Gains, ceilings and delays do not affect
+    /// it. Null: none.
     const OnsetMarks* marks() const noexcept { return marks_.get(); }
 
     int count() const noexcept { return actuators_ + heard() + (marks_ ? 1 : 0); }
 
-    /// The largest that a sample of an actuator's channel has been allowed to be while the limiter is on. Any
-    /// thread.
+    /// Highest ceiling that the actuator's channel has had while the limiter is on. Any thread.
     float ceiling(int channel) const noexcept {
         return ceilings_[static_cast<std::size_t>(channel)].load(std::memory_order_relaxed);
     }
@@ -51,8 +50,8 @@ private:
         most = std::max(most.load(), to);
     }
 
-    /// The first sample, silence; the same at another rate, where the actuators' renderer is at `rendered`.
-    /// M, not while rendering.
+    /// prepare: silence, beginning with that frame. moveTo: another rate, where the actuators' renderer is at
+    /// frame `rendered`. Message thread (M), not while rendering.
     void prepare(int sampleRateHz, std::int64_t firstFrame) {
         if (heard_) heard_->prepare(sampleRateHz);
         if (marks_) marks_->prepare(sampleRateHz, firstFrame);
@@ -62,7 +61,8 @@ private:
         if (marks_) marks_->prepare(sampleRateHz, nextFrame);
     }
 
-    /// What the actuators' renderer was given, and what it plays from which frame on. R, wait-free.
+    /// Repeats what the actuators' renderer was given; struck: what it plays, with its first frame. Render
+    /// thread (R), wait-free.
     void tell(const CollisionEvent& event) noexcept {
         if (heard_ && !isClip(event.frequencyHz)) heard_->tell(event);
     }
@@ -73,7 +73,7 @@ private:
         if (marks_) marks_->strike(event, frame);
     }
 
-    /// Those behind the actuators', after them. R, wait-free.
+    /// The channels after the actuators', rendered after them. R, wait-free.
     void render(float* const* out, int frames) noexcept {
         if (heard_) heard_->render(out + actuators_, frames);
         if (marks_) marks_->render(out[count() - 1], frames);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What comes from outside while a session plays: inputs, controls, recordings, strikes, and the log of it
-// all.
+// Processes external inputs while a session plays (actions, controls, recordings, events, stops, lanes), and
+// logs them.
 #include "Live/Session/Scheduler.h"
 #include "Core/ClipNumber.h"
 #include "Io/Disk/FileLimits.h"
@@ -48,7 +48,7 @@ Result<std::int64_t> Scheduler::take(Input input) {
 }
 
 Result<std::int64_t> Scheduler::take(Action& action, std::int64_t) {
-    for (;;) { // again if a new take began since the check
+    for (;;) { // repeated if a new scene run began since the check
         std::size_t number = 0;
         const auto scene = world_.scene(number);
         if (!check_ || checkedTake_ != number)
@@ -67,9 +67,10 @@ Result<std::int64_t> Scheduler::take(RenderControl& control, std::int64_t) {
     return control.timeNs;
 }
 
-// At its own time, which is not before that of any other.
+// At its own time, but not before that of an earlier control.
 bool Scheduler::post(RenderControl& control) {
-    control.timeNs = std::max(control.timeNs, lastControlNs_); // a stop ahead may have been told before
+    control.timeNs = std::max(control.timeNs, lastControlNs_); // a stop with a later time may have been
+                                                               // posted before
     if (!controls_.push(control)) return false;
     lastControlNs_ = control.timeNs;
     sinks_.posted(control);
@@ -126,13 +127,13 @@ Result<std::int64_t> Scheduler::take(const Stop&, std::int64_t timeNs) {
     return timeNs;
 }
 
-// Those whose time has come by then: a control of a later time must not be logged before them.
+// Posts stops that are due, so that no later control is logged before them.
 void Scheduler::postDueStops(std::int64_t untilNs) {
     RenderControl stop;
     stop.kind = RenderControl::Kind::stopAll;
     while (!stops_.empty() && stops_.front() <= untilNs) {
         stop.timeNs = stops_.front();
-        if (!post(stop)) break; // the queue is full: with the next call
+        if (!post(stop)) break; // the queue is full: retried with the next call
         stops_.erase(stops_.begin());
     }
     nextStopNs_ = stops_.empty() ? never : stops_.front();
@@ -152,8 +153,8 @@ Result<std::int64_t> Scheduler::take(Lanes& lanes, std::int64_t) {
     return time_.nowNs();
 }
 
-// As a fader that is moved, at the time of the step: logged, so that what was felt is rendered again whatever
-// becomes of the lane.
+// Works like a moved fader at the time of the step. Logged, so that a later render is the same whatever
+// happens to the lane.
 void Scheduler::followLanes() {
     if (!follows_.load(std::memory_order_relaxed)) return;
     const std::lock_guard lock{mutex_};
@@ -161,7 +162,7 @@ void Scheduler::followLanes() {
                        steppedNs = world_.steppedNs_.load(std::memory_order_acquire);
     const std::size_t take = world_.take();
     if (!followed_ || (sceneNs == followedSceneNs_ && take == followedTake_))
-        return; // others may have it while the world stands still
+        return; // gains set otherwise hold while the world is paused
     postDueStops(steppedNs);
     for (std::size_t j = 0; j < followed_->strips.size(); ++j) {
         if (!hasLane(*followed_, j)) continue;
@@ -173,7 +174,7 @@ void Scheduler::followLanes() {
                               channelGain(now),
                               {}};
         if (control.value == followedGains_[j]) continue;
-        if (!post(control)) return; // the queue is full: with the next call
+        if (!post(control)) return; // the queue is full: retried with the next call
         followedGains_[j] = control.value;
     }
     followedSceneNs_ = sceneNs;
@@ -189,7 +190,7 @@ bool Scheduler::hasRoomFor(std::span<const ClipSound> channels) const {
     return samples <= limits::maxRecordingSamples && clips_.size() + channels.size() <= mostClips;
 }
 
-// Brought to a rate without the mutex: that takes long.
+// Resamples without the mutex, because that takes long.
 std::optional<int> Scheduler::keepClip(std::span<const ContactRecording> channels) {
     std::vector<ClipSound> sounds(channels.begin(), channels.end());
     for (std::vector<int> rates;;) {
@@ -209,7 +210,7 @@ std::optional<int> Scheduler::keepClip(std::span<const ContactRecording> channel
     }
 }
 
-// The number of the first.
+// Returns the number of the first channel.
 int Scheduler::logClip(std::span<const ContactRecording> channels) {
     const int first = static_cast<int>(clips_.size());
     for (int j = 0; j < std::ssize(channels); ++j) {

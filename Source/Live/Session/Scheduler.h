@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one way of all inputs from outside: checked, given a time, logged, and handed to the world or to the
-// renderer.
+// Processes all inputs to a session from outside: checks them, gives them a time, logs them, and passes them
+// to the world or the renderer.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Io/Result.h"
@@ -18,10 +18,10 @@
 
 namespace physvib {
 
-/// Part of a session, which describes what these do. Its mutex is taken before the world's.
+/// Part of a session; Session documents these methods. Its mutex is locked before the world's.
 class Scheduler {
 public:
-    /// All outlive it.
+    /// All must outlive it.
     Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world, RenderedChannels& channels,
               SinkSet& sinks);
 
@@ -30,10 +30,11 @@ public:
     PhantomPanner panner() const;
     std::int64_t readLog(SessionLog& log);
 
-    /// What lanes say of the world's time is told to the renderer. D.
+    /// Sends the lanes' gains at the world's time to the renderer. World driver (D).
     void followLanes();
 
-    /// Stops whose time has come are told to the renderer. Any thread but R in a realtime block.
+    /// Sends the stops that are due to the renderer. Any thread but the render thread (R) in a realtime
+    /// block.
     void takeDueStops();
 
     /// The next control for the renderer; false: none. R, wait-free.
@@ -44,7 +45,7 @@ private:
     static constexpr std::int64_t never = INT64_MAX;
     static constexpr std::size_t mostStops = 256;
 
-    // The mutex is held.
+    // The mutex must be held.
     void prepare();
     RecordedContacts contactsAt(int sampleRateHz) { return recordings_.at(sampleRateHz, played_); }
     Result<std::int64_t> take(Action& action, std::int64_t timeNs);
@@ -66,22 +67,22 @@ private:
     RenderedChannels& channels_;
     SinkSet& sinks_;
     EventQueue<RenderControl, 256> controls_;
-    std::atomic<std::int64_t> nextStopNs_{never}; // the first of stops_; to be read without the mutex
-    std::atomic<bool> follows_{false};            // there is a mix; the same
+    std::atomic<std::int64_t> nextStopNs_{never}; // the first of stops_; readable without the mutex
+    std::atomic<bool> follows_{false};            // there are lanes; readable without the mutex
 
-    mutable std::mutex mutex_; // guards what follows, and the producer's side of controls_
+    mutable std::mutex mutex_; // guards the following members, and the producer's side of controls_
     std::optional<InputCheck> check_;
     std::size_t checkedTake_ = 0;
     RecordingSets recordings_;
-    std::vector<ContactRecording> played_; // of these
-    std::vector<ClipFile> clips_;          // as they are in recordings_
-    SessionLog log_;                       // without takes, of what has not been read
+    std::vector<ContactRecording> played_; // the recordings in use
+    std::vector<ClipFile> clips_;          // in the order of recordings_
+    SessionLog log_;                       // without scene runs; entries that have not been read
     PhantomPanner panner_;
     std::int64_t lastControlNs_ = 0;
-    std::vector<std::int64_t> stops_; // ahead, in time order
+    std::vector<std::int64_t> stops_; // in the future, in time order
     std::shared_ptr<const Mix> followed_;
-    std::array<float, limits::maxEnchanters> followedGains_{}; // as told last; not a number: by somebody else
-    std::int64_t followedSceneNs_ = -1;                        // up to there
+    std::array<float, limits::maxEnchanters> followedGains_{}; // last value sent; NaN: set otherwise
+    std::int64_t followedSceneNs_ = -1; // scene time up to which lanes have been followed
     std::size_t followedTake_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ports by libserialport.
+// Serial ports by libserialport.
 #include "Live/Session/SerialLine.h"
 #include "Live/Session/PseudoTerminal.h"
 #include "Wire/Messages.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A serial port at the board's speed, by libserialport; or a pseudo-terminal, which that library does not
-// open.
+// Serial port at the board's speed, by libserialport, or a pseudo-terminal, which that library does not open.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -10,13 +9,13 @@
 
 namespace physvib {
 
-/// A port that the system has, and what it says about it.
+/// A serial port of the system.
 struct SerialPortName {
     std::string path, description;
-    bool isLikelyBoard = false; ///< an ST-Link
+    bool isLikelyBoard = false; ///< its USB vendor is that of an ST-Link
 };
 
-/// M or L.
+/// Message thread (M) or link thread.
 std::vector<SerialPortName> listSerialPorts();
 
 /// One thread at a time.
@@ -24,14 +23,15 @@ class SerialLine {
 public:
     virtual ~SerialLine() = default;
 
-    /// Waits up to `milliseconds` for bytes; as many as came, at most bytes.size(); -1 if the line is gone.
+    /// Waits up to `milliseconds` for bytes. Returns the number received, at most bytes.size(); -1 if the
+    /// line is gone.
     virtual int read(std::span<std::uint8_t> bytes, int milliseconds) = 0;
 
-    /// False if the line is gone or does not take them.
+    /// False if the line is gone or does not accept the bytes.
     virtual bool write(std::span<const std::uint8_t> bytes) = 0;
 };
 
-/// The line, or nullptr with one line on why in `error`.
+/// The opened line, or nullptr with a one-line reason in `error`.
 std::unique_ptr<SerialLine> openSerialLine(const std::string& path, std::string& error);
 
 } // namespace physvib

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Beginning and going on, and rendering L behind.
+// Start and resumption of a session, and rendering with the play-out latency.
 #include "Live/Session/Session.h"
 #include <algorithm>
 #include <array>
 
 namespace physvib {
 
-// Realtime: what has been queued. Non-realtime, the world is ours and is stepped until `endNs`.
+// The renderer's event source. Realtime: queued events. Non-realtime: this thread holds the world and steps
+// it until `endNs`.
 struct Session::Source {
     Session& session;
     RenderMode mode;
     FrameClock clock;
-    std::int64_t nextFrame, endNs; // of the renderer; of the block
+    std::int64_t nextFrame, endNs; // nextFrame: of the renderer; endNs: of the block
     bool pop(CollisionEvent& event) noexcept {
         if (!session.callback_.popStrike(event) && !popOfWorld(event)) return false;
         session.channels_.tell(event);
@@ -57,7 +58,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz));
     channels_.prepare(sampleRateHz, -renderer_->latencyFrames());
     const ClockLaw law = lawAt(sampleRateHz, maxBlockFrames);
-    // the renderer begins with the first block where something may be felt in it
+    // the renderer starts with the first block in which something can be felt
     setTime(law, setup_.direct == Direct::born ? law.playOutFrames() - law.limiterFrames : 0);
     world_.prepare();
     callback_.forget();
@@ -83,7 +84,7 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
         std::max<std::int64_t>(0, time_.framesRendered() - time_.playOutFrames() + time_.law().limiterFrames);
     renderer_->moveTo(sampleRateHz, rendered);
     channels_.moveTo(sampleRateHz, rendered, rendered - renderer_->latencyFrames());
-    renderer_->setContacts(scheduler_.contactsAt(sampleRateHz)); // recordings that sound stop
+    renderer_->setContacts(scheduler_.contactsAt(sampleRateHz)); // sounding recordings stop
 }
 
 int Session::advance(const StepWatch& goesOn) {
@@ -93,7 +94,7 @@ int Session::advance(const StepWatch& goesOn) {
     return steps;
 }
 
-// The world first: whoever steps it must not take what is added for a stall.
+// The world is restarted first, so that its driver does not take the added time for a stall.
 void Session::startLater(std::int64_t frames) noexcept {
     if (frames <= 0) return;
     time_.lengthen(frames);
@@ -110,7 +111,7 @@ void Session::wait(int frames) noexcept {
 void Session::wait(float* const* unfelt, int frames) noexcept {
     const std::int64_t start = time_.playOutFrames() - renderer_->latencyFrames(),
                        next = time_.framesRendered() - start;
-    if (next >= 0) { // else it has not begun
+    if (next >= 0) { // otherwise the renderer has not started
         Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, next, time_.nowNs()};
         renderer_->render(source, unfelt, frames);
         channels_.render(unfelt, frames);
@@ -118,7 +119,8 @@ void Session::wait(float* const* unfelt, int frames) noexcept {
     time_.lengthen(-frames);
 }
 
-// The renderer's own output lags by the limiter's frames, which are part of L: it starts that much earlier.
+// The renderer's output lags by the limiter's frames, which are part of the play-out latency, so it starts
+// that much earlier.
 void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     const bool begins = world_.beginBlock(mode);
     const std::int64_t done = begins ? time_.tellFrames(frames) : 0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A world that is felt while it moves: simulation, renderer and the time between them.
-// Who may call what when, and why: Docs/threads.md, the threading model.
+// A live session: a physics world and its renderer, with a constant play-out latency between them.
+// Docs/threads.md has the threading model: who may call what, when and why.
 #pragma once
 #include "Core/HapticRenderer.h"
 #include "Core/LatestValue.h"
@@ -19,79 +19,82 @@
 
 namespace physvib {
 
-/// Made of parts: what is asked of its time, of its world or in the render call stands in their headers.
+/// Its parts document themselves: Timeline (time), WorldRunner (world), CallbackInputs (inputs in the render
+/// call). Threads: message thread (M), render thread (R), world driver (D).
 class Session {
 public:
     /// M. Throws std::invalid_argument if the scene is not valid.
     explicit Session(const SessionSetup& setup);
 
-    /// Sets L; silence at session time 0, the scene at its start, the log empty. M, while nobody renders or
-    /// drives.
+    /// Sets the play-out latency. Session time 0, silence, the scene at its start, an empty log. M, while no
+    /// thread renders or drives.
     void prepare(int sampleRateHz, int maxBlockFrames);
 
-    /// Goes on at another rate and block size: session time and world stay, L is set anew, what rings rings
-    /// on. M, while nobody renders.
+    /// Continues at another rate and block size: session time, world and sounding modes continue, the
+    /// play-out latency is set anew. M, while no thread renders.
     void resume(int sampleRateHz, int maxBlockFrames);
 
     const Timeline& timeline() const noexcept { return time_; }
     WorldRunner& world() noexcept { return world_; }
     const WorldRunner& world() const noexcept { return world_; }
-    CallbackInputs& callback() noexcept { return callback_; } ///< for what comes in the render call itself
+    CallbackInputs& callback() noexcept { return callback_; } ///< for inputs in the render call
     const RenderedChannels& rendered() const noexcept { return channels_; }
     int channels() const noexcept { return setup_.channels; } ///< of the actuators
 
-    /// What becomes of all collisions, and of strikes, before they are rendered. Any thread.
+    /// Shaping of all collisions and events before rendering. Any thread.
     const EventShaping& shaping() const noexcept { return setup_.shaping; }
 
-    /// Steps the world up to session time, or until `goesOn` (asked after each step) says no; the number of
-    /// steps made. D.
+    /// Steps the world up to session time, or until `goesOn` (called after each step) returns false. Returns
+    /// the number of steps. D.
     int advance(const StepWatch& goesOn = {});
 
     /// Writes out[0..rendered().count())[0..frames). R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;
 
-    /// How many frames L is too short for the next `frames` to be in time, as far as the world has been
-    /// stepped; 0 or less: it has as many to spare. R, wait-free.
+    /// By how many frames the play-out latency is too short for the next `frames` to be in time, given how
+    /// far the world has been stepped; 0 or less: spare frames. R, wait-free.
     std::int64_t framesMissing(int frames) const noexcept {
         return time_.framesMissing(frames, world_.steppedNs_);
     }
 
-    /// Instead of render: session time goes on by `frames`, and nothing of it is lost, since L grows by as
-    /// much. What to play meanwhile is the caller's. R, wait-free.
+    /// Replaces render: session time advances by `frames` and the play-out latency grows by as much, so
+    /// nothing is lost. The caller supplies the samples meanwhile. R, wait-free.
     void wait(int frames) noexcept;
 
-    /// The other way round, beside render: nobody feels the renderer's next frames, and L is shorter by as
-    /// many. `unfelt` is as of render. After L has grown, or where the world has room for that. R, wait-free.
+    /// The opposite, in addition to render: the next `frames` of the renderer are rendered to `unfelt` and
+    /// not played, which shortens the play-out latency by as much. Only after it has grown, or if the world
+    /// is far enough ahead. R, wait-free.
     void wait(float* const* unfelt, int frames) noexcept;
 
-    /// Before the first block: what is born is felt as soon as before, the world begins later. R, or M.
+    /// Before the first block: the output latency is unchanged; simulation time starts later by `frames`. R,
+    /// or M.
     void startLater(std::int64_t frames) noexcept;
 
-    /// Does an input: what it does is felt L after its time, logged, and the same to the bit when the log is
-    /// rendered. The time it was given; or what is wrong with it, or that too many wait, and nothing is done.
-    /// Any thread but R; recordings, M.
+    /// Executes an input. Its effect is felt the play-out latency after its time, is logged, and is the same
+    /// to the bit when the log is rendered. Returns the time that it was given; or an error (invalid, or too
+    /// many pending), and nothing is done. Any thread but R; recordings: M.
     Result<std::int64_t> take(Input input) { return scheduler_.take(std::move(input)); }
 
-    /// Keeps the channels of a clip, whose files tell its path and hash (their own frequencies say nothing),
-    /// and says by which number: strikes of clipFrequencyHz() of it, and of those that follow, play them
-    /// beside whatever sounds, which goes on undisturbed. Nothing if there is no room for all, of numbers or
-    /// samples. A clip that is kept already is the same one. Logged. Any thread but R.
+    /// Keeps the channels of a clip, identified by path and hash of its file (their frequencies are ignored),
+    /// and returns the number of the first. Events at clipFrequencyHz() of it and of the following numbers
+    /// play them; what sounds meanwhile is not disturbed. nullopt if there is no room for all, in numbers or
+    /// samples. A clip that is kept already keeps its number. Logged. Any thread but R.
     std::optional<int> keepClip(std::span<const ContactRecording> channels) {
         return scheduler_.keepClip(channels);
     }
 
-    /// How later strikes are spread, as far as has been told. Any thread but R.
+    /// The panner of later events, as last set. Any thread but R.
     PhantomPanner panner() const { return scheduler_.panner(); }
 
-    /// Moves what is new since the last call to the end of `log`, which is the same each time; at first, and
-    /// after prepare, it is empty. Session time up to which it tells of the world. Nothing to move unless the
-    /// setup has a log. Any thread but R, one reader.
+    /// Moves the log entries since the last call to the end of `log`. Pass the same `log` each time; it is
+    /// empty at first and after prepare. Returns the session time up to which it covers the world. No entries
+    /// unless the setup has a log. Any thread but R, one reader.
     std::int64_t readLog(SessionLog& log) { return scheduler_.readLog(log); }
 
-    /// What has been played, in the renderer's frames (session frame - L). One reader.
+    /// The events that were played, in the renderer's frames (session frame - play-out latency). One reader.
     HapticRenderer::PlayedQueue& played() noexcept { return renderer_->played(); }
 
-    /// What is played beside the device: L covers the latency of those that are there when it is set.
+    /// Outputs beside the device. The play-out latency covers the latency of those attached when it is set.
     SinkSet& sinks() noexcept { return sinks_; }
     const SinkSet& sinks() const noexcept { return sinks_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two files that grow, and what becomes of the first.
+// Writes the two growing files of a session's journal, and converts the first to a session file at the end.
 #include "Live/Session/SessionJournal.h"
 #include "Io/Disk/ReadFile.h"
 #include "Scene/SceneFileLimits.h"
@@ -11,7 +11,8 @@ namespace physvib {
 
 namespace {
 
-constexpr std::chrono::milliseconds period{500}; // half of what a kill may cost
+constexpr std::chrono::milliseconds period{500}; // at most half of what may be lost when the process is
+                                                 // killed
 
 SavedSession headOf(const SessionSetup& setup) {
     return {setup.run(), setup.panner, setup.channels,  setup.limiterEnabled, setup.ceilings, 0,
@@ -39,7 +40,7 @@ SessionJournal::~SessionJournal() {
     if (thread_.joinable()) end(session_.status().sessionNs);
 }
 
-// Either can be made before the other is touched.
+// Creates both files before it replaces either.
 void SessionJournal::begin(FieldSize field, const Provenance& provenance) {
     AtomicFile session{path_}, events{eventsPath_};
     session.write(lines_.head());
@@ -86,7 +87,7 @@ void SessionJournal::write(std::optional<std::int64_t> endNs) {
     std::string rows;
     for (CollisionEvent event : played) {
         if (rows_++ >= limits::maxEventRows) break;
-        // a late one was played after others, and must not come before them
+        // a late event was played after others, but rows must be in time order
         event.timeNs = lastNs_ = std::max(lastNs_, event.timeNs);
         appendEventRow(rows, event, hasKinds_);
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A live session on disk while it plays: what it takes to render it again, and what was played.
+// Journal of a live session on disk: what is needed to render it again, and the events played.
 //
-// A thread of the journal's own adds to both files what is new, twice a second: the cost does not grow with
-// the session, and whatever ends the program, what was played is there up to a second before. At the end the
-// journal becomes an ordinary session file; one that was cut off is read as it is.
+// The journal's own thread appends to both files twice a second. The cost does not grow with the session, and
+// after a crash everything up to the last second is there. At the end the journal becomes an ordinary session
+// file; one that was cut off is readable too.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/SessionJournalText.h"
@@ -21,34 +21,36 @@
 
 namespace physvib {
 
-/// All methods: M only.
+/// All methods: message thread (M) only.
 class SessionJournal final : public Sink {
 public:
-    /// Saves `session`, which outlives this object and has its log read by nobody else, as `path` (.json),
-    /// and the events played beside it as .events.csv. `setup` is what the session was made with,
-    /// `provenance` stands in the list of events.
+    /// Saves `session` as `path` (.json), and the events played beside it as .events.csv. The session must
+    /// outlive this object, and its log must have no other reader. `setup`: the session's; `provenance` is
+    /// written into the event list.
     SessionJournal(std::filesystem::path path, Session& session, const SessionSetup& setup,
                    const Provenance& provenance);
     ~SessionJournal() override;
 
-    /// Empty, or why one of the files cannot be made; then neither has been touched.
+    /// Empty, or why a file cannot be created; then neither has been changed.
     const std::string& error() const noexcept { return error_; }
 
     void played(const PlayedEvent& played, int sampleRateHz) override;
     SinkState state() const override { return {.name = "session file", .isReady = true, .trouble = news()}; }
 
-    /// Empty, or one line: what keeps a file from growing now, or that it grows no more; the last one stands
-    /// until there is another.
+    /// Empty, or one line: why a file cannot grow at present, or has stopped growing. Kept until the next
+    /// message.
     std::string news() const;
 
-    /// Adds all until now, which is session time `sessionNs`; nothing is added after that.
+    /// Adds everything up to now, session time `sessionNs`, and stops the journal.
     void end(std::int64_t sessionNs);
 
-    /// Makes the journal, which has ended, an ordinary session file, which takes as long as the session is;
-    /// one of more bytes stays as it is, and is read alike. Empty, or why not all that was played is on disk.
+    /// Converts the ended journal to an ordinary session file, which takes time in proportion to the session.
+    /// A journal of more than `mostBytes` is left as it is, which is readable too. Empty, or why not
+    /// everything is on disk.
     std::string finish(std::size_t mostBytes = limits::maxSessionFileBytes);
 
-    static constexpr std::size_t quickBytes = 1'000'000; ///< for whoever cannot wait: a tenth of a second
+    static constexpr std::size_t quickBytes = 1'000'000; ///< for callers that must not block: a tenth of a
+                                                         ///< second
 
     const std::filesystem::path& eventsPath() const noexcept { return eventsPath_; }
 
@@ -62,11 +64,11 @@ private:
     std::filesystem::path path_, eventsPath_;
     Session& session_;
     std::string error_;
-    const bool hasKinds_;             // of the list
-    std::optional<AtomicFile> whole_; // the session file to be; nobody else writes one of that name until
+    const bool hasKinds_;             // column of the event list
+    std::optional<AtomicFile> whole_; // the final session file; reserves the name against other writers until
                                       // then
 
-    // The thread's; M's once that has ended.
+    // Used by the journal's thread; by M after that has ended.
     JournalLines lines_;
     SessionLog log_;
     GrowingFile file_, events_;
@@ -74,7 +76,7 @@ private:
     std::size_t rows_ = 0;
     bool wasHeldUp_ = false;
 
-    mutable std::mutex mutex_; // guards what follows
+    mutable std::mutex mutex_; // guards the following members
     std::condition_variable ends_;
     bool isEnding_ = false;
     std::vector<CollisionEvent> played_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sets of recordings at the times of their changes.
+// Prepares a saved session's recordings: resampled sets, and timed controls that change between them.
 #include "Live/Session/SessionRecordings.h"
 #include <algorithm>
 

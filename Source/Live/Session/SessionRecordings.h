@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The recordings and clips of a saved session, on their way to a renderer.
+// The recordings and clips of a saved session, prepared for a renderer.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Live/Documents/SessionLog.h"
@@ -9,25 +9,26 @@
 
 namespace physvib {
 
-/// What a session plays of recordings; a study exchanges the same few sets over and over.
+/// The recordings that a session plays. A study switches between the same few sets many times.
 struct LoadedRecordings {
-    std::vector<std::vector<ContactRecording>> sets; ///< each once
-    std::vector<std::size_t> setOfChange;            ///< per change in SessionLog::recordings
-    std::vector<ContactRecording> clips{};           ///< as SessionLog::clips
+    std::vector<std::vector<ContactRecording>> sets; ///< without duplicates
+    std::vector<std::size_t> setOfChange;  ///< index into `sets` per change in SessionLog::recordings
+    std::vector<ContactRecording> clips{}; ///< in the order of SessionLog::clips
 };
 
 /// All their notes. Any thread.
 std::vector<std::string> notesOf(const LoadedRecordings& loaded);
 
-/// They at one rate, and the controls that exchange them; lives as long as whoever renders. M only.
+/// The recordings at one sample rate, and the controls that change between them. Must outlive the render.
+/// Message thread (M) only.
 class SessionRecordings {
 public:
     SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz);
 
-    /// `controls`, in time order, and these; both stay in order.
+    /// Merges `controls`, in time order, with the changes of recordings.
     std::vector<RenderControl> with(std::vector<RenderControl> controls) const;
 
-    /// The clips beside these recordings: what is played from the start.
+    /// These recordings plus the session's clips: what is in use from the start.
     RecordedContacts beside(const std::vector<ContactRecording>& recordings) {
         return sets_.at(sampleRateHz_, recordings);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The events of takes and strikes merged, then the offline renderer.
+// Renders a saved session: merges the events of its scene runs and inputs, then renders offline.
 #include "Live/Session/SessionRender.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A saved session to samples again, faster than it was played.
+// Renders a saved session offline, to the samples that were played.
 #pragma once
 #include "Live/Documents/SessionFile.h"
 #include "Live/Session/OfflineRender.h"
@@ -9,19 +9,19 @@
 
 namespace physvib {
 
-/// All that was struck in the session before `endNs`, in time order, not shaped yet: by its worlds, and apart
-/// from them. M only. Throws what Simulation throws.
+/// All events of the session before `endNs`, of its worlds and its inputs, in time order and without shaping.
+/// Message thread (M) only. Throws what Simulation throws.
 SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& goesOn = {});
 
-/// How much of a session is rendered, and who is told shares of 0 to 1, the first half of which is the world;
-/// false cancels.
+/// How much of a session is rendered, and a callback for the progress from 0 to 1, the first half of which is
+/// the simulation; false cancels.
 struct SessionExtent {
     int sampleRateHz = 48000;
-    double seconds = 0.0; ///< the world of the last take goes on for as long as it takes
+    double seconds = 0.0; ///< the last scene run continues for as long as this takes
     std::function<bool(double)> progress;
 };
 
-/// The session's samples, to `consume`; false if it or `progress` has cancelled. M only. Throws what
+/// Passes the session's samples to `consume`; false if it or `progress` has cancelled. M only. Throws what
 /// Simulation throws.
 bool renderSession(const SavedSession& session, const LoadedRecordings& recordings,
                    const SessionExtent& extent, const BlockConsumer& consume);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a session is made of, what can be exchanged while it plays, and what it tells of itself.
+// Settings of a session, the part of them that can change while it plays, and its status.
 #pragma once
 #include "Core/ClockLaw.h"
 #include "Core/EventShaping.h"
@@ -16,33 +16,33 @@
 
 namespace physvib {
 
-/// What the render call may do to the world: hold the device another way, or perform a group of actions that
-/// was prepared.
+/// An input from the render call to the world: a new orientation of the device, or a prepared group of
+/// actions.
 struct RenderInput {
     static constexpr int device = -1;
-    int group = device;      ///< index into SessionSetup::groups
-    double scale = 1.0;      ///< of the group's impulses, and of the velocities of what it spawns
-    HoldAction hold;         ///< if `group` is device
-    std::int64_t timeNs = 0; ///< given by the session
+    int group = device; ///< index into SessionSetup::groups
+    double scale = 1.0; ///< factor on the group's impulses, and on the velocities of bodies that it spawns
+    HoldAction hold;    ///< if `group` is device
+    std::int64_t timeNs = 0; ///< set by the session
 };
 
-/// How soon that is felt which needs no world: strikes apart from it, and controls. Its own collisions are
-/// felt L later in any case.
+/// Low-latency mode for what needs no world: events from outside and controls. The world's own collisions
+/// always have the play-out latency.
 enum class Direct {
-    no,   ///< L later as well
-    told, ///< ClockLaw::directFrames() after it was told
-    born  ///< so is what is told, and what is born in the render call the renderer's latency after its frame,
-          ///< from the first one on; of a session without a log
+    no,   ///< the play-out latency for all
+    told, ///< inputs are felt ClockLaw::directFrames() after they arrive
+    born  ///< in addition, events of the render call are felt the renderer's latency after their frame, from
+          ///< the first frame on; only for a session without a log
 };
 
-/// Who reads the log of a session; it keeps what has not been read.
+/// How the log of a session is used; it keeps entries until they are read.
 enum class LogUse {
-    none,     ///< nobody: nothing is kept, however long it plays
-    document, ///< somebody who keeps all of it: inputs are refused when a file of them would be
-    stream    ///< a journal that ends when its file is full; the session plays on
+    none,     ///< not at all: nothing is kept
+    document, ///< by a reader that keeps all of it: inputs are refused when a file of them would be too large
+    stream    ///< by a journal that ends when its file is full; the session plays on
 };
 
-/// What a session plays, and on what.
+/// Settings of a session.
 struct SessionSetup {
     Scene scene;
     std::uint32_t seed = 1;
@@ -50,35 +50,36 @@ struct SessionSetup {
     ImpactTiming timing = ImpactTiming::onset;
     ImpactLocation location = ImpactLocation::contact;
     int channels = 4;
-    int modes = 0;        ///< of RendererSettings
-    PhantomPanner panner; ///< at most `channels` enchanters
+    int modes = 0;        ///< see RendererSettings
+    PhantomPanner panner; ///< at most `channels` actuators
     bool limiterEnabled = true;
     /// drive ceiling per channel, > 0
     std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale();
     EqualisedActuators equalised{};
-    EventShaping shaping;                     ///< of all collisions, and of what is struck in the render call
-    std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
-    /// Heard on a channel behind the enchanters' ones: by these recordings where there is one, else by modes;
-    /// nullopt: not made.
+    EventShaping shaping;                     ///< of all collisions, and of events of the render call
+    std::vector<ContactRecording> recordings; ///< played instead of modes; empty: modes
+    /// Audio of contacts on channels behind the actuators', by these recordings where there is one, else by
+    /// modes; nullopt: none.
     std::optional<std::vector<ContactRecording>> contactSound{};
-    int ears = 1; ///< of the contact sound: 1, at one place; 2, left and right
+    int ears = 1; ///< channels of the audio of contacts: 1, or 2 for left and right
     Direct direct = Direct::no;
-    std::optional<MarkedOnsets> marks{}; ///< pulses at onsets, on the last channel; nullopt: not made
+    std::optional<MarkedOnsets> marks{}; ///< trigger output: pulses at onsets, on the last channel; nullopt:
+                                         ///< none
     double longestGapSeconds = messageTimerGapSeconds;
-    std::vector<std::vector<Action>> groups; ///< what notes do; valid inputs of the scene
+    std::vector<std::vector<Action>> groups; ///< actions of notes; valid inputs of the scene
     LogUse log = LogUse::document;
 
     SceneRun run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
 };
 
-/// What a session holds, beside its scene.
+/// Size of a session's contents, beside its scene.
 struct SessionSize {
     std::size_t bodies = 0;  ///< in Box2D's world
-    std::size_t inputs = 0;  ///< waiting, or of the log and not read
-    std::size_t strikes = 0; ///< scheduled, and not begun
+    std::size_t inputs = 0;  ///< pending, or logged and not read
+    std::size_t strikes = 0; ///< scheduled, not begun
 };
 
-/// The part of it that can be exchanged while it plays.
+/// The part of the setup that can be exchanged while it plays.
 struct SessionState {
     std::shared_ptr<const Scene> scene;
     std::uint32_t seed = 1;
@@ -92,14 +93,13 @@ enum class RenderMode { realtime, offline };
 
 constexpr std::int64_t noMargin = std::numeric_limits<std::int64_t>::max();
 
-/// A moment of the session, for people.
+/// Status of a session, for display.
 struct SessionStatus {
     RenderStatus render;
     std::int64_t sessionNs = 0;
-    std::int64_t leastMarginFrames = noMargin; ///< by how much the tightest event of realtime blocks came in
-                                               ///< time; < 0: late
-    std::uint64_t refused = 0; ///< strikes, controls and inputs of the render call, and contact sounds, that
-                               ///< found no room
+    std::int64_t leastMarginFrames = noMargin; ///< smallest margin of an event in realtime blocks; < 0: late
+    std::uint64_t refused = 0; ///< events, controls and inputs of the render call, and contact sounds, that
+                               ///< did not fit their queues
 };
 
 } // namespace physvib

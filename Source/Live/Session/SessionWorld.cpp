@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Takes, and the step from world time to session time.
+// Runs scenes one after the other, and converts world time to session time.
 #include "Live/Session/SessionWorld.h"
 #include <algorithm>
 #include <iterator>
@@ -9,7 +9,8 @@ namespace physvib {
 
 namespace {
 
-// `from`'s first stall may be `to`'s last, grown since it was read: one begins where it began before.
+// The first stall of `from` may be the last of `to`, grown since it was read: then both begin at the same
+// world time.
 void moveTo(SceneTake& to, SceneTake& from) {
     std::ranges::move(from.inputs, std::back_inserter(to.inputs));
     from.inputs.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Requests with numbers, and who else holds.
+// Executes a request for silence or its withdrawal, and reports which other inputs still request it.
 #include "Live/Session/SilenceHolders.h"
 #include "Live/Documents/InputLine.h"
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Silence is held by who asked for it: an output sounds only while nobody holds it silent.
+// Requests for silence, counted per input: an output sounds only while no input requests silence.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -12,29 +12,29 @@ namespace physvib {
 
 struct SilenceControl;
 
-/// By which input silence is asked for. The machine is whoever sits at it: Esc, a button, the program's own
-/// call.
+/// The inputs that can request silence. machine: the user at this computer, by Esc, a button or the program's
+/// own call.
 enum class SilenceHolder : std::size_t { machine, standardInput, osc };
 
-/// Counts what each holder has asked for and how much of that was lifted. So an off that has waited for its
-/// turn lifts no silence that was asked for after it. Any thread, without locks.
+/// Counts requests and withdrawals per input, so that a delayed "off" does not withdraw a newer request. Any
+/// thread, lock-free.
 class SilenceHolders {
 public:
-    /// The number of this request: 1 for the first of `holder`.
+    /// Requests silence; returns the number of the request: 1 for the first of `holder`.
     std::uint64_t ask(SilenceHolder holder) noexcept { return of(holder).asked.fetch_add(1) + 1; }
 
-    /// The same for a request that its input has numbered; done again, it changes nothing.
+    /// The same for a request that has a number already; repeating it changes nothing.
     void ask(SilenceHolder holder, std::uint64_t number) noexcept { raise(of(holder).asked, number); }
 
-    /// How many times `holder` has asked.
+    /// How many times `holder` has requested silence.
     std::uint64_t asked(SilenceHolder holder) const noexcept { return of(holder).asked.load(); }
 
-    /// Lifts what `holder` has asked for, up to that number.
+    /// Withdraws the requests of `holder` up to that number.
     void lift(SilenceHolder holder, std::uint64_t number) noexcept {
         raise(of(holder).lifted, std::min(number, asked(holder)));
     }
 
-    /// Lifts what everybody has asked for: only for the machine.
+    /// Withdraws all requests of all inputs: only for the machine.
     void liftAll() noexcept {
         for (Requests& all : requests_) raise(all.lifted, all.asked.load());
     }
@@ -51,7 +51,7 @@ private:
     struct Requests {
         Number asked{0}, lifted{0};
         bool isHeld() const noexcept {
-            const std::uint64_t until = lifted.load(); // read first: it never exceeds what was asked
+            const std::uint64_t until = lifted.load(); // read first, so that it never exceeds `asked`
             return asked.load() > until;
         }
     };
@@ -67,8 +67,8 @@ private:
     std::array<Requests, 3> requests_;
 };
 
-/// Does what the control of an input says. Empty, or one line: it is lifted for this input, but others still
-/// ask for silence. Any thread.
+/// Executes an input's control. Empty, or one line: withdrawn, but other inputs still request silence. Any
+/// thread.
 std::string takeSilence(SilenceHolders& silence, const SilenceControl& control, SilenceHolder holder);
 
 } // namespace physvib

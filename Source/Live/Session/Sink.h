@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a session goes to beside the device that asks for its blocks: a board, a file, messages, a picture.
-// Each takes what it has a use for; a session knows none of them by name.
+// Interface of outputs that a session feeds beside its audio device: a board, a file, messages, a display.
+// Each overrides the methods that it needs.
 #pragma once
 #include "Core/Nonblocking.h"
 #include "Core/RenderControl.h"
@@ -13,26 +13,26 @@ namespace physvib {
 
 class FeltOutput;
 
-/// A block as it leaves the session, before the master level.
+/// A block as the session renders it, before the master level.
 struct RenderedBlock {
     const float* const* channels;
     int frames;
-    std::int64_t sessionFrame; ///< of its first one
+    std::int64_t sessionFrame; ///< of its first frame
     int sampleRateHz;
 };
 
-/// A moment of a sink, for people.
+/// Status of a sink, for display.
 struct SinkState {
     struct Fact {
         std::string name, value;
         bool isWrong = false;
     };
-    std::string name{};               ///< as "board"; empty: there is nothing to say
-    bool isReady = false;             ///< it plays what is made now
-    int channels = 0;                 ///< it plays the first so many enchanters; 0: all
+    std::string name{};               ///< e.g. "board"; empty: nothing to display
+    bool isReady = false;             ///< it can play new events now
+    int channels = 0;                 ///< number of actuators that it plays, from the first on; 0: all
     std::uint64_t sent = 0, lost = 0; ///< events
-    std::string trouble{};            ///< one line; empty: all is well
-    std::string where{};              ///< what it plays on, or how far it is, in a line
+    std::string trouble{};            ///< one-line error; empty: none
+    std::string where{};              ///< one line: the port or device, or the progress of connecting
     std::vector<Fact> facts{};
     bool playsClips = true; ///< and recordings
 };
@@ -41,32 +41,32 @@ class Sink {
 public:
     virtual ~Sink() = default;
 
-    /// Waits until it can play; empty, or why it cannot. M, before the session that it is attached to is
-    /// prepared.
+    /// Waits until it can play. Empty, or the error. Message thread (M), before the session is prepared.
     virtual std::string awaitReady(const std::function<bool()>&) { return {}; }
 
-    /// How long before it is felt it has to know an event: L covers the largest of all that are attached. M.
+    /// Time by which it needs an event before it is felt; the play-out latency covers the maximum over all
+    /// attached sinks. M.
     virtual double latencySeconds() const noexcept { return 0.0; }
 
-    /// From now on what it plays is felt together with that device: its blocks say when, its level and
-    /// silence hold here as well, and whoever follows looks at them as often as it plays. Null: nobody; what
-    /// plays stops, and no thread of its own is in the device when this returns. M.
+    /// From now on it plays in sync with that device: the device's blocks give the time, and its level and
+    /// mute apply here too. Null: none; it stops playing, and on return its threads no longer use the device.
+    /// M.
     virtual void follow(FeltOutput*) {}
 
-    /// What the world makes, at once, in time order; not what is born in the render call. Whoever holds the
-    /// world, wait-free.
+    /// Collisions of the world, at once and in time order; not events of the render call. On the thread that
+    /// holds the world mutex, wait-free.
     virtual void made(const CollisionEvent&) noexcept {}
-    /// What is posted, in order. Whoever holds the inputs, wait-free.
+    /// Posted controls, in order. On the thread that holds the input mutex, wait-free.
     virtual void posted(const RenderControl&) noexcept {}
-    /// What was played, of a session at this rate. M.
+    /// An event that was played, of a session at this sample rate. M.
     virtual void played(const PlayedEvent&, int) {}
-    /// R, wait-free.
+    /// Render thread (R), wait-free.
     virtual void rendered(const RenderedBlock&) noexcept PHYSVIB_NONBLOCKING {}
 
     /// M.
     virtual SinkState state() const { return {}; }
-    /// What it has done, in lines, once nothing is played any more; may wait a second for it, as long as
-    /// `goesOn`. M.
+    /// Lines on what it has done, after the end of playing. May wait a second for data while `goesOn` returns
+    /// true. M.
     virtual std::string summary(const std::function<bool()>&) const { return {}; }
 };
 

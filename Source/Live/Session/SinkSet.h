@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sinks of a session, each at its own time attached and taken off.
+// The sinks of a session, which can be attached and detached while it plays.
 #pragma once
 #include "Live/Session/Sink.h"
 #include <algorithm>
@@ -11,17 +11,17 @@ namespace physvib {
 
 class SinkSet {
 public:
-    static constexpr std::size_t most = 16; ///< at once; one more is not attached
+    static constexpr std::size_t most = 16; ///< at once; a further one is not attached
 
-    /// It outlives the set, or is taken off before. One whose latency counts comes before the session is
-    /// prepared. M, as what follows.
+    /// Attaches a sink, which must outlive the set or be detached before. Attach one with a latency before
+    /// the session is prepared. Message thread (M), as the next ones.
     void attach(Sink& sink) {
         const std::lock_guard lock{mutex_};
         if (const auto place = std::ranges::find(sinks_, nullptr, at); place != sinks_.end())
             place->store(&sink, std::memory_order_release);
     }
-    /// Only R may still be in it when this returns: until a further block has come, or the output does not
-    /// run.
+    /// On return only the render thread (R) may still be inside the sink, until the next block, or while the
+    /// output does not run.
     void detach(Sink& sink) {
         const std::lock_guard lock{mutex_};
         if (const auto place = std::ranges::find(sinks_, &sink, at); place != sinks_.end())
@@ -38,7 +38,7 @@ public:
     void played(const PlayedEvent& event, int sampleRateHz) {
         each([&](Sink& sink) { sink.played(event, sampleRateHz); });
     }
-    /// Of all that have something to say.
+    /// Of all sinks that have something to display.
     std::vector<SinkState> states() const {
         std::vector<SinkState> all;
         each([&](const Sink& sink) {
@@ -73,11 +73,11 @@ private:
             if (Sink* sink = at(place)) use(*sink);
     }
 
-    std::mutex mutex_; // nobody but M and R is in a sink without it
+    std::mutex mutex_; // held by all callers of sinks except M and R
     std::array<std::atomic<Sink*>, most> sinks_{};
 };
 
-/// While it lives, the sinks follow the device, which outlives it. M.
+/// While it exists, the sinks follow the device, which must outlive it. M.
 class Following {
 public:
     Following(SinkSet& sinks, FeltOutput& device)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Samples in g, then in shares of each enchanter's full scale.
+// Renders stimuli in g and scales them to each actuator's full scale.
 #include "Live/Session/StimulusRender.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Session/OfflineRender.h"
@@ -15,7 +15,7 @@ double peakOf(const std::vector<float>& samples) {
     return peak;
 }
 
-/// Samples in g become shares of full scale; empty, or what is too strong.
+/// Scales samples in g to shares of full scale. Empty, or the error of the channel that is too strong.
 std::string scaleToEnchanters(StimulusSound& sound, const LayoutDescription& layout) {
     for (std::size_t j = 0; j < sound.channels.size(); ++j) {
         const auto& enchanter = layout.enchanters[j];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A stimulus as samples, one channel per enchanter, by the renderer that plays everything else.
+// Renders a stimulus of a study to samples, one channel per actuator, with the common renderer.
 #pragma once
 #include "Io/Result.h"
 #include "Io/Wav/SampledSound.h"
@@ -8,19 +8,19 @@
 
 namespace physvib {
 
-constexpr double fullScaleSlack = 1e-6; ///< beyond full scale: a sine's peak at a rounded level
+constexpr double fullScaleSlack = 1e-6; ///< tolerance above full scale: rounding of a sine's peak
 
-/// 1 is an enchanter's full scale.
+/// 1 is an actuator's full scale.
 using StimulusSound = SampledSound;
 
-/// The stimulus in units of each enchanter's full scale. No limiter: a stimulus is played as it is, or
-/// refused where a channel would leave its full scale. `layout` has as many enchanters as the stimulus. M
-/// only.
+/// The stimulus in units of each actuator's full scale. Without a limiter: a stimulus that would exceed full
+/// scale is refused, so that it is never changed. `layout` has as many actuators as the stimulus. Message
+/// thread (M) only.
 Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescription& layout,
                                      int sampleRateHz);
 
-/// A recording of one channel as a phantom at `place`: its peak becomes `levelG`, spread by `panner`. Within
-/// full scale as above. M only.
+/// A one-channel recording as a phantom at `place`: scaled to a peak of `levelG` and distributed by `panner`.
+/// Refused above full scale, as above. M only.
 Result<StimulusSound> placeRecording(const StimulusSound& recording, const FieldPlace& place, double levelG,
                                      const PhantomPanner& panner, const LayoutDescription& layout);
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How long the processor has worked for a thread: waiting, and what other programs do meanwhile, does not
-// count.
+// Processor time of the calling thread, which excludes waiting and other programs.
 #pragma once
 
 namespace physvib {
 
-/// Of the calling thread, in seconds, since it began. Any thread but R.
+/// In seconds, since the thread began. Any thread but the render thread (R).
 double threadSeconds() noexcept;
 
 } // namespace physvib

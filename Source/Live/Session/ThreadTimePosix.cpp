@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// POSIX: the clock of the thread.
+// Thread processor time on POSIX, by clock_gettime.
 #if !defined(_WIN32)
 #include "Live/Session/ThreadTime.h"
 #include <time.h>

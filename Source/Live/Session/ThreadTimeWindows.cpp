@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Windows: GetThreadTimes, in steps of 100 ns.
+// Thread processor time on Windows, by GetThreadTimes, in steps of 100 ns.
 #if defined(_WIN32)
 #include "Io/Disk/SystemWindows.h"
 #include "Live/Session/ThreadTime.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strikes that were asked for ahead of their time, and may still be taken back.
+// Events that were scheduled for a later time and can still be cancelled.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include <algorithm>
@@ -16,7 +16,7 @@ class WaitingStrikes {
 public:
     static constexpr std::size_t most = 65'536; ///< an hour of one every 50 ms
 
-    /// False, and nothing has changed, if they would be too many.
+    /// False, and nothing has changed, if there would be too many.
     bool add(std::span<const CollisionEvent> strikes) {
         if (waiting_.size() + strikes.size() > most) return false;
         for (const CollisionEvent& strike : strikes)
@@ -25,7 +25,7 @@ public:
         return true;
     }
 
-    /// Moves those to the end of `due` whose time is `untilNs` or before.
+    /// Moves the events up to `untilNs` to the end of `due`.
     void take(std::int64_t untilNs, std::vector<CollisionEvent>& due) {
         if (waiting_.empty() || waiting_.front().timeNs > untilNs) return;
         const auto end = std::ranges::upper_bound(waiting_, untilNs, {}, &CollisionEvent::timeNs);
@@ -33,7 +33,7 @@ public:
         waiting_.erase(waiting_.begin(), end);
     }
 
-    /// Those from `fromNs` on are not wanted any more.
+    /// Cancels the events from `fromNs` on.
     void forget(std::int64_t fromNs) {
         waiting_.erase(std::ranges::lower_bound(waiting_, fromNs, {}, &CollisionEvent::timeNs),
                        waiting_.end());
@@ -42,7 +42,8 @@ public:
     std::size_t size() const noexcept { return waiting_.size(); }
 
 private:
-    std::deque<CollisionEvent> waiting_; // in time order; most come at its end, all go at its front
+    std::deque<CollisionEvent> waiting_; // in time order; most are added at the end, all are removed at the
+                                         // front
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stepping and handing over; a state waits for whoever steps the world.
+// Steps the world, queues its events for the renderer, and applies new scenes between steps.
 #include "Live/Session/WorldRunner.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace physvib {
 namespace {
 
-constexpr int posesTries = 8; // a millisecond apart: most steps are shorter, and a picture may wait so long
+constexpr int posesTries = 8; // a millisecond apart: most steps are shorter, and a display can wait that long
 
 } // namespace
 
@@ -23,7 +23,7 @@ WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, Callba
     , sinks_{sinks}
     , world_{setup.run(), setup.shaping, setup.log != LogUse::none}
     , state_{std::make_shared<const Scene>(setup.scene), setup.seed} {
-    made_.reserve(1024); // of a step; more are rare
+    made_.reserve(1024); // events of a step; more are rare
     world_.start(0, state_.scene, state_.seed);
     showPoses();
 }
@@ -64,7 +64,7 @@ void WorldRunner::prepare() {
 }
 
 void WorldRunner::resume(const FrameClock& clock) {
-    catchUp(); // what the old L allowed for, the new one may not
+    catchUp(); // the new play-out latency may allow less lag than the old
     if (restartFrame_ >= 0) restartFrame_ = clock.at(time_.sessionNs(restartFrame_)).frame;
 }
 
@@ -85,7 +85,7 @@ int WorldRunner::catchUp(const StepWatch& goesOn) {
         world_.standStill(lag - time_.law().safeLagNs());
     }
     takeDue(now);
-    callback_.handTo(world_); // what R did until `now` is in the queue: it came before the frames were told
+    callback_.handTo(world_); // inputs that R made before `now` are in the queue already
     int steps = 0;
     for (; world_.timeNs() < now && (steps == 0 || !goesOn || goesOn(world_.timeNs())); ++steps) {
         moveWorld(now);
@@ -95,7 +95,7 @@ int WorldRunner::catchUp(const StepWatch& goesOn) {
     return steps;
 }
 
-// One step; or none, where the world stands still. It is before `untilNs`.
+// One step; none while the world is paused. Its time must be before `untilNs`.
 void WorldRunner::moveWorld(std::int64_t untilNs) {
     const int slowness = this->slowness();
     const bool isStill = slowness == 0 && stepsWanted_.load(std::memory_order_relaxed) == 0;
@@ -107,7 +107,7 @@ void WorldRunner::moveWorld(std::int64_t untilNs) {
     if (slowness > 1) world_.standStill((slowness - 1) * (world_.timeNs() - before));
 }
 
-// Starts a new take if one is wanted, which it is until that returns.
+// Starts a new scene run if one is requested; the request is cleared only after the start.
 void WorldRunner::takeUp() {
     const std::int64_t frame = restartFrame_.exchange(-1, std::memory_order_acquire);
     const std::lock_guard lock{stateMutex_};
@@ -118,7 +118,7 @@ void WorldRunner::takeUp() {
     showPoses();
 }
 
-// Queues what has been made; true if nothing is left.
+// Queues the created events; true if none is left.
 bool WorldRunner::handOver() {
     for (; handed_ < made_.size() && queue_.push(made_[handed_]); ++handed_) sinks_.made(made_[handed_]);
     if (handed_ < made_.size()) return false;
@@ -156,7 +156,7 @@ void WorldRunner::beginOffline(std::int64_t endNs) {
     callback_.handTo(world_);
 }
 
-// Whenever the queue runs dry.
+// Steps the world whenever the queue is empty.
 bool WorldRunner::popOrStep(CollisionEvent& event, std::int64_t endNs) {
     while (!queue_.pop(event)) {
         const bool hasMore = !handOver() || world_.timeNs() < endNs;
@@ -166,7 +166,8 @@ bool WorldRunner::popOrStep(CollisionEvent& event, std::int64_t endNs) {
     return true;
 }
 
-// Whoever asks has seen the new take begin: what he does acts in it, and is not lost with the old one.
+// Starts a requested scene run that is due, so that the caller's action goes to the new run and is not lost
+// with the old one.
 std::shared_ptr<const Scene> WorldRunner::scene(std::size_t& take) {
     const std::lock_guard lock{mutex_};
     const std::int64_t restart = restartFrame_.load(std::memory_order_acquire);
@@ -224,7 +225,8 @@ void WorldRunner::showPoses() const {
     shownNs_ = world_.timeNs();
 }
 
-// Who draws a world that is too much has the poses of its last whole step, and is not kept waiting.
+// If the world is too slow for a display, the display gets the poses of the last complete step, without
+// blocking.
 std::int64_t WorldRunner::readPoses(std::vector<BodyPose>& poses) const {
     std::unique_lock lock{mutex_, std::try_to_lock};
     for (int k = 0; !lock && k < posesTries && !isShown_.load(std::memory_order_relaxed); ++k) {

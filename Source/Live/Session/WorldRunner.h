@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Steps the world of a session up to session time, and queues what it makes for the renderer.
+// Steps a session's physics world up to session time, and queues its events for the renderer.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Live/Documents/SessionLog.h"
@@ -19,63 +19,62 @@
 
 namespace physvib {
 
-/// Part of a session. Its mutex is the world's.
+/// Part of a session. Its mutex is the world mutex.
 class WorldRunner {
 public:
-    /// Plays another scene, as a new take, from the next step on; a state equal to state() changes nothing.
-    /// Empty, or what is wrong with the scene, and nothing is done. Any thread but R.
+    /// Plays another scene as a new scene run from the next step on; a state equal to state() changes
+    /// nothing. Empty, or the scene's error, and nothing is done. Any thread but the render thread (R).
     std::string setState(SessionState state);
 
-    /// What is played, or will be from the next step on. Any thread but R.
+    /// The state that is played, or will be from the next step on. Any thread but R.
     SessionState state() const;
 
-    /// The scene starts anew when frame `offset` of the next block is the present, as a new take. R,
-    /// wait-free, or M.
+    /// Restarts the scene, as a new scene run, when frame `offset` of the next block is the present. R,
+    /// wait-free, or the message thread (M).
     void restart(std::int64_t offset = 0) noexcept {
         restartFrame_.store(time_.framesRendered() + offset, std::memory_order_release);
     }
 
-    /// How fast the world goes from its next step on: each step takes `slowness` times its time; 0: it stands
-    /// still. What has been struck rings on; a slower world is logged as stalls. Any thread, wait-free.
+    /// Speed of the world from its next step on: each step takes `slowness` times its time; 0: paused.
+    /// Sounding modes continue; slow motion is logged as stalls. Any thread, wait-free.
     void setSlowness(int slowness) noexcept {
         slowness_.store(std::max(0, slowness), std::memory_order_relaxed);
     }
     int slowness() const noexcept { return slowness_.load(std::memory_order_relaxed); }
 
-    /// One step of a world that stands still. Any thread, wait-free.
+    /// One step of a paused world. Any thread, wait-free.
     void stepOnce() noexcept { stepsWanted_.fetch_add(1, std::memory_order_relaxed); }
 
-    /// Time that was given up after stalls. Any thread.
+    /// Time lost in stalls. Any thread.
     std::int64_t slippedNs() const noexcept { return slippedNs_.load(std::memory_order_relaxed); }
 
-    /// How far the scene has come that runs, and the number of its take, from 1. Any thread, wait-free.
+    /// Time of the current scene run, and its number, from 1. Any thread, wait-free.
     std::int64_t sceneNs() const noexcept { return sceneNs_.load(std::memory_order_relaxed); }
     std::size_t take() const noexcept { return take_.load(std::memory_order_relaxed); }
 
-    /// Live inputs and bodies that the world holds now: for those who watch that neither grows without end.
-    /// Any thread but R.
+    /// Numbers of live inputs and bodies, to watch that neither grows without bound. Any thread but R.
     SessionSize size() const;
 
-    /// Where the bodies of sceneCast() are, as far as the world has been stepped: the session time of that, L
-    /// before it is felt. Without a log nobody knows what inputs have spawned, and what is gone is left out.
-    /// A step that takes long is not waited for: then they are where they were before it. Any thread but R.
+    /// Poses of the bodies of sceneCast() in the last step; returns their session time, which is felt the
+    /// play-out latency later. Without a log, bodies that inputs spawned are not identified, and removed ones
+    /// are left out. Does not wait for a long step; then the poses are those before it. Any thread but R.
     std::int64_t readPoses(std::vector<BodyPose>& poses) const;
 
-    /// Collisions lost in the physics step. Any thread, wait-free.
+    /// Collisions lost in physics steps because buffers were full. Any thread, wait-free.
     std::uint64_t drops() const noexcept { return drops_.load(std::memory_order_relaxed); }
 
 private:
     friend class Session;
     friend class Scheduler;
 
-    /// All outlive it. Throws std::invalid_argument if the scene is not valid.
+    /// All must outlive it. Throws std::invalid_argument if the scene is not valid.
     WorldRunner(const SessionSetup& setup, const Timeline& time, CallbackInputs& callback, SinkSet& sinks);
 
-    // For the session.
-    void prepare(); // the scene is at its start; the world mutex is held, as by the next
-    void resume(const FrameClock& clock);      // session time goes on by that clock
-    int advance(const StepWatch& goesOn);      // D
-    bool beginBlock(RenderMode mode) noexcept; // R; false: nobody has stepped the world yet
+    // For Session:
+    void prepare();                            // resets the scene; the world mutex is held, also for resume
+    void resume(const FrameClock& clock);      // session time continues by that clock
+    int advance(const StepWatch& goesOn);      // world driver (D)
+    bool beginBlock(RenderMode mode) noexcept; // R; false: the world has not been stepped yet
     bool pop(CollisionEvent& event) noexcept { return queue_.pop(event); } // R
     bool popOrStep(CollisionEvent& event, std::int64_t endNs);             // R, in runOffline
     template <class Render>
@@ -88,15 +87,15 @@ private:
         handOver();
     }
 
-    // For the scheduler, who holds the inputs' mutex.
-    std::shared_ptr<const Scene> scene(std::size_t& take); // of the take that runs, with its number
-    bool addInput(std::size_t take, Action& action);       // false: another one runs
+    // For Scheduler, with the input mutex held:
+    std::shared_ptr<const Scene> scene(std::size_t& take); // the current scene run's, with its number
+    bool addInput(std::size_t take, Action& action);       // false: another run is current
     void strike(std::span<const CollisionEvent> events);
     bool schedule(std::span<const CollisionEvent> events); // false: too many
     void forgetScheduled(std::int64_t fromNs, std::int64_t nowNs);
-    std::int64_t moveLog(SessionLog& log); // session time up to which the world has been stepped
+    std::int64_t moveLog(SessionLog& log); // returns the session time up to which the world has been stepped
 
-    // The world mutex is held.
+    // With the world mutex held:
     int catchUp(const StepWatch& goesOn = {});
     void beginOffline(std::int64_t endNs);
     void moveWorld(std::int64_t untilNs);
@@ -104,35 +103,36 @@ private:
     void tellScene() noexcept;
     void takeDue(std::int64_t untilNs);
     bool handOver();
-    void showPoses() const; // to those who do not wait for a step
+    void showPoses() const; // to readers that do not wait for a step
 
     const SessionSetup& setup_;
     const Timeline& time_;
     CallbackInputs& callback_;
     SinkSet& sinks_;
-    EventQueue<CollisionEvent, 4096> queue_; // from whoever holds the world, who keeps what finds no room
-    std::atomic<std::int64_t> steppedNs_{0}; // session time of the world up to which all is in the queue
-    std::atomic<std::int64_t> sceneNs_{0};   // of the take that runs
+    EventQueue<CollisionEvent, 4096> queue_; // from the thread that holds the world mutex; made_ keeps what
+                                             // does not fit
+    std::atomic<std::int64_t> steppedNs_{0}; // session time of the world up to which all events are queued
+    std::atomic<std::int64_t> sceneNs_{0};   // of the current scene run
     std::atomic<std::size_t> take_{0};
-    std::atomic<std::int64_t> slippedNs_{0}, restartFrame_{-1}; // the latter: -1, not wanted
+    std::atomic<std::int64_t> slippedNs_{0}, restartFrame_{-1}; // restartFrame_: -1, not requested
     std::atomic<int> slowness_{1}, stepsWanted_{0};
-    std::atomic<bool> offline_{false}, isDriven_{false}; // the latter: somebody has begun to step the world
+    std::atomic<bool> offline_{false}, isDriven_{false}; // isDriven_: the world has been stepped
     std::atomic<std::uint64_t> drops_{0};
 
-    mutable std::mutex mutex_; // guards what follows
+    mutable std::mutex mutex_; // guards the following members
     SessionWorld world_;
-    std::vector<CollisionEvent> made_; // events that the queue had no room for yet, from handed_ on
+    std::vector<CollisionEvent> made_; // events that did not fit the queue yet, from handed_ on
     std::size_t handed_ = 0;
     WaitingStrikes waiting_;
-    std::vector<CollisionEvent> begun_; // of those that waited, for the log
+    std::vector<CollisionEvent> begun_; // scheduled events that have begun, for the log
 
-    mutable std::mutex stateMutex_; // taken after all others; guards what follows
+    mutable std::mutex stateMutex_; // locked after all others; guards the following members
     SessionState state_;
     bool isNew_ = false;
 
-    mutable std::atomic<bool> isShown_{false}; // a reader has not got the world's mutex: after each step,
-                                               // poses are copied
-    mutable std::mutex shownMutex_;            // held for a copy; guards what follows
+    mutable std::atomic<bool> isShown_{false}; // a reader did not get the world mutex: poses are copied after
+                                               // each step
+    mutable std::mutex shownMutex_;            // held while copying; guards the following members
     mutable std::vector<BodyPose> shown_;
     mutable std::int64_t shownNs_ = 0;
 };

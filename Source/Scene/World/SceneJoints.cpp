@@ -2,6 +2,7 @@
 // Box2D's definitions of a scene's joints.
 #include "Scene/World/SceneBodies.h"
 #include <cmath>
+#include <optional>
 
 namespace physvib {
 
@@ -21,6 +22,17 @@ void setMotor(Def& def, const Driven& joint) {
     def.enableMotor = true; // with a torque of 0 it does nothing, and the script may change that
 }
 
+void setLimits(bool& isLimited, float& lower, float& upper, const std::optional<Interval>& limits) {
+    isLimited = limits.has_value();
+    lower = static_cast<float>(limits.value_or(Interval{}).lower);
+    upper = static_cast<float>(limits.value_or(Interval{}).upper);
+}
+
+Vector unit(const Vector& axis) {
+    const double length = std::hypot(axis.x, axis.y);
+    return {axis.x / length, axis.y / length};
+}
+
 class Maker {
 public:
     Maker(b2World& world, const JointDescription& joint, b2Body& a, b2Body& b)
@@ -32,23 +44,15 @@ public:
     b2Joint& operator()(const RevoluteJoint& joint) const {
         b2RevoluteJointDef def;
         def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres));
-        def.enableLimit = joint.limitsRadians.has_value();
-        const Interval limits = joint.limitsRadians.value_or(Interval{});
-        def.lowerAngle = static_cast<float>(limits.lower);
-        def.upperAngle = static_cast<float>(limits.upper);
+        setLimits(def.enableLimit, def.lowerAngle, def.upperAngle, joint.limitsRadians);
         setMotor(def, joint);
         return create(world_, def, joint_);
     }
     b2Joint& operator()(const WheelJoint& joint) const {
-        const double length = std::hypot(joint.axis.x, joint.axis.y);
         b2WheelJointDef def;
-        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres),
-                       box2dVector({joint.axis.x / length, joint.axis.y / length}));
+        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres), box2dVector(unit(joint.axis)));
         spring(def.stiffness, def.damping, joint.suspensionHz, joint.dampingRatio);
-        def.enableLimit = joint.travelMetres.has_value();
-        const Interval travel = joint.travelMetres.value_or(Interval{});
-        def.lowerTranslation = static_cast<float>(travel.lower);
-        def.upperTranslation = static_cast<float>(travel.upper);
+        setLimits(def.enableLimit, def.lowerTranslation, def.upperTranslation, joint.travelMetres);
         setMotor(def, joint);
         return create(world_, def, joint_);
     }
@@ -70,14 +74,9 @@ public:
         return create(world_, def, joint_);
     }
     b2Joint& operator()(const SliderJoint& joint) const {
-        const double length = std::hypot(joint.axis.x, joint.axis.y);
         b2PrismaticJointDef def;
-        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres),
-                       box2dVector({joint.axis.x / length, joint.axis.y / length}));
-        def.enableLimit = joint.travelMetres.has_value();
-        const Interval travel = joint.travelMetres.value_or(Interval{});
-        def.lowerTranslation = static_cast<float>(travel.lower);
-        def.upperTranslation = static_cast<float>(travel.upper);
+        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres), box2dVector(unit(joint.axis)));
+        setLimits(def.enableLimit, def.lowerTranslation, def.upperTranslation, joint.travelMetres);
         def.motorSpeed = static_cast<float>(joint.motorMetresPerSecond);
         def.maxMotorForce = static_cast<float>(joint.maxForceNewtons);
         def.enableMotor = true;

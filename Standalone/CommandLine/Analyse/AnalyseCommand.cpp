@@ -127,7 +127,7 @@ void declareAnalyse(OptionTable& command, AnalyseOptions& o) {
         case Analysis::Kind::fit: declareFit(own, o.job); break;
         case Analysis::Kind::results:
             if (analysis.name != "places")
-                own.add("--picture", o.job.picturePath, "the result to look at").writtenAs("FILE.png");
+                own.add("--picture", o.job.picturePath, "the result to look at").writtenAs("FILE.svg");
             declareOwn(own, o.job);
         }
         declareColumns(own, o.columnWords);

@@ -5,7 +5,7 @@
 #include "CommandLine/Measure/RecordingList.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Pictures/StudyPictures.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Study/Coupling.h"
 #include <filesystem>
 #include <string>
@@ -89,8 +89,7 @@ int runFolder(const AttenuationOptions& o) {
     if (!study.fault.empty()) return leave(exitFailed, study.fault);
     const int code = writeStudyFiles(
         {StudyFile{o.exportPath, [&] { return repetitionTable(study.results); }},
-         StudyFile{o.picturePath,
-                   [&] { return isolationPicture(study.results, pictureWords({o.isolatedPath}, false)); }}});
+         StudyFile{o.picturePath, [&] { return chartSheet(isolationCharts(study.results)); }}});
     if (code != exitDone) return code;
     std::cout << conditionColumns << "repetitions,gamma,standard_deviation\n";
     for (const IsolationResult& r : study.results)
@@ -109,7 +108,7 @@ void declareAttenuation(OptionTable& command, AttenuationOptions& o) {
     command.add("reference", o.referencePath, "the same drive recorded without it").as("REFERENCE.wav");
     command.add("--export", o.exportPath, "of a folder: a row per repetition").written("FILE.csv");
     command.add("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer")
-        .writtenAs("FILE.png");
+        .writtenAs("FILE.svg");
 }
 
 int runAttenuation(const AttenuationOptions& o) {

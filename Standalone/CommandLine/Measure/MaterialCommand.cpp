@@ -49,7 +49,7 @@ std::string howSure(const ContactSound& s) {
     words +=
         "; residual " + (s.residualShare > 0.0 ? fixedNumber(10.0 * std::log10(s.residualShare), 1) + " dB"
                                                : std::string{"none"});
-    return words + "; " + std::to_string(s.partials) + (s.partials == 1 ? " partial" : " partials") + " in " +
+    return words + "; " + counted(static_cast<std::size_t>(s.partials), "partial") + " in " +
            fixedNumber(s.lengthSeconds, 3) + " s from " + fixedNumber(s.beginSeconds, 4) + " s; confidence " +
            (s.isConfident() ? "high" : "low");
 }

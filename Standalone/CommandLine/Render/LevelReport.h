@@ -41,7 +41,7 @@ inline std::string peakWords(const LoadedRender& job, const WaveformEnvelope& wh
 inline std::string collisionWords(const LoadedRender& job) {
     constexpr double step = 1.0 / 128.0; // of full scale: the board's converters
     const auto& events = job.made.events;
-    std::string words = std::to_string(events.size()) + (events.size() == 1 ? " collision" : " collisions");
+    std::string words = counted(events.size(), "collision");
     if (events.empty()) return words;
     const PhantomPanner panner = job.panner();
     PhantomPanner::Gains gains{};

@@ -6,7 +6,6 @@
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Disk/FileClash.h"
 #include "Lab/Report/ReportJob.h"
-#include "Lab/Report/ThesisReport.h"
 #include "Studies/StudyCalls.h"
 #include <string>
 #include <vector>
@@ -65,26 +64,8 @@ int write(const std::filesystem::path& folder, const std::map<std::string, std::
     return exitDone;
 }
 
-int reportThesis(const ReportOptions& o) {
-    if (o.job.wantsBids || !o.protocol.empty() || !o.columnWords.empty() || !o.job.peoplePath.empty() ||
-        !o.job.ethics.empty() || !o.job.consent.empty() || !o.job.noise.empty())
-        return leave(exitUsage, "report thesis: expected no --bids, --protocol, --people, --ethics, "
-                                "--consent, --noise or --columns (a file of that name is ./thesis)");
-    const auto files = thesisReport();
-    if (const int code = write(o.job.folder, files, {}); code != exitDone) return code;
-    tellIfSimulated(true);
-    std::cout << (std::filesystem::path{o.job.folder} / "index.html").string() << "  " << files.size()
-              << " files; rehearsals are simulated\n";
-    return exitDone;
-}
-
 void declareReport(OptionTable& command, ReportOptions& o) {
-    command
-        .add("files", o.job.files,
-             "the trial files of one study; or `thesis`: what the thesis prints beside what follows from it, "
-             "and its studies rehearsed")
-        .required()
-        .as("TRIALS.csv...|thesis");
+    command.add("files", o.job.files, "the trial files of one study").required().as("TRIALS.csv...");
     command.add("--out", o.job.folder, "the folder: index.html, tables, report.R").required().as("FOLDER");
     command.add("--protocol", o.protocol, "the study's protocol, if it is no built-in one")
         .as("PROTOCOL.json");
@@ -106,7 +87,6 @@ void declareReport(OptionTable& command, ReportOptions& o) {
 }
 
 int runReport(ReportOptions& o) {
-    if (o.job.isThesis()) return reportThesis(o);
     auto columns = parseColumnNames(o.columnWords);
     if (!columns) return leave(exitUsage, "--columns: " + columns.error);
     o.job.columns = std::move(columns.value);

@@ -112,8 +112,7 @@ int write(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescri
         code != exitDone)
         return code;
     if (wav && !wav->finish().empty()) return leave(exitFailed, wav->error());
-    std::cout << printable(made.title) << "  " << made.sound.channels.size()
-              << (made.sound.channels.size() == 1 ? " channel, " : " channels, ")
+    std::cout << printable(made.title) << "  " << counted(made.sound.channels.size(), "channel") << ", "
               << fixedNumber(
                      static_cast<double>(made.sound.channels.front().size()) / made.sound.sampleRateHz, 3)
               << " s\n";

@@ -155,8 +155,8 @@ int levels(const StudyOptions& o) {
     if (const int code = writeStudyFiles({StudyFile{o.levelsPath, stimulusLevelsCsv(averages, provenance)}});
         code != exitDone)
         return code;
-    std::cout << o.levelsPath << "  " << averages.size() << " levels of " << averages.front().participants
-              << (averages.front().participants == 1 ? " participant\n" : " participants\n");
+    std::cout << o.levelsPath << "  " << averages.size() << " levels of "
+              << counted(averages.front().participants, "participant") << '\n';
     tellIfSimulated(data.value.isSimulated);
     return exitDone;
 }

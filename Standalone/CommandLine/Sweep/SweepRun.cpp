@@ -3,23 +3,21 @@
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Sweep/HeardWords.h"
-#include "CommandLine/Sweep/ProgressBar.h"
-#include "CommandLine/Sweep/Workers.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Session/GrowingFile.h"
 #include "System/ExitCode.h"
 #include "System/Process.h"
 #include <chrono>
+#include <exception>
 #include <juce_core/juce_core.h>
-#include <memory>
+#include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace physvib {
 namespace {
-
-using Kind = WorkEnd::Kind;
 
 /// Who began and ended what, in a file of this process.
 class WorkerLog {
@@ -52,70 +50,77 @@ std::string renderTask(const SweepPlan& plan, const SweepFolder& folder, const P
     return {};
 }
 
-/// A part, or of it what others were rendering when it was their turn.
-struct TaskNumbers {
-    std::uint64_t size() const {
-        return isAll ? (sweep + part.parts - part.number) / part.parts : chosen.size();
+/// One call's way through its tasks.
+class SweepWay {
+public:
+    SweepWay(const SweepPlan& plan, const SweepFolder& folder)
+        : plan_{plan}
+        , folder_{folder} {}
+
+    /// Does the task of that number, unless another program is at it: it comes again later.
+    void visit(std::uint64_t number) {
+        const PlannedTask task = plan_.at(number);
+        std::string fault;
+        try {
+            fault = faultOf(number, task);
+        } catch (const std::exception& thrown) { // no memory for this one: the others may need less
+            fault = thrown.what();
+        }
+        if (!fault.empty() && tally.failed++ == 0) tally.fault = task.task.call + ": " + fault;
     }
-    std::uint64_t at(std::uint64_t index) const {
-        return isAll ? part.number - 1 + index * part.parts : chosen[index];
+    /// Those that others were at.
+    std::vector<std::uint64_t> takeElsewhere() { return std::exchange(elsewhere_, {}); }
+
+    SweepTally tally;
+
+private:
+    std::string faultOf(std::uint64_t number, const PlannedTask& task) {
+        if (folder_.has(task)) return {};
+        const auto path = folder_.result(task.hash);
+        if (auto fault = folder_.makeFolderOf(path); !fault.empty()) return fault;
+        AtomicFile claim{path};
+        if (claim.isTaken()) {
+            elsewhere_.push_back(number);
+            return {};
+        }
+        if (!claim.error().empty()) return claim.error();
+        if (folder_.has(task)) return {}; // by another, just before the claim
+        return render(task, claim);
     }
-    std::uint64_t sweep = 0;
-    SweepPart part;
-    bool isAll = true;
-    std::vector<std::uint64_t> chosen{};
+    std::string render(const PlannedTask& task, AtomicFile& claim) {
+        if (!log_) log_.emplace(folder_);
+        log_->add("begun " + task.hash);
+        const auto begin = std::chrono::steady_clock::now();
+        std::string text;
+        if (auto fault = renderTask(plan_, folder_, task, text); !fault.empty()) return fault;
+        claim.write(text);
+        if (const auto& fault = claim.commit(); !fault.empty()) return fault;
+        log_->add(
+            "finished " + task.hash + ' ' +
+            fixedNumber(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 4) +
+            " s");
+        ++tally.rendered;
+        return {};
+    }
+
+    const SweepPlan& plan_;
+    const SweepFolder& folder_;
+    std::optional<WorkerLog> log_; // once there is something to tell
+    std::vector<std::uint64_t> elsewhere_;
 };
-
-WorkEnd endOf(std::uint64_t index, Kind kind) { return {index, kind, {}}; }
-
-WorkEnd doTask(const SweepPlan& plan, const SweepFolder& folder, const TaskNumbers& numbers,
-               std::uint64_t index, std::unique_ptr<WorkerLog>& log) {
-    const PlannedTask task = plan.at(numbers.at(index));
-    if (folder.has(task)) return endOf(index, Kind::wasDone);
-    const auto path = folder.result(task.hash);
-    if (const auto fault = folder.makeFolderOf(path); !fault.empty()) return WorkEnd::failedAt(index, fault);
-    AtomicFile claim{path};
-    if (claim.isTaken()) return endOf(index, Kind::isDoneElsewhere);
-    if (!claim.error().empty()) return WorkEnd::failedAt(index, claim.error());
-    if (folder.has(task)) return endOf(index, Kind::wasDone); // by another, just before the claim
-    if (!log) log = std::make_unique<WorkerLog>(folder);
-    log->add("begun " + task.hash);
-    const auto begin = std::chrono::steady_clock::now();
-    std::string text;
-    if (auto fault = renderTask(plan, folder, task, text); !fault.empty())
-        return WorkEnd::failedAt(index, fault);
-    claim.write(text);
-    if (const auto& fault = claim.commit(); !fault.empty()) return WorkEnd::failedAt(index, fault);
-    log->add("finished " + task.hash + ' ' +
-             fixedNumber(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 4) +
-             " s");
-    return endOf(index, Kind::done);
-}
 
 } // namespace
 
-SweepTally runSweepTasks(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& part, int jobs) {
-    constexpr auto pause = std::chrono::milliseconds{200}; // somebody else's render takes about as long
-    SweepTally tally;
-    TaskNumbers numbers{plan.size(), part};
-    if (numbers.size() == 0) return tally;
-    ProgressBar bar{numbers.size()};
-    for (;;) {
-        std::vector<std::uint64_t> elsewhere;
-        std::unique_ptr<WorkerLog> log; // of each worker, once it has something to tell
-        const auto work = [&](std::uint64_t i) { return doTask(plan, folder, numbers, i, log); };
-        shareWork(jobs, numbers.size(), work, [&](const WorkEnd& end) {
-            if (end.kind == Kind::isDoneElsewhere) return elsewhere.push_back(numbers.at(end.index));
-            tally.rendered += end.kind == Kind::done ? 1 : 0;
-            bar.add(end.kind == Kind::done);
-            if (end.kind != Kind::failed || tally.failed++ > 0) return;
-            tally.fault = plan.at(numbers.at(end.index)).task.call + ": " + std::string(end.reason());
-        });
-        if (elsewhere.empty()) return tally;
-        numbers.isAll = false;
-        numbers.chosen = std::move(elsewhere);
+SweepTally runSweepTasks(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& part) {
+    constexpr auto pause = std::chrono::milliseconds{200}; // another program's render takes about as long
+    SweepWay way{plan, folder};
+    for (std::uint64_t number = part.number - 1; number < plan.size(); number += part.parts)
+        way.visit(number);
+    for (auto numbers = way.takeElsewhere(); !numbers.empty(); numbers = way.takeElsewhere()) {
         std::this_thread::sleep_for(pause);
+        for (const std::uint64_t number : numbers) way.visit(number);
     }
+    return way.tally;
 }
 
 } // namespace physvib

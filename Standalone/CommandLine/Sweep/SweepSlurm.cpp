@@ -41,7 +41,7 @@ std::string slurmScript(const SlurmSweep& sweep) {
         inShellQuotes(
             juce::File::getSpecialLocation(juce::File::hostApplicationPath).getFullPathName().toStdString()) +
         " sweep " + inShellQuotes(sweep.design) + " --out " + inShellQuotes(sweep.folder);
-    text += " --jobs \"${SLURM_CPUS_PER_TASK:-1}\" --part \"$SLURM_ARRAY_TASK_ID/" + jobs + '"';
+    text += " --part \"$SLURM_ARRAY_TASK_ID/" + jobs + '"';
     return text + (sweep.keepsWavs ? " --wav" : "") + (sweep.keepsEvents ? " --events" : "") + '\n';
 }
 

@@ -32,6 +32,14 @@ Result<std::vector<std::string>> fitting(const std::vector<juce::File>& files) {
     return names;
 }
 
+/// JUCE draws no patterns: what has one is left out, so that the colour below it stays.
+void withoutHatches(juce::XmlElement& svg) {
+    for (auto* const part : svg.getChildIterator()) {
+        if (part->getStringAttribute("fill").startsWith("url(")) part->setAttribute("fill", "none");
+        withoutHatches(*part);
+    }
+}
+
 } // namespace
 
 AnalysisScreen::AnalysisScreen(Desk& desk, const std::vector<juce::File>& files)
@@ -110,15 +118,16 @@ void AnalysisScreen::analyse(const std::vector<juce::File>& files) {
 }
 
 void AnalysisScreen::run(const std::string& name) {
-    picture_ = {};
+    picture_.reset();
     if (!name.empty()) {
         AnalysisJob options;
         options.files = pathsOf(files_);
         report_ = physvib::analyse(name, options);
     }
     if (report_.error.empty() && report_.picture) {
-        const std::string png = report_.picture();
-        picture_ = juce::ImageFileFormat::loadFrom(png.data(), png.size());
+        const auto svg = juce::parseXML(utf8(report_.picture()));
+        withoutHatches(*svg);
+        picture_ = juce::Drawable::createFromSVG(*svg);
     }
     showWords();
     repaint();
@@ -145,11 +154,9 @@ void AnalysisScreen::paint(juce::Graphics& g) {
     auto title = files_.empty() ? juce::String{"Analysis"} : files_.front().getFileName();
     if (files_.size() > 1) title << " and " << static_cast<int>(files_.size() - 1) << " more";
     g.drawText(title, titleArea_, juce::Justification::centredLeft, true);
-    if (picture_.isNull()) return;
-    g.setImageResamplingQuality(juce::Graphics::highResamplingQuality);
-    g.drawImage(picture_, pictureArea_.toFloat(),
-                juce::RectanglePlacement::centred | juce::RectanglePlacement::yTop |
-                    juce::RectanglePlacement::onlyReduceInSize);
+    if (picture_)
+        picture_->drawWithin(g, pictureArea_.toFloat(),
+                             juce::RectanglePlacement::xMid | juce::RectanglePlacement::yTop, 1.0f);
 }
 
 void AnalysisScreen::resized() {

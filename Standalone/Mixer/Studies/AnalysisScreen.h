@@ -19,7 +19,7 @@ public:
     /// shown.
     void analyse(const std::vector<juce::File>& files);
     const AnalysisReport& report() const noexcept { return report_; }
-    const juce::Image& picture() const noexcept { return picture_; }
+    const juce::Drawable* picture() const noexcept { return picture_.get(); }
 
     void refresh(); ///< the desk may have been silenced
 
@@ -37,7 +37,7 @@ private:
     Desk& desk_;
     std::vector<juce::File> files_;
     AnalysisReport report_;
-    juce::Image picture_;
+    std::unique_ptr<juce::Drawable> picture_;
     juce::ComboBox kind_;
     juce::TextEditor words_;
     std::unique_ptr<juce::TextButton> choose_, close_;

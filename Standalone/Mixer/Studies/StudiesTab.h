@@ -73,7 +73,7 @@ private:
 
     Desk& desk_;
     std::optional<Protocol> protocol_;
-    juce::String protocolPath_, about_, words_, level_;
+    juce::String about_, words_, level_;
     Shade wordsShade_ = Shade::muted;
     std::string wordsPath_; // chosen here; empty: the protocol's
     juce::ComboBox choice_, noise_, noiseLevel_, wordsChoice_, answersChoice_;

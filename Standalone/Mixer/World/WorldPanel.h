@@ -22,7 +22,6 @@ public:
     WorldView& view() noexcept { return view_; }
     DrawPane& drawing() noexcept { return pane_; }
     void tilt(double degrees) { tilt_.turnTo(degrees); } ///< turns gravity to that angle
-    double tiltDegrees() const { return tilt_.getValue(); }
 
     bool keyPressed(const juce::KeyPress& key) override;
     bool keyStateChanged(bool isDown) override;

@@ -6,7 +6,7 @@
 #include "Host/Views/DisplayScale.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/SessionRender.h"
-#include "Mixer/Materials/MaterialShots.h"
+#include "Mixer/Knock.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Scene/SceneCatalogue.h"

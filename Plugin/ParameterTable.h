@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every parameter once: id, name, unit, range, default, mapping, words. The plug-in, its editor, its saved
+// state and the table in Docs/plugin-reference.md read this table.
+#pragma once
+#include "Core/PanningLaws.h"
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace physvib {
+
+/// In the order in which hosts list them. New ones go to the end, before `count`: hosts may number them.
+enum class Parameter {
+    level,
+    law,
+    exponent,
+    gravity,
+    tilt,
+    material,
+    strikeLevel,
+    strikeX,
+    strikeY,
+    bypass,
+    beats,
+    music,
+    musicSides,
+    count
+};
+constexpr auto parameterCount = static_cast<std::size_t>(Parameter::count);
+
+/// How a host's 0 to 1 runs over the range.
+enum class ParameterScale {
+    linear,
+    log,    ///< equal steps are equal ratios; the range is above 0
+    choice, ///< one of `choices`, in equal steps over the range; each keeps its place from 0 to 1 (decision
+            ///< 34)
+    toggle  ///< 0 or 1
+};
+
+struct ParameterRow {
+    Parameter parameter; ///< its number, which is its place in the table
+    std::string_view id; ///< never changes: sessions of hosts hold on to it
+    std::string_view name;
+    std::string_view shortName; ///< 8 letters at most, for small displays; its first four tell it from the
+                                ///< others
+    std::string_view unit;
+    double least = 0.0;
+    double most = 1.0;
+    double initial = 0.0;
+    ParameterScale scale = ParameterScale::linear;
+    std::span<const std::string_view> choices{};
+    int version = 1; ///< of the plug-in that has it first: AU sorts by it
+    std::string_view help{};
+};
+
+/// Parameters that belong together, each in one group, in the order of the table; `level` and `bypass` stand
+/// by themselves, the latter before the groups that came after it.
+struct ParameterGroup {
+    std::string_view id; ///< never changes
+    std::string_view name;
+    std::span<const Parameter> parameters;
+};
+
+namespace parameterTable {
+
+/// The first choices stand where they have always stood, the others between them (decision 34); where nobody
+/// is yet stands the one before.
+template <std::size_t first, std::size_t count>
+constexpr auto atTheirPlaces(const std::array<std::string_view, count>& names) {
+    static_assert(count < 2 * first, "others need a parameter of their own");
+    constexpr std::size_t step = count == first ? 1 : 2;
+    std::array<std::string_view, step*(first - 1) + 1> places{};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const bool isBetween = i % step != 0 && first + i / 2 < count;
+        places[i] = isBetween ? names[first + i / 2] : names[i / step];
+    }
+    return places;
+}
+
+inline constexpr auto lawNames = atTheirPlaces<4>(panningLawNames);
+inline constexpr std::array<std::string_view, 9> materialNames{
+    "as the scene", "1", "2", "3", "4", "5", "6", "7", "8"};
+inline constexpr std::array<std::string_view, 2> switchNames{"off", "on"};
+inline constexpr std::array<std::string_view, 2> sideNames{"summed", "left and right"};
+inline constexpr std::span<const std::string_view> noWords{};
+inline constexpr double silentDb = -60.0; // below it nobody feels anything: full scale is some g
+
+using enum ParameterScale;
+inline constexpr std::array<ParameterRow, parameterCount> rows{{
+    {Parameter::level, "level", "Level", "Level", "dB", silentDb, 0.0, -12.0, linear, noWords, 1,
+     "Master level; the least is silence"},
+    {Parameter::law, "law", "Panning law", "Law", "", 0, 3, 0, choice, lawNames, 1,
+     "How an impact is spread over the actuators"},
+    {Parameter::exponent, "exponent", "Panning exponent", "Exponent", "", 0.25, 4.0, 1.0, log, noWords, 1,
+     "Exponent of the panning law"},
+    {Parameter::gravity, "gravity", "Gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, noWords, 1,
+     "Gravity, times the scene's"},
+    {Parameter::tilt, "tilt", "Tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, noWords, 1,
+     "How the device is held: gravity turns counter-clockwise"},
+    {Parameter::material, "material", "Material", "Material", "", 0, 8, 0, choice, materialNames, 1,
+     "Material of what is felt: the scene's own, or the n-th of its list"},
+    {Parameter::strikeLevel, "strike_level", "Strike level", "Hit lev", "dB", silentDb, 12.0, 6.0, linear,
+     noWords, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
+    {Parameter::strikeX, "strike_x", "Strike shift x", "X shift", "%", -100.0, 100.0, 0.0, linear, noWords, 1,
+     "Shifts MIDI strikes to the right, in parts of the field's width"},
+    {Parameter::strikeY, "strike_y", "Strike shift y", "Y shift", "%", -100.0, 100.0, 0.0, linear, noWords, 1,
+     "Shifts MIDI strikes upwards, in parts of the field's height"},
+    {Parameter::bypass, "bypass", "Bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1,
+     "Silence; the world goes on"},
+    {Parameter::beats, "beats", "Beats", "Beats", "%", 0.0, 100.0, 0.0, linear, noWords, 2,
+     "How readily beats of the side chain strike; the least is never"},
+    {Parameter::music, "music", "Music", "Music", "dB", silentDb, 12.0, silentDb, linear, noWords, 3,
+     "Level of the side chain's own low frequencies (20 to 400 Hz) on the actuators; the least is silence"},
+    {Parameter::musicSides, "music_sides", "Music channels", "Sides", "", 0, 1, 0, choice, sideNames, 3,
+     "Where the side chain is played: summed, on all actuators, or its left on the left ones and its right "
+     "on the right ones"},
+}};
+static_assert(std::ranges::all_of(rows, [](const ParameterRow& row) {
+    return &row == &rows[static_cast<std::size_t>(row.parameter)];
+}));
+
+inline constexpr std::array panningGroup{Parameter::law, Parameter::exponent};
+inline constexpr std::array worldGroup{Parameter::gravity, Parameter::tilt, Parameter::material};
+inline constexpr std::array strikeGroup{Parameter::strikeLevel, Parameter::strikeX, Parameter::strikeY};
+inline constexpr std::array beatGroup{Parameter::beats, Parameter::music, Parameter::musicSides};
+inline constexpr std::array<ParameterGroup, 4> groups{{{"panning", "Panning", panningGroup},
+                                                       {"world", "World", worldGroup},
+                                                       {"strikes", "Strikes by notes", strikeGroup},
+                                                       {"side_chain", "Side chain", beatGroup}}};
+
+} // namespace parameterTable
+} // namespace physvib

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// How hard and when a point of contact has struck, and what it pushes where it has not.
+#include "Contacts/FedContacts.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+// What is struck may stand on something, hang in joints or carry others: then the engine pushes more in one
+// step than the speed and the mass of the two bodies say. What gravity adds after they met is a load.
+double FedContacts::supported(double bySpeed, double pushed, double gainedMetresPerSecond,
+                              double fraction) const {
+    constexpr double clearly = 1.2; // pushes of one step also move overlaps apart
+    const double falls = gravity_ * events_.stepSeconds() * (1.0 - std::clamp(fraction, 0.0, 1.0));
+    const double ofBlow = pushed * gainedMetresPerSecond / (gainedMetresPerSecond + falls);
+    return ofBlow > clearly * bySpeed ? ofBlow : bySpeed;
+}
+
+double FedContacts::speedOf(const FedContact& contact) const {
+    return contact.approachMetresPerSecond.value_or(
+        bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
+}
+
+void FedContacts::strike(const FedContact& contact, double pushed) {
+    CollisionCatcher& catcher = events_.catcher();
+    const TouchingPairs::Name pair = nameOf(contact);
+    const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
+    const double told = speedOf(contact);
+    const double mass = contact.effectiveMassKg.value_or(
+        bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
+    const bool isImpulseTold = contact.impulseNewtonSeconds && !contact.isSoft;
+    double impulse = isImpulseTold ? *contact.impulseNewtonSeconds
+                                   : mass * std::max(0.0, told) * (1.0 + contact.restitution);
+    if (pushed > 0.0 && told > 0.0)
+        impulse = supported(impulse, pushed, told * (1.0 + contact.restitution), fractionOf(contact, told));
+    if (!(impulse > 0.0 && std::isfinite(impulse))) { // they part, or cannot be moved
+        catcher.passOver(pair.a, pair.b);
+        return contact.isSoft ? load(contact) : void();
+    }
+    // Of an impulse alone: what it changes of the lighter body's velocity, which is at least the speed before
+    // it.
+    const bool isSpeedKnown = contact.approachMetresPerSecond || !isImpulseTold || told > 0.0;
+    const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
+    if (!catcher.isBlow(std::max(a.gravityScale(), b.gravityScale()), speed)) {
+        catcher.passOver(pair.a, pair.b);
+        return load(contact);
+    }
+
+    Blow* blow = catcher.blow(pair);
+    const bool isFirst = blow == nullptr;
+    if (isFirst && (blow = catcher.strike(pair, speed)) == nullptr) return;
+    const double fraction = fractionOf(contact, isSpeedKnown ? speed : 0.0);
+    blow->fraction = isFirst ? fraction : std::min(blow->fraction, fraction);
+    if (isImpulseTold || isFirst) { // points push together; a speed tells of the whole blow
+        const double sum = blow->normalImpulse + impulse;
+        blow->point += static_cast<float>(impulse / sum) * (contact.point - blow->point);
+        blow->normalImpulse = sum;
+        blow->tangentialImpulse += isImpulseTold ? contact.tangentialNewtonSeconds : 0.0;
+    } else if (impulse > blow->normalImpulse) {
+        blow->normalImpulse = impulse;
+        blow->point = contact.point;
+    }
+}
+
+void FedContacts::load(const FedContact& contact) {
+    if (!contact.impulseNewtonSeconds || !events_.catcher().isHearing()) return;
+    const TouchingPairs::Name pair = nameOf(contact);
+    rub(contact, pair);
+    if (!events_.catcher().isHeard(pair)) return;
+    const auto along = static_cast<float>(*contact.impulseNewtonSeconds),
+               across = static_cast<float>(contact.tangentialNewtonSeconds);
+    events_.catcher().push(pair, along * contact.normal + across * contact.normal.turnedLeft(),
+                           contact.point);
+}
+
+void FedContacts::rub(const FedContact& contact, const TouchingPairs::Name& pair) {
+    if (!contact.alongAMetresPerSecond || !contact.alongBMetresPerSecond ||
+        !events_.lasting().isHeard(pair.a, pair.b))
+        return;
+    rubs_.tell({pair.a, pair.b, *contact.impulseNewtonSeconds, contact.point, *contact.alongAMetresPerSecond,
+                *contact.alongBMetresPerSecond});
+}
+
+// Surfaces close a gap, or have closed it, at the speed at which they meet.
+double FedContacts::fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept {
+    if (contact.fraction) return *contact.fraction;
+    const double ahead = approachMetresPerSecond > 0.0 ? contact.gapMetres / approachMetresPerSecond : 0.0;
+    const double now = events_.stepSeconds();
+    const double seconds = contact.gapFraction * now + ahead;
+    const double length = seconds < 0.0 ? lastStepSeconds_ : now;
+    return length > 0.0 ? std::clamp(seconds / length, -1.0, 1.0) : 0.0;
+}
+
+TouchingPairs::Name FedContacts::nameOf(const FedContact& contact) {
+    const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
+    return {a, b, events_.catcher().know(a, b)};
+}
+
+} // namespace physvib

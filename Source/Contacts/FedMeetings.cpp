@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The points at which a pair meets, settled together at the end of a step, so that a flat landing is one
+// blow.
+#include "Contacts/FedContacts.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+void FedContacts::settleTogether() {
+    if (waiting_.empty()) return;
+    momentum_.solve();
+    for (const Pair& pair : pairs_)
+        if (pair.waiting != FedPoints::none) settle(pair);
+    momentum_.clear();
+}
+
+FedContact FedContacts::withMomentum(const Waiting& each) const {
+    FedContact contact = each.contact;
+    if (each.momentum == FedPoints::none) return contact;
+    contact.impulseNewtonSeconds = momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum));
+    contact.tangentialNewtonSeconds = 0.0;
+    return contact;
+}
+
+double FedContacts::pushed(const Waiting& each) const {
+    const FedContact& contact = each.contact;
+    if (!contact.isSoft) return 0.0;
+    const double told = contact.isPushWhole ? contact.impulseNewtonSeconds.value_or(0.0) : 0.0;
+    return each.momentum == FedPoints::none
+               ? told
+               : std::max(told, momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum)));
+}
+
+// The blow of a pair that is no spring is what its new points have changed.
+void FedContacts::strikeByMomentum() {
+    meeting_.clear();
+    for (const Waiting* each : together_) {
+        const double newtonSeconds =
+            each->isNew ? momentum_.newtonSeconds(static_cast<std::size_t>(each->momentum)) : 0.0;
+        meeting_.push_back({each->contact.point, each->contact.normal, speedOf(each->contact), 0.0,
+                            each->isNew, newtonSeconds});
+    }
+    strikeTogether();
+}
+
+void FedContacts::settle(const Pair& pair) {
+    together_.clear();
+    for (std::int32_t at = pair.waiting; at != FedPoints::none;
+         at = waiting_[static_cast<std::size_t>(at)].next)
+        // who tells may tell of one point twice
+        if (const Waiting& each = waiting_[static_cast<std::size_t>(at)]; each.isNew || pair.isAsked)
+            together_.push_back(&each);
+    if (together_.empty()) return;
+    std::reverse(together_.begin(), together_.end());
+    const FedContact& first = together_.front()->contact;
+    const auto hasMass = [](const Waiting* each) { return each->contact.effectiveMassKg.has_value(); };
+    const auto isNew = [](const Waiting* each) { return each->isNew; };
+    const bool isByMomentum =
+        std::ranges::all_of(together_, [](const Waiting* each) { return each->momentum != FedPoints::none; });
+    for (const Waiting* each : together_)
+        if (isByMomentum && !each->isNew) load(withMomentum(*each));
+    if (isByMomentum && !first.isSoft && std::ranges::any_of(together_, isNew)) return strikeByMomentum();
+    if (std::ranges::none_of(together_, isNew)) { // the others have been loaded where they were told
+        if (first.isImpulseOfPair) load(first);
+        return;
+    }
+    if (together_.size() == 1 || std::ranges::any_of(together_, hasMass)) {
+        for (const Waiting* each : together_)
+            if (each->isNew) strike(withMomentum(*each), hasMass(each) ? 0.0 : pushed(*each));
+        return;
+    }
+    meeting_.clear();
+    for (const Waiting* each : together_) {
+        const FedContact& contact = each->contact;
+        const bool isTurned = contact.a != first.a;
+        meeting_.push_back({contact.point, isTurned ? -contact.normal : contact.normal, speedOf(contact),
+                            contact.restitution, each->isNew});
+    }
+    solve(bodies_, first.a, first.b, meeting_);
+    strikeTogether();
+}
+
+// A blow at several points: where and how hard is what they do together, when is when the first of them
+// meets.
+void FedContacts::strikeTogether() {
+    CollisionCatcher& catcher = events_.catcher();
+    const FedContact& first = together_.front()->contact;
+    const TouchingPairs::Name pair = nameOf(first);
+    double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = 1.0, ofPush = 0.0;
+    Vector2 point;
+    for (std::size_t i = 0; i < meeting_.size(); ++i) {
+        const MeetingPoint& each = meeting_[i];
+        all += each.newtonSeconds;
+        if (each.isNew) ofPush += pushed(*together_[i]);
+        if (!each.isNew || !(each.newtonSeconds > 0.0)) continue;
+        ofNew += each.newtonSeconds;
+        point += static_cast<float>(each.newtonSeconds / ofNew) * (each.point - point);
+        fastest = std::max(fastest, each.approach);
+        fraction = std::min(fraction, fractionOf(together_[i]->contact, each.approach));
+    }
+    const float gravityScale =
+        std::max(events_.fixtures()[pair.a].gravityScale(), events_.fixtures()[pair.b].gravityScale());
+    const double share = all > 0.0 ? ofNew / all : 0.0;
+    if (ofPush > 0.0 && fastest > 0.0)
+        ofNew = supported(ofNew, ofPush, (1.0 + first.restitution) * fastest, fraction);
+    const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : ofNew;
+    const bool isBlow = impulse > 0.0 && std::isfinite(impulse) && catcher.isBlow(gravityScale, fastest);
+    if (!isBlow) catcher.passOver(pair.a, pair.b);
+    if (!isBlow && first.isImpulseOfPair) return load(first);
+    if (!isBlow) {
+        for (const Waiting* each : together_)
+            if (each->isNew && (each->contact.isSoft || speedOf(each->contact) > 0.0))
+                load(withMomentum(*each));
+        return;
+    }
+    Blow* blow = catcher.blow(pair);
+    const bool isFirst = blow == nullptr;
+    if (isFirst && (blow = catcher.strike(pair, fastest)) == nullptr) return;
+    const double sum = blow->normalImpulse + impulse;
+    blow->fraction = isFirst ? fraction : std::min(blow->fraction, fraction);
+    blow->point += static_cast<float>(impulse / sum) * (point - blow->point);
+    blow->normalImpulse = sum;
+    if (!first.isImpulseOfPair) return;
+    blow->tangentialImpulse += share * first.tangentialNewtonSeconds;
+    FedContact rest = first; // what old points push goes on as a load
+    rest.impulseNewtonSeconds = (1.0 - share) * *first.impulseNewtonSeconds;
+    rest.tangentialNewtonSeconds = (1.0 - share) * first.tangentialNewtonSeconds;
+    if (share < 1.0) load(rest);
+}
+
+} // namespace physvib

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Objects from JSON and back by their tables (FieldTable.h). Strict: unknown fields are refused before any
+// value is read, and ranges are checked as it is. For the .cpp files of modules with files.
+//
+// A module may have kinds of its own, with readKind(json, kind) and writeKind(kind, value).
+#pragma once
+#include "Io/Json/FieldTable.h"
+#include "Io/Json/JsonField.h"
+#include "Io/Json/JsonLines.h"
+#include "Io/Json/JsonText.h"
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace physvib {
+
+/// The value of a field of that kind.
+template <class Kind>
+auto readAs(const JsonField& json, const Kind& kind) {
+    if constexpr (requires { kind(json); })
+        return kind(json);
+    else
+        return readKind(json, kind);
+}
+template <class Kind, class Value>
+OrderedJson writeAs(const Kind& kind, const Value& value) {
+    if constexpr (requires { kind.write(value); })
+        return kind.write(value);
+    else if constexpr (requires(const JsonField& json) { kind(json); })
+        return value;
+    else
+        return writeKind(kind, value);
+}
+
+// A table calls, of its visitor:
+//   version(name, newest)            the version of the format, first of all
+//   field(name, member, kind, Need)  member: anything that std::invoke makes a reference of
+//   formerly(name, member, kind)     what older versions called the next field
+//   has(name, member)                true if fields that only occur with that one follow
+//   part(name, Need)                 a list that is read and written apart: it only has its place here
+// and may read v.object, in which the fields before are known.
+
+/// Checks the version, and finds what an object may have.
+template <class T>
+struct FieldNames {
+    const JsonField& json;
+    const T& object;
+    std::vector<std::string_view> names{};
+
+    void version(std::string_view name, int newest) {
+        checkVersion(json, name, newest);
+        names.push_back(name);
+    }
+    void field(std::string_view name, const auto&, const auto&, Need = Need::required) {
+        names.push_back(name);
+    }
+    void formerly(std::string_view name, const auto&, const auto&) { names.push_back(name); }
+    void part(std::string_view name, Need = Need::required) { names.push_back(name); }
+    bool has(std::string_view, const auto&) const { return true; }
+};
+
+template <class T>
+struct TableReader {
+    const JsonField& json;
+    T& object;
+
+    void version(std::string_view, int) const {}
+    void field(std::string_view name, const auto& member, const auto& kind,
+               Need need = Need::required) const {
+        if (need.mayBeLeftOut && !json.has(name)) return;
+        auto&& place = std::invoke(member, object);
+        using Place = std::remove_reference_t<decltype(place)>;
+        if constexpr (std::is_scalar_v<Place>)
+            place = static_cast<Place>(readAs(json[name], kind));
+        else
+            place = readAs(json[name], kind);
+    }
+    void formerly(std::string_view name, const auto& member, const auto& kind) const {
+        field(name, member, kind, Need::optional);
+    }
+    void part(std::string_view, Need = Need::required) const {}
+    bool has(std::string_view name, const auto&) const { return json.has(name); }
+};
+
+template <class T>
+struct TableWriter {
+    const T& object;
+    OrderedJson json = OrderedJson::object();
+    const T defaults{};
+
+    void version(std::string_view name, int newest) { json[std::string(name)] = newest; }
+    void field(std::string_view name, const auto& member, const auto& kind, Need need = Need::required) {
+        OrderedJson value = writeAs(kind, std::invoke(member, object));
+        if (need.isAlwaysWritten || value != writeAs(kind, std::invoke(member, defaults)))
+            json[std::string(name)] = std::move(value);
+    }
+    void formerly(std::string_view, const auto&, const auto&) const {}
+    void part(std::string_view name, Need need = Need::required) {
+        if (need.isAlwaysWritten) json[std::string(name)] = OrderedJson::array();
+    }
+    bool has(std::string_view, const auto& member) const {
+        return std::invoke(member, object) != std::invoke(member, defaults);
+    }
+};
+
+template <class T, class Table>
+void readTable(const JsonField& json, T& object) {
+    json.expectObject();
+    FieldNames<T> known{json, object};
+    visitFields(known, FieldsOf<Table>{});
+    json.expectOnly(known.names);
+    TableReader<T> reader{json, object};
+    visitFields(reader, FieldsOf<Table>{});
+}
+
+template <class T, class Table>
+OrderedJson writeTable(const T& object) {
+    TableWriter<T> writer{object};
+    visitFields(writer, FieldsOf<Table>{});
+    return std::move(writer.json);
+}
+
+} // namespace physvib

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// physvib-mixer-shots FILE.png STATE [WIDTHxHEIGHT]: a picture of the mixer's window in a state, without a
+// display;
+// --states lists the states. They are reached as a person would reach them, with a clock instead of a device.
+#include "Host/Devices/NoDevice.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Live/Documents/StripGroups.h"
+#include "Mixer/Knock.h"
+#include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/Shots/StudyShots.h"
+#include "Mixer/Window/MixerView.h"
+#include "Mixer/Window/Parts.h"
+#include "Scene/SceneCatalogue.h"
+#include <functional>
+#include <iostream>
+
+namespace physvib {
+
+namespace {
+
+struct State {
+    const char* name;
+    int width, height;
+    double seconds; // until the picture is taken
+    std::function<void(Desk&, MixerView&)> reach;
+    std::vector<SinkName> sinks{}; // beside the device
+};
+
+AudioDeviceTypes onlyNoDevice() {
+    return [] {
+        std::vector<std::unique_ptr<juce::AudioIODeviceType>> types;
+        types.push_back(std::make_unique<NoDeviceType>());
+        return types;
+    };
+}
+
+juce::Component* find(juce::Component& root, const juce::String& title) {
+    if (root.getTitle() == title) return &root;
+    for (auto* child : root.getChildren())
+        if (auto* found = find(*child, title)) return found;
+    return nullptr;
+}
+
+void showScene(Desk& desk, const char* name) {
+    desk.change("Scene", [name](Mix& m) {
+        m.scene = std::make_shared<const Scene>(*findBuiltInScene(name)), m.levelDb = -3.0;
+    });
+}
+
+void showSurface(Desk& desk, MixerView& view, const std::string& material) {
+    desk.dispatchPendingMessages();
+    view.tabs().choose("Materials");
+    const auto& materials = desk.world().scene().materials;
+    if (auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials")))
+        tab->choose(
+            static_cast<int>(std::ranges::find(materials, material, &Material::name) - materials.begin()));
+}
+
+/// One material was measured, from a recording that is made for it.
+void showMaterials(Desk& desk, MixerView& view) {
+    view.tabs().choose("Materials");
+    auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials"));
+    const auto folder = juce::File::createTempFile("physvib-knock");
+    const auto file = folder.getChildFile("knock.wav");
+    if (tab == nullptr || !folder.createDirectory() || !writeKnock(file)) return;
+    tab->choose(4);
+    tab->measure(file);
+    tab->finishMeasuring();
+    folder.deleteRecursively();
+    desk.dispatchPendingMessages();
+    tab->feelAt({0.3, 0.62});
+}
+
+// For so long, and then until something has been struck: a picture without a hit says little.
+void runFor(double seconds, MixerView& view) {
+    const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds;
+    bool isStruck = false;
+    while (juce::Time::getMillisecondCounterHiRes() < end ||
+           (!isStruck && juce::Time::getMillisecondCounterHiRes() < end + 10e3)) {
+        juce::Thread::sleep(33);
+        view.refresh();
+        isStruck = std::ranges::any_of(view.latest().hits,
+                                       [](const CollisionEvent& e) { return std::abs(e.amplitude) > 0.15; });
+    }
+    for (int k = 0; k < 2; ++k) juce::Thread::sleep(33), view.refresh();
+}
+
+// Three of the last, while more come.
+void chooseContacts(MixerView& view) {
+    view.scope().choose("Events");
+    runFor(2.0, view);
+    if (auto* list = dynamic_cast<juce::ListBox*>(find(view, "List of played events")))
+        for (const int row : {1, 2, 4}) list->selectRow(row, true, false);
+}
+
+void showFirstStart(Desk& desk, MixerView& view) {
+    const DeviceChoice none{std::string{noDeviceType} + ":" + noDeviceName};
+    view.setFirstStart(std::make_unique<FirstStart>(
+        desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8},
+                                      {"Game controller: DualSense", none, 2, true},
+                                      {"Headphones: ALSA:Built-in Audio", none, 2, false, true},
+                                      {"ALSA: Built-in Audio, 2 outputs: two actuators", none, 2},
+                                      {"No device: seen, not felt", none, 0}}));
+}
+
+// Two hands; one of them and a strip rise and fall.
+void showLanes(Desk& desk, MixerView& view) {
+    desk.change("Groups", [](Mix& m) {
+        for (const int hand : {0, 1}) {
+            const int group = addGroup(m, freeGroupName(m));
+            for (const int k : {0, 2}) m.strips[static_cast<std::size_t>(hand + k)].group = group;
+        }
+        m.groups[0].gainDb = -3.0;
+        m.groups[1].lane = {{0.0, 0.0}, {2.5, 0.0}, {5.0, -18.0}, {7.0, -2.0}};
+        m.strips[2].lane = {{0.8, -24.0}, {2.2, 0.0}, {3.6, -9.0}, {4.4, -1.0}, {6.0, -1.0}, {8.5, -60.0}};
+        m.levelDb = -3.0;
+    });
+    desk.dispatchPendingMessages();
+    view.scope().choose("Gain lanes");
+}
+
+std::vector<State> mixerStates() {
+    return {
+        {"first-start", 1440, 900, 2.0, [](Desk& d, MixerView& v) { showFirstStart(d, v); }},
+        {"first-test", 1440, 900, 0.2,
+         [](Desk& d, MixerView& v) {
+             showFirstStart(d, v), v.firstStart()->test(4), v.firstStart()->felt();
+         }},
+        {"four-enchanters", 1440, 900, 4.0,
+         [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
+        {"materials", 1440, 900, 0.2, showMaterials},
+        {"materials-small", MixerView::leastWidth, MixerView::leastHeight, 0.2,
+         [](Desk& d, MixerView& v) { v.setGround(Ground::light), showMaterials(d, v); }},
+        {"events", 1440, 900, 0.5, [](Desk&, MixerView& v) { chooseContacts(v); }},
+        {"marbles", 1440, 900, 4.0,
+         [](Desk& d, MixerView& v) { showScene(d, "marbles"), v.scope().choose("Events"); }},
+        {"drawing", 1440, 900, 7.2,
+         [](Desk& d, MixerView& v) { showScene(d, "drawing"), showSurface(d, v, "cloth"); }},
+        {"telemetry", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Telemetry"); }},
+        {"output", 1440, 900, 3.0,
+         [](Desk& d, MixerView& v) {
+             d.device().listening().monitor({4, 5}, safeContactDb), d.device().listening().mark(7),
+                 v.tabs().choose("Output");
+         }},
+        {"board",
+         1440,
+         900,
+         4.5,
+         [](Desk&, MixerView& v) { v.tabs().choose("Output"); },
+         {{"BOARD", "/dev/ttyACM0"}}},
+        {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
+        {"lanes", 1440, 900, 6.0, showLanes},
+        {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},
+        {"error", 1440, 900, 2.0,
+         [](Desk& d, MixerView&) {
+             d.report("session.json: takes[0].scene.bodies[4].fixtures[0].radius_m: expected 0.01 to 100, "
+                      "found 0");
+         }},
+        {"six-enchanters", 1440, 900, 3.0,
+         [](Desk& d, MixerView& v) {
+             d.attach(0.5, 0.5);
+             d.attach(0.5, 1.0);
+             d.change("Mute", [](Mix& m) {
+                 m.strips[2].isMuted = true, m.strips[3].isInverted = true, m.strips[1].delayMs = 5.0;
+             });
+             d.dispatchPendingMessages();
+             if (auto* list = dynamic_cast<juce::ListBox*>(find(v, "List of actuators"))) list->selectRow(4);
+             if (auto* maps = dynamic_cast<juce::Button*>(find(v, "Map of the chosen actuator")))
+                 maps->setToggleState(true, juce::sendNotificationSync);
+         }},
+    };
+}
+
+const std::vector<State>& states() {
+    static const std::vector<State> all = [] {
+        auto states = mixerStates();
+        for (const StudyShot& shot : studyShots()) states.push_back({shot.name, 1440, 900, 0.2, shot.reach});
+        return states;
+    }();
+    return all;
+}
+
+juce::StringArray shotStates() {
+    juce::StringArray names;
+    for (const auto& state : states()) names.add(state.name);
+    return names;
+}
+
+juce::String takeShot(const juce::File& file, const juce::String& name, const juce::String& size) {
+    constexpr int largestSide = 8192;
+    const int wide = size.upToFirstOccurrenceOf("x", false, true).getIntValue();
+    const int high = size.fromFirstOccurrenceOf("x", false, true).getIntValue();
+    const auto isSide = [](int side, int least) { return side >= least && side <= largestSide; };
+    if (size.isNotEmpty() && !(isSide(wide, MixerView::leastWidth) && isSide(high, MixerView::leastHeight)))
+        return "expected WIDTHxHEIGHT of at least " + juce::String{MixerView::leastWidth} + "x" +
+               juce::String{MixerView::leastHeight} + ", found \"" + size + "\"";
+    const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
+    if (state == states().end())
+        return "expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
+    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->sinks}};
+    MixerView view{desk};
+    view.setSize(size.isEmpty() ? state->width : wide, size.isEmpty() ? state->height : high);
+    state->reach(desk, view);
+    desk.dispatchPendingMessages();
+    runFor(state->seconds, view);
+    desk.dispatchPendingMessages(); // what has been told meanwhile
+    const auto image = view.createComponentSnapshot(view.getLocalBounds(), true, 1.0f);
+    juce::MemoryOutputStream png;
+    juce::PNGImageFormat{}.writeImageToStream(image, png);
+    return utf8(writeFile(file.getFullPathName().toStdString(),
+                          {static_cast<const char*>(png.getData()), png.getDataSize()}));
+}
+
+} // namespace
+} // namespace physvib
+
+int main(int argc, char* argv[]) {
+    const juce::ArgumentList arguments{argc, argv};
+    const juce::ScopedJuceInitialiser_GUI juce;
+    if (arguments.containsOption("--states")) {
+        std::cout << physvib::shotStates().joinIntoString("\n") << '\n';
+        return 0;
+    }
+    const auto file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[0].text);
+    const auto error = physvib::takeShot(file, arguments[1].text, arguments[2].text);
+    if (error.isEmpty()) return 0;
+    std::cerr << "physvib-mixer-shots: " << error << '\n';
+    return 1;
+}

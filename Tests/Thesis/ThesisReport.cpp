@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: MIT
+// First what the print says of itself, then what simulated people make of the same studies.
+#include "Thesis/ThesisReport.h"
+#include "Io/Charts/Charts.h"
+#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Analysis/StudyCharts.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Report/ReportPage.h"
+#include "Lab/Report/StudyReport.h"
+#include "Lab/Statistics/Distributions.h"
+#include "Lab/Study/InformationTransfer.h"
+#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/ResponseMap.h"
+#include "Lab/Study/SimulatedObserver.h"
+#include "Thesis/PlaceBlur.h"
+#include "Thesis/Published.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr const char* observerName = "simulated-thesis";
+
+/// The trials of that built-in protocol, of so many participants who answer as `observer` does: the same rows
+/// as `study run` writes, marked as simulated.
+ReportTrials rehearse(const std::string& name, const std::string& observer, int participants) {
+    const Protocol protocol = findProtocol(name).value;
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (int number = 1; number <= participants; ++number) {
+        const std::string code = (number < 10 ? "P0" : "P") + std::to_string(number);
+        const Participant participant{code, number, observer};
+        Experiment experiment{protocol, participant};
+        const SimulatedObserver answering{*observerNamed(observer), protocol, participant};
+        std::string text = trialHeader(protocol, participant, PHYSVIB_VERSION);
+        while (!experiment.isDone())
+            text += trialRow(protocol, participant, experiment.take(answering.answer(experiment)));
+        texts.emplace_back(name + "-" + code + ".csv", std::move(text));
+    }
+    return readReportTrials(texts, {}, protocol).value;
+}
+
+class ThesisPage {
+public:
+    std::map<std::string, std::string> files() {
+        tellTests();
+        tellTransfer();
+        tellBlur();
+        tellCounts();
+        tellRehearsals();
+        page_.heading("Files");
+        std::vector<std::string> names;
+        for (const auto& [name, text] : files_)
+            if (name.find('/') == std::string::npos) names.push_back(name);
+        page_.list(names);
+        page_.paragraph(std::string("physvib ") + PHYSVIB_VERSION +
+                        "; seeds of rehearsals: those of the protocols.");
+        files_["index.html"] = page_.html();
+        return std::move(files_);
+    }
+
+private:
+    std::string chartName() { return "thesis" + std::to_string(++charts_); }
+    void addTable(const std::string& name, const ExportTable& table, std::size_t mostRows = 60) {
+        files_[name] = table.text();
+        page_.table(table.text(), name, mostRows);
+    }
+    void tellTests();
+    void tellTransfer();
+    void tellBlur();
+    void tellCounts();
+    void tellRehearsals();
+    void compareIdentification(const ReportTrials& trials, std::string_view study);
+    void comparePlaces(const ReportTrials& trials);
+    void compareChoices(const ReportTrials& trials);
+    void compareRatings(const ReportTrials& trials);
+    std::string besideChart(const std::string& title, const std::string& words,
+                            const std::vector<std::string>& groups,
+                            const std::vector<std::optional<double>>& printed,
+                            const std::vector<std::optional<double>>& rehearsed, std::optional<double> most);
+
+    ReportPage page_{"The thesis again: what is printed, what follows from it, and five rehearsals", false,
+                     "Printed figures are the thesis'. Everything called rehearsed is SIMULATED: an observer "
+                     "fitted to the printed figures answered, not a person."};
+    std::map<std::string, std::string> files_;
+    int charts_ = 0;
+};
+
+/// p of that value of the statistic; none if no data can give it.
+std::optional<double> chanceOf(const thesis::Test& test, double value) {
+    if (test.statistic == 'F') return fUpper(value, test.df1, test.df2);
+    if (test.statistic == 'X') return chiSquaredUpper(value, test.df1);
+    if (value > 0.5 * test.df1 * (test.df1 + 1.0)) return std::nullopt;
+    return signedRankTwoSided(value, static_cast<std::size_t>(test.df1));
+}
+
+/// Half of the last digit of a printed number.
+double roundingOf(std::string_view printed) {
+    const std::size_t point = printed.find('.');
+    return 0.5 * std::pow(10.0, point == std::string_view::npos
+                                    ? 0.0
+                                    : -static_cast<double>(printed.size() - point - 1));
+}
+
+/// Whether some statistic that is printed like this one has a p that is printed like that.
+bool isAsPrinted(const thesis::Test& test) {
+    const double value = *parseNumber<double>(test.value), rounding = roundingOf(test.value);
+    const auto most = chanceOf(test, value - rounding), least = chanceOf(test, value + rounding);
+    if (!most || !least) return false;
+    if (test.p.starts_with("< ")) return *least < *parseNumber<double>(test.p.substr(2));
+    const double p = *parseNumber<double>(test.p);
+    return p + roundingOf(test.p) >= *least && p - roundingOf(test.p) <= *most;
+}
+
+void ThesisPage::tellTests() {
+    page_.heading("Tests as printed");
+    page_.paragraph("p of every printed statistic by its printed degrees of freedom, beside the printed p; "
+                    "both may have been rounded. The degrees of freedom of Table 4.1 are those of an "
+                    "analysis of single trials with a block per participant "
+                    "(16 x 175 - 35 - 15 = 2750), not of repeated measures.");
+    page_.paragraph("What cannot be had again from the print: F from means, as no mean has its deviation "
+                    "beside it, and information transfer from counts, as no confusion matrix is printed; "
+                    "there are bounds below, and the rehearsals.");
+    ExportTable table{"thesis-tests", false,
+                      "where,effect,statistic,df1,df2,value,p_printed,p,as_printed,note"};
+    std::size_t differing = 0;
+    for (const thesis::Test& test : thesis::tests) {
+        const auto p = chanceOf(test, *parseNumber<double>(test.value));
+        const bool isSame = isAsPrinted(test);
+        differing += !isSame;
+        table.cell(test.where)
+            .cell(test.effect)
+            .cell(test.statistic == 'X' ? "chi-squared" : std::string(1, test.statistic))
+            .cell(test.df1);
+        if (test.df2 > 0.0)
+            table.cell(test.df2);
+        else
+            table.cell("");
+        table.cell(test.value).cell(test.p);
+        if (p)
+            table.cell(*p);
+        else
+            table.cell("impossible");
+        table.cell(isSame ? "yes" : "NO").cell(test.note);
+        table.endRow();
+    }
+    page_.paragraph(std::to_string(thesis::tests.size()) + " tests, " + std::to_string(differing) +
+                    " whose printed p is not that of the printed statistic:");
+    addTable("tests.csv", table);
+}
+
+void ThesisPage::tellTransfer() {
+    page_.heading("Information transfer as printed (Fig. 3.11, 4.2)");
+    page_.paragraph(
+        "The most that so many stimuli can transfer is log2 of their number. The least is Fano's inequality "
+        "for the printed percent correct: an IT below it cannot have that percent correct.");
+    ExportTable table{
+        "thesis-transfer", false,
+        "study,condition,criterion,stimuli,it_bits,most_bits,percent_correct,least_bits,two_to_it,possible"};
+    BarChart chart{{chartName(), "Information transfer of phantoms on grids, as printed", false},
+                   "condition",
+                   "IT (bit)",
+                   {},
+                   {{"exact, printed", {}},
+                    {"least, by Fano", {}},
+                    {"tolerance 1, printed", {}},
+                    {"least, by Fano (tolerance)", {}}}};
+    for (const thesis::Identification& one : thesis::identifications) {
+        const double most = std::log2(static_cast<double>(one.stimuli));
+        const auto add = [&](const char* criterion, double bits, double percentCorrect) {
+            if (bits <= 0.0) return;
+            const double least =
+                percentCorrect > 0.0 ? fanoBits(most, percentCorrect / 100.0, one.stimuli) : 0.0;
+            table.cell(one.study).cell(one.condition).cell(criterion).cell(one.stimuli).cell(bits).cell(most);
+            if (percentCorrect > 0.0)
+                table.cell(percentCorrect).cell(least);
+            else
+                table.cell("").cell("");
+            table.cell(std::exp2(bits))
+                .cell(bits <= most && bits >= least ? "yes" : "NO: below what its percent correct allows");
+            table.endRow();
+            if (one.study != "phantom-grids") return;
+            const std::size_t at = std::string_view{criterion} == "exact" ? 0 : 2;
+            chart.series[at].bars.push_back(ChartValue{bits, bits, bits});
+            chart.series[at + 1].bars.push_back(ChartValue{least, least, least});
+        };
+        add("exact", one.bits, one.percentCorrect);
+        add("tolerance 1", one.bitsTolerance, one.percentTolerance);
+        if (one.study != "phantom-grids") continue;
+        chart.groups.emplace_back(one.condition);
+        chart.ceilings.push_back(most);
+    }
+    chart.ceilingWords = "most possible";
+    page_.figure({barChart(chart)}, "Printed IT beside the bounds of the printed percent correct. RING-5x5 "
+                                    "with tolerance is printed as 2.62 bit: impossible with 83.5 % correct.");
+    addTable("transfer.csv", table);
+}
+
+void ThesisPage::tellBlur() {
+    page_.heading("Percent correct as printed (Fig. 4.3), and one blur that explains it");
+    page_.paragraph("One normal blur of places per configuration, fitted to the exact shares of three grids, "
+                    "predicts the shares with tolerance that it was not shown.");
+    ExportTable table{"thesis-blur", false,
+                      "configuration,blur,grid,exact_printed,exact_fitted,tolerance_1_printed,tolerance_1_"
+                      "predicted,it_printed,it_model,it_tolerance_1_printed,it_tolerance_1_model"};
+    for (const std::string_view configuration : {"PHONE", "RING"}) {
+        std::vector<ExactShare> shares;
+        for (const auto& one : thesis::identifications)
+            if (one.study == "phantom-grids" && one.condition.starts_with(configuration))
+                shares.push_back(
+                    {static_cast<int>(std::lround(std::sqrt(one.stimuli))), one.percentCorrect / 100.0});
+        const double blur = fitPlaceBlur(shares);
+        for (const auto& one : thesis::identifications) {
+            if (one.study != "phantom-grids" || !one.condition.starts_with(configuration)) continue;
+            const BlurredGrid model =
+                blurredGrid(static_cast<int>(std::lround(std::sqrt(one.stimuli))), blur);
+            table.cell(configuration).cell(blur).cell(one.condition.substr(one.condition.find('-') + 1));
+            for (const double number : {one.percentCorrect, 100.0 * model.shareExact, one.percentTolerance,
+                                        100.0 * model.shareTolerance1, one.bits, model.bits,
+                                        one.bitsTolerance, model.bitsTolerance1})
+                table.cell(number);
+            table.endRow();
+        }
+    }
+    addTable("blur.csv", table);
+}
+
+void ThesisPage::tellCounts() {
+    page_.heading("Percent counts as printed (Fig. 4.9), merged again");
+    page_.paragraph("Neighbouring rows and columns are merged until every cell reaches 1.42. The figure's "
+                    "tables are in another order than its captions: sample standard deviations tell which is "
+                    "which. The abstract's 6 x 5 and 6 x 4 for RING contradict them.");
+    ExportTable table{"thesis-percent-counts", false,
+                      "condition,sum,deviation_printed,deviation,grid_printed,grid,ties"};
+    std::vector<PercentCounts> all;
+    std::vector<std::string> charts;
+    for (const thesis::Counts& printed : thesis::counts) {
+        PercentCounts counts{std::string(printed.condition),
+                             thesis::countRows,
+                             thesis::countColumns,
+                             {printed.percent.begin(), printed.percent.end()}};
+        const PerceptualResolution resolution = perceptualResolution(counts);
+        table.cell(printed.condition)
+            .cell(counts.sum())
+            .cell(printed.deviation)
+            .cell(counts.standardDeviation());
+        table.cell(std::to_string(printed.columns) + " x " + std::to_string(printed.rows))
+            .cell(std::to_string(resolution.columns) + " x " + std::to_string(resolution.rows))
+            .cell(resolution.ties.size());
+        table.endRow();
+        charts.push_back(countsChart({chartName(),
+                                      counts.condition + ": " + std::to_string(resolution.columns) + " x " +
+                                          std::to_string(resolution.rows),
+                                      false},
+                                     counts));
+        all.push_back(std::move(counts));
+    }
+    page_.figure(charts, "Percent counts as printed (framed: below 1.42 %) and the largest grid that merging "
+                         "makes of them, columns x rows.");
+    addTable("resolutions.csv", table);
+    files_["percent-counts.csv"] = percentCountsCsv(all, {PHYSVIB_VERSION, {{"source", "thesis-Fig-4.9"}}});
+}
+
+std::string ThesisPage::besideChart(const std::string& title, const std::string& words,
+                                    const std::vector<std::string>& groups,
+                                    const std::vector<std::optional<double>>& printed,
+                                    const std::vector<std::optional<double>>& rehearsed,
+                                    std::optional<double> most) {
+    const auto bars = [](const std::vector<std::optional<double>>& values) {
+        std::vector<std::optional<ChartValue>> all;
+        for (const auto& value : values)
+            all.push_back(value ? std::optional{ChartValue{*value, *value, *value}} : std::nullopt);
+        return all;
+    };
+    BarChart chart{{chartName(), title, true},
+                   "condition",
+                   words,
+                   groups,
+                   {{"printed", bars(printed)}, {"rehearsed (simulated)", bars(rehearsed)}}};
+    chart.most = most;
+    return barChart(chart);
+}
+
+void ThesisPage::compareIdentification(const ReportTrials& trials, std::string_view study) {
+    const std::string text = trialsCsv(trials, "");
+    const NamedText file{text, "rehearsal"};
+    const auto data = readIdentification({&file, 1});
+    for (const int tolerance : {0, 1}) {
+        if (tolerance == 1 && study != "phantom-grids") continue;
+        std::vector<std::string> groups;
+        std::vector<std::optional<double>> bits, rehearsedBits, correct, rehearsedCorrect;
+        for (const auto& one : thesis::identifications) {
+            if (one.study != study) continue;
+            const auto found = std::ranges::find(data.value.conditions, one.condition,
+                                                 &StudyCondition<IdentificationTrial>::name);
+            const ConfusionMatrix matrix{tolerance ? withTolerance(found->trials, tolerance) : found->trials};
+            groups.emplace_back(one.condition);
+            bits.emplace_back(tolerance ? one.bitsTolerance : one.bits);
+            rehearsedBits.emplace_back(informationTransfer(matrix).bits);
+            const double percent = tolerance ? one.percentTolerance : one.percentCorrect;
+            correct.push_back(percent > 0.0 ? std::optional{percent} : std::nullopt);
+            rehearsedCorrect.emplace_back(100.0 * static_cast<double>(matrix.correct()) /
+                                          static_cast<double>(matrix.trials()));
+        }
+        const std::string words = tolerance ? ", 1 step of tolerance" : "";
+        page_.figure(
+            {besideChart("Information transfer" + words, "IT (bit)", groups, bits, rehearsedBits,
+                         std::nullopt),
+             besideChart("Percent correct" + words, "correct (%)", groups, correct, rehearsedCorrect, 100.0)},
+            study == "patterns" ? "As Fig. 3.11 and 3.12. Percent correct is printed as 89.2 to 95.0 %, mean "
+                                  "92.1 %, without saying which."
+                                : "As Fig. 4.2 and 4.3" + words +
+                                      ". With tolerance people err farther than a normal blur does.");
+    }
+}
+
+void ThesisPage::comparePlaces(const ReportTrials& trials) {
+    const std::string text = trialsCsv(trials, "");
+    const NamedText file{text, "rehearsal"};
+    const auto data = readLocations({&file, 1});
+    ExportTable table{"thesis-resolutions-rehearsed", true,
+                      "condition,grid_printed,deviation_printed,grid_rehearsed,deviation_rehearsed"};
+    for (const thesis::Counts& printed : thesis::counts) {
+        const auto found =
+            std::ranges::find(data.value.conditions, printed.condition, &StudyCondition<LocationTrial>::name);
+        const ConditionResolution made = resolveCondition(found->name, found->trials);
+        table.cell(printed.condition)
+            .cell(std::to_string(printed.columns) + " x " + std::to_string(printed.rows))
+            .cell(printed.deviation);
+        table.cell(std::to_string(made.resolution.columns) + " x " + std::to_string(made.resolution.rows))
+            .cell(made.counts.standardDeviation());
+        table.endRow();
+    }
+    page_.paragraph(
+        "The observer's blur is that of 4.1 and the same everywhere; it knows nothing of laws, nor of places "
+        "where people feel phantoms elsewhere, so its territories are more alike than people's.");
+    addTable("resolutions-rehearsed.csv", table);
+}
+
+void ThesisPage::compareChoices(const ReportTrials& trials) {
+    const std::string text = trialsCsv(trials, "");
+    const NamedText file{text, "rehearsal"};
+    const auto data = readChoices({&file, 1});
+    const ChoiceSummary all = summariseChoices(data.value.conditions.front().trials).front();
+    ExportTable table{"thesis-choices-rehearsed", true, "measure,printed,rehearsed"};
+    table.cell("model chosen, %").cell(thesis::modelChosenPercent).cell(100.0 * all.shares.front().share);
+    table.endRow();
+    table.cell("p of signed ranks").cell("0.017");
+    table.cell(all.p).endRow();
+    addTable("choices-rehearsed.csv", table);
+}
+
+void ThesisPage::compareRatings(const ReportTrials& trials) {
+    const std::string text = trialsCsv(trials, "");
+    const NamedText file{text, "rehearsal"};
+    const auto data = readRatings({&file, 1});
+    const auto summaries = summariseRatings(data.value.data.conditions.front().trials);
+    std::vector<std::string> groups;
+    std::vector<std::optional<double>> printed, rehearsed;
+    for (const thesis::Rating& rating : thesis::ratings) {
+        const auto found = std::ranges::find(summaries, rating.method, &RatingSummary::condition);
+        for (std::size_t s = 0; s < rating.scores.size(); ++s) {
+            groups.push_back(std::string(rating.method) + " " + data.value.scales[s]);
+            printed.emplace_back(rating.scores[s]);
+            rehearsed.emplace_back(found->means[s]);
+        }
+    }
+    page_.figure({besideChart("Mean scores", "mean score (0 to 100)", groups, printed, rehearsed, 100.0)},
+                 "As Fig. 5.14, the three methods whose scores are printed. The observer's scales differ by "
+                 "chance alone.");
+}
+
+void ThesisPage::tellRehearsals() {
+    page_.heading("Five rehearsals (SIMULATED)");
+    page_.paragraph(
+        std::string(
+            "The built-in protocols with as many participants as the thesis had, answered by the observer ") +
+        observerName +
+        ": its place blurs are fitted to the exact shares of 4.1.2, its confusions of pulses to the mean "
+        "percent correct of 3.2.2, its preference to the votes of 5.2.2, its scores to the gains of 5.3.2, "
+        "and how much participants "
+        "differ to the printed statistics. Each rehearsal has a report of its own, as `physvib report` makes "
+        "it of people's trials.");
+    for (const thesis::Participants& study : thesis::participants) {
+        const std::string name{study.protocol};
+        const ReportTrials trials = rehearse(name, observerName, study.count);
+        page_.subheading(trials.protocol->title);
+        const StudyReport report = studyReport(trials);
+        for (const auto& [file, text] : report.files) files_[name + "/" + file] = text;
+        page_.link(name + "/index.html", std::to_string(study.count) + " simulated participants, " +
+                                             std::to_string(report.tests.size()) + " tests");
+        if (name == "patterns" || name == "phantom-grids") compareIdentification(trials, name);
+        if (name == "phantom-places") comparePlaces(trials);
+        if (name == "model-or-sound") compareChoices(trials);
+        if (name == "eight-methods") compareRatings(trials);
+    }
+}
+
+} // namespace
+
+std::map<std::string, std::string> thesisReport() { return ThesisPage{}.files(); }
+
+} // namespace physvib
