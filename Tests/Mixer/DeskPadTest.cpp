@@ -22,7 +22,9 @@ TEST(DeskPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
     ASSERT_EQ(list->getNumItems(), 3) << "none, the first that is there, and this one";
     EXPECT_EQ(list->getItemText(2), "mixed");
     list->setSelectedItemIndex(2);
-    ASSERT_TRUE(runUntil([&] { return window.desk().device().choice().sinks == std::vector<SinkName>{{"PAD", "mixed"}}; }));
+    ASSERT_TRUE(runUntil([&] {
+        return window.desk().device().choice().sinks == std::vector<SinkName>{{"PAD", "mixed"}};
+    }));
     EXPECT_NEAR(window.desk().device().playOutSeconds(), before + 0.03, 0.006)
         << "its lead, in the limiter's place";
     ASSERT_TRUE(runUntil([&] { return !pad.told().empty(); })) << "shake the box shakes it";
