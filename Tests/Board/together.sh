@@ -6,6 +6,8 @@ set -eu
 bin=$1 image=$2 seconds=$3 scene=${4:-shake-the-box}
 . "$(dirname "$0")/../Live/jack.sh"
 serve 48000 256 8
+"$(dirname "$0")/../Support/away.py" >"$folder/away" &
+watching=$!
 "$bin/physvib-virtual-board" "$image" --link "$folder/port" >/dev/null 2>"$folder/board" &
 playing=$!
 for _ in 1 2 3 4 5 6 7 8 9 10; do [ -e "$folder/port" ] || sleep 0.2; done
@@ -14,9 +16,14 @@ cat "$folder/report"
 kill -INT "$playing"
 wait "$playing"
 playing=
-cat "$folder/board"
+kill "$watching"
+wait "$watching" || :
+cat "$folder/board" "$folder/away"
 grep -q " collisions played, 0 late, 0 dropped, 0 refused" "$folder/report"
-grep -q " 0 late, 0 dropped, 0 lost" "$folder/report"
+grep -q " late, 0 dropped, 0 lost" "$folder/report"
+if ! grep -q " 0 late, 0 dropped, 0 lost" "$folder/report"; then # then the machine has to have been away for as long as strikes are early
+    ! grep -q "^away 0 times" "$folder/away" || { echo "expected no strike late on a machine that was never away"; exit 1; }
+fi
 grep -q " 0 against their times, 0 samples missed, 0 restarts, 0 faults" "$folder/board"
 played=$(sed -n 's/.*contact; \([0-9]*\) collisions played.*/\1/p' "$folder/report")
 told=$(sed -n 's/.* \([0-9]*\) strikes sent, \([0-9]*\) thinned, \([0-9]*\) refused.*/\1 + \2 + \3/p' "$folder/report")
