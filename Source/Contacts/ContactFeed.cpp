@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looks through what others tell, and refuses what cannot be; what is in order goes to FedContacts.
+// Validates what the caller reports of bodies and contacts; what is valid goes to FedContacts.
 #include "Contacts/ContactFeed.h"
 #include "Contacts/FedContacts.h"
 #include <cmath>
@@ -19,10 +19,11 @@ bool isFinite(const BodyMotion& motion) noexcept {
     return isFinite(motion.metresPerSecond) && std::isfinite(motion.radiansPerSecond);
 }
 
-// not NaN
+// False of NaN.
 bool isWithin(double value, double least, double most) noexcept { return value >= least && value <= most; }
 
-bool isUnit(Vector2 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; } // not NaN; engines round
+// False of NaN. Engines round.
+bool isUnit(Vector2 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; }
 
 const ImpactSettings& onsetAlone(const ImpactSettings& settings) {
     if (settings.timing != ImpactTiming::onset)
@@ -30,7 +31,7 @@ const ImpactSettings& onsetAlone(const ImpactSettings& settings) {
     return settings;
 }
 
-// Of numbers alone.
+// Of the contact's own numbers; the bodies are looked up elsewhere.
 std::string_view faultOf(const FedContact& contact) noexcept {
     constexpr double most = 1.0e12;
     if (contact.a == contact.b) return "bodies: expected two";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PhysVib for any physics engine: tell which bodies there are and which of them touch, step by step; take
+// PhysVib for any physics engine: the caller reports bodies and contacts, step by step, and gets collision
 // events.
 #pragma once
 #include "Contacts/ContactCounts.h"
@@ -19,22 +19,22 @@ namespace physvib {
 
 class FedContacts;
 
-/// What is told of a body, once.
+/// What the caller reports of a body, once.
 struct FedBody {
     double massKg = 0.0;                ///< 0: what strikes it does not move it (a floor, a wall, a platform)
-    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; 0: blows
-                                        ///< are taken as if they went through the centre
+    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; 0:
+                                        ///< impacts count as if they went through the centre
     double gravityScale = 1.0;          ///< how much of the world's gravity pulls it
 };
 
 /// What is wrong with it, and what was expected; empty if it can be used. Any thread.
 std::string_view faultOf(const FedBody& body) noexcept;
 
-/// Two bodies touch. Either the impulse is told, or how fast they near each other; if both are, the impulse
-/// counts (unless contacts are soft), and the speed says whether it is a blow at all, and when. With neither,
-/// the speed is that of the motions told.
+/// Two bodies touch. Report the impulse, or the speed at which they approach each other. With both, the
+/// impulse says how hard the impact is (unless contacts are soft), and the speed says whether it is an impact
+/// at all, and when. With neither, the speed follows from the reported motions.
 struct FedContact {
-    static constexpr std::int32_t noPoint = -1; ///< as pointId: the pair is told as a whole
+    static constexpr std::int32_t noPoint = -1; ///< as pointId: the pair is reported as a whole
     static constexpr std::int32_t byPlace = -2; ///< as pointId: of an engine that does not number its points
 
     std::int32_t a = -1;                           ///< a body
@@ -44,48 +44,49 @@ struct FedContact {
     std::optional<double> impulseNewtonSeconds;    ///< along the normal, in this step
     double tangentialNewtonSeconds = 0.0;          ///< to the left of the normal; only with an impulse
     std::optional<double> approachMetresPerSecond; ///< before the engine's solver
-    double restitution = 0.0;                      ///< 0 to 1, of the pair; where no impulse is told
-    std::optional<double> effectiveMassKg; ///< where no impulse is told; else by the masses, inertias and
-                                           ///< centres told
+    double restitution = 0.0;                      ///< 0 to 1, of the pair; used where no impulse is reported
+    std::optional<double> effectiveMassKg; ///< used where no impulse is reported; without it, it follows
+                                           ///< from the reported masses, inertias and centres
 
-    /// When they touched, in steps after the start of this one: -1 (start of the step before) to 1. If it is
-    /// not told, it follows from the gap between the surfaces (m, less than 0: they overlap) at the moment
-    /// when the engine looked, and from the speed.
+    /// When they touched, in steps after the start of this one: -1 (start of the step before) to 1. Without
+    /// it, the moment follows from the gap between the surfaces when the engine measured it, and the speed.
     std::optional<double> fraction;
     double gapMetres = 0.0;   ///< between the surfaces; below 0: they overlap
     double gapFraction = 0.0; ///< that moment in steps: 0 (before bodies are moved) to 1 (after)
 
-    /// Of an engine whose contacts take several steps to turn a body round, or push overlaps apart: what it
-    /// pushes in a step is no measure of a blow. Speed and restitution are; the impulse is what a pair that
-    /// goes on touching hands on.
+    /// True of an engine whose contacts take several steps to turn a body round, or push overlaps apart. Its
+    /// impulse of one step does not say how hard an impact is; speed and restitution do. The impulse is then
+    /// the load that a pair passes on while it goes on touching.
     bool isSoft = false;
-    /// Of a soft one: all that the engine gave the bodies in this step is told as its impulse. Where that is
-    /// clearly more than speed and masses say (what is struck stands on something, hangs in joints, or
-    /// carries others), it is the blow.
+    /// Of a soft contact: the reported impulse is all that the engine gave the bodies in this step. Where
+    /// that is clearly more than speed and masses say (the struck body stands on something, hangs in joints,
+    /// or carries others), it is the impulse of the impact.
     bool isPushWhole = false;
 
-    /// Of what goes on touching a rough surface (HapticFixture::texture), with its impulse: how fast the
-    /// point of contact moves along each of the two surfaces, m/s. Rolling: both alike; sliding: 0 along what
-    /// drags its own point. Both, or it is not felt; nullopt: unknown.
+    /// For contacts that last on a rough surface (HapticFixture::texture), with their impulse: how fast the
+    /// point of contact moves along each of the two surfaces, m/s. Rolling: both are equal. Sliding: 0 along
+    /// the surface that drags its own point. Without both numbers the texture is not felt.
     std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond; ///< along its own surface
 
-    /// Which point of its pair it is: a number of the engine's (>= 0), `byPlace`, or `noPoint`. A point that
-    /// was not there in the step before and nears fast is a blow even while its pair touches (a pole that
-    /// topples, a crate that rocks).
+    /// Which point of its pair it is: a number of the engine's (>= 0), `byPlace`, or `noPoint`. A new
+    /// point that approaches fast is an impact even while its pair touches (a pole that topples, a crate that
+    /// rocks).
     std::int32_t pointId = noPoint;
 
-    /// The impulses are those of the whole pair, told with each of its points: what new points have of it
+    /// The impulses are those of the whole pair, reported with each of its points. The share of new points
     /// follows from their speeds.
     bool isImpulseOfPair = false;
 };
 
-/// The catcher for engines that we do not know; bodies are numbers (>= 0), and stand in events as such. Each
-/// step: beginStep, move() whatever moved (only where speeds, places or turning blows are to follow from it),
-/// touch() every pair that touches, or begin, push and end it, endStep; then take. Impulses as for Box2D (see
-/// CollisionCatcher), by onset; points of a pair whose impulses are not told are solved together, so that a
-/// flat landing is one blow however many points it has. Nothing is changed by what is refused. All methods:
-/// the world's thread (M). None allocates once it has seen as much as it will, but where the caller's vector
-/// grows. None throws but for the constructor, configure and want of memory.
+/// Turns reported contacts into events. Bodies are numbers (>= 0), which stand in the events. Each step:
+/// beginStep; move() for each body that moved (needed only where speeds, places or rotation are to follow
+/// from it); touch() for each pair that touches, or begin, push and end; endStep; then take. Impulses are
+/// those of the onset. Points of a pair without reported impulses are solved together, so that a flat landing
+/// is one impact, however many points it has. A refused call changes nothing.
+///
+/// All methods: the world's thread (M). None allocates after a step with as many bodies and contacts, except
+/// where the caller's vector grows. Only the constructor and configure throw, and any method without
+/// memory.
 class ContactFeed final {
 public:
     /// Throws std::invalid_argument if a setting is out of range; the timing is onset.
@@ -99,40 +100,41 @@ public:
     /// Any thread but while it is stepped.
     const ImpactSettings& settings() const noexcept;
 
-    /// A body, at first or again. What is wrong with it; empty: it is set. Each of the following says so.
+    /// Adds a body, or changes it. Returns what is wrong with it; empty: it is set. The methods below return
+    /// the same.
     std::string_view set(std::int32_t id, const FedBody& body, const HapticFixture& values);
 
     /// Centre of mass, and motion before the engine's solver.
     std::string_view move(std::int32_t id, Vector2 centre, const BodyMotion& motion);
 
-    /// Motion behind the engine's solver, within a step and before its contacts are told, for engines that do
-    /// not tell impulses: where both bodies of a soft contact, or of one without an impulse, tell it, the
-    /// impulses follow from their momentum (a blow of a soft one from its speed, as ever). `move` has the
-    /// velocity then that the body would have without contacts, so with what gravity adds in the step.
+    /// Motion after the engine's solver, for engines that report no impulses; call it within a step, before
+    /// the step's contacts. Where both bodies of a soft contact, or of one without an impulse, have it, the
+    /// impulses follow from their momentum; how hard a soft impact is still follows from its speed. `move`
+    /// then has the velocity without contacts: with what gravity adds in the step.
     std::string_view moved(std::int32_t id, const BodyMotion& motion);
 
-    /// A body that goes: what it felt and gave so far stays, or not (ImpactSettings::keepsHitsOfDestroyed).
-    /// Not within a step.
+    /// Removes a body, not within a step. Its events so far stay, or not
+    /// (ImpactSettings::keepsHitsOfDestroyed).
     std::string_view remove(std::int32_t id);
 
     /// Empty, or what is wrong with it: see PairSounds.
     std::string_view setPair(int surface, int other, const PairSound& sound);
 
-    /// The step ends at `endNs` (not before timeNs()); gravity, m/s^2, says what a resting body is pushed by.
+    /// The step ends at `endNs` (not before timeNs()). Gravity, m/s^2, tells resting contacts from impacts.
     std::string_view beginStep(std::int64_t endNs, double gravityMetresPerSecond2);
 
-    /// For engines that are asked in each step what touches: a pair that did not in the step before begins,
-    /// one that is not named again has ended. Several points of a pair are several calls.
+    /// For engines that list what touches in each step. A pair that is new in the list begins, one that is
+    /// missing has ended. Several points of a pair are several calls.
     std::string_view touch(const FedContact& contact);
 
-    /// For engines that tell: parts that were apart meet. A pair may do so again while it touches, with
+    /// For engines that report changes: a pair begins to touch. It may do so again while it touches, with
     /// another corner.
     std::string_view begin(const FedContact& contact);
-    /// What a pair that goes on touching pushes in this step: how blows are handed on.
+    /// The impulse of this step of a pair that goes on touching: how impacts pass through it.
     std::string_view push(const FedContact& contact);
     std::string_view end(std::int32_t a, std::int32_t b); ///< A pair has parted.
 
-    std::string_view endStep(); ///< All that touches has been told.
+    std::string_view endStep(); ///< All contacts of the step were reported.
 
     std::int64_t timeNs() const noexcept; ///< After the steps done.
     /// No event before it is still to come.
@@ -140,15 +142,15 @@ public:
     /// Those before settledNs(), in time order, to the end of `events`.
     void take(std::vector<CollisionEvent>& events);
     void flush(std::vector<CollisionEvent>& events); ///< All of them.
-    /// Hits lost because more came in a step than there is room for.
+    /// Impacts lost because more came in a step than there is room for.
     std::uint64_t drops() const noexcept;
-    /// Hits left out by ImpactSettings::hitsPerStep.
+    /// Impacts left out by ImpactSettings::hitsPerStep.
     std::uint64_t overBudget() const noexcept;
     /// Grains left out, their power being in the others.
     std::uint64_t thinned() const noexcept;
     /// What became of all contacts so far; see explain().
     ContactCounts counts() const noexcept;
-    /// How hard a hit is felt.
+    /// From an impulse to an amplitude: the constants of Eq. 5.4.
     const ImpactModel& impactModel() const noexcept;
 
 private:

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// How hard and when a point of contact has struck, and what it pushes where it has not.
+// Impacts of single points: impulse and time of each. A point without an impact is a load of its pair.
 #include "Contacts/FedContacts.h"
 #include <algorithm>
 #include <cmath>
 
 namespace physvib {
 
-// What is struck may stand on something, hang in joints or carry others: then the engine pushes more in one
-// step than the speed and the mass of the two bodies say. What gravity adds after they met is a load.
+// A struck body may stand on something, hang in joints or carry others. Then the engine's impulse of the step
+// is larger than speed and mass of the two bodies say. What gravity adds after they met is a load.
 double FedContacts::supported(double bySpeed, double pushed, double gainedMetresPerSecond,
                               double fraction) const {
-    constexpr double clearly = 1.2; // pushes of one step also move overlaps apart
+    constexpr double clearly = 1.2; // the impulse of a step also moves overlaps apart
     const double falls = gravity_ * events_.stepSeconds() * (1.0 - std::clamp(fraction, 0.0, 1.0));
     const double ofBlow = pushed * gainedMetresPerSecond / (gainedMetresPerSecond + falls);
     return ofBlow > clearly * bySpeed ? ofBlow : bySpeed;
@@ -33,12 +33,12 @@ void FedContacts::strike(const FedContact& contact, double pushed) {
                                    : mass * std::max(0.0, told) * (1.0 + contact.restitution);
     if (pushed > 0.0 && told > 0.0)
         impulse = supported(impulse, pushed, told * (1.0 + contact.restitution), fractionOf(contact, told));
-    if (!(impulse > 0.0 && std::isfinite(impulse))) { // they part, or cannot be moved
+    if (!(impulse > 0.0 && std::isfinite(impulse))) { // they separate, or neither can be moved
         catcher.passOver(pair.a, pair.b);
         return contact.isSoft ? load(contact) : void();
     }
-    // Of an impulse alone: what it changes of the lighter body's velocity, which is at least the speed before
-    // it.
+    // With an impulse alone, the speed is the change of the lighter body's velocity, which is at least the
+    // speed before.
     const bool isSpeedKnown = contact.approachMetresPerSecond || !isImpulseTold || told > 0.0;
     const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
     if (!catcher.isBlow(std::max(a.gravityScale(), b.gravityScale()), speed)) {
@@ -51,7 +51,7 @@ void FedContacts::strike(const FedContact& contact, double pushed) {
     if (isFirst && (blow = catcher.strike(pair, speed)) == nullptr) return;
     const double fraction = fractionOf(contact, isSpeedKnown ? speed : 0.0);
     blow->fraction = isFirst ? fraction : std::min(blow->fraction, fraction);
-    if (isImpulseTold || isFirst) { // points push together; a speed tells of the whole blow
+    if (isImpulseTold || isFirst) { // impulses of points add up; a speed gives that of the whole impact
         const double sum = blow->normalImpulse + impulse;
         blow->point += static_cast<float>(impulse / sum) * (contact.point - blow->point);
         blow->normalImpulse = sum;
@@ -81,7 +81,7 @@ void FedContacts::rub(const FedContact& contact, const TouchingPairs::Name& pair
                 *contact.alongBMetresPerSecond});
 }
 
-// Surfaces close a gap, or have closed it, at the speed at which they meet.
+// The gap between the surfaces closes, or has closed, at the speed at which they approach.
 double FedContacts::fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept {
     if (contact.fraction) return *contact.fraction;
     const double ahead = approachMetresPerSecond > 0.0 ? contact.gapMetres / approachMetresPerSecond : 0.0;

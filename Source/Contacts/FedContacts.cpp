@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which pairs touch, and since when: what is told of them in a step.
+// The list of touching pairs: a pair is added when it is first reported, and removed when it ends.
 #include "Contacts/FedContacts.h"
 #include <algorithm>
 
@@ -31,12 +31,12 @@ void FedContacts::touch(const FedContact& contact) {
 
 void FedContacts::begin(const FedContact& contact) {
     Pair& pair = know(contact, false);
-    isNewPoint(pair, contact); // from now on it is old
+    isNewPoint(pair, contact); // the next step knows this point
     tell(pair, contact, true);
 }
 
 void FedContacts::push(const FedContact& contact) {
-    Pair& pair = know(contact, false); // perhaps one that was there before anybody told
+    Pair& pair = know(contact, false); // it may have touched before the first report
     const bool isNewPoint = this->isNewPoint(pair, contact) && !pair.isNew;
     if (isNewPoint) events_.catcher().meet(pair.a, pair.b);
     tell(pair, contact, isNewPoint);
@@ -45,7 +45,8 @@ void FedContacts::push(const FedContact& contact) {
 bool FedContacts::end(std::int32_t a, std::int32_t b) {
     const std::int32_t pair = pairOf_.find(pairKey(slotOf(a), slotOf(b)));
     if (pair == IntegerMap::none) return false;
-    if (pairs_[static_cast<std::size_t>(pair)].waiting != FedPoints::none) { // it has begun in this step
+    // reported in this step, and not solved yet
+    if (pairs_[static_cast<std::size_t>(pair)].waiting != FedPoints::none) {
         momentum_.solve();
         settle(pairs_[static_cast<std::size_t>(pair)]);
     }
@@ -82,7 +83,7 @@ FedContacts::Pair& FedContacts::know(const FedContact& contact, bool isAsked) {
     return pairs_.back();
 }
 
-// Where a contact lay when it ended matters to the other timing only.
+// The place of a contact at its end is only needed for release timing, which feeds do not have.
 void FedContacts::drop(std::size_t pair) {
     Pair& hole = pairs_[pair];
     events_.catcher().end(hole.a, hole.b);
@@ -100,7 +101,8 @@ void FedContacts::dropAllOf(std::int32_t slot) {
     rubs_.forget(slot);
 }
 
-// Points are followed even while nobody feels: who comes later must not take an old one for a new one.
+// Points are followed even without haptic sources: a source that is added later must not take an old point
+// for a new one.
 bool FedContacts::isNewPoint(Pair& pair, const FedContact& contact) {
     if (contact.pointId == FedContact::noPoint) return false;
     constexpr double trembleMetres = 0.002;
@@ -108,7 +110,7 @@ bool FedContacts::isNewPoint(Pair& pair, const FedContact& contact) {
         bodies_.slide(contact.a, contact.b, contact.point, contact.normal) * events_.stepSeconds();
     return points_.isNew(pair.points, contact.pointId, contact.point, contact.normal,
                          trembleMetres + 1.5 * slide) &&
-           // by an impulse alone nobody can tell a blow from a load that shifts
+           // an impulse alone does not tell an impact from a load that shifts
            (pair.isNew || speedOf(contact) > 0.0);
 }
 

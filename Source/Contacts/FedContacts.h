@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a ContactFeed is made of: bodies and touching pairs as told, and what they give to the stages behind.
+// The implementation of ContactFeed: reported bodies and touching pairs, and what they give to the stages
+// that make events.
 #pragma once
 #include "Contacts/ContactEvents.h"
 #include "Contacts/ContactFeed.h"
@@ -14,8 +15,8 @@
 
 namespace physvib {
 
-/// Takes only what ContactFeed has found to be in order: bodies that are known, contacts without a fault,
-/// within a step or not as each method of ContactFeed says. M only.
+/// Its arguments are valid: ContactFeed has checked that bodies are known, that contacts have no errors, and
+/// that the call is allowed now. M only.
 class FedContacts {
 public:
     explicit FedContacts(const ImpactSettings& settings);
@@ -37,10 +38,10 @@ public:
 private:
     struct Pair {
         std::int32_t a, b; // slots, the lower one first
-        bool isAsked;      // touch() says when it ends
+        bool isAsked;      // it was reported by touch(), and ends when touch() leaves it out
         bool isNew, isNamed;
-        FedPoints::Chain points{};              // of this step and the one before, where they are told apart
-        std::int32_t waiting = FedPoints::none; // the newest of its contacts that are settled at the end of
+        FedPoints::Chain points{};              // of this step and the one before, if the engine names points
+        std::int32_t waiting = FedPoints::none; // the newest of its contacts that are solved at the end of
                                                 // the step
     };
     struct Waiting {
@@ -83,7 +84,7 @@ private:
     FedPoints points_;
     std::vector<Waiting> waiting_;
     MomentumImpulses momentum_;
-    std::vector<const Waiting*> together_; // of one pair, in the order in which they were told
+    std::vector<const Waiting*> together_; // of one pair, in the order in which they were reported
     std::vector<MeetingPoint> meeting_;    // the same for the solver
     std::vector<Pair> pairs_;
     IntegerMap pairOf_;

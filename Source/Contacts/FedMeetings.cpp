@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The points at which a pair meets, settled together at the end of a step, so that a flat landing is one
-// blow.
+// Solves the points of a pair together at the end of a step, so that a flat landing is one impact.
 #include "Contacts/FedContacts.h"
 #include <algorithm>
 #include <cmath>
@@ -32,7 +31,7 @@ double FedContacts::pushed(const Waiting& each) const {
                : std::max(told, momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum)));
 }
 
-// The blow of a pair that is no spring is what its new points have changed.
+// Of contacts that are not soft: the impulse of the impact is that of the new points.
 void FedContacts::strikeByMomentum() {
     meeting_.clear();
     for (const Waiting* each : together_) {
@@ -48,7 +47,7 @@ void FedContacts::settle(const Pair& pair) {
     together_.clear();
     for (std::int32_t at = pair.waiting; at != FedPoints::none;
          at = waiting_[static_cast<std::size_t>(at)].next)
-        // who tells may tell of one point twice
+        // a point that was reported as begun and pushed counts once
         if (const Waiting& each = waiting_[static_cast<std::size_t>(at)]; each.isNew || pair.isAsked)
             together_.push_back(&each);
     if (together_.empty()) return;
@@ -61,7 +60,7 @@ void FedContacts::settle(const Pair& pair) {
     for (const Waiting* each : together_)
         if (isByMomentum && !each->isNew) load(withMomentum(*each));
     if (isByMomentum && !first.isSoft && std::ranges::any_of(together_, isNew)) return strikeByMomentum();
-    if (std::ranges::none_of(together_, isNew)) { // the others have been loaded where they were told
+    if (std::ranges::none_of(together_, isNew)) { // loads of the others were added when they were reported
         if (first.isImpulseOfPair) load(first);
         return;
     }
@@ -81,8 +80,7 @@ void FedContacts::settle(const Pair& pair) {
     strikeTogether();
 }
 
-// A blow at several points: where and how hard is what they do together, when is when the first of them
-// meets.
+// An impact at several points: place and impulse are those of all together, the time is that of the first.
 void FedContacts::strikeTogether() {
     CollisionCatcher& catcher = events_.catcher();
     const FedContact& first = together_.front()->contact;
@@ -123,7 +121,7 @@ void FedContacts::strikeTogether() {
     blow->normalImpulse = sum;
     if (!first.isImpulseOfPair) return;
     blow->tangentialImpulse += share * first.tangentialNewtonSeconds;
-    FedContact rest = first; // what old points push goes on as a load
+    FedContact rest = first; // the impulse of old points is a load
     rest.impulseNewtonSeconds = (1.0 - share) * *first.impulseNewtonSeconds;
     rest.tangentialNewtonSeconds = (1.0 - share) * first.tangentialNewtonSeconds;
     if (share < 1.0) load(rest);

@@ -47,7 +47,8 @@ std::vector<PredictedPartial> predictPartials(std::span<const double> samples, d
                                               std::size_t partials, std::size_t blocks) {
     std::vector<PredictedPartial> found;
     if (samples.size() < blocks || blocks < 4 * partials) return found;
-    const double blockRateHz = rateHz / static_cast<double>(samples.size() / blocks);
+    const std::size_t blockFrames = samples.size() / blocks; // whole ones
+    const double blockRateHz = rateHz / static_cast<double>(blockFrames);
     for (const std::complex<double> root : rootsOf(predictionOf(meansOf(samples, blocks), 2 * partials)))
         if (root.imag() > 1e-6 && std::isfinite(root.real()))
             found.push_back(

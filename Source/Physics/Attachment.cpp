@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Comes into a world, and leaves it as it was.
+// Installs the listener in a world, runs the stages around each step, and restores the world.
 #include "Physics/Attachment.h"
 #include "Contacts/ContactEvents.h"
 #include "Physics/BodySweeps.h"
@@ -15,14 +15,14 @@ namespace physvib {
 
 namespace {
 
-// Worlds may call these for as long as the program runs.
+// A world may call a listener for as long as the program runs.
 void keepForEver(std::unique_ptr<WorldListener> listener) {
     struct Kept {
         std::unique_ptr<WorldListener> listener;
         Kept* next;
     };
-    static std::atomic<Kept*> newest{nullptr}; // worlds may live on threads of their own; never destroyed:
-                                               // worlds may be, later
+    static std::atomic<Kept*> newest{nullptr}; // worlds may live on several threads; never destroyed,
+                                               // since a world may outlive it
     auto* const kept = new Kept{std::move(listener), newest.load()};
     while (!newest.compare_exchange_weak(kept->next, kept)) {
     }
@@ -71,7 +71,8 @@ const ImpactSettings& Attachment::settings() const noexcept { return parts_->eve
 SetResult Attachment::set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id) {
     if (fixture.GetBody()->GetWorld() != world_)
         return {-1, "fixture: expected one of the world attached to"};
-    parts_->listener->finder().find(fixture); // an heir of its address starts anew
+    // a fixture that reuses the address of a destroyed one gets new state
+    parts_->listener->finder().find(fixture);
     return parts_->events.set(nameOf(fixture), factsOf(*fixture.GetBody()), centreOf(fixture), values, id);
 }
 
@@ -127,7 +128,7 @@ void Attachment::finishStep() {
     parts_->listener->finder().endStep();
 }
 
-// What was destroyed while nobody told us. Not often: a game has set a listener of its own.
+// Releases fixtures that were destroyed while a listener of the game had replaced ours.
 void Attachment::releaseUnseen() {
     parts_->listener->finder().forgetContacts();
     parts_->bodies.doubt();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PhysVib for anybody's b2World: attach, set three values per fixture, step, take events.
+// PhysVib for a b2World of yours: attach it, set three values per fixture, step, take events.
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/HapticFixture.h"
@@ -16,19 +16,20 @@
 
 namespace physvib {
 
-/// Turns the collisions of one world into events. The world stays its owner's: user data are not touched, its
-/// motion is the same to the bit, and its contact and destruction listeners are called as before, also those
-/// that are set, or taken away, while the attachment is there. Bodies and fixtures may come and go between
-/// steps, or between the parts of one. Only a fixture destroyed by b2Body::DestroyFixture should be named to
-/// remove() first: Box2D tells nobody, and the next fixture of that body may take its address, and so its
-/// values. Who forgets that loses values, and no memory.
+/// Turns the collisions of one world into events. It changes nothing in the world: user data stay, motion is
+/// the same to the bit, and the world's contact and destruction listeners are called as before, also those
+/// that are set or removed while the attachment exists. Bodies and fixtures may be created and destroyed
+/// between steps, or between beginStep and endStep. Call remove() before b2Body::DestroyFixture: Box2D
+/// reports that to no listener, and the next fixture of that body may get the address, and so the values.
+/// Without the call values are wrong, and no memory is lost.
 ///
-/// World and attachment may end in any order. A world outlived by its attachment is not touched any more; an
-/// attachment outlived by its world leaves a listener there that hands on calls, unless it has been detached.
+/// World and attachment may end in any order. After the world has ended the attachment does not access it.
+/// After the attachment has ended its listener stays in the world and forwards calls, unless detach() was
+/// called.
 ///
-/// All methods: the world's thread (M), not inside a step. None allocates once it has seen as much as it
-/// will, but where the caller's vector grows. What a step costs follows what moves, touches and strikes, not
-/// the size of the map.
+/// All methods: the world's thread (M), not inside a step. None allocates after a step with as many bodies
+/// and contacts, except where the caller's vector grows. The cost of a step follows what moves, touches and
+/// collides, not the size of the map.
 class Attachment final {
 public:
     /// Throws std::invalid_argument if a setting is out of range.
@@ -37,44 +38,45 @@ public:
     Attachment(const Attachment&) = delete;
     Attachment& operator=(const Attachment&) = delete;
 
-    /// Leaves the world, which must still be there, with the listeners it had; nothing is felt any more.
+    /// Restores the listeners of the world, which must still exist. There are no events from now on.
     void detach();
 
-    /// Takes effect with the next step; with another timing, what is under way is lost. Throws as the
+    /// Takes effect with the next step. Another timing drops contacts that have begun. Throws as the
     /// constructor does.
     void configure(const ImpactSettings& settings);
     /// Any thread but while it steps.
     const ImpactSettings& settings() const noexcept;
 
-    static constexpr std::int32_t nextId = -1; ///< no number of the game's own
+    static constexpr std::int32_t nextId = -1; ///< as the id for set(): the next one
 
-    /// Gives a fixture its values, at first or again (the camera may come and go). Its id in events is `id`
-    /// (>= 0), if given (a number of the game's own for it), else 0, 1, 2... in order of first calls, never
-    /// used twice. Refused, told by the result, are values that cannot be played, a fixture of another world,
-    /// an id below 0, and one that another fixture has.
+    /// Gives a fixture its values, or changes them (it may become or stop being a haptic source). Its id in
+    /// events is `id` (>= 0), a number of the game's own, or else 0, 1, 2... in order of first calls, never
+    /// used twice. Refused, with the reason in the result, are values that cannot be played, a fixture of
+    /// another world, an id below 0, and one that another fixture has.
     SetResult set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id = nextId);
 
-    /// How two kinds of surfaces sound together (HapticFixture::surface), in any order, whatever the voice of
-    /// the camera is. What is wrong with it, and nothing is changed; empty: it is set.
+    /// The sound of impacts between two kinds of surfaces (HapticFixture::surface), in any order. It replaces
+    /// what the haptic source's voice says. Returns what is wrong with it, and changes nothing then; empty:
+    /// it is set.
     std::string_view setPair(int surface, int other, const PairSound& sound);
 
     /// The values of a fixture; nullptr if it has none. Valid until the next call of anything.
     const HapticFixture* find(const b2Fixture& fixture) const noexcept;
 
-    /// Takes a fixture's values away, and its events that have not been handed out.
+    /// Removes a fixture's values, and its events that were not taken yet.
     void remove(const b2Fixture& fixture);
 
-    /// One step of the world with everything around it. No time: as Box2D has it, contacts are found, and
-    /// nothing moves. Negative times do nothing.
+    /// beginStep, b2World::Step, endStep. A step of 0 s finds contacts and moves nothing, as in Box2D; one
+    /// below 0 does nothing.
     void step(float stepSeconds, int velocityIterations = 8, int positionIterations = 3);
 
-    /// The same around a b2World::Step of the user's own. Step lengths may differ; time is the sum of their
-    /// nanoseconds, each rounded. What happens in steps that are not told is felt at the start of the next
-    /// one that is.
+    /// The same around your own b2World::Step. Step lengths may differ; time is the sum of their
+    /// nanoseconds, each rounded. Collisions in steps without these calls become events at the start of the
+    /// next step that has them.
     void beginStep(double stepSeconds);
     /// For worlds whose clock is a step count: the step ends at `endNs` (not before timeNs()).
     void beginStepUntil(std::int64_t endNs);
-    void endStep(); ///< Behind the world's own step.
+    void endStep(); ///< After the world's own step.
 
     /// World time after the steps done, and the time before which all events are final: one step earlier,
     /// since a contact is noticed up to one step after it was made.
@@ -82,22 +84,22 @@ public:
     /// No event before it is still to come.
     std::int64_t settledNs() const noexcept;
 
-    /// Appends the events that are final now, in the order of their times.
+    /// Appends the events that are final now, in time order.
     void take(std::vector<CollisionEvent>& events);
 
-    /// Appends all events at once, for those who would rather have them a step earlier than in order.
+    /// Appends all events, a step earlier than take(), but not always in time order.
     void flush(std::vector<CollisionEvent>& events);
 
-    /// b2World::ShiftOrigin, with what PhysVib knows of places: events stay where they are in the field.
+    /// Calls b2World::ShiftOrigin and moves PhysVib's places with it: events keep their places in the field.
     void shiftOrigin(b2Vec2 newOrigin);
 
-    /// Hits and events lost so far because more came than there is room for. The weakest events go first.
+    /// Contacts and events lost so far because more came than there is room for. The weakest go first.
     std::uint64_t drops() const noexcept;
 
-    /// Hits left out so far because they were more than ImpactSettings::hitsPerStep.
+    /// Impacts left out so far because they were more than ImpactSettings::hitsPerStep.
     std::uint64_t overBudget() const noexcept;
 
-    /// What became of all contacts so far, and why nothing is felt, in one sentence.
+    /// What became of all contacts so far; explain() says in a sentence why nothing is felt.
     ContactCounts counts() const noexcept;
     std::string explain() const { return physvib::explain(counts()); } ///< The most likely reason.
 

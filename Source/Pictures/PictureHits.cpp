@@ -41,7 +41,7 @@ void drawLevelLabels(const Canvas& canvas, const LevelAxis& levels) {
     const Area lane = levels.lane;
     for (const double level : {0.0, -20.0, -40.0, -60.0}) {
         const int y = lane.bottom() - roundToInt(levels.height(level));
-        const Area row(lane.x - 60, std::clamp(y - 9, lane.y - 4, lane.bottom() - 16), 52, 18);
+        const Area row{lane.x - 60, std::clamp(y - 9, lane.y - 4, lane.bottom() - 16), 52, 18};
         canvas.text(number(level, 0), row, Align::right, palette::muted);
     }
 }
