@@ -94,7 +94,7 @@ void visitFields(auto& v, FieldsOf<SceneNote>) {
 NoteRule readNote(const JsonField& json, const Scene& scene) {
     SceneNote note{{}, &scene};
     json.expectObject();
-    if (json.has("do")) note.rule.kind = static_cast<NoteKind>(json["do"].oneOf(noteKindNames));
+    note.rule.kind = static_cast<NoteKind>(json["do"].oneOf(noteKindNames)); // which chooses the fields
     readTable(json, note);
     const auto isThere = std::ranges::find(scene.bodies, note.rule.object, &BodyDescription::name);
     if (note.rule.kind == NoteKind::push && isThere == scene.bodies.end())
