@@ -65,6 +65,19 @@ TEST(Charts, SimulatedOnesAreWatermarkedAndOthersAreNot) {
         EXPECT_EQ(countOf(svg, "SIMULATED") + countOf(svg, "simulated"), 0u);
 }
 
+TEST(Charts, ASheetHasThemSideBySideAndThenInRows) {
+    GridChart grid{{"c", "grid"}, "row", "column", {"1"}, {"1"}, {1.0}}; // 330 wide: four beside each other
+    const std::string one = gridChart(grid), sheet = chartSheet({one, one, one, one, one});
+    EXPECT_EQ(chartSheet({one}), one);
+    EXPECT_EQ(countOf(sheet, one), 5u) << "each as it is";
+    const std::size_t from = one.find("height=\"") + 8;
+    const std::string height = one.substr(from, one.find('"', from) - from);
+    for (const std::string& place :
+         {std::string{"0 0"}, std::string{"330 0"}, std::string{"990 0"}, "0 " + height})
+        EXPECT_EQ(countOf(sheet, "<g transform=\"translate(" + place + ")\">"), 1u) << place;
+    EXPECT_EQ(sheet.find("width=\"1320\""), sheet.find("width=\"")) << sheet.substr(0, 200);
+}
+
 TEST(Charts, TheSameInputGivesTheSameBytesWithoutAnyNetwork) {
     const auto first = chartsWith("a", true), again = chartsWith("a", true);
     EXPECT_EQ(first, again);

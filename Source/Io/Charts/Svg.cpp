@@ -274,7 +274,7 @@ std::string Svg::finish(std::string_view words, bool isSimulated) const {
 }
 
 std::string chartSheet(const std::vector<std::string>& charts) {
-    constexpr double mostWidth = 1040.0; // three grids, or one chart of bars
+    constexpr double mostWidth = 1340.0; // a condition of places, or one chart of bars
     if (charts.size() == 1) return charts.front();
     double x = 0.0, y = 0.0, width = 0.0, height = 0.0; // of the row: y, height
     std::string body;
