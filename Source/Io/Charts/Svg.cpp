@@ -29,6 +29,8 @@ constexpr std::array<double, chartStyles> hatchWidths{0.0, 1.6, 2.6, 1.6, 1.8, 1
 
 constexpr std::string_view svgBegin = "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 ";
 
+const std::string ground = "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
+
 std::string svgHead(double width, double height) {
     std::string out{svgBegin};
     appendPixels(out, width);
@@ -256,7 +258,7 @@ std::string Svg::finish(std::string_view words, bool isSimulated) const {
         }
         out += "</defs>\n";
     }
-    out += "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + body_;
+    out += ground + body_;
     if (isSimulated) {
         const double size = 0.8 * std::hypot(width_, height_) / textWidth("SIMULATED", 1.0);
         out += "<text font-weight=\"bold\" fill=\"#b00020\" fill-opacity=\"0.1\" text-anchor=\"middle\" "
@@ -293,8 +295,7 @@ std::string chartSheet(const std::vector<std::string>& charts) {
         width = std::max(width, x);
         height = std::max(height, size.y);
     }
-    std::string out = svgHead(width, y + height) + body;
-    return out + "</svg>\n";
+    return svgHead(width, y + height) + ground + body + "</svg>\n";
 }
 
 } // namespace physvib

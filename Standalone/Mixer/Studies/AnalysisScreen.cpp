@@ -154,9 +154,13 @@ void AnalysisScreen::paint(juce::Graphics& g) {
     auto title = files_.empty() ? juce::String{"Analysis"} : files_.front().getFileName();
     if (files_.size() > 1) title << " and " << static_cast<int>(files_.size() - 1) << " more";
     g.drawText(title, titleArea_, juce::Justification::centredLeft, true);
-    if (picture_)
-        picture_->drawWithin(g, pictureArea_.toFloat(),
-                             juce::RectanglePlacement::xMid | juce::RectanglePlacement::yTop, 1.0f);
+    if (const auto* const whole = dynamic_cast<const juce::DrawableComposite*>(picture_.get())) {
+        constexpr int place = juce::RectanglePlacement::xMid | juce::RectanglePlacement::yTop;
+        // not by its bounds: those of turned words reach beyond it
+        whole->draw(g, 1.0f,
+                    juce::RectanglePlacement{place}.getTransformToFit(whole->getContentArea(),
+                                                                      pictureArea_.toFloat()));
+    }
 }
 
 void AnalysisScreen::resized() {
