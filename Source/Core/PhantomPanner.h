@@ -44,10 +44,10 @@ public:
 
     /// The constructor's arguments. Any thread.
     const EnchanterLayout& layout() const noexcept { return layout_; }
-    PanningLaw law() const noexcept { return law_; }
-    double exponent() const noexcept { return exponent_; }
-    double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }
-    double fieldHeightMetres() const noexcept { return fieldHeightMetres_; }
+    PanningLaw law() const noexcept { return law_; }                         ///< Panning law.
+    double exponent() const noexcept { return exponent_; }                   ///< Exponent of the law.
+    double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }   ///< Field along x.
+    double fieldHeightMetres() const noexcept { return fieldHeightMetres_; } ///< Field along y.
 
 private:
     enum class Arrangement { single, line, rectangle, triangle, scattered };

@@ -21,6 +21,9 @@ protected:
         wanted.setup.log = LogUse::none;
         return wanted;
     }
+
+private:
+    juce::ScopedJuceInitialiser_GUI juce_; // the message loop
 };
 
 TEST_F(RigTest, PlaysAndKeepsASessionAndItsRecording) {

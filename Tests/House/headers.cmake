@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: MIT
 # The headers that everything includes stay short, and a session stays made of parts (Docs/decisions/0106-a-session-is-made-of-parts.md).
-set(most_lines 120)
+set(most_lines 105) # of code: comments explain, and are not to be squeezed
 set(most_methods 20)
 set(bad "")
 foreach(header Source/Host/Devices/AudioOutput.h Source/Live/Session/Session.h Standalone/Mixer/Desk/Desk.h)
     file(READ ${ROOT}/${header} text)
-    string(REGEX MATCHALL "\n" lines "${text}")
+    string(REGEX REPLACE "\n *//[^\n]*" "" code "\n${text}")
+    string(REPLACE ";" "," code "${code}")
+    string(REGEX MATCHALL "\n *[^ \n]" lines "${code}")
     list(LENGTH lines count)
     if(count GREATER most_lines)
-        list(APPEND bad "${header}: ${count} lines, at most ${most_lines}")
+        list(APPEND bad "${header}: ${count} lines of code, at most ${most_lines}")
     endif()
 endforeach()
 
