@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Event by event: its curves between the moments at which they bend.
+// Converts the events of an .ahap file to a clip: each event with the control curves that apply during it,
+// sampled where the curves bend.
 #include "Formats/AhapPattern.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/TimeOrder.h"
@@ -9,9 +10,9 @@
 namespace physvib {
 namespace {
 
-constexpr double longestLine = 0.1; // of intensity: its square is within 0.0025 of its chord
+constexpr double longestLine = 0.1; // of intensity: its square then deviates from its chord by at most 0.0025
 
-/// Where `curve` bends during the event, both its ends among them.
+/// The times at which `curve` bends during the event, including both ends.
 std::vector<double> bends(const AhapEvent& event, const std::vector<ClipPoint>& curve) {
     const double end = momentOf(event.start + event.seconds);
     std::vector<double> at{event.start};
@@ -21,8 +22,8 @@ std::vector<double> bends(const AhapEvent& event, const std::vector<ClipPoint>& 
     return at;
 }
 
-/// Lines of `value` between the bends of `curve`, from where it is at one to where it is just before the
-/// next.
+/// Calls `take` for each line of `value` between bends of `curve`: from its value at one to its value just
+/// before the next.
 template <class Value, class Take>
 void eachLine(const AhapEvent& event, const std::vector<ClipPoint>& curve, Value value, Take take) {
     const auto at = bends(event, curve);
@@ -87,8 +88,8 @@ private:
         return scale_.hertz(event.sharpness + valueAt(sharpness_, at));
     }
 
-    /// Every event takes the curves that hold during it: many events on long curves are more than the file
-    /// has.
+    /// Each event copies the curves that apply during it, so many events on long curves could exceed the
+    /// file's size by far.
     void grow(std::size_t points) {
         made_ += points;
         if (made_ > 4 * limits::maxClipPoints)

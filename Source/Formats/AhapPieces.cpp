@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Between transients the envelope goes from silence to silence; from a transient on it is cut wherever it
-// rises or halves.
+// Splits an envelope into .ahap events: between transients at silences; after a transient wherever it rises
+// or halves.
 #include "Formats/AhapPieces.h"
 #include "Formats/ClipLimits.h"
 #include <numeric>
@@ -9,14 +9,14 @@
 namespace physvib {
 namespace {
 
-constexpr double silenceSeconds = 0.05; // what lasts longer is no part of an event
+constexpr double silenceSeconds = 0.05; // a longer silence ends an event
 constexpr double rounding = 1e-9;       // of a line's values
 constexpr double leastPieceSeconds = 0.001;
-constexpr double leadSeconds = 0.0004; // by which curves are neutral before a transient
-constexpr double mostChange = 2.0; // of the amplitude within a piece: the curves then take at most 3 dB off a
-                                   // transient's end
+constexpr double leadSeconds = 0.0004; // curves are neutral this long before a transient
+constexpr double mostChange = 2.0; // of the amplitude within a piece: the curves then reduce a transient's
+                                   // end by at most 3 dB
 
-/// A line that takes longer than an event may in pieces that an event takes.
+/// Divides lines that are longer than an event may be.
 std::vector<EnvelopePoint> cutToLength(std::span<const EnvelopePoint> envelope) {
     std::vector<EnvelopePoint> cut;
     for (const EnvelopePoint& p : envelope) {
@@ -29,7 +29,7 @@ std::vector<EnvelopePoint> cutToLength(std::span<const EnvelopePoint> envelope) 
     return cut;
 }
 
-/// Ends of the stretch that begins at `from`: before a silence, or while it is short enough.
+/// Index of the end of the stretch that begins at `from`: before a silence, or while it is short enough.
 std::size_t stretchEnd(const std::vector<EnvelopePoint>& envelope, std::size_t from) {
     std::size_t to = from;
     while (to + 1 < envelope.size()) {
@@ -85,23 +85,23 @@ private:
         }
     }
 
-    /// The moment, or all until `end`, of which less than a piece would be left.
+    /// `seconds`, or `end` if less than a piece would remain.
     static double endOrAll(double seconds, double end) {
         return seconds + leastPieceSeconds < end ? seconds : end;
     }
 
-    /// A moment before that transient, and not before the one that precedes it.
+    /// A moment before that transient, and not before the preceding one.
     static double startBeside(const std::vector<ClipTransient>& transients, std::size_t i) {
         const double at = transients[i].seconds, last = i > 0 ? transients[i - 1].seconds : 0.0;
         return std::max(at - leadSeconds, std::midpoint(last, at));
     }
 
-    /// The first piece is nowhere above what the envelope is at the transient, so that the curve there is
-    /// at 1.
+    /// The first piece nowhere exceeds the envelope at the transient, so that the curve there is 1.
     void cutBeside(double start, double transient, double end) {
         EnvelopePoint level = pointAt(envelope_, transient);
         const double changes = changesAt(level, end, 1.0),
-                     held = std::min(end, transient + envelopeRiseSeconds); // a hit may rise so long
+                     held = std::min(end, transient + envelopeRiseSeconds); // an impact's rise may take so
+                                                                            // long
         const bool isHeld = changes < held;
         double from = isHeld ? held : changes;
         std::vector<EnvelopePoint> points = partOf(envelope_, start, from);
@@ -124,8 +124,8 @@ private:
         }
     }
 
-    /// When the amplitude has risen by that factor, or fallen by mostChange, since `from`; `end` if not
-    /// before.
+    /// Time at which the amplitude has risen by that factor, or fallen by mostChange, since `from`; `end` if
+    /// not before.
     double changesAt(const EnvelopePoint& from, double end, double mostRise) const {
         const double low = from.amplitude / mostChange, high = from.amplitude * mostRise * (1.0 + rounding);
         EnvelopePoint last = from;
@@ -142,7 +142,7 @@ private:
     }
 
     std::vector<EnvelopePoint> envelope_;
-    bool hasTransients_; // else an envelope of silence is all there is to say
+    bool hasTransients_; // false: even an envelope of silence is written, because there is nothing else
     std::vector<AhapPiece> pieces_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Entry by entry, as Apple reads it: what is missing has its default, what is not known is left out.
+// Reads an .ahap file entry by entry with Apple's rules: missing values have defaults, unknown fields are
+// ignored.
 #include "Formats/AhapFile.h"
 #include "Formats/AhapPattern.h"
 #include "Formats/ClipLimits.h"
@@ -51,7 +52,7 @@ private:
         constexpr std::array<std::string_view, 4> types{"HapticTransient", "HapticContinuous",
                                                         "AudioContinuous", "AudioCustom"};
         const std::size_t type = json["EventType"].oneOf(types);
-        if (type > 1) return leftOut_.add(types[type]); // heard, not felt
+        if (type > 1) return leftOut_.add(types[type]); // audible, not tactile
         expectKeys(json, {"Time", "EventType", "EventDuration", "EventParameters"});
         AhapEvent event{time(json), type == 0 ? 0.0 : duration(json), assumedIntensity, assumedSharpness};
         for (std::size_t i = 0; json.has("EventParameters") && i < json["EventParameters"].arraySize(); ++i)
@@ -62,7 +63,7 @@ private:
     double duration(const JsonField& json) {
         if (json.has("EventDuration"))
             return momentOf(json["EventDuration"].numberUpTo(limits::maxClipSeconds));
-        return limits::maxAhapEventSeconds; // it has no end of its own, and a phone ends it then
+        return limits::maxAhapEventSeconds; // without an end a phone stops it then
     }
 
     void readParameter(const JsonField& json, AhapEvent& event) {
@@ -81,7 +82,7 @@ private:
         return json.has("ParameterID") ? json["ParameterID"].line() : "a parameter without ParameterID";
     }
 
-    /// What that curve or step controls; nothing if that is not felt here.
+    /// The control that a curve or step applies to; null if it is not tactile.
     AhapControl* controlOf(const JsonField& json) {
         const std::string name = idOf(json);
         if (name == "HapticIntensityControl") return &pattern_.intensity;
@@ -122,8 +123,8 @@ private:
     std::size_t points_ = 0;
 };
 
-/// Apple's own samples have commas behind the last item of a list: spaces in their places. No string is
-/// touched.
+/// Apple's own samples have commas after the last item of a list: replaces them by spaces. Strings are not
+/// changed.
 std::string withoutLastCommas(std::string_view text) {
     std::string out{text};
     std::size_t comma = std::string::npos;

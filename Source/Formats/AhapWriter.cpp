@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The envelope in pieces: a continuous event each, and two curves that bend it. Of full intensity and no
-// sharpness, except where a transient sounds: there the event has the level, and the curves begin at 1 and 0.
+// Writes an envelope as .ahap: a continuous event per piece, and two curves for intensity and sharpness.
+// Events have full intensity and no sharpness, except where a transient sounds: there the event has the
+// level, and the curves begin at 1 and 0.
 #include "Formats/AhapFile.h"
 #include "Formats/AhapPieces.h"
 #include "Io/Json/JsonLines.h"
@@ -9,10 +10,10 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t mostCurvePoints = 16; // of a curve on a phone
+constexpr std::size_t mostCurvePoints = 16; // per curve on a phone
 constexpr double intensityTolerance = 0.002, sharpnessTolerance = 0.001;
-constexpr double steepSeconds = 0.001; // what rises or falls sooner is a step to a hand
-constexpr int rootLines = 6;           // of a line of amplitude: its root bends
+constexpr double steepSeconds = 0.001; // a faster change is felt as a step
+constexpr int rootLines = 6;           // lines per line of amplitude, because its square root is curved
 
 OrderedJson parametersJson(double intensity, double sharpness) {
     return OrderedJson::array(
@@ -20,7 +21,8 @@ OrderedJson parametersJson(double intensity, double sharpness) {
          {{"ParameterID", "HapticSharpness"}, {"ParameterValue", shortened(sharpness)}}});
 }
 
-/// In shares of `full`. Closer together where the amplitude is small, for there its root is steep.
+/// Intensities in shares of `full`. Points are closer where the amplitude is small, because its root is steep
+/// there.
 std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope, double full) {
     std::vector<ClipPoint> curve;
     for (std::size_t i = 0; i < envelope.size(); ++i) {
@@ -44,7 +46,7 @@ std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope, do
     return thinned(curve, intensityTolerance);
 }
 
-/// Events in the order in which they are added, and what the curves are after the last of them.
+/// The events in the order in which they are added, and the curves' values after the last one.
 class Pattern {
 public:
     explicit Pattern(const FrequencyScale& scale)
@@ -93,8 +95,8 @@ private:
         return thinned(curve, sharpnessTolerance);
     }
 
-    /// In as many curves as it takes: each begins with the last point of the one before. None if it only goes
-    /// on as it `isNow`.
+    /// Writes as many curves as necessary; each begins with the last point of the one before. None if the
+    /// curve only continues the value `isNow`.
     void addCurves(const char* parameter, std::vector<ClipPoint> curve, double& isNow) {
         for (ClipPoint& p : curve) p = {shortened(p.seconds), shortened(p.value)};
         if (std::ranges::all_of(curve, [&](const ClipPoint& p) { return p.value == isNow; })) return;

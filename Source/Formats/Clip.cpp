@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every clip keeps to, whatever file it came from.
+// Validity checks that apply to clips of every file format.
 #include "Formats/Clip.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/TimeOrder.h"

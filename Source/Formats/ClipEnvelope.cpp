@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// At every point of any wave, the sum just before and just after it.
+// Computes a channel's envelope: the sum of all waves just before and just after each point.
 #include "Formats/ClipEnvelope.h"
 #include <algorithm>
 #include <cmath>
@@ -7,17 +7,16 @@
 namespace physvib {
 namespace {
 
-/// Moments that are closer are one: a wave that begins where another ends follows it. Files have whole
-/// microseconds.
+/// Closer times are equal: a wave that begins where another ends follows it. Files have whole microseconds.
 constexpr double sameSeconds = 5e-7;
 
-/// What sounds of a band, asked at growing times.
+/// The sounding wave of a band, for increasing times.
 class BandWalk {
 public:
     explicit BandWalk(const ClipBand& band)
         : band_{band} {}
 
-    /// The wave just before `seconds`, or from then on; none.
+    /// The wave just before `seconds`, or from then on; null if none.
     const ClipWave* at(double seconds, bool isBefore) {
         const double after = seconds + sameSeconds;
         while (next_ < band_.waves.size() && band_.waves[next_].endSeconds() < seconds) ++next_;
@@ -51,7 +50,7 @@ std::vector<double> momentsOf(const ClipChannel& channel) {
     return moments;
 }
 
-/// Of a curve that steps there: its value before the step, or after it.
+/// At a step of the curve: its value before or after the step.
 double sideOf(std::span<const ClipPoint> curve, double seconds, bool isBefore) {
     const auto first = std::ranges::lower_bound(curve, seconds - sameMomentSeconds, {}, &ClipPoint::seconds);
     const auto end = std::ranges::upper_bound(curve, seconds + sameMomentSeconds, {}, &ClipPoint::seconds);
@@ -83,16 +82,16 @@ std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSec
         EnvelopePoint before = sumAt(bands, moment, true, held);
         EnvelopePoint after = sumAt(bands, moment, false, before.frequencyHz);
         if (before.amplitude == 0.0)
-            before.frequencyHz = after.frequencyHz; // nobody feels a glide within silence
+            before.frequencyHz = after.frequencyHz; // so that the frequency does not glide during silence
         const double last = points.empty() ? 0.0 : points.back().seconds;
-        after.seconds = std::max(moment, last); // what follows within the rise of what begins at 0 s
+        after.seconds = std::max(moment, last); // a point within the rise of a wave that begins at 0 s
         if (!isJump(before, after)) {
             points.push_back(after);
             continue;
         }
         before.seconds = std::max(moment - riseSeconds, 0.5 * (last + moment));
         if (after.seconds < riseSeconds && points.empty())
-            after.seconds = riseSeconds, before.seconds = 0.0; // what begins at 0 s rises from there
+            after.seconds = riseSeconds, before.seconds = 0.0; // a wave that begins at 0 s rises from there
         if (before.seconds > last || points.empty()) points.push_back(before);
         points.push_back(after);
     }
@@ -124,7 +123,8 @@ std::vector<EnvelopePoint> partOf(std::span<const EnvelopePoint> envelope, doubl
 }
 
 std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance) {
-    constexpr std::size_t longestStretch = 1024; // so that no curve takes time by the square of its length
+    constexpr std::size_t longestStretch = 1024; // bounds the cost, which is quadratic in the stretch's
+                                                 // length
     if (curve.size() < 3) return curve;
     std::vector<bool> isKept(curve.size());
     std::vector<std::pair<std::size_t, std::size_t>> stretches;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who reads, who writes, and what is lost.
+// Selects the reader or writer of a format, and reports what a format cannot store.
 #include "Formats/ClipFile.h"
 #include "Formats/AhapFile.h"
 #include "Formats/ClipLimits.h"
@@ -18,7 +18,7 @@ namespace {
 struct Facts {
     std::set<double> frequenciesHz;
     double peak = 0.0;
-    bool overlaps = false; ///< more than one wave at a time in a channel
+    bool overlaps = false; ///< a channel has more than one wave at a time
 };
 
 Facts factsOf(const Clip& clip) {
@@ -34,7 +34,7 @@ Facts factsOf(const Clip& clip) {
     return facts;
 }
 
-/// By how much a place moves on the grid, at most.
+/// Largest displacement of a place by the grid.
 double farthestFromGrid(const Clip& clip) {
     const mpeg::PlaceGrid grid{clip};
     double most = 0.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wave by wave: amplitude and frequency are walked along their lines, the phase is the frequency's integral.
+// Renders a clip wave by wave: interpolates amplitude and frequency; the phase is the integral of the
+// frequency.
 #include "Formats/ClipSound.h"
 #include "Formats/CurveWalk.h"
 #include <cmath>
@@ -8,13 +9,14 @@
 namespace physvib {
 namespace {
 
-constexpr double frameSlack = 1e-6; // a time in seconds that was a whole number of ticks is one again
+constexpr double frameSlack = 1e-6; // tolerance, so that a time that was a whole number of ticks gives that
+                                    // tick again
 
 std::size_t frameFrom(double seconds, int rateHz) {
     return static_cast<std::size_t>(std::ceil(std::max(0.0, seconds * rateHz - frameSlack)));
 }
 
-/// Of a phase in cycles.
+/// Value of the waveform at a phase in cycles.
 double shape(ClipWaveform waveform, double cycles) {
     const double place = cycles - std::floor(cycles);
     switch (waveform) {

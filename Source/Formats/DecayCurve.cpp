@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Greedy: each chord goes as far as its error lets it, so chords grow longer as the exponential falls.
+// Greedy approximation of an exponential: each chord is as long as its error allows, so chords become longer
+// as the exponential falls.
 #include "Formats/DecayCurve.h"
 #include <algorithm>
 #include <cmath>
@@ -7,13 +8,13 @@
 namespace physvib {
 namespace {
 
-/// The largest distance of exp(-s) from its chord over [0, u], where its slope is the chord's.
+/// The largest distance of exp(-s) from its chord over [0, u]; it lies where the slopes are equal.
 double chordError(double u) {
     const double slope = -std::expm1(-u) / u;
     return 1.0 - slope * (1.0 - std::log(slope));
 }
 
-/// The longest u whose chord keeps within `error`; the error grows with u.
+/// The longest u whose chord stays within `error`; the error grows with u.
 double longestChord(double error) {
     double low = 0.0, high = 1.0;
     while (chordError(high) < error) high *= 2.0;
@@ -24,8 +25,8 @@ double longestChord(double error) {
     return low;
 }
 
-constexpr double lastChord = 6.0; // from so many errors down to nothing, a line that arrives with the
-                                  // exponential at one error stays within one
+constexpr double lastChord = 6.0; // from so many errors to 0, a line that meets the exponential at one error
+                                  // stays within one
 
 } // namespace
 

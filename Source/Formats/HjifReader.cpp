@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Field by field after MPEG's schema: perceptions, channels, bands, effects, keyframes.
+// Reads .hjif field by field after MPEG's schema: perceptions, channels, bands, effects, keyframes.
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
 #include "Formats/LeftOut.h"
@@ -37,10 +37,9 @@ private:
     void readPerception(const JsonField& perception) {
         perception.expectObject();
         if (!isVibrotactile(perception))
-            return leftOut_.add("a perception of " + perception["perception_modality"].line()); // nothing
-                                                                                                // that an
-                                                                                                // enchanter
-                                                                                                // could do
+            return leftOut_.add("a perception of " + perception["perception_modality"].line()); // actuators
+                                                                                                // cannot play
+                                                                                                // it
         library_.clear();
         for (std::size_t i = 0;
              perception.has("effect_library") && i < perception["effect_library"].arraySize(); ++i) {
@@ -54,8 +53,8 @@ private:
         for (std::size_t i = 0; i < channels.arraySize(); ++i) readChannel(channels.item(i), perception);
     }
 
-    /// Also "Other" with waves or transients, as MPEG's encoder makes of every .ahap; not with wavelets,
-    /// which may be anything.
+    /// Includes "Other" with waves or transients, which MPEG's encoder writes for every .ahap, but not with
+    /// wavelets, whose meaning is unknown.
     static bool isVibrotactile(const JsonField& perception) {
         const JsonField modality = perception["perception_modality"];
         if (!modality.is("Other") || !perception.has("channels")) return modality.is("Vibrotactile");
@@ -107,7 +106,7 @@ private:
         if (!band.waves.empty()) channel.bands.push_back(std::move(band));
     }
 
-    /// The effect itself, or that of the library which it names.
+    /// The effect itself, or the library's effect that it refers to.
     JsonField referred(const JsonField& effect, const JsonField& perception) const {
         effect.expectObject();
         constexpr std::array<std::string_view, 2> types{"Basis", "Reference"};
@@ -154,7 +153,7 @@ private:
     static constexpr std::array<std::string_view, 2> curveTypes{"Linear", "Cubic"};
     Clip clip_;
     LeftOut leftOut_;
-    std::map<int, std::size_t> library_; // of this perception: where effects of a number stand
+    std::map<int, std::size_t> library_; // of this perception: index of an effect by its number
     int timescale_ = 1000;
     double gain_ = 1.0;
     std::size_t points_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One line per effect; everything in a fixed order.
+// Writes .hjif: one line per effect, everything in a fixed order.
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
 #include "Formats/MpegEffects.h"
@@ -12,12 +12,12 @@ namespace {
 
 using mpeg::tickOf;
 
-/// Of a value up to 10 all that anybody feels, in few digits.
+/// Rounds a value up to 10 to what is perceptible, for short numbers.
 double eightDigits(double value) { return std::round(value * 1e8) / 1e8; }
 
-constexpr double usualTopHz = 1000.0; // of the bands that we write: all that is felt
+constexpr double usualTopHz = 1000.0; // upper limit of written bands: the tactile range
 
-/// An object that goes on after these fields.
+/// An object without its end, for more fields.
 std::string begun(const OrderedJson& fields) {
     std::string text = jsonLine(fields);
     text.resize(text.size() - 2); // " }"
@@ -78,7 +78,7 @@ double topOf(const ClipBand& band) {
     return top;
 }
 
-/// 1, or the strongest amplitude if that is beyond full scale.
+/// 1, or the largest amplitude if that is beyond full scale.
 double gainOf(const ClipChannel& channel) { return std::max(1.0, peakOf(channel)); }
 
 std::string bandsText(const ClipChannel& channel, double gain) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Unit by unit, packet by packet. What was told of a band is kept until the end: an effect may go on in a
-// later unit.
+// Reads .hmpg unit by unit, packet by packet. Data of a band is kept until the end, because an effect may
+// continue in a later unit.
 #include "Formats/ClipLimits.h"
 #include "Formats/HmpgFile.h"
 #include "Formats/HmpgLayout.h"
@@ -16,7 +16,7 @@ namespace {
 
 using namespace hmpg;
 
-constexpr int deepestLibrary = 8; // effects within effects, which are read over
+constexpr int deepestLibrary = 8; // maximum nesting of effects, which are skipped
 
 class HmpgReader {
 public:
@@ -33,7 +33,7 @@ private:
         mpeg::Effect effect{};
     };
     struct ToldChannel {
-        std::size_t index = 0; // in the clip
+        std::size_t index = 0; // index in the clip
         double gain = 1.0;
     };
     struct ToldBand {
@@ -41,7 +41,7 @@ private:
         ToldChannel channel;
         mpeg::BandKind kind;
         std::vector<ToldEffect> effects{};
-        std::map<std::uint32_t, std::size_t> byId{}; // of those that may go on
+        std::map<std::uint32_t, std::size_t> byId{}; // effects that may continue
     };
     using Library = std::map<std::uint32_t, mpeg::Effect>;
 
@@ -73,7 +73,7 @@ private:
         case Packet::channel: return readChannel(packet);
         case Packet::band: return readBand(packet);
         case Packet::data: return type == Unit::temporal ? readData(packet) : void();
-        default: return; // nothing to feel
+        default: return; // not tactile
         }
     }
 
@@ -145,7 +145,7 @@ private:
 
     void readChannel(BitReader& packet) {
         const std::uint32_t id = packet.number(channelBits);
-        // told again at a later moment
+        // repeated at a later time
         if (!libraries_.contains(packet.number(perceptionBits)) || channels_.contains(id)) return;
         if (clip_.channels.size() == static_cast<std::size_t>(limits::maxEnchanters))
             packet.fail("expected at most " + std::to_string(limits::maxEnchanters) +
@@ -155,7 +155,7 @@ private:
         channel.label = words(packet);
         packet.skip(deviceBits);
         const double gain = packet.share(realBits, gains);
-        constexpr double rounding = 1e-5; // of its 32 bits
+        constexpr double rounding = 1e-5; // tolerance for its 32 bits
         if (!(gain >= -rounding && gain <= limits::maxClipAmplitude + rounding))
             packet.fail("expected a gain from 0 to " + plainNumber(limits::maxClipAmplitude) + ", found " +
                         numberText(gain));
@@ -176,7 +176,7 @@ private:
 
     void readPlace(BitReader& packet, ClipChannel& channel) {
         const mpeg::GridPoint points = point(packet);
-        packet.skip(8 * packet.number(targetCountBits)); // parts of the body
+        packet.skip(8 * packet.number(targetCountBits)); // body parts
         if (packet.number(targetCountBits) == 1) mpeg::takePlace(clip_, channel, points, point(packet));
     }
 
@@ -203,7 +203,7 @@ private:
     }
 
     void readData(BitReader& packet) {
-        packet.skip(1); // whether it can be begun with
+        packet.skip(1); // whether it is a random access point
         if (!libraries_.contains(packet.number(perceptionBits))) return;
         packet.skip(channelBits);
         const auto band = bands_.find(packet.number(bandBits));
@@ -256,7 +256,7 @@ private:
         effect.keyframes.push_back(frame);
     }
 
-    /// An effect takes as much room as a keyframe.
+    /// An effect counts like a keyframe.
     void expectFew(const BitReader& packet, std::size_t more) {
         points_ += more;
         if (points_ > limits::maxClipPoints)
@@ -289,7 +289,7 @@ private:
     std::map<std::uint32_t, ToldChannel> channels_;
     std::map<std::uint32_t, ToldBand> bands_;
     std::uint32_t timescale_ = 0;
-    std::int64_t ticks_ = 0; // at which this unit begins
+    std::int64_t ticks_ = 0; // start of this unit
     std::size_t points_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One unit that tells of all channels and bands, then one for each stretch that sounds without a pause, and
-// one for each silence.
+// Writes .hmpg: one unit that describes all channels and bands, then one per uninterrupted stretch of sound,
+// and one per silence.
 #include "Formats/ClipLimits.h"
 #include "Formats/CurveWalk.h"
 #include "Formats/HmpgFile.h"
@@ -18,11 +18,11 @@ namespace {
 using namespace hmpg;
 
 constexpr auto longestUnit = static_cast<std::int64_t>(most(unitDurationBits));
-constexpr std::size_t framesOfAnEffect = 16'384; // a packet holds 24,000 with frequencies
-constexpr std::size_t bytesOfData = 14'000; // what is begun beyond is another packet: an effect has 86,000 at
-                                            // most, a packet 131,000
+constexpr std::size_t framesOfAnEffect = 16'384; // a packet can hold 24,000 with frequencies
+constexpr std::size_t bytesOfData = 14'000; // a packet takes no further effect beyond this: an effect has at
+                                            // most 86,000, a packet 131,000
 
-/// Before `seconds` and from there on: the second goes on where the first ends.
+/// The wave before `seconds` and from there on, continuing its phase.
 std::pair<ClipWave, ClipWave> cut(const ClipWave& wave, double seconds) {
     ClipWave head{wave.startSeconds, wave.phaseRadians, wave.waveform, {}, {}};
     const double turn = 2.0 * std::numbers::pi;
@@ -45,7 +45,7 @@ std::pair<ClipWave, ClipWave> cut(const ClipWave& wave, double seconds) {
     return {std::move(head), std::move(tail)};
 }
 
-/// Waves whose keyframes the format's numbers reach.
+/// Divides a wave into pieces whose keyframes the format can represent.
 std::vector<ClipWave> pieces(ClipWave wave) {
     constexpr double mostSeconds = static_cast<double>(most(ticksBits)) / mpeg::ticksPerSecond;
     std::vector<ClipWave> all;
@@ -74,10 +74,10 @@ struct WrittenEffect {
     ClipWaveform waveform = ClipWaveform::sine;
 };
 
-/// What sounds without a pause, in ticks.
+/// A stretch of sound without a pause, in ticks.
 struct Stretch {
     std::int64_t from = 0, to = 0;
-    bool goesOn = false; ///< something of the one before still sounds: it was too long for one unit
+    bool goesOn = false; ///< a wave of the stretch before still sounds, which was too long for one unit
     std::string packets{};
 };
 
@@ -87,7 +87,7 @@ struct WrittenBand {
     std::vector<WrittenEffect> effects{};
 };
 
-/// Of one channel; none has more effects than there are numbers for.
+/// Adds the bands of one channel; none has more effects than the format can number.
 void takeBands(const ClipChannel& channel, std::size_t j, std::vector<WrittenBand>& bands) {
     const auto room = [&](mpeg::BandType type, bool isNew) -> std::vector<WrittenEffect>& {
         if (isNew || bands.back().effects.size() == most(effectBits)) bands.push_back({j, type});
@@ -156,7 +156,7 @@ public:
 private:
     static void addWords(BitWriter& out, std::string_view words) {
         std::size_t bytes = std::min(words.size(), most(textLengthBits));
-        // not within a character
+        // not inside a UTF-8 character
         while (bytes < words.size() && bytes > 0 && (static_cast<unsigned char>(words[bytes]) & 0xc0) == 0x80)
             --bytes;
         out.number(bytes, textLengthBits);
@@ -225,7 +225,7 @@ private:
         out.number(vibrotactile, modalityBits);
         out.number(1, avatarBits);
         out.number(0, libraryCountBits);
-        out.number(0, 1); // no words for what effects mean
+        out.number(0, 1); // no semantic description
         out.number(thousandths, exponentBits);
         out.number(0, exponentBits);
         out.number(clip_.channels.size(), deviceCountBits);
@@ -267,7 +267,7 @@ private:
         if (channel.place) {
             const mpeg::PlaceGrid grid{clip_};
             addPoint(out, grid.points, 1);
-            out.number(0, targetCountBits); // no parts of the body
+            out.number(0, targetCountBits); // no body parts
             out.number(1, targetCountBits);
             addPoint(out, grid.at(*channel.place), 0);
         }
@@ -283,7 +283,7 @@ private:
     }
 
     std::string bandPackets() const {
-        constexpr int topHz = 1000; // all that is felt
+        constexpr int topHz = 1000; // the tactile range
         std::string all;
         for (std::size_t b = 0; b < bands_.size(); ++b) {
             BitWriter out;
@@ -346,7 +346,7 @@ private:
     BitWriter dataContent(std::size_t b, std::size_t from, std::size_t to, std::int64_t startTick) const {
         const WrittenBand& band = bands_[b];
         BitWriter out;
-        out.number(0, 1); // it needs none before
+        out.number(0, 1); // random access point
         out.number(0, perceptionBits);
         out.number(band.channel, channelBits);
         out.number(b, bandBits);
@@ -360,7 +360,7 @@ private:
         out.number(i, effectBits);
         out.number(static_cast<std::uint64_t>(EffectType::basis), effectTypeBits);
         out.number(static_cast<std::uint64_t>(effect.tick - startTick), positionBits);
-        out.number(0, 1); // no word for what it means
+        out.number(0, 1); // no semantic description
         out.number(effect.frames.size(), keyframeCountBits);
         const bool isWave = band.type == mpeg::BandType::vectorial;
         if (isWave) {
@@ -380,7 +380,7 @@ private:
 
     const Clip& clip_;
     std::vector<WrittenBand> bands_;
-    std::vector<double> gains_; // of the channels, as they will be read: their strongest amplitudes
+    std::vector<double> gains_; // per channel, as they will be read: the largest amplitudes
     BitWriter file_;
 };
 
@@ -395,7 +395,7 @@ Result<std::string> hmpgBytes(const Clip& clip) {
 double hmpgStep(const Clip& clip) noexcept {
     double peak = 0.0;
     for (const ClipChannel& channel : clip.channels) peak = std::max(peak, peakOf(channel));
-    return peak / BitRange::top(amplitudeBits); // half a step of those from -peak to peak
+    return peak / BitRange::top(amplitudeBits); // half a step of the range from -peak to peak
 }
 
 } // namespace physvib

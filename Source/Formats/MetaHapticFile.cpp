@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// version, metadata, signals.continuous.envelopes.
+// Implementation of the .haptic reader and writer: version, metadata, signals.continuous.envelopes.
 #include "Formats/MetaHapticFile.h"
 #include "Formats/ClipEnvelope.h"
 #include "Formats/ClipLimits.h"
@@ -18,7 +18,7 @@ double timeOf(const JsonField& point, double last) {
     return seconds;
 }
 
-/// Since `start`. Before its first point, and where there is none, a device plays the middle of its band.
+/// Since `start`. Before its first point, or without points, a device plays the middle of its band.
 std::vector<ClipPoint> frequenciesOf(const JsonField& envelopes, double start, const FrequencyScale& scale) {
     std::vector<ClipPoint> curve{{0.0, scale.hertz(0.5)}};
     if (!envelopes.has("frequency") || envelopes["frequency"].isNull()) return curve;
@@ -27,7 +27,7 @@ std::vector<ClipPoint> frequenciesOf(const JsonField& envelopes, double start, c
     for (std::size_t i = 0; i < list.arraySize(); ++i) {
         const JsonField point = list.item(i);
         last = timeOf(point, last);
-        if (i == 0) curve.push_back({last, curve.back().value}); // from where it steps
+        if (i == 0) curve.push_back({last, curve.back().value}); // the step before the first point
         curve.push_back({last, scale.hertz(point["frequency"].numberUpTo(1.0))});
     }
     std::vector<ClipPoint> since{{0.0, valueAt(curve, start)}};
@@ -79,10 +79,10 @@ std::vector<ClipPoint> amplitudesOf(const std::vector<EnvelopePoint>& envelope) 
     return curve;
 }
 
-constexpr double unfeltSeconds = 0.0009; // by which a transient may move
+constexpr double unfeltSeconds = 0.0009; // maximum shift of a transient
 
-/// The nearest moment at which the envelope is not stronger than the transient: there, or at a point of the
-/// envelope beside it.
+/// The nearest time at which the envelope does not exceed the transient: its own, or a point of the envelope
+/// nearby.
 double placeOf(const ClipTransient& transient, const std::vector<ClipPoint>& curve) {
     const double at = transient.seconds;
     if (valueAt(curve, at) <= transient.amplitude) return at;
@@ -102,7 +102,7 @@ std::vector<ClipTransient> placed(std::vector<ClipTransient> transients,
     return transients;
 }
 
-/// The envelope with a point at each transient, and time enough for two that the file tells apart.
+/// The envelope with a point at each transient, and long enough for two distinct points.
 std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
                                       const std::vector<ClipTransient>& transients) {
     std::vector<ClipPoint> with = curve;
@@ -131,7 +131,7 @@ OrderedJson amplitudesJson(const std::vector<ClipPoint>& curve, const std::vecto
 }
 
 OrderedJson frequenciesJson(const std::vector<EnvelopePoint>& envelope, const FrequencyScale& scale) {
-    constexpr double tolerance = 1e-3; // of the scale
+    constexpr double tolerance = 1e-3; // as a share of the scale
     std::vector<ClipPoint> curve;
     for (const EnvelopePoint& p : envelope) curve.push_back({p.seconds, scale.share(p.frequencyHz)});
     OrderedJson list = OrderedJson::array();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Waves, curves that are the signal itself, and knocks.
+// Converts MPEG effects to waves and transients, and waves to keyframes.
 #include "Formats/MpegEffects.h"
 #include <numbers>
 
 namespace physvib::mpeg {
 namespace {
 
-/// Cubics that are level at every keyframe, as lines.
+/// Approximates cubics with slope 0 at every keyframe by lines.
 std::vector<ClipPoint> smoothed(const std::vector<ClipPoint>& keyframes) {
     constexpr int lines = 8;
     std::vector<ClipPoint> out;
@@ -21,7 +21,7 @@ std::vector<ClipPoint> smoothed(const std::vector<ClipPoint>& keyframes) {
     return out;
 }
 
-/// The curve is the signal: a sine that stands still at its top.
+/// The curve itself is the signal: a sine of 0 Hz at its maximum.
 void asCurve(ClipWave& wave, bool isCubic) {
     wave.phaseRadians = 0.5 * std::numbers::pi;
     wave.waveform = ClipWaveform::sine;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mode's strikes and cuts become edges on the ticks; between two edges the sum of all that rings is one
-// decaying sine.
+// Converts events to waves: each start or cut of a mode is an edge on a tick; between two edges the sum of a
+// mode's events is one decaying sine.
 #include "Formats/StrikeClip.h"
 #include "Core/FrameClock.h"
 #include "Formats/ClipLimits.h"
@@ -18,20 +18,20 @@ namespace physvib {
 namespace {
 
 constexpr int ticks = StrikeClipSettings::ticksPerSecond;
-constexpr double silence = 1e-7; // 140 dB below full scale, where the renderer lets go as well
+constexpr double silence = 1e-7; // 140 dB below full scale, where the renderer ends a mode too
 
 using Phasor = std::complex<double>;
 
 struct Mode {
     double frequencyHz, decayPerSecond;
     auto operator<=>(const Mode&) const = default;
-    /// What becomes of a phasor in so many seconds.
+    /// The factor by which a phasor changes in so many seconds.
     Phasor turn(double seconds) const {
         return std::exp(Phasor{-decayPerSecond, 2.0 * std::numbers::pi * frequencyHz} * seconds);
     }
 };
 
-/// What is added to the mode at a tick.
+/// The phasor that is added to the mode at a tick.
 struct Edge {
     std::int64_t tick;
     Phasor added;
@@ -78,14 +78,14 @@ struct ModeWave {
     ClipWave wave;
 };
 
-/// In as few bands as there are waves at once. A mode goes on in its band while that is its own: at the tick
-/// where one of its waves ends, the next begins.
+/// Uses as few bands as there are simultaneous waves. A mode stays in its band as long as possible: at the
+/// tick where one of its waves ends, the next begins.
 std::vector<ClipBand> packed(std::vector<ModeWave> waves, std::size_t modes) {
     sortByTime(waves, [](const ModeWave& w) { return w.wave.startSeconds; });
     std::vector<ClipBand> bands;
     std::vector<std::size_t> lastMode, bandOf(modes, waves.size());
     for (auto& [mode, wave] : waves) {
-        if (bands.size() > limits::maxClipBands) break; // more than any clip may have
+        if (bands.size() > limits::maxClipBands) break; // more than a clip may have
         std::size_t band = bandOf[mode];
         if (band >= bands.size() || lastMode[band] != mode)
             for (band = 0; band < bands.size() && bands[band].waves.back().endSeconds() >= wave.startSeconds;)
@@ -121,7 +121,7 @@ Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSetti
                 waves.push_back({number, std::move(wave)});
             }
             ++number;
-            if (points > limits::maxClipPoints) break; // likewise
+            if (points > limits::maxClipPoints) break; // the same
         }
         clip.channels[j].bands = packed(std::move(waves), number);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Leaf by leaf; a model is looked at when it has ended.
+// Reads texture models from XML leaf by leaf; a model is checked when it ends.
 #include "Formats/TextureModels.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/XmlLeaves.h"
@@ -15,9 +15,10 @@
 namespace physvib {
 namespace {
 
-constexpr double mostValue = 1.0e9; // of anything: nobody draws so fast, nothing shakes so hard
+constexpr double mostValue = 1.0e9; // upper bound of all values, beyond any physical speed, force or
+                                    // acceleration
 
-/// A model on its way: what it lacks is told when it ends.
+/// An incomplete model; missing parts are reported when it ends.
 struct Draft {
     std::optional<double> millimetresPerSecond, newtons, variance;
     std::vector<double> coefficients;
@@ -55,7 +56,7 @@ private:
         return std::ranges::equal(leaves_.path(), path);
     }
 
-    /// Empty, and the number; or what is wrong with it.
+    /// Sets the number and returns empty, or returns the error.
     template <class Number>
     std::string number(Number& value, double least) const {
         const auto parsed = parseNumber<double>(leaves_.text());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tag by tag; comments and instructions are passed over.
+// Pull parser: reads tag by tag, skips comments and processing instructions.
 #include "Formats/XmlLeaves.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
                                           : text.substr(from, text.find_last_not_of(space) - from + 1);
 }
 
-/// Where a tag ends: a > within quotes is part of an attribute.
+/// End of a tag: a > in quotes is part of an attribute.
 std::size_t endOfTag(std::string_view text) {
     char quote = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
