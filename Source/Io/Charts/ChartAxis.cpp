@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Steps of 1, 2 and 5.
+// Computes round tick values: steps of 1, 2 and 5.
 #include "Io/Charts/ChartAxis.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>

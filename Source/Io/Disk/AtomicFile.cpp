@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Temporary siblings, renames, and sentences for what can go wrong with them.
+// Implementation of atomic file writing: temporary files beside the target, locks, renames, and error
+// messages.
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
 #include <cerrno>
@@ -13,20 +14,20 @@ namespace {
 namespace fs = std::filesystem;
 using Lock = SystemFile::Lock;
 
-constexpr const char* suffix = ".physvib.part"; // a name that no other program gives: what is left behind
-                                                // under it is removed
+constexpr const char* suffix = ".physvib.part"; // unique to this program, so a file left behind under it may
+                                                // be removed
 constexpr const char* beingWritten = "it is being written already, here or by another program";
 constexpr const char* inTheWay = "another program is writing it, or left its temporary file: ";
 
 std::string reasonOf(int code) { return std::generic_category().message(code); }
 
-/// Opens and closes; 0 or the error number.
+/// Opens and closes the file; returns 0 or the error number.
 int tryOpen(const fs::path& path, const char* mode) {
     std::FILE* const file = openStream(path, mode);
     return file != nullptr && std::fclose(file) == 0 ? 0 : errno;
 }
 
-/// Why nothing may be put at `target`; empty if something may.
+/// Why `target` cannot be written; empty if it can.
 std::string obstacle(const fs::path& target) {
     std::error_code code;
     const fs::path folder = folderOf(target);
@@ -37,12 +38,12 @@ std::string obstacle(const fs::path& target) {
     const fs::file_status present = fs::status(target, code);
     if (!fs::exists(present)) return {};
     if (!fs::is_regular_file(present)) return "expected a regular file, found a folder, a device or a pipe";
-    const int denied = tryOpen(target, "r+b"); // a rename would not ask
+    const int denied = tryOpen(target, "r+b"); // a rename would ignore write protection
     return denied == 0 ? std::string() : reasonOf(denied);
 }
 
-/// Removes the temporary file of a program that was killed: no one living has locked it. Whoever removes has
-/// locked what he removes, so nobody's living file goes. Empty, or what is in the way.
+/// Removes the temporary file of a killed program, which is not locked. It is locked before it is removed, so
+/// no file in use is removed. Empty, or the obstacle.
 std::string removeLeftBehind(const fs::path& sibling) {
     SystemFile left = SystemFile::look(sibling);
     if (!left.isOpen())
@@ -71,7 +72,7 @@ bool AtomicFile::writeAt(std::int64_t position, std::string_view bytes) {
     if (!error_.empty() || file_.writeAt(position, bytes)) return error_.empty();
     fail(file_.reason());
     file_.forgetError();
-    if (lock_ && position > 0) file_.resize(position); // the part that was written
+    if (lock_ && position > 0) file_.resize(position); // cuts off the partially written block
     removeTemporary();
     return false;
 }
@@ -99,7 +100,7 @@ const std::string& AtomicFile::commit() {
     return error_;
 }
 
-// A file that is shown is there already.
+// A file after show() is in its place already.
 void AtomicFile::place() {
     std::error_code code;
     if (!lock_) file_.takePermissionsOf(target_);
@@ -127,8 +128,7 @@ std::string AtomicFile::prepare() {
     return make(sibling += suffix);
 }
 
-// Between making and locking, another program may take the new file for one that was left behind, and remove
-// it.
+// Retries, because between creation and locking another program may remove the new file as one left behind.
 std::string AtomicFile::make(const fs::path& sibling) {
     constexpr int mostTries = 100;
     for (int i = 0; i < mostTries; ++i) {
@@ -156,7 +156,7 @@ void AtomicFile::removeTemporary() noexcept {
     if (file_.isOpen() && file_.isAt(temporary_)) fs::remove(temporary_, ignored);
     temporary_.clear();
     onEnd_ = RemovedOnEnd();
-    file_ = SystemFile(); // and with it the lock
+    file_ = SystemFile(); // which also releases the lock
     lock_.reset();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that are there are compared by the system, others by folder and name.
+// Compares existing files by their identity in the file system, others by folder and name.
 #include "Io/Disk/FileClash.h"
 #include <algorithm>
 #include <system_error>
@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int mostLinks = 40; // one after the other, as systems follow
+constexpr int mostLinks = 40; // limit for consecutive links, as in operating systems
 
 std::string clash(const std::string& output, const std::string& kind, const std::string& other) {
     return output + ": expected another file to write, this is the " + kind + " " + other;
@@ -32,16 +32,16 @@ bool isWithin(const fs::path& folder, const fs::path& path) {
     const fs::path home = fs::canonical(folder.empty() ? fs::path(".") : folder, failed);
     if (failed) return false;
     fs::path at = fs::absolute(path, failed);
-    // also one to what is not there
+    // also for a link whose target does not exist
     for (int links = 0; links < mostLinks && !failed && fs::is_symlink(at, failed); ++links)
         at = at.parent_path() / fs::read_symlink(at, failed);
-    failed.clear(); // of what is not there
+    failed.clear(); // error of a target that does not exist
     const fs::path found = fs::weakly_canonical(at, failed);
     return !failed && std::ranges::mismatch(home, found).in1 == home.end();
 }
 
-// Two spellings of one new file that only the file system takes for one ("A.wav", "a.wav") meet when they are
-// made: see AtomicFile.
+// Two spellings of a new file that only the file system considers equal ("A.wav", "a.wav") are detected when
+// they are created: see AtomicFile.
 std::string fileClash(std::span<const std::string> outputs, std::span<const std::string> inputs) {
     const auto sameAs = [](const std::string& path) {
         return [&path](const std::string& other) { return !other.empty() && isSameFile(path, other); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// POSIX: open, pwrite, flock, fstat.
+// SystemFile on POSIX: open, pwrite, flock, fstat.
 #if !defined(_WIN32)
 #include "Io/Disk/SystemFile.h"
 #include <array>
@@ -14,8 +14,8 @@
 namespace physvib {
 namespace {
 
-constexpr int always = O_CLOEXEC | O_NONBLOCK | O_NOCTTY; // O_NONBLOCK: opening a pipe would wait for its
-                                                          // other end
+constexpr int always = O_CLOEXEC | O_NONBLOCK | O_NOCTTY; // O_NONBLOCK: opening a pipe would block until its
+                                                          // other end is opened
 constexpr mode_t asUmaskSays = 0666;
 
 int descriptorOf(std::intptr_t handle) noexcept { return static_cast<int>(handle); }
@@ -51,7 +51,7 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
     while (error_ == 0 && !bytes.empty()) {
         const ssize_t written = pwrite(descriptorOf(handle_), bytes.data(), bytes.size(), position);
         if (written < 0 && errno == EINTR) continue;
-        if (written == 0) errno = ENOSPC; // no file system of today, but it would never end
+        if (written == 0) errno = ENOSPC; // does not occur on present file systems, but would loop forever
         if (!note(written > 0)) break;
         bytes.remove_prefix(static_cast<std::size_t>(written));
         position += written;
@@ -59,14 +59,14 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
     return error_ == 0;
 }
 
-// EINVAL: of a file system that has nothing to sync
+// EINVAL: the file system does not support sync
 bool SystemFile::sync() noexcept {
     return error_ == 0 && note(fsync(descriptorOf(handle_)) == 0 || errno == EINVAL);
 }
 
 void SystemFile::syncFolder(const std::filesystem::path& folder) noexcept {
     const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return; // written to, but not read
+    if (descriptor < 0) return; // writable, but not readable
     fsync(descriptor);
     close(descriptor);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Windows: CreateFile, WriteFile, LockFileEx. What is open may be renamed and removed by anybody, as on
-// POSIX.
+// SystemFile on Windows: CreateFile, WriteFile, LockFileEx. Other programs may rename and remove open files,
+// as on POSIX.
 #if defined(_WIN32)
 #include "Io/Disk/SystemFile.h"
 #include "Io/Disk/SystemWindows.h"
@@ -14,10 +14,10 @@ namespace physvib {
 namespace {
 
 constexpr DWORD othersMay = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-constexpr std::int64_t lockedByte = 0x7fff'ffff'ffff'fff0; // locks keep readers out: of a byte that no file
-                                                           // has
+constexpr std::int64_t lockedByte = 0x7fff'ffff'ffff'fff0; // Windows locks block readers too, so it locks a
+                                                           // byte beyond any file's end
 
-SRWLOCK makers = SRWLOCK_INIT; // HeldSignals share it, the end of the program has it alone
+SRWLOCK makers = SRWLOCK_INIT; // HeldSignals lock it shared, removeAllOnEnd exclusively
 
 HANDLE handleOf(std::intptr_t handle) noexcept { return reinterpret_cast<HANDLE>(handle); }
 
@@ -83,7 +83,7 @@ SystemFile SystemFile::opened(const std::filesystem::path& path, Opening opening
                             : OPEN_ALWAYS,
                     FILE_ATTRIBUTE_NORMAL | (looks ? FILE_FLAG_OPEN_REPARSE_POINT : 0), nullptr));
     if (!file.note(file.isOpen())) {
-        if (!creates && isFolder(path)) file.error_ = EINVAL; // it says that access is denied
+        if (!creates && isFolder(path)) file.error_ = EINVAL; // Windows reports "access denied" for a folder
     } else if (!isRegular(handleOf(file.handle_), !looks)) {
         file.refuse();
     }
@@ -109,7 +109,7 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
         if (!note(WriteFile(handleOf(handle_), bytes.data(), static_cast<DWORD>(std::min(bytes.size(), most)),
                             &written, &place) != 0))
             break;
-        if (written == 0) error_ = ENOSPC; // it would never end
+        if (written == 0) error_ = ENOSPC; // otherwise it would loop forever
         bytes.remove_prefix(written);
         position += written;
     }
@@ -118,7 +118,7 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
 
 bool SystemFile::sync() noexcept { return error_ == 0 && note(FlushFileBuffers(handleOf(handle_)) != 0); }
 
-void SystemFile::syncFolder(const std::filesystem::path&) noexcept {} // NTFS keeps a journal of names
+void SystemFile::syncFolder(const std::filesystem::path&) noexcept {} // NTFS journals its names
 
 bool SystemFile::resize(std::int64_t bytes) noexcept {
     FILE_END_OF_FILE_INFO end{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines are broken where a person would: a list of objects item by item, a short list not at all.
+// Formats JSON with readable line breaks: a list of objects item by item, a short list on one line.
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
@@ -27,7 +27,7 @@ void appendName(std::string& out, const std::string& name) {
         appendLine(out, OrderedJson(name)), out += ": ";
 }
 
-// Bytes that are no UTF-8 cannot stand in JSON and become U+FFFD.
+// Invalid UTF-8 is replaced by U+FFFD, because JSON does not allow it.
 void appendLine(std::string& out, const OrderedJson& value) {
     if (value.is_number_float())
         out += jsonNumber(value.get<double>());
@@ -46,7 +46,8 @@ void appendLine(std::string& out, const OrderedJson& value) {
 void appendLines(std::string& out, const OrderedJson& value, std::size_t indent, std::size_t column) {
     constexpr std::size_t longestLine = 140;
     const bool holdsObjects = value.is_array() && !value.empty() && value.front().is_object();
-    const bool isTop = indent == 0 || (indent == 2 && holdsObjects); // a list of bodies is never a line
+    const bool isTop = indent == 0 || (indent == 2 && holdsObjects); // a list of objects at the top, such as
+                                                                     // bodies, is always broken into lines
     const bool isList = value.is_structured() && !value.empty();
     if (!isList || !isTop) {
         const std::string line = jsonLine(value);

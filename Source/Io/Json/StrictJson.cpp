@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Repeated fields and deep nesting are refused while the parser runs; places are counted as editors count
-// them.
+// Strict JSON parser on nlohmann's SAX interface: refuses repeated fields and deep nesting while parsing;
+// positions are counted as in editors.
 #include "Io/Json/StrictJson.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Text/NumberText.h"
@@ -19,7 +19,7 @@ std::string toldPath(const std::string& path) {
     return path.substr(0, end) + "..." + path.substr(path.size() - end);
 }
 
-/// "line 3, column 7" of the byte the parser stopped at, counted from 1.
+/// "line 3, column 7" of the byte where the parser stopped, counted from 1.
 std::string placeOf(std::string_view text, std::size_t byte) {
     const std::string_view before = text.substr(0, byte == 0 ? 0 : std::min(byte - 1, text.size()));
     const auto line = std::ranges::count(before, '\n') + 1;
@@ -27,7 +27,7 @@ std::string placeOf(std::string_view text, std::size_t byte) {
     return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
-/// The parser's own words without its name, number and place, at most 120 characters.
+/// The parser's message without its number and position, at most 120 characters.
 std::string detailOf(const std::exception& error) {
     constexpr std::size_t longest = 120;
     std::string_view words = error.what();
@@ -37,8 +37,7 @@ std::string detailOf(const std::exception& error) {
 }
 
 /// Builds the value while the parser runs, and throws JsonError at a repeated field or too deep a nesting.
-/// (The library's own builder looks through a whole list after each object in it: minutes for a hundred
-/// thousand.)
+/// (The library's own builder scans a whole list after each object in it: minutes for a hundred thousand.)
 class StrictBuilder final : public nlohmann::json_sax<Json> {
 public:
     explicit StrictBuilder(std::string_view text)
@@ -52,7 +51,7 @@ public:
     bool number_unsigned(number_unsigned_t value) override { return put(value); }
     bool number_float(number_float_t value, const string_t&) override { return put(value); }
     bool string(string_t& value) override { return put(std::move(value)); }
-    bool binary(binary_t&) override { return false; } // not in a text
+    bool binary(binary_t&) override { return false; } // does not occur in text
     bool start_object(std::size_t) override { return open(Json::object()); }
     bool start_array(std::size_t) override { return open(Json::array()); }
     bool end_object() override { return close(); }
@@ -71,10 +70,10 @@ public:
     }
 
 private:
-    /// An object or array whose end has not come.
+    /// An object or array that is still open.
     struct Level {
         Json* value;
-        Json* field = nullptr; ///< of an object, that comes next, and its name
+        Json* field = nullptr; ///< of an object: the field that comes next, and its name
         std::string name{};
     };
 
@@ -124,8 +123,7 @@ JsonError::JsonError(const std::string& path, const std::string& message)
 
 namespace {
 
-/// Each value and field has a mark; in memory it takes thirty times the bytes that an empty list takes in a
-/// text.
+/// Each value or field has such a mark. In memory a value takes up to thirty times its bytes in the text.
 void expectFewMarks(std::string_view text) {
     const std::size_t most = limits::maxJsonMarks + text.size() / limits::jsonBytesPerMark;
     const auto found = static_cast<std::size_t>(

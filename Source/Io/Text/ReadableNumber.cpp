@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Digits by <charconv>, in groups of three.
+// Formats numbers by <charconv>, with digits in groups of three.
 #include "Io/Text/ReadableNumber.h"
 #include "Core/Decibels.h"
 #include "Core/Limits.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a sound is taken, and who keeps it.
+// Checks a sound against the limits of recordings, and collects its samples.
 #include "Io/Wav/SampledSound.h"
 #include "Io/Disk/FileLimits.h"
 

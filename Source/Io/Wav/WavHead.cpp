@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// RIFF and RF64 have heads of one length.
+// Writes WAV headers; RIFF and RF64 headers have equal length.
 #include "Io/Wav/WavHead.h"
 #include "Io/Text/CleanText.h"
 #include <string>
@@ -44,15 +44,15 @@ std::string formatChunk(int channels, int sampleRateHz, bool isExtensible) {
 
 std::string wavInfo(const std::string& comment) {
     if (comment.empty()) return {};
-    std::string sampler(60, '\0'); // middle C and no loops: files with a comment have said so since JUCE
-                                   // wrote them, and keep their bytes
+    std::string sampler(60, '\0'); // sampler chunk with middle C and no loops, as JUCE wrote it for files
+                                   // with a comment, so that their bytes stay the same
     sampler[12] = 60;
     return chunk("smpl", std::move(sampler)) +
            chunk("LIST", "INFO" + chunk("ICMT", cleanLine(comment) + '\0'));
 }
 
-// A chunk that counts in 64 bits comes first, or its room. A plain format is shorter: there is more room
-// then.
+// The chunk for 64-bit sizes, or padding of its length, comes first. A plain format chunk is shorter, so the
+// padding is longer.
 std::string wavHead(int channels, int sampleRateHz, std::int64_t dataBytes, const std::string& info) {
     const bool isLong = dataBytes >= rf64Bytes, isExtensible = isLong || channels > 2;
     const std::int64_t riffBytes = wavHeadBytes - 8 + std::ssize(info) + dataBytes;

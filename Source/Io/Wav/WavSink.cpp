@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Samples first, behind the place of their head, which is as long for RIFF as for RF64.
+// Writes the samples first, and the header before them at the end; it has equal length for RIFF and RF64.
 #include "Io/Wav/WavSink.h"
 #include <bit>
 #include <cstring>
@@ -43,7 +43,7 @@ void WavSink::empty() {
     waiting_.clear();
 }
 
-// Behind the samples: it never tells of more than there is.
+// After the samples, so that it never claims more than was written.
 void WavSink::writeHead() {
     empty();
     file_.writeAt(0, wavHead(channels_, sampleRateHz_, dataBytes_, info_));
