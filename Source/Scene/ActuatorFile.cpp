@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every field of an actuator profile, checked when read and in a fixed order when written.
+// Reads actuator profiles with checks of every field, and writes them in a fixed order.
 #include "Scene/ActuatorFile.h"
 #include "Core/Limits.h"
 #include "Io/Disk/Embedded.h"
@@ -22,7 +22,7 @@ namespace {
 constexpr const char* actuatorVersionField = "physvib_actuator";
 constexpr std::array<std::string_view, 2> kindNames{"linear", "rotating"};
 
-/// One figure of a profile: its field, where it goes, and what is believed of it.
+/// One figure of a profile: its field, its member, and its valid range.
 struct Figure {
     const char* field;
     std::optional<double> ActuatorProfile::*member;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Header, rows and order of an event list; the cells are in EventColumns.h.
+// Reads and writes event lists: header, rows and their order; EventColumns.h has the cells.
 #include "Scene/EventsCsv.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/CsvText.h"
@@ -38,14 +38,14 @@ public:
         , name_(name)
         , maxRows_(maxRows) {}
 
-    /// How many events there are, none of which is kept.
+    /// Counts the events without storing them.
     Result<std::size_t> count() {
         isKept_ = false;
         if (!readAll()) return Failure{std::move(error_)};
         return count_;
     }
 
-    /// Room for so many is made at once.
+    /// Reserves memory for `expected` events.
     Result<EventList> read(std::size_t expected) {
         list_.events.reserve(std::min(expected, maxRows_));
         if (!readAll()) return Failure{std::move(error_)};
@@ -70,7 +70,7 @@ private:
         return true;
     }
 
-    // The last word of that name, which is ours; a spreadsheet fills the line up with commas.
+    // Reads the last field_m word of a comment; spreadsheets pad the line with commas.
     bool readComment(std::string_view comment) {
         const std::size_t key = comment.rfind(fieldKey);
         if (key == comment.npos || (key > 0 && comment[key - 1] != ' ' && comment[key - 1] != '#'))
@@ -95,7 +95,7 @@ private:
 
     bool has(const EventColumn& column) const { return std::ranges::find(order_, &column) != order_.end(); }
 
-    // Blank lines are none at the end only.
+    // Blank lines are allowed at the end only.
     bool readRows() {
         std::string_view line;
         std::size_t blank = 0;
@@ -166,7 +166,7 @@ private:
 
     /// Always false.
     bool fail(std::string_view message) {
-        const std::size_t line = std::max<std::size_t>(line_, 1); // of an empty file, too
+        const std::size_t line = std::max<std::size_t>(line_, 1); // also for an empty file
         error_.assign(name_).append(":").append(std::to_string(line)).append(": ").append(message);
         return false;
     }
@@ -198,11 +198,11 @@ Result<EventList> readEventsCsv(std::string_view text, std::string_view name, st
     return Reader(text, name, maxRows).read(lines);
 }
 
-// A file is read twice, line by line: what is refused takes no memory, however long it is.
+// Reads the file twice, line by line, so that a refused file needs no memory, whatever its length.
 Result<EventList> loadEventsCsv(const std::filesystem::path& path) {
     const std::string name = path.string();
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) { // a pipe can be read once only
+    if (!std::filesystem::is_regular_file(path, ignored)) { // a pipe can be read only once
         const Result<std::string> text = readFile(path, limits::maxEventsFileBytes);
         if (!text) return Failure{text.error};
         return readEventsCsv(text.value, name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looks for the fields that only one kind of file has.
+// Detects the kind of a JSON file by a field that only this kind has.
 #include "Scene/FileKind.h"
 #include <array>
 #include <fstream>
@@ -10,8 +10,8 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t headBytes = 1 << 16; // long sessions have hundreds of megabytes, and say at their
-                                           // beginning what they are
+constexpr std::size_t headBytes = 1 << 16; // long sessions have hundreds of megabytes, but the field is at
+                                           // the beginning
 
 constexpr std::array<std::pair<std::string_view, FileKind>, 4> fields{
     // a session's desk has a layout, and a plug-in's state a scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every field of a layout file, checked when read and in a fixed order when written.
+// Reads layout files with checks of every field, and writes them in a fixed order.
 #include "Scene/LayoutFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonField.h"
@@ -91,7 +91,7 @@ LayoutDescription readLayoutFields(const JsonField& root) {
 
 namespace {
 
-/// Bytes that are no UTF-8 cannot stand in JSON and become U+FFFD.
+/// Invalid UTF-8 is replaced by U+FFFD, because JSON does not allow it.
 std::string jsonText(const std::string& text) {
     return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }

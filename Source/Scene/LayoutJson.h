@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A layout as part of another file. For the .cpp files of Files.
+// Reads a layout that is embedded in another JSON file. For .cpp files that read JSON.
 #pragma once
 #include "Io/Json/JsonField.h"
 #include "Scene/LayoutFile.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The outer shape of a table of materials; a material's fields are those of a scene's.
+// Reads and writes material tables; a material's fields are those of scenes.
 #include "Scene/MaterialTable.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
@@ -55,7 +55,7 @@ const std::vector<MaterialTable>& builtInMaterials() {
         std::vector<MaterialTable> all;
         for (const EmbeddedFile& file : embeddedMaterials()) {
             Result<MaterialTable> read = readMaterials(file.text, file.name);
-            if (!read) throw std::logic_error(read.error); // a test reads them
+            if (!read) throw std::logic_error(read.error); // a test reads all of them
             all.push_back(std::move(read.value));
         }
         return all;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Events and controls in the order of time, commands whenever they are due.
+// Simulates the motor commands of an event list offline, in time order.
 #include "Scene/PadCommands.h"
 #include "Io/Text/NumberText.h"
 

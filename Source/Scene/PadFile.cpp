@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every field of a controller's profile, checked when read and in a fixed order when written.
+// Reads controller profiles with checks of every field, and writes them in a fixed order.
 #include "Scene/PadFile.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* padVersionField = "physvib_pad";
 
-/// A number of the law: its field, where it goes, and what is believed of it.
+/// A number of the law: its field, its member, and its valid range.
 struct LawFigure {
     const char* field;
     double PadLaw::*member;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The embedded scenes, read like any other.
+// Reads the embedded scenes like scene files.
 #include "Scene/SceneCatalogue.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edits of descriptions; what would leave a scene that is not valid is left out.
+// Applies editing actions to scene descriptions; edits that would make a scene invalid are skipped.
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/ScenePlayer.h"
@@ -10,7 +10,7 @@ namespace physvib {
 namespace {
 
 BodyDescription* findBody(Scene& scene, const std::string& name) {
-    // the last of that name is there
+    // the last body of that name exists
     for (auto input = scene.inputs.rbegin(); input != scene.inputs.rend(); ++input) {
         if (auto* spawn = std::get_if<SpawnAction>(&input->action);
             spawn != nullptr && spawn->body.name == name)

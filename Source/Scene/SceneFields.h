@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every field of a scene once: its name in files, its place in the structs, its range. Readers, writers and
-// checks visit this table.
+// Table of all fields of a scene: name in files, member, range. Readers, writers and checks iterate over it.
 #pragma once
 #include "Core/Limits.h"
 #include "Scene/Scene.h"
@@ -11,7 +10,7 @@
 
 namespace physvib {
 
-/// Whether a file may leave a field out; what is left out has the struct's default, which is always in range.
+/// Whether a file may omit a field; it then has the struct's default, which is always in range.
 enum class Need { required, optional };
 
 /// Range of a number (of each component, of each item) and of the number of items of a list.
@@ -48,7 +47,7 @@ inline constexpr Bounds fixtureBounds = upTo(static_cast<double>(sceneLimits::ma
 
 inline constexpr std::array<std::string_view, 2> grainPatternNames{"random", "regular"};
 
-/// The grains of T's surface: of a material, and of what changes them.
+/// Texture fields of T: a material, or an action that changes one.
 template <class T, class V>
 void visitTexture(V& v) {
     v.field("grain_m", &T::grainMetres, upTo(Texture::coarsestMetres), Need::optional);

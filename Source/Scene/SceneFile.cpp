@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The outer shape of a scene file and its variables; its fields are read and written after the table in
-// SceneFields.h.
+// Reads and writes scene files: version and variables; the fields follow the table in SceneFields.h.
 #include "Scene/SceneFile.h"
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NameList.h"

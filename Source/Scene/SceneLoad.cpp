@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene from a file; what its text says is read in SceneFile.cpp, also where there are no files.
+// Loads a scene from a file; SceneFile.cpp parses the text, also in builds without file access.
 #include "Io/Disk/ReadFile.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneFileLimits.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who is meant by a name.
+// Checks that names of bodies and joints in a scene are unique and exist.
 #include "Scene/SceneReferences.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneRanges.h"
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    // What an input has spawned and another has removed leaves its name to the next.
+    // The name of a spawned and removed body may be used again.
     std::string nameBodies() {
         const auto twice = [](const std::string& name) {
             return "bodies: expected names of their own, found \"" + name + "\" twice";
@@ -69,7 +69,7 @@ private:
         return {};
     }
 
-    // As bodies: a joint that was taken away leaves its name to the next.
+    // Like bodies: the name of a removed joint may be used again.
     std::string countJoints() const {
         std::set<std::string_view> there;
         for (const JointDescription& joint : scene_.joints) there.insert(joint.name);
@@ -132,7 +132,8 @@ private:
     }
     template <class One>
     std::string checkAction(const One& action, const std::string& path) const {
-        if constexpr (requires { bodies_.find(action.body); }) { // the name of one, that is: others name none
+        if constexpr (requires { bodies_.find(action.body); }) { // action.body is a name; other actions have
+                                                                 // none
             const auto body = bodies_.find(action.body);
             if (body == bodies_.end()) return missing(path + ".body", "body", action.body);
             if constexpr (requires { action.fixture; }) {

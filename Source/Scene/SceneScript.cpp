@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A sorted list of actions, gone through again in every period.
+// Iterates over the script's actions sorted by step, again in every period.
 #include "Scene/SceneScript.h"
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranges, then sums, outlines and masses, then what refers to what.
+// Validates a scene: ranges, totals, outlines and masses, then references.
 #include "Scene/SceneValidation.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneRanges.h"
@@ -54,7 +54,7 @@ struct Totals {
     }
 };
 
-/// With the repetitions of the script; of what live inputs spawn, as much as is there at once.
+/// Includes the script's repetitions; of live inputs, the bodies that exist at the same time.
 std::string checkTotals(const Scene& scene) {
     Totals totals;
     std::size_t actions = 0;
@@ -77,7 +77,7 @@ std::string checkTotals(const Scene& scene) {
         if (body == nullptr) continue;
         totals.add(*body);
         const auto [there, isNew] = spawned.emplace(body->name, body);
-        if (!isNew) totals.take(*std::exchange(there->second, body)); // it was changed
+        if (!isNew) totals.take(*std::exchange(there->second, body)); // replaced
         fault = totals.fault();
     }
     return fault;
@@ -117,8 +117,8 @@ std::string checkOutline(const ChainShape& chain) {
 std::string checkOutline(const CircleShape&) { return {}; }
 std::string checkOutline(const BoxShape&) { return {}; }
 
-// Box2D takes the inertia about the origin and subtracts again, in single precision, what the distance of the
-// centre of mass adds to it: of a small shape far out nothing would be left.
+// Box2D computes inertia about the origin and subtracts the centre's share in single precision: for a small
+// shape far from the origin nothing would be left.
 std::string checkCentre(const PlacedBody& placed, const Scene& scene) {
     constexpr double farthestRadii = 100.0;
     if (placed.body->type != BodyType::dynamicBody) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies that are moved, taken away and copied, with their joints; and scenes to draw in.
+// Editor operations on bodies with their joints: move, remove, copy, paste; and new empty scenes.
 #include "Scene/Drawing/BodyMotion.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>

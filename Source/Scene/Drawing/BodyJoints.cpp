@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// New joints, and joints of bodies that are elsewhere now.
+// Creates joints, and adjusts joints to bodies that have moved.
 #include "Scene/Drawing/BodyMotion.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/World/BodyMass.h"
@@ -13,7 +13,7 @@ namespace {
 using detail::Motion;
 using detail::placeOf;
 
-/// As near as a seed puts it beside its start.
+/// True if the places differ by no more than a seed's jitter.
 bool isNear(const BodyDescription& a, const BodyDescription& b) {
     constexpr double near = 2.0e-3;
     return std::hypot(a.positionMetres.x - b.positionMetres.x, a.positionMetres.y - b.positionMetres.y) <

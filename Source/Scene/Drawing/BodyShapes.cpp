@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sizes, densities, and what a body is to others.
+// Scales bodies, and sets density, source flag and type.
 #include "Scene/Drawing/BodyMotion.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/World/BodyMass.h"
@@ -35,7 +35,7 @@ private:
     double x_, y_;
 };
 
-/// Corners of a shape, or of the square around a circle.
+/// Corners of a shape, or of a circle's bounding square.
 std::vector<Vector> cornersOf(const Shape& shape) {
     if (const auto* circle = std::get_if<CircleShape>(&shape))
         return {{-circle->radiusMetres, -circle->radiusMetres}, {circle->radiusMetres, circle->radiusMetres}};
@@ -104,7 +104,7 @@ void setSource(const Scene& scene, BodyDescription& body, bool isSource) {
     if (!isSource || body.type == BodyType::dynamicBody || body.massKg > 0.0) return;
     const double mass = ownMoments(scene, body).massKg;
     body.massKg = mass > 0.0 ? std::clamp(mass, sceneLimits::minMassKg, sceneLimits::maxMassKg)
-                             : 1.0; // a line has none of its own
+                             : 1.0; // a line has no mass of its own
 }
 
 void setMoving(const Scene& scene, BodyDescription& body, bool moves) {

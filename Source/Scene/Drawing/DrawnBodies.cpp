@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outlines: hulls, and lines with as few corners as a hand needs.
+// Creates bodies from drawn points: convex hulls, and simplified polylines.
 #include "Scene/Drawing/DrawnBodies.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
@@ -43,7 +43,7 @@ std::vector<Vector> hullOf(std::vector<Vector> points) {
                 hull.pop_back();
             hull.push_back(*first);
         }
-        hull.pop_back(); // the other chain begins with it
+        hull.pop_back(); // the other chain begins with this point
     };
     if (points.size() < 3) return {};
     chain(points.begin(), points.end());
@@ -51,7 +51,7 @@ std::vector<Vector> hullOf(std::vector<Vector> points) {
     return hull;
 }
 
-/// Leaves out the corner that takes the least area with it, until `most` are left and no edge is too short.
+/// Removes the corner with the smallest area until at most `most` are left and no edge is too short.
 void thin(std::vector<Vector>& hull, std::size_t most) {
     const auto isShort = [&] {
         for (std::size_t i = 0; i < hull.size(); ++i)
@@ -92,7 +92,7 @@ double offLine(const Vector& p, const Vector& a, const Vector& b) {
     return length > 0.0 ? std::abs(cross(a, b, p)) / length : distance(a, p);
 }
 
-/// Douglas and Peucker's: the farthest place from the chord stays, and both parts follow.
+/// Douglas-Peucker: keeps the point farthest from the chord, and recurses into both parts.
 void keepCorners(const std::vector<Vector>& way, std::size_t first, std::size_t last, double tolerance,
                  std::vector<Vector>& kept) {
     std::size_t farthest = first;
@@ -151,7 +151,7 @@ Result<BodyDescription> drawnLine(const std::vector<Vector>& way, double toleran
     }
     const Vector at = corners[0];
     corners = from(corners, at);
-    // and back: a chain is hit from one side only
+    // and back: a chain collides on one side only
     for (std::size_t i = corners.size() - 1; i-- > 0;) corners.push_back(corners[i]);
     return bodyOf(ChainShape{corners, false}, at, BodyType::staticBody);
 }

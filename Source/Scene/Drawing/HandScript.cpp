@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Live inputs become script inputs of the same steps.
+// Converts recorded live inputs to a scene script with the same steps.
 #include "Scene/Drawing/HandScript.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneLimits.h"
@@ -16,8 +16,8 @@ bool isKinematic(const Scene& scene, const std::string& body) {
     return found != scene.bodies.end() && found->type == BodyType::kinematicBody;
 }
 
-/// What holds on until another one of its kind: it is so at the start of a part that begins later. Pushes and
-/// grips are over. Empty: something else.
+/// Name of the state that an action sets until the next action of its kind; a trimmed part starts with that
+/// state. Empty for actions without lasting state, such as pushes and grips.
 std::string stateOf(const Scene& scene, const Action& action) {
     if (std::holds_alternative<GravityAction>(action) || std::holds_alternative<TiltAction>(action))
         return "gravity"; // either replaces the other
@@ -29,7 +29,7 @@ std::string stateOf(const Scene& scene, const Action& action) {
     return {};
 }
 
-/// Bodies that are held after those inputs.
+/// Bodies that are still gripped after those inputs.
 std::vector<std::string> heldAfter(const std::vector<LiveInput>& inputs) {
     std::map<std::string, bool> held;
     for (const LiveInput& input : inputs)
@@ -56,7 +56,7 @@ double maxRecordedSeconds(const Scene& recordedIn) {
 }
 
 std::size_t maxRecordedInputs(const Scene& recordedIn) {
-    constexpr std::size_t room = 64; // for what a trim adds: how the device was held, and hands that let go
+    constexpr std::size_t room = 64; // for inputs that trimming adds: device orientation and ends of grips
     return sceneLimits::maxInputs - std::min(sceneLimits::maxInputs, recordedIn.script.size() + room);
 }
 
@@ -97,9 +97,9 @@ Scene withHands(Scene recordedIn, const HandScript& hands, const ScriptTrim& tri
     const HandScript part = trimmed(recordedIn, hands, trim);
     std::vector<ScriptInput> script;
     for (const LiveInput& input : part.inputs) script.push_back({input.timeSeconds, 1, 0.0, input.action});
-    const bool goesOn = !recordedIn.script.empty(); // at its own period
+    const bool goesOn = !recordedIn.script.empty(); // the scene's script keeps its own period
     script.insert(script.end(), recordedIn.script.begin(),
-                  recordedIn.script.end()); // behind: inputs of a step act before the script's
+                  recordedIn.script.end()); // last, because live inputs of a step act before the script's
     recordedIn.script = std::move(script);
     if (!goesOn)
         recordedIn.scriptPeriodSeconds =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each action has an opposite, which is found before it acts.
+// Applies edits to a scene, and finds each action's inverse before it acts.
 #include "Scene/Drawing/SceneDrawing.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/World/InputCheck.h"
@@ -15,7 +15,7 @@ bool isStructural(const Action& action) {
            std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
 }
 
-/// One action per fixture, as each was.
+/// One action per fixture, with its present value.
 template <class Make>
 std::vector<Action> ofFixtures(const BodyDescription* body, Make make) {
     std::vector<Action> back;

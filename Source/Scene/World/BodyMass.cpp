@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums over fixtures.
+// Sums mass, centre and inertia over a body's fixtures.
 #include "Scene/World/BodyMass.h"
 #include "Scene/World/ShapeGeometry.h"
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scene with one more input must be a valid scene.
+// Checks a live input by validating the scene with that input added.
 #include "Scene/World/InputCheck.h"
 #include "Scene/SceneRanges.h"
 #include "Scene/SceneValidation.h"
@@ -22,7 +22,7 @@ bool isSwitch(const Action& action) {
     return std::holds_alternative<CameraAction>(action) || std::holds_alternative<MaterialAction>(action);
 }
 
-/// Of those five.
+/// The body that one of those actions refers to.
 const std::string& bodyOf(const Action& action) {
     static const std::string none;
     if (const BodyDescription* body = bodyPutBy(action)) return body->name;
@@ -32,8 +32,8 @@ const std::string& bodyOf(const Action& action) {
     return none;
 }
 
-/// Whether it matters, after what was done before, for what comes later. Pushes and tilts change nothing that
-/// others are checked against, and they are most of a long list; nor does saying something twice.
+/// True if later inputs must be checked against this one. Pushes and tilts, most of a long list, change
+/// nothing that others depend on; nor does a repetition.
 bool matters(const std::vector<LiveInput>& before, const Action& action) {
     if (isSpawn(action) || isChange(action) || isJoining(action)) return true;
     if (!isSwitch(action) && !isRemoval(action)) return false;
@@ -41,7 +41,7 @@ bool matters(const std::vector<LiveInput>& before, const Action& action) {
         if (input->action == action) return false;
         if (bodyPutBy(input->action) != nullptr && bodyOf(input->action) == bodyOf(action)) return true;
     }
-    return isSwitch(action); // of the scene's own bodies; they never go for good
+    return isSwitch(action); // on the scene's own bodies, which are never removed permanently
 }
 
 } // namespace
@@ -53,7 +53,7 @@ InputCheck::InputCheck(const Scene& scene, std::size_t most)
     for (LiveInput& input : std::exchange(scene_.inputs, {})) keep(std::move(input));
 }
 
-// An editor changes the same bodies and joints over and over: of each, the last is kept.
+// An editor changes the same bodies and joints repeatedly: only the last change of each is kept.
 bool InputCheck::fold(const Action& action) {
     auto& inputs = scene_.inputs;
     if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) {
@@ -81,7 +81,7 @@ bool InputCheck::fold(const Action& action) {
         return isSpawn(input.action) && bodyOf(input.action) == change->body.name;
     };
     if (!isRemoval(last->action) || std::ranges::none_of(inputs, isSpawned)) return false;
-    // what was before may be forgotten
+    // earlier inputs may have been forgotten
     inputs.push_back({inputs.back().timeSeconds, SpawnAction{change->body, {}}});
     return true;
 }
@@ -102,7 +102,7 @@ void InputCheck::forgetOldest() {
         const auto next = std::find_if(oldest, inputs.end(), [&](const LiveInput& input) {
             return isSpawn(input.action) && isOf(input);
         });
-        // what comes then is said of another body of that name
+        // later inputs refer to another body of that name
         inputs.erase(std::remove_if(inputs.begin(), next, isOf), next);
         if (std::ranges::none_of(scriptedCast(scene_),
                                  [&](const BodyDescription& known) { return known.name == body; }))

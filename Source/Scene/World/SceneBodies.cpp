@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes, skins and masses.
+// Creates Box2D shapes, bodies and masses from descriptions.
 #include "Scene/World/SceneBodies.h"
 #include "Contacts/ImpactModel.h"
 #include "Scene/World/BodyMass.h"
@@ -29,9 +29,8 @@ private:
         made_ = &circle_;
     }
 
-    // Box2D keeps a skin of b2_polygonRadius around polygons, and contacts begin at the skin. Taking it off
-    // the sides puts the contact where the outline is described; very thin shapes keep most of their
-    // thickness.
+    // Box2D adds a skin of b2_polygonRadius around polygons, where contacts begin. Shrinking the sides by it
+    // puts the contact at the described outline; very thin shapes keep most of their thickness.
     void make(const BoxShape& b) {
         const auto halfSide = [](double side) {
             const double skin = std::min(static_cast<double>(b2_polygonRadius), side / 4.0);
@@ -52,7 +51,7 @@ private:
         const auto count = static_cast<int32>(points.size());
         if (c.isLoop)
             chain_.CreateLoop(points.data(), count);
-        else // the neighbours beyond the ends continue them straight on
+        else // neighbours beyond the ends continue the line straight
             chain_.CreateChain(points.data(), count, 2.0F * points[0] - points[1],
                                2.0F * points.back() - points[points.size() - 2]);
         made_ = &chain_;
@@ -100,7 +99,7 @@ b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& bo
     b2Body& created = *world.CreateBody(&def);
     for (const FixtureDescription& fixture : body.fixtures) {
         fixtures.push_back(created.CreateFixture(&ShapeMaker(fixture).shape(), 0.0F));
-        // A line has no skin; Box2D's copy of a chain forgets this, so the copy is told.
+        // A line has no skin, but Box2D's copy of a chain resets the radius.
         if (std::holds_alternative<ChainShape>(fixture.shape)) fixtures.back()->GetShape()->m_radius = 0.0F;
         setSurface(*fixtures.back(), fixture, scene.materials[static_cast<std::size_t>(fixture.material)]);
     }
@@ -109,7 +108,7 @@ b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& bo
 }
 
 void restartBody(b2Body& created, const BodyDescription& body, const BodyStart& start) {
-    created.SetEnabled(false); // its contacts end
+    created.SetEnabled(false); // ends its contacts
     created.SetTransform(box2dVector(start.positionMetres), static_cast<float>(start.angleRadians));
     created.SetLinearVelocity(box2dVector(start.velocityMetresPerSecond));
     created.SetAngularVelocity(static_cast<float>(body.spinRadiansPerSecond));

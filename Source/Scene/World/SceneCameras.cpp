@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which fixtures may ever have a camera, and what these need.
+// Finds the fixtures that may become haptic sources, and checks that they have mass and sound.
 #include "Scene/SceneReferences.h"
 #include "Scene/World/PlacedBodies.h"
 #include "Scene/World/SceneCast.h"
@@ -27,7 +27,7 @@ public:
         bearers_.clear();
     }
 
-    /// Of every repetition: each has a name of its own for camera and material actions.
+    /// Checks every repetition, because each has its own name in camera and material actions.
     std::string check(const PlacedBody& placed) {
         const SpawnAction spawn{*placed.body, {}};
         if (placed.isLive) count(placed.body->name);
@@ -41,11 +41,10 @@ public:
     }
 
 private:
-    // A name may go on to another body, of which nothing has been said yet.
+    // A body that had a name; a name may pass to another body, to which earlier actions do not apply.
     struct Bearer {
         std::string_view name;
-        int number; // of those that live inputs have spawned by that name; what is said before the first is
-                    // said of it
+        int number; // index among live-spawned bodies of that name; earlier actions count for the first
         auto operator<=>(const Bearer&) const = default;
     };
     void count(std::string_view name) { ++bearers_[name]; }
@@ -100,7 +99,7 @@ private:
         });
     }
 
-    // Anything may strike it.
+    // Any material may collide with it.
     std::string checkOthers(const std::string& camera) const {
         for (std::size_t i = 0; i < scene_.materials.size(); ++i)
             if (isSilent(static_cast<int>(i)))

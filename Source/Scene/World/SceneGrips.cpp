@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Box2D's joint for mice, with a hand that moves between its inputs.
+// Implements grips by Box2D mouse joints, whose targets move between inputs.
 #include "Scene/World/SceneGrips.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/World/SceneBodies.h"
@@ -34,7 +34,7 @@ SceneGrips::Grip& SceneGrips::hold(b2Body& body, const std::optional<Vector>& po
         grip = grips_.insert(grips_.end(),
                              {&body, static_cast<b2MouseJoint*>(world_.CreateJoint(&def)), {}, {}, 0, 0});
     }
-    float stiffness = 0.0F, damping = 0.0F; // anew each time: the mass may be another
+    float stiffness = 0.0F, damping = 0.0F; // recomputed each time, because the mass may have changed
     b2LinearStiffness(stiffness, damping, springHz, dampingRatio, &ground(), &body);
     grip->joint->SetStiffness(stiffness);
     grip->joint->SetDamping(damping);
@@ -53,8 +53,8 @@ void SceneGrips::move(std::int64_t step) {
     for (Grip& grip : grips_) grip.joint->SetTarget(grip.at(step));
 }
 
-// It has no fixtures: nothing touches it. Made by the first grip, so that worlds without hands stay as they
-// are.
+// Without fixtures, so it has no contacts. Created by the first grip, so that worlds without grips are
+// unchanged.
 b2Body& SceneGrips::ground() {
     if (ground_ == nullptr) {
         const b2BodyDef def;

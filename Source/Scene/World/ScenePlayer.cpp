@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keys, places and angles become velocities and motors.
+// Converts keys, mouse places and tilt angles to velocities and motor speeds.
 #include "Scene/World/ScenePlayer.h"
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 namespace physvib {
 namespace {
 
-constexpr double reachSeconds = 0.1;    // to where the mouse is, if that is near
-constexpr double steepestRadians = 0.5; // held so, what is moved goes as fast as it can
-constexpr double leastChange = 0.05;    // m/s: less is no new input
+constexpr double reachSeconds = 0.1;    // time to reach the mouse, if that is near
+constexpr double steepestRadians = 0.5; // tilt at which the moved body has full speed
+constexpr double leastChange = 0.05;    // m/s: a smaller change gives no input
 
 bool isFelt(const BodyDescription& body) {
     return std::ranges::any_of(body.fixtures, &FixtureDescription::isCamera);

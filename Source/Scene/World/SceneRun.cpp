@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stepping a simulation until enough is settled.
+// Steps simulations of scene runs until the requested time is final.
 #include "Scene/World/SceneRun.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
@@ -22,7 +22,7 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
         const bool isLast = &take == &takes.back();
         std::int64_t originNs = take.startNs;
         StallReader stalls{take.stalls};
-        if (goesOn && !goesOn(originNs)) return all; // also building a world takes its time
+        if (goesOn && !goesOn(originNs)) return all; // building a world takes time, too
         while (isLast ? originNs + world.settledNs() < endNs : world.timeNs() < take.worldEndNs) {
             originNs += stalls.lengthBefore(world.timeNs());
             const std::size_t before = all.events.size();
@@ -50,7 +50,7 @@ std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int6
 
 namespace {
 
-/// The world of a take, stepped along session time.
+/// The world of a scene run, stepped along session time.
 class FollowedTake {
 public:
     FollowedTake(const SceneTake& take, const SceneRun& run, bool isLast)

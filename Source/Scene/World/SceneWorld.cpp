@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Building and changing a scene's world.
+// Builds a scene's Box2D world, and applies actions to it.
 #include "Scene/World/SceneWorld.h"
 #include "Scene/World/SceneBodies.h"
 #include "Scene/World/SceneCast.h"
@@ -12,8 +12,8 @@ namespace physvib {
 
 namespace {
 
-// How long a removed body is kept: hits that it made are told until ReleaseImpacts::latestNs after them, some
-// steps later.
+// How long a removed body is kept: its impacts are reported up to ReleaseImpacts::latestNs later, which is
+// some steps.
 constexpr double heldSeconds = 0.5;
 
 Vector turnedBy(const Vector& v, double angleRadians) {
@@ -74,8 +74,8 @@ BodyStart SceneWorld::startOf(const BodyDescription& body) {
     return moves ? jitteredStart(body, random_) : describedStart(body);
 }
 
-// Box2D adds a whole step of gravity before it moves a body, which is half a step too early. Velocities that
-// start half a step behind make this the leapfrog scheme: bodies fall along the exact parabola.
+// Box2D adds a whole step of gravity before it moves a body, half a step too early. Velocities that start
+// half a step behind turn this into the leapfrog scheme: bodies fall along the exact parabola.
 void SceneWorld::startHalfAStepBehind(b2Body& body) const {
     if (body.GetType() != b2_dynamicBody) return;
     const b2Vec2 halfStep = static_cast<float>(-0.5 * clock_.stepSeconds()) * world_.GetGravity();
@@ -92,7 +92,7 @@ void SceneWorld::holdDevice() {
     const b2Vec2 gravity = box2dVector({hold_.factor * turned.x, hold_.factor * turned.y});
     if (gravity == world_.GetGravity()) return;
     world_.SetGravity(gravity);
-    for (const auto& [number, body] : bodies_) body.body->SetAwake(true); // sleeping bodies would not notice
+    for (const auto& [number, body] : bodies_) body.body->SetAwake(true); // because sleeping bodies ignore it
 }
 
 SceneWorld::Body* SceneWorld::find(std::string_view name) noexcept {
@@ -126,7 +126,7 @@ void SceneWorld::addInput(std::int64_t step, Action action) {
 }
 
 void SceneWorld::forgetDone() {
-    if (2 * nextInput_ < scene_.inputs.size() || nextInput_ == 0) return; // each is moved once, on average
+    if (2 * nextInput_ < scene_.inputs.size() || nextInput_ == 0) return; // each is moved once on average
     scene_.inputs.erase(scene_.inputs.begin(),
                         scene_.inputs.begin() + static_cast<std::ptrdiff_t>(nextInput_));
     nextInput_ = 0;
@@ -140,8 +140,8 @@ bool SceneWorld::act(std::int64_t step) {
     return live || script;
 }
 
-// They have neither contacts nor places in Box2D's tree since they were disabled: the others' order stays as
-// it is.
+// They have had neither contacts nor entries in Box2D's tree since they were disabled, so the order of the
+// others is unchanged.
 void SceneWorld::destroyRemoved(std::int64_t step) {
     for (; !leaving_.empty() && leaving_.front().step <= step; leaving_.pop_front()) {
         const auto gone = bodies_.find(leaving_.front().body);
@@ -179,7 +179,7 @@ bool SceneWorld::apply(const Action& action) {
             if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, SpawnAction>)
                 return act(one);
             else
-                return false; // it needs to know who spawns
+                return false; // spawning needs to know its source
         },
         action);
 }
@@ -226,7 +226,7 @@ bool SceneWorld::act(const VelocityAction& action) {
 bool SceneWorld::act(const SpawnAction& action, int repetition) {
     const std::size_t number = spawned_.at(&action) + static_cast<std::size_t>(repetition);
     Body& body = bodies_.at(number);
-    // it was changed since
+    // the body was changed since
     if (std::size_t& named = bodyNames_.find(body.described.name)->second; named != number) {
         moveJoints(*bodies_.at(named).body, *body.body);
         retire(std::exchange(named, number));
@@ -248,7 +248,7 @@ bool SceneWorld::act(const RemoveAction& action) {
     b2Body& body = *bodies_.at(number).body;
     if (number >= scripted_) {
         bodyNames_.erase(place);
-        // the one that was changed: the script may want it
+        // the body was changed: the script may need the original
         const auto scripted = scriptedNames_.find(action.body);
         if (scripted == scriptedNames_.end())
             dropJoints(body);
@@ -261,8 +261,8 @@ bool SceneWorld::act(const RemoveAction& action) {
     return false;
 }
 
-// It has no contacts any more. The script may want it again, else it is destroyed when its hits have been
-// told.
+// It has no contacts any more. The script may spawn it again; a live body is destroyed once its impacts have
+// been reported.
 void SceneWorld::retire(std::size_t number) {
     b2Body& body = *bodies_.at(number).body;
     grips_.letGo(body);
@@ -318,7 +318,7 @@ bool SceneWorld::act(const JoinAction& action) {
 bool SceneWorld::act(const UnjoinAction& action) {
     const auto joint = joints_.find(action.joint);
     if (joint == joints_.end()) return false;
-    world_.DestroyJoint(joint->second); // wakes both
+    world_.DestroyJoint(joint->second); // wakes both bodies
     joints_.erase(joint);
     return false;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums over the edges of outlines.
+// Computes area, inertia and sizes by sums over the edges of outlines.
 #include "Scene/World/ShapeGeometry.h"
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ ShapeMoments moments(const BoxShape& b) {
 }
 ShapeMoments moments(const ChainShape&) { return {}; }
 
-// Triangles from the first vertex, so that a far away outline loses no digits.
+// Triangles from the first vertex, so that an outline far from the origin loses no precision.
 ShapeMoments moments(const PolygonShape& p) {
     const auto& v = p.verticesMetres;
     double twiceArea = 0.0, second = 0.0;
@@ -79,7 +79,7 @@ double farthestPair(const std::vector<Vector>& points) {
 
 double longest(const CircleShape& c) { return 2.0 * c.radiusMetres; }
 double longest(const BoxShape& b) {
-    return std::max(b.widthMetres, b.heightMetres); // the longer side, as one speaks of a box
+    return std::max(b.widthMetres, b.heightMetres); // the longer side, not the diagonal
 }
 double longest(const PolygonShape& p) { return farthestPair(p.verticesMetres); }
 double longest(const ChainShape& c) { return farthestPair(c.verticesMetres); }
@@ -110,7 +110,7 @@ bool isConvexCounterClockwise(const std::vector<Vector>& vertices) noexcept {
     return true;
 }
 
-// Cuts off, edge by edge, what is nearer to the edge than the margin (Sutherland and Hodgman's clipping).
+// Clips off, edge by edge, what is closer to the edge than the margin (Sutherland-Hodgman).
 std::vector<Vector> inset(const std::vector<Vector>& outline, double margin) {
     std::vector<Vector> left = outline;
     for (std::size_t edge = 0; edge < outline.size(); ++edge) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Builds a scene's world and advances it step by step.
+// Creates a scene's world and advances it step by step.
 #include "Scene/World/Simulation.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
@@ -36,7 +36,7 @@ ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocatio
 }
 
 HapticFixture hapticOf(const SceneWorld::FixtureNow& now) {
-    // controls may take its decay away
+    // a control may have removed the decay
     const bool isSilent = isEndless(now.material.frequencyHz, now.material.decayPerSecond);
     HapticFixture values{isSilent ? 0.0 : now.material.frequencyHz, now.material.decayPerSecond,
                          now.description.isCamera, now.body.massKg, now.description.voice};
