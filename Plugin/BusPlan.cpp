@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Channel sets that survive the way through a plug-in format in their order.
+// Chooses channel sets whose order a plug-in format preserves.
 #include "BusPlan.h"
 #include "Scene/LayoutFile.h"
 #include <algorithm>

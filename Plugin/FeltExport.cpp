@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From what was played to bytes, by the ending of the file's name.
+// Exports played events as MIDI, an event list or a haptic file; the format follows from the file name's
+// ending.
 #include "FeltExport.h"
 #include "Host/Recordings/HitExport.h"
 #include "Io/Disk/AtomicFile.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys, their marks and their words.
+// Draws the keyboard: keys, their marks and labels.
 #include "KeyboardPanel.h"
 #include "EditorParts.h"
 #include "MidiPanel.h"

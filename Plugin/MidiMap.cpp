@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From rules to a table.
+// Builds the lookup table of MIDI notes from the rules of a state.
 #include "MidiMap.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of words, and a form for each kind of rule. What a form asks for is checked by the reader of states.
+// Draws the list of MIDI rules, with a form for each kind of rule. The reader of states checks what is
+// entered.
 #include "MidiPanel.h"
 #include "EditorParts.h"
 

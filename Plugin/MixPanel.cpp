@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strips and what they change.
+// Draws the plug-in's mixer strips, and applies their changes to the state.
 #include "MixPanel.h"
 #include "Core/Decibels.h"
 #include "EditorParts.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ring by the renderer's frames, and its spread over the actuators.
+// Ring buffer in the renderer's frames, and distribution over the actuators.
 #include "MusicDelay.h"
 #include "Core/Limits.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// By what the file says it is.
+// Opens a file by its detected kind.
 #include "OpenedFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Live/Documents/DeskLimits.h"

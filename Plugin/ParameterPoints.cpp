@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps, and lines where a host draws them.
+// Converts a host's parameter points to steps, and to ramps where the host draws lines.
 #include "ParameterPoints.h"
 #include <utility>
 

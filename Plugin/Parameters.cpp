@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of parameters and its two mappings.
+// The parameter table, and its two mappings between 0 to 1 and the parameter's range.
 #include "Parameters.h"
 #include "Core/Decibels.h"
 #include <algorithm>

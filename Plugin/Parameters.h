@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every parameter once: id, name, unit, range, default, mapping, words. The plug-in, its editor, its saved
-// state and the table in Docs/plugin.md read this table.
+// Table of all plug-in parameters: id, name, unit, range, default, mapping, labels. The plug-in, its editor,
+// its saved state and the table in Docs/plugin.md read it.
 #pragma once
 #include "Core/PanningLaws.h"
 #include <array>

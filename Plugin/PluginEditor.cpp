@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places, choices, and what is asked of the processor 25 times a second.
+// Layout of the plug-in's window, and its update from the processor 25 times a second.
 #include "PluginEditor.h"
 #include "EditorParts.h"
 #include "PresetFiles.h"

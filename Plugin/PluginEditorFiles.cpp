@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the window opens, saves, exports and learns.
+// Menus of the plug-in's window: opening, saving and exporting files, and MIDI learn.
 #include "EditorParts.h"
 #include "OpenedFile.h"
 #include "PluginEditor.h"

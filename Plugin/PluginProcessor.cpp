@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The message thread's part: settings, buses, rates, latency.
+// The plug-in processor on the message thread: settings, buses, sample rates, latency.
 #include "PluginProcessor.h"
 #include "PluginEditor.h"
 #include "Presets.h"

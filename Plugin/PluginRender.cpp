@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The render role's part: transport, controls, MIDI, samples. Nothing here allocates, locks or waits.
+// The plug-in processor on the render thread: transport, controls, MIDI, samples. Nothing here allocates,
+// locks or waits.
 #include "PluginProcessor.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Panner, session, tail and parameters of a state.
+// Derives panner, session settings, tail length and parameter values from a plug-in state.
 #include "PluginSettings.h"
 #include "Io/Text/NameList.h"
 #include "MidiMap.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A row per instrument: layout, voice, strike level, and the notes that it gives a sound and a place of their
-// own.
+// Table of the instrument presets: layout, voice, strike level, and notes with their own sound and place.
 #include "Presets.h"
 #include "Parameters.h"
 #include "PluginSettings.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Deadlines of each member; the thread sleeps until the first of them.
+// Schedules the worlds by deadline; the thread sleeps until the first one.
 #include "Stepper.h"
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rendering, growing and ending of a take.
+// Rendering, latency growth and end of a scene run.
 #include "Take.h"
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Making, stepping and freeing takes: all but the render role's part.
+// Creates, steps and frees scene runs: everything except the render thread's part.
 #include "Takes.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The render role's part of takes: nothing here allocates, locks or waits, but for non-realtime blocks.
+// The render thread's part of scene runs: nothing here allocates, locks or waits, except in non-realtime
+// blocks.
 #include "Takes.h"
 #include <algorithm>
 #include <cmath>

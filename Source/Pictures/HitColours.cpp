@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which colour a hit has, and what that colour is called in the legend.
+// Assigns colours to impacts by material or frequency, and names them in the legend.
 #include "Pictures/PictureParts.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>

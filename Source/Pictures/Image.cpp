@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG by libpng.
+// Encodes images as PNG by libpng.
 #include "Pictures/Image.h"
 #include <png.h>
 #include <stdexcept>

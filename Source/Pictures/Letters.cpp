@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faces by FreeType, unhinted: a word is as wide as its letters.
+// Text layout with unhinted FreeType faces, so that a text's width is the sum of its letters.
 #include "Pictures/Letters.h"
 #include "Io/Text/CleanText.h"
 #include "Pictures/FreeType.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Panels, words and axes in the look of the palette.
+// Draws panels, text and axes in the palette's style.
 #include "Pictures/PictureCanvas.h"
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One lane per channel: waveforms, or strips of brightness when there are too many.
+// Draws one lane per channel: waveforms, or strips of brightness if there are many channels.
 #include "Pictures/PictureParts.h"
 #include <algorithm>
 #include <cmath>

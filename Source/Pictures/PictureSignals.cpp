@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panels that show sound: all channels over time, and the strongest hit up close.
+// Draws the signal panels: all channels over time, and a close-up of the strongest impact.
 #include "Pictures/PictureParts.h"
 #include <algorithm>
 #include <numeric>

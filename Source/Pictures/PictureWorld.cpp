@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel that shows the world: field, bodies, hits as light, enchanters.
+// Draws the world panel: field, bodies, impacts as light, actuators.
 #include "Pictures/PictureLight.h"
 #include "Pictures/PictureParts.h"
 #include "Pictures/ShapeOutline.h"

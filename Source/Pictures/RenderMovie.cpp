@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What does not move is drawn once; each picture is a copy of it with the world, the light of the last
-// impacts and the time.
+// Draws the frames of a movie: the static part is drawn once, then copied and completed with the world, the
+// light of recent impacts and the time.
 #include "Pictures/RenderMovie.h"
 #include "Pictures/PictureLight.h"
 #include "Pictures/WorldParts.h"

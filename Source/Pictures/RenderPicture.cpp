@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lays the panels out on the page, and draws it.
+// Lays out the panels of a render's picture, and draws it.
 #include "Pictures/RenderPicture.h"
 #include "Pictures/PictureParts.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lowest and highest sample per column, gathered block by block.
+// Accumulates minimum and maximum samples per column, block by block.
 #include "Pictures/WaveformEnvelope.h"
 #include <algorithm>
 #include <cmath>
