@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The side chain: music whose onsets strike.
+// Side-chain input: detects onsets in incoming music, which trigger strikes.
 #pragma once
 #include "Core/DenormalGuard.h"
 #include "Host/Music/BeatDetector.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which output buses a build of the plug-in has, what a host may make of them, and where channel j leaves.
+// Output buses of a build of the plug-in: which exist, which arrangements a host may choose, and the output
+// of each channel.
 #pragma once
 #include "Core/Limits.h"
 #include <array>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How often one kind of control goes to the session, so that automation never fills the room of those that
-// must not wait.
+// Rate limit for one kind of control change, so that automation cannot fill the session's control queue.
 #pragma once
 #include <algorithm>
 #include <cstdint>

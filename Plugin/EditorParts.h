@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the parts of the editor share: words, grounds, distances.
+// Labels, backgrounds and distances common to the parts of the editor.
 #pragma once
 #include "Host/Views/Look.h"
 #include "Host/Views/Palette.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was felt, as a file for other programs: MIDI, a list of events, or a haptic file.
+// Export of played events for other programs: MIDI, an event list, or a haptic file.
 #pragma once
 #include "Takes.h"
 #include <span>

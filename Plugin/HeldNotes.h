@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Notes that sound until their key is let go.
+// Notes that sound until their key is released.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hosts that ask ahead of time, and hosts that make up for time they lost: only the first need a longer L.
+// Distinguishes hosts that request blocks ahead of time from hosts that catch up after a delay: only the
+// former need a longer play-out latency.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -7,7 +8,7 @@
 
 namespace physvib {
 
-/// R only.
+/// Render thread (R) only.
 class HostPace {
 public:
     static constexpr std::int64_t calmNs = 3'000'000'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A row of the parameter table as hosts see it; the value is one atomic float.
+// An entry of the parameter table as a host parameter; its value is one atomic float.
 #pragma once
 #include "Parameters.h"
 #include <atomic>

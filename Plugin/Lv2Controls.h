@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LV2's control ports, one for each parameter, what a state keeps of them, and what a window tells the host.
+// LV2 control ports, one per parameter: reading them, storing them with a state, and reporting changes by the
+// window to the host.
 #pragma once
 #include "PluginProcessor.h"
 #include <array>

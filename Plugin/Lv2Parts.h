@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the window of an LV2 needs of the instance that it shows.
+// Access from an LV2 window to the plug-in instance that it shows.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which note strikes what and where; which controller moves which parameter.
+// Mapping of MIDI: which note strikes what and where, and which controller moves which parameter.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Live/Documents/PluginState.h"

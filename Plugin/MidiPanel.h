@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What notes and controllers do: a list that can be added to, changed and shortened.
+// Editor panel with the rules for notes and controllers, which can be added, changed and removed.
 #pragma once
 #include "MixPanel.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plug-in's mix: a strip per enchanter, and behind them the level of all and the limiter.
+// Editor panel of the plug-in's mixer: a strip per actuator, then the total level and the limiter.
 #pragma once
 #include "Host/Views/StripParts.h"
 #include "PluginProcessor.h"

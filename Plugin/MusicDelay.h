@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Music between the call that hears it and the renderer, which comes to it as late as to everything else.
+// Delays incoming music by the play-out latency, so that it reaches the renderer together with the events.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
 #include "Core/EnchanterLayout.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The side chain's own low frequencies, as they go to the actuators.
+// Extracts the low frequencies of the side-chain input for the actuators.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
 #include "Core/DenormalGuard.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file of one's own into what an instance plays: a scene, a layout, or a session with its desk.
+// Opens a user's file (scene, layout, or session with its mixer state) as the state of a plug-in instance.
 #pragma once
 #include "Io/Result.h"
 #include "Live/Documents/PluginState.h"

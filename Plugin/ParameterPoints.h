@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a host says of parameters within a block, in frame order: each value acts at its frame.
+// Sample-accurate parameter changes of a host within a block, in frame order.
 #pragma once
 #include "Parameters.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plug-in's window: the world, the mix, what is played and how, a control per parameter, what went wrong.
+// The plug-in's window: the world, the mixer, settings, a control per parameter, and error messages.
 #pragma once
 #include "Host/Views/EmergencyStop.h"
 #include "Host/Views/WorldView.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the state of an instance to what renders it.
+// Converts the state of a plug-in instance to the settings of its renderer and session, and edits it.
 #pragma once
 #include "Live/Documents/PluginState.h"
 #include "Live/Session/Session.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Presets of one's own: a file each, which is what a host keeps of an instance, in a folder that every
-// instance lists. Beside it, how windows look.
+// User presets: a file each with an instance's state, in a folder that all instances list. Also stores window
+// settings.
 #pragma once
 #include "Host/Views/Look.h"
 #include "Live/Documents/PluginState.h"

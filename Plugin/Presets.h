@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an instance can be, by name: instruments of an empty field, and the built-in worlds.
+// Built-in presets of the plug-in: scenes, and instruments without bodies.
 #pragma once
 #include "Live/Documents/PluginState.h"
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one thread that steps the worlds of all instances of a process.
+// The thread that steps the physics worlds of all plug-in instances in the process.
 #pragma once
 #include <atomic>
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the render role has to know of a state. It travels inside each take: a take is never played by
-// another's settings.
+// The part of a plug-in state that the render thread needs. Each scene run carries its own, so it is never
+// played with the settings of another.
 #pragma once
 #include "MidiMap.h"
 

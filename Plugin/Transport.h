@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the host's transport did since the last block: a start, a stop, or a jump (which is both).
+// Detects starts, stops and jumps (a stop and a start) of the host's transport since the last block.
 #pragma once
 #include <algorithm>
 #include <cstdint>

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Apple's .ahap: continuous and transient events, and curves that control them all.
+// Reader and writer of Apple's .ahap format: continuous and transient events, and curves that control all of
+// them.
 //
-// Carries: one channel, intensities and sharpnesses from 0 to 1, transients; continuous events of at most 30
-// s that follow one another.
-//
-// Does not carry: several channels, places, several frequencies at once, phases, levels beyond full scale,
-// Hz.
-//
-// Left out of what others write, and told: sound, attack, decay, release, and what is not known.
+// Stores: one channel, intensities and sharpnesses from 0 to 1, transients; consecutive continuous events of
+// at most 30 s. Does not store: several channels, places, several frequencies at once, phases, levels beyond
+// full scale, Hz. Ignored with a note when reading: sound, attack, decay, release, and unknown fields.
 #pragma once
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
@@ -17,11 +14,11 @@
 
 namespace physvib {
 
-/// One channel. Amplitude is the intensity squared, sharpness a share of the scale. Values beyond their range
-/// are brought to its ends and missing ones have defaults, as Apple has it (Docs/formats.md). Any thread.
+/// One channel. Amplitude is the intensity squared, sharpness a share of the scale. Values out of range are
+/// clamped and missing ones have defaults, as in Apple's definition (Docs/formats.md). Any thread.
 Result<Clip> readAhap(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
 
-/// `channel` as such a file; no curve bends a transient (see AhapPieces.h), or has more than 16 points. Any
+/// `channel` as such a file. No curve affects a transient (see AhapPieces.h) or has more than 16 points. Any
 /// thread.
 std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale = {});
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an .ahap file says, between its words and the clip: events, and the curves that bend all of them.
+// Intermediate form of an .ahap file between its JSON and the clip: events, and the curves that control all
+// of them.
 #pragma once
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
@@ -8,21 +9,21 @@
 
 namespace physvib {
 
-/// What a dynamic parameter does over time: curves and steps, one after the other.
+/// The values of a dynamic parameter over time: consecutive curves and steps.
 class AhapControl {
 public:
     AhapControl(double before, double least)
         : before_{before}
         , least_{least} {}
 
-    double before() const noexcept { return before_; } ///< what it is without curves
+    double before() const noexcept { return before_; } ///< value without curves
 
-    /// Values beyond its range are brought to its ends.
+    /// Values out of range are clamped.
     void add(std::vector<ClipPoint> points) {
         for (ClipPoint& p : points) p.value = std::clamp(p.value, least_, 1.0);
         if (!points.empty()) pieces_.push_back(std::move(points));
     }
-    /// All in one: each piece holds until the next begins.
+    /// All pieces as one curve: each holds until the next begins.
     std::vector<ClipPoint> curve() {
         sortByTime(pieces_, [](const auto& piece) { return piece.front().seconds; });
         std::vector<ClipPoint> all{{0.0, before_}};
@@ -50,8 +51,8 @@ struct AhapPattern {
     AhapControl intensity{1.0, 0.0}, sharpness{0.0, -1.0};
 };
 
-/// Events become waves and transients, bent by the curves that hold while they last. Throws JsonError if that
-/// is too much. Any thread.
+/// Converts events to waves and transients, with the curves that apply while they last. Throws JsonError if
+/// the result is too large. Any thread.
 Clip clipOf(AhapPattern pattern, const FrequencyScale& scale);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers of any width, one behind the other, highest bit first.
+// Bit stream reader and writer: numbers of any width, most significant bit first.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace physvib {
 
-/// A number that stands in the file as a share of this range.
+/// Range of a number that is stored as a share of it.
 struct BitRange {
     double least = 0.0, most = 1.0;
 
     constexpr double at(std::uint32_t share, int bits) const {
         return least + (most - least) * share / top(bits);
     }
-    /// Of the nearest that has so many bits.
+    /// The nearest value representable in so many bits.
     std::uint32_t share(double value, int bits) const {
         const double place = (value - least) / (most - least);
         return static_cast<std::uint32_t>(std::llround((place < 0.0   ? 0.0
@@ -40,9 +40,9 @@ public:
         }
     }
     void share(double value, int bits, const BitRange& range) { number(range.share(value, bits), bits); }
-    /// From a whole byte on.
+    /// Must start at a byte boundary.
     void add(std::string_view bytes) { bytes_.append(bytes), used_ = 0; }
-    /// Up to a whole byte, with zeros.
+    /// Pads to a whole byte with zeros.
     const std::string& bytes() {
         used_ = 0;
         return bytes_;
@@ -50,19 +50,19 @@ public:
 
 private:
     std::string bytes_;
-    int used_ = 0; // bits of the last byte
+    int used_ = 0; // used bits of the last byte
 };
 
-/// What is wrong, and at which byte of the file. Never leaves this room.
+/// A format error with its byte in the file. Not thrown out of this module.
 struct BitFault : std::runtime_error {
     BitFault(std::size_t byte, const std::string& what)
         : std::runtime_error("byte " + std::to_string(byte) + ": " + what) {}
 };
 
-/// Throws BitFault where there is not as much as was asked for. Any thread, one at a time.
+/// Throws BitFault if there are fewer bits than requested. Any thread, one at a time.
 class BitReader {
 public:
-    /// `bytes` outlive it and begin at byte `start` of the file.
+    /// `bytes` must outlive it; they begin at byte `start` of the file.
     explicit BitReader(std::string_view bytes, std::size_t start = 0)
         : bytes_{bytes}
         , start_{start} {}
@@ -75,7 +75,7 @@ public:
             value = value << 1 | (static_cast<unsigned char>(bytes_[at_ / 8]) >> (7 - at_ % 8) & 1);
         return static_cast<std::uint32_t>(value);
     }
-    /// With a sign, in two's complement.
+    /// Signed, in two's complement.
     std::int32_t signedNumber(int bits) {
         const std::uint32_t value = number(bits);
         return static_cast<std::int32_t>(value << (32 - bits)) >> (32 - bits);
@@ -88,7 +88,7 @@ public:
         for (std::size_t i = 0; i < bytes; ++i) found.push_back(static_cast<char>(number(8)));
         return found;
     }
-    /// The next bytes on their own; from a whole byte on.
+    /// A reader of the next bytes alone; must start at a byte boundary.
     BitReader part(std::size_t bytes) {
         expect(8 * bytes);
         BitReader found{bytes_.substr(at_ / 8, bytes), start_ + at_ / 8};

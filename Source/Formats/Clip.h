@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one form between the haptic files of others and our strikes: channels of waves whose amplitude and
-// frequency follow lines.
+// Common representation of haptic files: channels of waves whose amplitude and frequency are piecewise
+// linear. All file formats are converted to and from it.
 #pragma once
 #include "Core/EnchanterLayout.h"
 #include <algorithm>
@@ -13,12 +13,12 @@
 
 namespace physvib {
 
-constexpr double sameMomentSeconds = 1e-9; ///< a time, reached in two ways
+constexpr double sameMomentSeconds = 1e-9; ///< tolerance for times computed in different ways
 
-/// In whole nanoseconds: times that a file reaches by different sums are equal. Any thread.
+/// Rounds to whole nanoseconds, so that times computed by different sums in a file are equal. Any thread.
 inline double momentOf(double seconds) noexcept { return std::round(seconds * 1e9) / 1e9; }
 
-/// A point of a curve; from one to the next it is a line.
+/// A point of a piecewise linear curve.
 struct ClipPoint {
     double seconds = 0.0;
     double value = 0.0;
@@ -40,8 +40,8 @@ inline double valueAt(std::span<const ClipPoint> curve, double seconds) noexcept
 
 enum class ClipWaveform { sine, square, triangle, sawtoothUp, sawtoothDown };
 
-/// amplitude(t) waveform(phase + 2 pi integral of the frequency), t = time since `startSeconds`, from there
-/// on until before the last point of the amplitude.
+/// amplitude(t) waveform(phase + 2 pi integral of the frequency), t = time since `startSeconds`, up to the
+/// last point of the amplitude.
 struct ClipWave {
     double startSeconds = 0.0;
     double phaseRadians = 0.0;
@@ -54,15 +54,15 @@ struct ClipWave {
     double endSeconds() const noexcept { return startSeconds + seconds(); }
 };
 
-/// Waves one after the other: each ends before the next begins.
+/// Consecutive waves: each ends before the next begins.
 struct ClipBand {
     std::vector<ClipWave> waves;
     bool operator==(const ClipBand&) const = default;
 };
 
-/// A short knock: a sine that falls to nothing within `lastsSeconds`.
+/// A short pulse: a sine that falls to 0 within `lastsSeconds`.
 struct ClipTransient {
-    static constexpr double lastsSeconds = 0.022; ///< as MPEG's encoder takes it
+    static constexpr double lastsSeconds = 0.022; ///< as in MPEG's encoder
     double seconds = 0.0;
     double amplitude = 0.0;
     double frequencyHz = 0.0;
@@ -74,7 +74,7 @@ struct ClipTransient {
     }
 };
 
-/// What a channel was made for, where a format has room for it; 0: not known.
+/// The actuator that a channel was made for, if the format stores it; 0: not known.
 struct ClipDevice {
     double lowHz = 0.0, highHz = 0.0, resonanceHz = 0.0, fullScaleG = 0.0;
     bool operator==(const ClipDevice&) const = default;
@@ -84,7 +84,7 @@ struct ClipChannel {
     std::string label;
     std::optional<EnchanterPlace> place; ///< on the clip's extent
     ClipDevice device{};
-    std::vector<ClipBand> bands{};           ///< all sound together
+    std::vector<ClipBand> bands{};           ///< all sound at the same time
     std::vector<ClipTransient> transients{}; ///< in time order
     bool operator==(const ClipChannel& other) const {
         return label == other.label && place.has_value() == other.place.has_value() && bands == other.bands &&
@@ -97,7 +97,7 @@ struct Clip {
     std::string title;
     double extentWidthMetres = 0.0, extentHeightMetres = 0.0; ///< 0: no channel has a place
     std::vector<ClipChannel> channels;
-    std::string leftOut{}; ///< one line: what the file holds and is not felt; empty: nothing
+    std::string leftOut{}; ///< one line: contents of the file that are not played; empty: none
     bool operator==(const Clip&) const = default;
 
     double seconds() const noexcept {
@@ -121,13 +121,13 @@ struct Clip {
     }
 };
 
-/// Empty, or why the clip is not taken: beyond limits, or nothing in it. Any thread.
+/// Empty, or why the clip is refused: it exceeds limits, or is empty. Any thread.
 std::string clipFault(const Clip& clip);
 
-/// The strongest amplitude of any wave or transient. Any thread.
+/// The largest amplitude of any wave or transient. Any thread.
 double peakOf(const ClipChannel& channel) noexcept;
 
-/// Puts the waves in order and ends each where the next begins, as MPEG's decoder plays a band. Any thread.
+/// Sorts the waves and ends each where the next begins, as MPEG's decoder plays a band. Any thread.
 void keepOneAtATime(ClipBand& band);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Haptic files of others by their endings: one door in, one out.
+// Reads and writes haptic files (.hjif, .hmpg, .haptic, .ahap); the format follows from the file's ending.
 #pragma once
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
@@ -14,29 +14,29 @@
 namespace physvib {
 
 enum class ClipFormat { hjif, hmpg, haptic, ahap };
-/// as ClipFormat
+/// indexed by ClipFormat
 constexpr std::array<std::string_view, 4> clipEndings{".hjif", ".hmpg", ".haptic", ".ahap"};
 
-/// By the file's ending, in any case of letters. Any thread.
+/// By the file's ending, case-insensitive. Any thread.
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept;
 
-/// Whether the format has one channel only. Any thread.
+/// True if the format has one channel only. Any thread.
 constexpr bool isMono(ClipFormat format) noexcept {
     return format == ClipFormat::haptic || format == ClipFormat::ahap;
 }
 
-/// The clip of a file's bytes; or one line. `scale` says what phones' frequencies are. Any thread.
+/// The clip of a file's bytes, or a one-line error. `scale`: frequency range of phone formats. Any thread.
 Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat format,
                       const FrequencyScale& scale = {});
 
-/// The same of a file. Any thread but R.
+/// The same for a file. Any thread but the render thread (R).
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale = {});
 
-/// The file of `clip`, of its first channel if the format has one only; or one line: what it has no numbers
-/// for. Any thread.
+/// The bytes of a file with `clip`, or its first channel if the format has only one; or a one-line error if
+/// the format cannot represent it. Any thread.
 Result<std::string> clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
 
-/// What of `clip` the format cannot carry, a line each, for people. Any thread.
+/// What the format cannot store of `clip`, one line each, for the user. Any thread.
 std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
 
 } // namespace physvib

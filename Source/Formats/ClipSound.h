@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A clip as samples.
+// Renders a clip to samples.
 #pragma once
 #include "Formats/Clip.h"
 #include "Io/Wav/SampledSound.h"
 
 namespace physvib {
 
-/// Every channel of `clip` (without a clipFault) at that rate, from 0 s to its end; what lies at or above
-/// half the rate is left out. 1 is full scale. Any thread.
+/// Every channel of `clip` (which has no clipFault) at that sample rate, from 0 s to its end. Waves at or
+/// above half the rate are omitted. 1 is full scale. Any thread.
 SampledSound clipSound(const Clip& clip, int sampleRateHz);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A curve along growing times, and its integral; nothing is looked for twice.
+// Evaluates a piecewise linear curve and its integral at increasing times, without repeated searches.
 #pragma once
 #include "Formats/Clip.h"
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// Of at least one point; the times asked for grow. Any thread.
+/// For a curve of at least one point; the requested times must increase. Any thread.
 class CurveWalk {
 public:
     explicit CurveWalk(std::span<const ClipPoint> curve)
@@ -19,7 +19,7 @@ public:
         const ClipPoint& from = curve_[next_ - 1];
         return next_ == curve_.size() ? from.value : from.value + slope() * (seconds - from.seconds);
     }
-    /// From 0 on.
+    /// From 0 to `seconds`.
     double integral(double seconds) {
         goTo(seconds);
         if (next_ == 0) return curve_.front().value * seconds;
@@ -43,7 +43,7 @@ private:
     }
 
     std::span<const ClipPoint> curve_;
-    std::size_t next_ = 0; // first point that is later
+    std::size_t next_ = 0; // first later point
     double before_ = 0.0;  // integral up to the point before it
 };
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// From 0 to 1, as phones say frequencies, to Hz.
+// Maps the relative frequencies (0 to 1) of phone formats to Hz.
 #pragma once
 #include <algorithm>
 
 namespace physvib {
 
-/// A line between the ends of what an actuator plays; unless told, what MPEG's encoder takes sharpness for.
-/// Any thread.
+/// Linear over the actuator's range; by default the range that MPEG's encoder uses for sharpness. Any thread.
 struct FrequencyScale {
     double lowHz = 65.0, highHz = 300.0;
 

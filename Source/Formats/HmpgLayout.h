@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Widths and numbers of .hmpg, as MPEG's reference software has them (Docs/decisions/0082): a file is a row
-// of units, a unit of packets.
+// Field widths and constants of .hmpg, as in MPEG's reference software (Docs/decisions/0082): a file is a
+// sequence of units, a unit of packets.
 #pragma once
 #include "Formats/BitStream.h"
 #include "Formats/MpegNames.h"
@@ -43,14 +43,14 @@ constexpr int bandTypeBits = 3, curveTypeBits = 4, blockLengthBits = 8, bandLimi
 constexpr int effectTypeBits = 2, semanticBits = 4 + 8, positionBits = 25, phaseBits = 16, waveformBits = 4;
 constexpr int ticksBits = 16, amplitudeBits = 8, hertzBits = 16;
 
-// also of Hz
+// also for Hz
 constexpr BitRange phases{0.0, mpeg::mostPhase}, amplitudes{-1.0, 1.0}, gains{-10'000.0, 10'000.0},
     positives{0.0, 10'000.0};
 
-constexpr int vibrotactile = 6; // of perceptions' modalities
+constexpr int vibrotactile = 6; // a modality of perceptions
 constexpr int noDevice = 255;
-constexpr int hasBodyMask = 1, hasActuators = 2, hasDirection = 4; // of a channel
-constexpr int hasAmplitude = 1, hasFrequency = 2;                  // of a wave's keyframe
+constexpr int hasBodyMask = 1, hasActuators = 2, hasDirection = 4; // flags of a channel
+constexpr int hasAmplitude = 1, hasFrequency = 2;                  // flags of a wave's keyframe
 constexpr int libraryHasTicks = 1, libraryHasAmplitude = 2, libraryHasFrequency = 4;
 
 constexpr std::size_t most(int bits) { return (std::size_t{1} << bits) - 1; }

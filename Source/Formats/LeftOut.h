@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a stranger's file is not felt, counted while it is read, and told as one line.
+// Counts the contents of an imported file that are not played, and reports them as one line.
 #pragma once
 #include "Io/Text/NumberText.h"
 #include <map>
@@ -11,12 +11,12 @@ namespace physvib {
 /// One thread at a time.
 class LeftOut {
 public:
-    /// One more of that kind; its name may be the file's.
+    /// Counts one more of that kind; its name may come from the file.
     void add(std::string_view what) {
         std::string name = printable(what);
         ++counts_[counts_.size() < mostKinds || counts_.contains(name) ? std::move(name) : "others"];
     }
-    /// "left out: AttackTime (3), Sustained (1)"; empty: nothing.
+    /// "left out: AttackTime (3), Sustained (1)"; empty: none.
     std::string line() const {
         std::string text;
         for (const auto& [name, count] : counts_)
@@ -29,7 +29,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t mostKinds = 12; // so that it stays a line
+    static constexpr std::size_t mostKinds = 12; // to keep the report short
     std::map<std::string, int> counts_;
 };
 

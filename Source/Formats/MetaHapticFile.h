@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Meta's .haptic, which FMOD and Wwise read as well: one envelope of amplitude, one of frequency, and points
-// of emphasis.
+// Reader and writer of Meta's .haptic format, which FMOD and Wwise also read: one envelope of amplitude, one
+// of frequency, and emphasis points.
 //
-// Carries: one channel, amplitudes and frequencies from 0 to 1, transients as emphasis, any length.
-// Does not carry: several channels, places, several frequencies at once, phases, levels beyond full scale,
-// Hz.
+// Stores: one channel, amplitudes and frequencies from 0 to 1, transients as emphasis, any length. Does not
+// store: several channels, places, several frequencies at once, phases, levels beyond full scale, Hz.
 #pragma once
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
@@ -14,13 +13,13 @@
 
 namespace physvib {
 
-/// One channel: the envelope as a wave, emphasis as transients; without frequencies, and before their first,
-/// 0.5 of the scale. One line if it breaks a rule of Meta's: values from 0 to 1, times in order, two points
-/// of amplitude or more, emphasis at least as strong as the envelope. Any thread.
+/// One channel: the envelope as a wave, emphasis as transients; 0.5 of the scale without frequencies and
+/// before their first. A one-line error if it breaks one of Meta's rules: values from 0 to 1, times in order,
+/// at least two points of amplitude, emphasis at least as strong as the envelope. Any thread.
 Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
 
-/// How many transients are weaker than what else sounds there: the format has none such, and they become as
-/// strong. Any thread.
+/// Number of transients that are weaker than the envelope beside them; the format requires them to be raised
+/// to it. Any thread.
 std::size_t metaHapticRaised(const ClipChannel& channel);
 
 /// `channel` as such a file. Any thread.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Effects as both of MPEG's formats have them: keyframes on ticks, into a clip and out of it.
+// Effects common to both MPEG formats: conversion between keyframes on ticks and a clip.
 #pragma once
 #include "Formats/Clip.h"
 #include "Formats/MpegNames.h"
@@ -11,7 +11,7 @@
 
 namespace physvib::mpeg {
 
-enum class BandType { transient, curve, vectorial, wavelet }; // their numbers in the binary form
+enum class BandType { transient, curve, vectorial, wavelet }; // numbered as in the binary format
 constexpr std::array<std::string_view, 4> bandTypes{"Transient", "Curve", "VectorialWave", "WaveletWave"};
 
 constexpr std::string_view noWavelets =
@@ -31,21 +31,22 @@ struct Effect {
 
 struct BandKind {
     BandType type = BandType::vectorial;
-    bool isCubic = false; ///< of curves
+    bool isCubic = false; ///< for curves
     double gain = 1.0;    ///< of the channel
 };
 
-/// Adds an effect that begins at `startSeconds` to its band, or, of transients, to its channel. Any thread.
+/// Adds an effect that begins at `startSeconds` to its band, or, if it has transients, to its channel. Any
+/// thread.
 void takeEffect(const Effect& effect, double startSeconds, const BandKind& kind, ClipBand& band,
                 ClipChannel& channel);
 
-/// A keyframe of what we write: ticks since its effect began.
+/// A written keyframe: ticks since its effect began.
 struct TickFrame {
     std::int64_t ticks = 0;
     std::optional<double> amplitude, frequencyHz;
 };
 
-/// Amplitudes (as they are in the clip) and frequencies of a wave by their ticks. Any thread.
+/// Amplitudes (unscaled) and frequencies of a wave by tick. Any thread.
 std::vector<TickFrame> tickFrames(const ClipWave& wave);
 
 } // namespace physvib::mpeg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words and numbers that both of MPEG's formats share.
+// Names and constants common to both MPEG formats.
 #pragma once
 #include <array>
 #include <cmath>
@@ -8,14 +8,15 @@
 
 namespace physvib::mpeg {
 
-constexpr int ticksPerSecond = 48000; ///< of what we write: onsets are as exact as in a render
-// a date is demanded; the same input gives the same bytes
+constexpr int ticksPerSecond = 48000; ///< in written files: onsets are as exact as in a render
+// a date is mandatory; a constant one makes equal clips give equal bytes
 constexpr std::string_view version = "2023", profile = "Main", date = "1970-01-01T00:00:00Z";
 constexpr int level = 1;
-constexpr double mostPhase = 6.28318; // 2 pi, as their schema rounds it
-constexpr int anyBodyPart = 0;      // of body_part_mask: not told; MPEG's reader drops a channel without one
-constexpr int mostCoordinate = 127; // of a place, in points of a grid
-// as ClipWaveform
+constexpr double mostPhase = 6.28318; // 2 pi, as rounded in MPEG's schema
+constexpr int anyBodyPart = 0; // of body_part_mask: unspecified; MPEG's reader drops a channel without the
+                               // field
+constexpr int mostCoordinate = 127; // of a place, in grid points
+// indexed by ClipWaveform
 constexpr std::array<std::string_view, 5> waveforms{"Sine", "Square", "Triangle", "SawToothUp",
                                                     "SawToothDown"};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places as both of MPEG's formats say them: points of a grid on the field.
+// Actuator places in both MPEG formats: points of a grid over the field.
 #pragma once
 #include "Formats/Clip.h"
 #include "Formats/MpegNames.h"
@@ -12,7 +12,7 @@ struct GridPoint {
     int x = 0, y = 0;
 };
 
-/// A grid of whole millimetres over the clip's extent, as fine as its coordinates allow. Any thread.
+/// A grid of whole millimetres over the clip's extent, as fine as the coordinates allow. Any thread.
 struct PlaceGrid {
     explicit PlaceGrid(const Clip& clip) {
         const double longest = std::max(clip.extentWidthMetres, clip.extentHeightMetres);
@@ -33,7 +33,7 @@ private:
     int pointsOf(double metres) const { return static_cast<int>(std::lround(metres / pitchMetres)) + 1; }
 };
 
-/// Takes a channel's place into the clip: on a grid of a millimetre, for want of any other. A grid of one
+/// Sets a channel's place in the clip, assuming a grid of 1 mm, because the format has no unit. A grid of one
 /// point has no places. Any thread.
 inline void takePlace(Clip& clip, ClipChannel& channel, GridPoint points, GridPoint at) {
     if (points.x < 1 || points.y < 1 || points.x + points.y < 3 || at.x < 0 || at.y < 0 || at.x >= points.x ||

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorting by time, where equals keep their order: one sort for all that has a time, as the web page has no
-// room for one of each.
+// Stable sort by time for items of any type. One instance sorts all types, to keep the web page's code small.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +11,7 @@
 
 namespace physvib {
 
-/// Places in `times` from the earliest on. Any thread.
+/// Indices into `times`, earliest first. Any thread.
 inline std::vector<std::size_t> timeOrder(std::span<const double> times) {
     std::vector<std::size_t> order(times.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -21,7 +20,7 @@ inline std::vector<std::size_t> timeOrder(std::span<const double> times) {
     return order;
 }
 
-/// `timeOf`: a member or a function, a finite number. Any thread.
+/// `timeOf`: a member or function that gives a finite number. Any thread.
 template <class T, class TimeOf>
 void sortByTime(std::vector<T>& items, TimeOf timeOf) {
     std::vector<double> times;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The texts of an XML file's innermost elements, one after the other, in no more memory than the file. No
-// declarations of types, no entities but in what nobody reads, so nothing grows and nothing else is opened.
+// Minimal XML pull parser that delivers the texts of innermost elements, in memory bounded by the file. It
+// refuses document type declarations and expands no entities, so that untrusted files can neither grow nor
+// open other files.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -16,12 +17,12 @@ public:
     explicit XmlLeaves(std::string_view text) noexcept
         : rest_{text} {}
 
-    /// leaf: an element that holds text alone has ended. closed: one that holds others has. Any thread.
+    /// leaf: an element with text alone has ended. closed: an element with children has ended. Any thread.
     Next next();
 
-    /// Names from the outermost to the one that has ended.
+    /// Element names from the outermost to the one that has ended.
     const std::vector<std::string_view>& path() const noexcept { return path_; }
-    std::string_view text() const noexcept { return text_; } ///< of a leaf, without space around it
+    std::string_view text() const noexcept { return text_; } ///< of a leaf, trimmed
     std::size_t line() const noexcept { return line_; }
     const std::string& fault() const noexcept { return fault_; } ///< what was expected
 
@@ -36,8 +37,8 @@ private:
 
     std::string_view rest_, text_;
     std::vector<std::string_view> path_;
-    bool isLeaf_ = false, hasEnded_ = false; ///< nothing but text since the last element began; path_'s last
-                                             ///< has ended
+    bool isLeaf_ = false, hasEnded_ = false; ///< isLeaf_: only text since the last element began; hasEnded_:
+                                             ///< the last of path_ has ended
     std::size_t line_ = 1;
     std::string fault_;
 };

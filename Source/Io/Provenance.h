@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a file came from: its first line, `# physvib VERSION key=value ...`.
+// Provenance of an output file: its first line, `# physvib VERSION key=value ...`.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -13,8 +13,7 @@ struct Provenance {
     std::vector<std::pair<std::string, std::string>> entries; ///< e.g. {"seed", "1"}, {"scene", "driving"}
 };
 
-/// `physvib VERSION key=value ...` on one line: control characters would end a comment, or hide in it. Any
-/// thread.
+/// `physvib VERSION key=value ...` on one line; control characters become spaces. Any thread.
 inline std::string provenanceLine(const Provenance& provenance) {
     std::string line = "physvib " + provenance.version;
     for (const auto& [key, value] : provenance.entries) line += " " + key + "=" + value;

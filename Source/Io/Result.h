@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What reading a file gives: a value, or one line that says what is wrong with the file.
+// Result of an operation that can fail: a value, or a one-line error message.
 #pragma once
 #include "Io/Text/CleanText.h"
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace physvib {
 
-/// An error on its way into a Result: one line naming file, place and what was expected; names as they are,
-/// Result cleans.
+/// An error to be converted to a Result: one line naming file, place and expectation. Result escapes
+/// unprintable characters.
 struct Failure {
     std::string message;
 };
 
-/// Either `value` (and no error), or `error` and an empty `value`: nothing is ever half-loaded.
+/// Either `value` (and no error), or `error` and an empty `value`: never a partial value.
 template <class T>
 struct Result {
     Result(T loaded)

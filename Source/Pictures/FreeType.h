@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FreeType's library as an object, and its numbers of 1/64 pixel.
+// RAII wrapper of the FreeType library, and conversion to its units of 1/64 pixel.
 #pragma once
 #include <ft2build.h>
 #include <stdexcept>

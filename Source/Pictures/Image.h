@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pixels, and the file they become.
+// RGB image, and its PNG encoding.
 #pragma once
 #include "Pictures/Colour.h"
 #include "Pictures/Rectangle.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words as outlines, from the fonts of this machine.
+// Converts text to outlines, with fonts that are installed on this machine.
 #pragma once
 #include "Pictures/Path.h"
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outlines as FreeType takes them, and the spans of pixels that it returns.
+// Converts outlines for FreeType, and paints the spans of pixels that it returns.
 #include "Pictures/Painter.h"
 #include "Pictures/FreeType.h"
 #include <algorithm>

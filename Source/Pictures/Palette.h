@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The colours of PhysVib: grounds, enchanters, materials. One colour per enchanter wherever it is shown.
+// PhysVib's colours: backgrounds, actuators, materials. An actuator has the same colour everywhere.
 #pragma once
 #include "Pictures/Colour.h"
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outlines of what is drawn: lines and curves, and how they are moved.
+// Outlines of lines and curves, and their affine transforms.
 #pragma once
 #include "Pictures/Rectangle.h"
 #include <cmath>

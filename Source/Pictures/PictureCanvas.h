@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The look of a picture: panels, wells, words in three sizes, axes.
+// Common elements of a picture: panels, plot backgrounds, text in three sizes, axes.
 #pragma once
 #include "Io/Text/CleanText.h"
 #include "Io/Text/ReadableNumber.h"

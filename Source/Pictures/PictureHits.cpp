@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lane of hits: stems, their scale, and the legend of their colours.
+// Draws the lane of impacts: stems, their scale, and the legend of their colours.
 #include "Pictures/PictureParts.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The light of many hits on one ground.
+// Draws many impacts as accumulated light on one background.
 #pragma once
 #include "Pictures/PictureCanvas.h"
 #include <algorithm>

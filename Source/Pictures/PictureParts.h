@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of a render's picture, each drawn into the panel it is given.
+// The parts of a render's picture; each is drawn into a given panel.
 #pragma once
 #include "Pictures/PictureCanvas.h"
 #include "Pictures/RenderPicture.h"

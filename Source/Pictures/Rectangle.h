@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places on a picture, in pixels: x to the right, y downwards.
+// Points and rectangles of a picture, in pixels: x to the right, y downwards.
 #pragma once
 #include <algorithm>
 #include <cmath>

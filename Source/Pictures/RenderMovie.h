@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A render as moving pictures: the world and its impacts as they happen, and what each actuator has played so
-// far.
+// A render as a movie: the world and its impacts over time, and the signal of each actuator so far.
 #pragma once
 #include "Pictures/RenderPicture.h"
 #include <memory>

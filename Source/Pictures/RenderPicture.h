@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One picture of one render: the world and its hits, what each enchanter plays, and the strongest hit up
-// close.
+// A picture of a render: the world and its impacts, the signal of each actuator, and a close-up of the
+// strongest impact.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"

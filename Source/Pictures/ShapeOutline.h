@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The outline of a scene's shape as it is drawn: by the picture of a render, and by views of a world that
-// moves.
+// Outline of a scene's shape for drawing, in pictures of renders and in views of a moving world.
 #pragma once
 #include "Scene/Scene.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a picture needs of a window of sound: the lowest and highest sample per column, whatever its length.
+// Reduces a window of sound to the minimum and maximum sample per column, for drawing.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures as an animated WebP, by libwebp.
+// Encoder of movies as animated WebP, by libwebp.
 #pragma once
 #include "Pictures/Image.h"
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of a world's panel that a picture and a movie share.
+// Parts of the world panel that pictures and movies share.
 #pragma once
 #include "Pictures/PictureParts.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Actuator profiles as JSON: what is known of an actuator, and from where; what is not known is null.
+// Actuator profiles as JSON: measured properties of an actuator and their source; unknown values are null.
 #pragma once
 #include "Core/Actuators/Resonator.h"
 #include "Io/Result.h"
@@ -14,25 +14,24 @@ namespace physvib {
 /// The version of the format that is written, and the newest that is read.
 constexpr int actuatorFormatVersion = 1;
 
-/// What its vibration follows.
+/// Principle of the actuator.
 enum class ActuatorKind {
-    linear,  ///< the drive's waveform, coloured by a resonance (Core/Actuators/Resonator.h)
-    rotating ///< its own speed: it can be on or off, and no frequency can be asked of it
+    linear,  ///< follows the drive's waveform, coloured by a resonance (Core/Actuators/Resonator.h)
+    rotating ///< a rotating mass: it is on or off, and its frequency depends on its speed
 };
 
-/// No value: not known. SI, as the fields' names say.
+/// No value: not known. SI units, as the names say.
 struct ActuatorProfile {
     std::string name;
     std::string description;
-    std::string source; ///< where the figures are from
+    std::string source; ///< source of the figures
     ActuatorKind kind = ActuatorKind::linear;
     std::optional<double> resonanceHz, q;
-    std::optional<FrequencyBand> band;     ///< that it is declared to play
-    std::optional<double> driveLimitVolts; ///< largest voltage, either way: what a sample of 1 is to become
+    std::optional<FrequencyBand> band;     ///< band that it is specified for
+    std::optional<double> driveLimitVolts; ///< largest voltage, either polarity: the voltage of a sample of 1
     std::optional<double> riseSeconds;     ///< from 10 to 90 % of the level
     std::optional<double> fullScaleG;      ///< peak acceleration at the resonance, driven at its limit
-    std::optional<double> delaySeconds;    ///< from sample to acceleration, of the whole set-up that was
-                                           ///< measured
+    std::optional<double> delaySeconds;    ///< from sample to acceleration, of the whole measured set-up
     bool operator==(const ActuatorProfile&) const = default;
 
     /// Not known (Resonator::isKnown) if either figure is missing. Any thread.
@@ -42,22 +41,21 @@ struct ActuatorProfile {
     FrequencyBand bandOrNone() const noexcept { return band.value_or(FrequencyBand{}); }
 };
 
-/// What keeps the actuator from being equalised: "q is not known (measure it with physvib calibrate)"; empty:
-/// nothing. Any thread.
+/// Why the actuator cannot be equalised: "q is not known (measure it with physvib calibrate)"; empty if it
+/// can. Any thread.
 std::string equaliserFault(const ActuatorProfile& profile);
 
-/// The profile that `text` describes; or, of the first thing that is wrong, one line
-/// `name: band_hz[1]: expected a number from ...`. Every field must be there, null if it is not known;
-/// unknown and repeated fields are errors. Any thread.
+/// The profile in `text`; or, for the first error, one line `name: band_hz[1]: expected a number from ...`.
+/// Every field is required, null if not known; unknown and repeated fields are errors. Any thread.
 Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name);
 
-/// The same of a file. M only.
+/// The same for a file. Message thread (M) only.
 Result<ActuatorProfile> loadActuator(const std::filesystem::path& path);
 
-/// `profile` as JSON; readActuator gives it back bit for bit. Any thread.
+/// `profile` as JSON; readActuator restores it bit for bit. Any thread.
 std::string actuatorJson(const ActuatorProfile& profile);
 
-/// Those that come with PhysVib, in the order of their listing. Built on first use; any thread.
+/// The profiles that come with PhysVib, in listing order. Built on first use; any thread.
 const std::vector<ActuatorProfile>& builtInActuators();
 
 /// A built-in profile by its name, else that of the file (NAME.json, or a path). M only.

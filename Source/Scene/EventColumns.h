@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The columns of an event list, for reading and writing: name, field of the event, what a cell may hold.
+// The columns of an event list, for reading and writing: name, event field, valid cells.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Io/Text/DecimalSeconds.h"
@@ -20,7 +20,7 @@ struct SecondsColumn {
     std::int64_t& (*field)(CollisionEvent&);
 };
 
-/// A real number from `least` (or only above it) to `most`.
+/// A real number from `least` (or, with aboveLeast, above it) to `most`.
 struct NumberColumn {
     double& (*field)(CollisionEvent&);
     double least = std::numeric_limits<double>::lowest();
@@ -33,7 +33,7 @@ struct WholeColumn {
     std::int32_t& (*field)(CollisionEvent&);
 };
 
-/// What the event came of; a list of hits only has none of it, as all lists had once.
+/// The cause of an event; lists with impacts alone have no such column, like all older lists.
 struct KindColumn {
     ContactKind& (*field)(CollisionEvent&);
 };
@@ -53,7 +53,7 @@ auto& ofSource(CollisionEvent& event) {
     return event.source.*Member;
 }
 
-/// In the order they are written. The bounds are those of isPlayable; a mass is not negative.
+/// In writing order. The bounds are those of isPlayable; a mass is not negative.
 inline constexpr std::array<EventColumn, 12> eventColumns{{
     {"time_s", SecondsColumn{of<&CollisionEvent::timeNs>}},
     {"frequency_hz", NumberColumn{of<&CollisionEvent::frequencyHz>, 0.0, limits::maxFrequencyHz, true}},
@@ -69,17 +69,17 @@ inline constexpr std::array<EventColumn, 12> eventColumns{{
     {"kind", KindColumn{ofSource<&CollisionSource::kind>}},
 }};
 
-/// Columns up to y_m must be there when read; an event without the others has their defaults.
+/// Columns up to y_m are required; the others have defaults.
 inline constexpr std::size_t requiredEventColumns = 6;
 
-/// What is wrong with the frequency of an event that isTooSlow. Any thread.
+/// The error of an event's frequency if isTooSlow. Any thread.
 inline std::string tooSlowFault(const CollisionEvent& event) {
     return "expected at least " + numberText(limits::slowestToneHz) + " Hz, or a decay of at least " +
            numberText(limits::slowDecayPerSecond) + " per second, found " + numberText(event.frequencyHz) +
            " Hz";
 }
 
-/// What the cell should have held, empty if the event has taken it.
+/// Returns the expectation, or empty if the cell was valid and is stored.
 inline std::string readCell(const SecondsColumn& column, std::string_view cell, CollisionEvent& event) {
     const auto nanoseconds = parseSeconds(cell);
     if (!nanoseconds) return "seconds from 0 to " + std::to_string(limits::maxTimeNs / 1'000'000'000);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Event lists as CSV: collisions written by one session and read by another, to the bit.
+// Event lists as CSV, which preserve events to the bit.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Io/Provenance.h"
@@ -17,29 +17,31 @@ namespace physvib {
 
 struct EventList {
     std::vector<CollisionEvent> events;
-    FieldSize field; ///< as the list says it; not known: it does not
+    FieldSize field; ///< as stated in the list; unknown otherwise
     bool operator==(const EventList&) const = default;
 };
 
-/// The events of `text`, every one playable and none before the one above it; or, of the first thing that is
-/// wrong, one line `name:17: column decay_per_s: expected a number >= 0, found "-3"`. Also wrong: no event,
-/// or more than `maxRows`. The header line names the columns, in any order; those after y_m may be missing.
-/// Cells hold plain numbers (no quotes; spaces around them are fine), lines end in \n or \r\n. Comments (#)
-/// and blank lines may stand before the header, blank lines also at the end. A comment that has a word
-/// `field_m=W,H` says the field. Any thread.
+/// The events of `text`, all playable and in time order; or, for the first error, one line `name:17: column
+/// decay_per_s: expected a number >= 0, found "-3"`. No event, or more than `maxRows`, is an error too. The
+/// header line names the columns, in any order; those after y_m may be missing. Cells are plain numbers (no
+/// quotes; spaces around them are allowed), lines end in
+///  or \r
+/// . Comments (#) and blank lines may precede the header, blank lines may also end the file. A comment with a
+/// word `field_m=W,H` sets the field. Any thread.
 Result<EventList> readEventsCsv(std::string_view text, std::string_view name,
                                 std::size_t maxRows = limits::maxEventRows);
 
-/// The same of a file, of at most limits::maxEventsFileBytes and lines of a million bytes. M only.
+/// The same for a file, of at most limits::maxEventsFileBytes and lines of a million bytes. Message thread
+/// (M) only.
 Result<EventList> loadEventsCsv(const std::filesystem::path& path);
 
-/// Comment and header line, and the line of one event: what eventsCsv puts together. `field`: said, if it is
-/// known. `hasKinds`: with the column `kind`, which a list of hits alone does not need. Any thread.
+/// Comment with header line, and the line of one event: the parts of eventsCsv. `field` is written if known.
+/// `hasKinds`: with the column `kind`, which a list of impacts alone does not need. Any thread.
 std::string eventsCsvHead(Provenance provenance, FieldSize field, bool hasKinds);
 void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds);
 
-/// The events with every column (`kind` if there is anything but hits); readEventsCsv gives them back bit for
-/// bit if they are playable and in time order, and refuses them otherwise. Any thread.
+/// The events with every column (`kind` only if there is anything but impacts). readEventsCsv restores them
+/// bit for bit if they are playable and in time order, and refuses them otherwise. Any thread.
 std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance);
 
 } // namespace physvib

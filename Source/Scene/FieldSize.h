@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The field that x and y of events span: as a word of options and lists, and what lies outside it.
+// Size of the field that x and y of events refer to: text format, and a check for events outside.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -27,10 +27,10 @@ inline bool isField(FieldSize field) noexcept {
     return isLength(field.widthMetres) && isLength(field.heightMetres);
 }
 
-/// Of `6.4,3.6`; none if it is anything else. Any thread.
+/// Parses `6.4,3.6`; nullopt for anything else. Any thread.
 std::optional<FieldSize> parseField(std::string_view word);
 
-/// What parseField takes. Any thread.
+/// Text that parseField reads. Any thread.
 inline std::string fieldWord(FieldSize field) {
     return numberText(field.widthMetres) + ',' + numberText(field.heightMetres);
 }
@@ -42,9 +42,9 @@ inline FieldSize fieldOf(const PhantomPanner& panner) noexcept {
     return {panner.fieldWidthMetres(), panner.fieldHeightMetres()};
 }
 
-/// `67 of 67 hits lie outside the field of 0.12 x 0.06 m (see --field)`, or empty. `isGuessed`: the layout's
-/// extent stands in for what a list does not say. Bodies sink into walls at the edge: up to a twentieth of
-/// the field beyond it is inside. Any thread.
+/// `67 of 67 hits lie outside the field of 0.12 x 0.06 m (see --field)`, or empty. `isGuessed`: the list has
+/// no field, so the layout's extent is used. Up to a twentieth beyond the field counts as inside, because
+/// bodies sink into walls at the edge. Any thread.
 inline std::string outsideWords(std::span<const CollisionEvent> events, FieldSize field, bool isGuessed) {
     const auto isBeside = [](double at, double length) {
         return !(std::abs(at - 0.5 * length) <= 0.55 * length);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a JSON file of ours describes, before it is read.
+// Detects which kind of PhysVib file a JSON file is, without parsing it.
 #pragma once
 #include <filesystem>
 
@@ -7,8 +7,8 @@ namespace physvib {
 
 enum class FileKind { unknown, session, scene, layout, pluginState };
 
-/// By the field that every file of its kind has; a file that says what it is may be broken all the same.
-/// Unknown as well if it cannot be read. M only.
+/// By a field that every file of its kind has; the file may still be invalid. Unknown also if it cannot be
+/// read. Message thread (M) only.
 FileKind fileKind(const std::filesystem::path& path);
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From JSON to the structs of a scene, field by field after the table in SceneFields.h. For the .cpp files of
-// Files.
+// Reads the structs of a scene from JSON, driven by the field table in SceneFields.h. For .cpp files that
+// read JSON.
 #pragma once
 #include "Io/Json/JsonField.h"
 #include "Io/Text/NumberText.h"
@@ -15,11 +15,11 @@
 
 namespace physvib {
 
-using Materials = std::vector<Material>; // those that fixtures may name
+using Materials = std::vector<Material>; // materials that fixtures may refer to
 
 namespace detail {
 
-/// The most of a text is that of its bytes; lists of texts have none.
+/// For text, `most` is its length in bytes; lists of texts have no limit.
 inline void readValue(const JsonField& json, std::string& out, const Bounds& bounds, const Materials&) {
     const bool isBounded = bounds.most > 0.0 && bounds.most < Bounds{}.most;
     out = isBounded ? json.text(static_cast<std::size_t>(bounds.most)) : json.text();
@@ -65,7 +65,8 @@ void readValue(const JsonField& json, std::vector<T>& out, const Bounds& bounds,
     for (std::size_t i = 0; i < size; ++i) readValue(json.item(i), out[i], bounds, materials);
 }
 
-/// Visits the fields of one object. Unknown fields are told before missing ones: most are the same typo.
+/// Reads the fields of one object. Unknown fields are reported before missing ones, because a typo causes
+/// both.
 template <class T>
 class FieldReader {
 public:
@@ -110,7 +111,7 @@ public:
 
     void finish() const {
         json_.expectOnly(known_);
-        if (!missing_.empty()) static_cast<void>(json_[missing_]); // which fails
+        if (!missing_.empty()) static_cast<void>(json_[missing_]); // which throws
     }
 
     std::vector<std::string_view>& known() { return known_; }
@@ -132,7 +133,7 @@ private:
         if (missing_.empty()) missing_ = reader.missing();
     }
 
-    /// A scene brings its own; they stand before whatever names them.
+    /// A scene has its own materials, which precede all references.
     const Materials& materialsIn() const {
         if constexpr (requires(T t) { t.materials; })
             return object_.materials;
@@ -149,7 +150,7 @@ private:
 
 template <class T>
 void readValue(const JsonField& json, T& out, const Bounds&, const Materials& materials) {
-    if (std::is_same_v<T, Normalisation> && json.is("auto")) return; // all of it
+    if (std::is_same_v<T, Normalisation> && json.is("auto")) return; // the default applies to all
     FieldReader<T> reader(json, out, materials);
     visitFields(reader, FieldsOf<T>{});
     reader.finish();
@@ -157,8 +158,8 @@ void readValue(const JsonField& json, T& out, const Bounds&, const Materials& ma
 
 } // namespace detail
 
-/// Reads the fields of an object and refuses any other. Types only: ranges are validate()'s business, apart
-/// from the lengths of lists. Throws JsonError.
+/// Reads the fields of an object and refuses others. Checks types and list lengths only; validate() checks
+/// ranges. Throws JsonError.
 template <class T>
 T readFields(const JsonField& json) {
     T object;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From the structs of a scene to JSON, field by field after the table in SceneFields.h; what has its default
-// is left out. For the .cpp files of Files.
+// Writes the structs of a scene as JSON, driven by the field table in SceneFields.h; fields with default
+// values are omitted. For .cpp files that write JSON.
 #pragma once
 #include "Io/Json/JsonLines.h"
 #include "Scene/SceneFields.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every field of a layout file, checked when read and in a fixed order when written.
+// Reads layout files with checks of every field, and writes them in a fixed order.
 #include "Scene/LayoutFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Layouts as JSON: where the enchanters sit, what they are called, and what drives them.
+// Actuator layouts as JSON: places, labels, actuator profiles and full scales.
 #pragma once
 #include "Core/EnchanterLayout.h"
 #include "Io/Result.h"
@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// What a layout file says of one enchanter besides its place.
+/// Properties of one actuator besides its place.
 struct EnchanterDescription {
     std::string label;             ///< unique in its layout, not empty
     std::string actuator = "none"; ///< name of an actuator profile
@@ -18,32 +18,33 @@ struct EnchanterDescription {
     bool operator==(const EnchanterDescription&) const = default;
 };
 
-/// A layout with names; enchanters[j] sits at geometry.places[j], and there are geometry.count of them.
+/// A named layout; enchanters[j] is at geometry.places[j], for j below geometry.count.
 struct LayoutDescription {
     std::string name;
     EnchanterLayout geometry;
     std::vector<EnchanterDescription> enchanters;
 };
 
-/// A layout without a file, e.g. a preset: labels A, B, C..., everything else by default. Any thread.
+/// A layout without a file, e.g. a preset: labels A, B, C..., all else default. Any thread.
 LayoutDescription describeLayout(std::string name, const EnchanterLayout& geometry);
 
-/// The preset of that name, which there is; its enchanters keep what drove those of `before`. Any thread.
+/// The preset of that name, which must exist; its actuators keep profile and full scale of `before`. Any
+/// thread.
 LayoutDescription presetLayout(std::string_view name, const std::vector<EnchanterDescription>& before = {});
 
-/// A preset by its name, else the layout of the file. M only.
+/// A preset by name, else the layout of the file. Message thread (M) only.
 Result<LayoutDescription> findLayout(const std::string& nameOrPath);
 
-/// The layout that `text` describes; or, of the first thing that is wrong, one line
-/// `name: enchanters[3].x_m: expected a number, found a string`. Required: extent_m (both > 0), enchanters (1
-/// to limits::maxEnchanters), and of each x_m and y_m within the extent. A missing label becomes the first of
-/// A, B, C... that no other enchanter has. Unknown and repeated fields are errors. Any thread.
+/// The layout in `text`; or, for the first error, one line `name: enchanters[3].x_m: expected a number, found
+/// a string`. Required: extent_m (both > 0), enchanters (1 to limits::maxEnchanters), and x_m and y_m of each
+/// within the extent. A missing label becomes the first unused one of A, B, C... Unknown and repeated fields
+/// are errors. Any thread.
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name);
 
-/// The same of a file. M only.
+/// The same for a file. M only.
 Result<LayoutDescription> loadLayout(const std::filesystem::path& path);
 
-/// `layout` as JSON, one enchanter per line; readLayout gives it back bit for bit. Any thread.
+/// `layout` as JSON, one actuator per line; readLayout restores it bit for bit. Any thread.
 std::string layoutJson(const LayoutDescription& layout);
 
 } // namespace physvib

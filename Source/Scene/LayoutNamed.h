@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What --layout means everywhere.
+// Resolves the value of --layout: presets, special layouts, or a file.
 #pragma once
 #include "Core/RenderingMethod.h"
 #include "Scene/LayoutFile.h"
@@ -7,12 +7,13 @@
 
 namespace physvib {
 
-/// What the fixed level of a study needs of an enchanter: that level, and 1 dB that the limiter never sees.
+/// Minimum full scale of an actuator for the studies: their fixed level plus 1 dB of headroom below the
+/// limiter.
 constexpr double leastStudyFullScaleG = 1.122018454301963 * RenderingMethod::fixedLevelG;
 
-/// A preset, or the layout file at that path. study1 is phone1 on an enchanter of 2 g: an assumption, to be
-/// replaced by a layout of what is there. dualsense is its two coils, left and right grip: how far they are
-/// apart and their full scale of 1 g are assumed (Docs/pads.md).
+/// A preset, or the layout file at that path. study1 is phone1 with actuators of 2 g: an assumption, to be
+/// replaced by a layout of the real set-up. dualsense is its two coils, left and right grip; their distance
+/// and full scale of 1 g are assumed (Docs/pads.md).
 inline Result<LayoutDescription> layoutNamed(const std::string& name) {
     constexpr double studyFullScaleG = 2.0;
     if (name == "dualsense") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Materials as JSON: a library that scenes copy from.
+// Material tables as JSON: libraries from which scenes copy materials.
 #pragma once
 #include "Io/Result.h"
 #include "Scene/Scene.h"
@@ -15,22 +15,22 @@ constexpr int materialsFormatVersion = 1;
 
 struct MaterialTable {
     std::string name;
-    std::string source; ///< where the numbers are from
+    std::string source; ///< source of the figures
     std::vector<Material> materials;
     bool operator==(const MaterialTable&) const = default;
 };
 
-/// The table that `text` describes, with ranges and names checked as in a scene; or one line
-/// `name: materials[2].friction: expected 0 to 100, found -1`. Any thread.
+/// The table in `text`, checked like a scene's materials; or one line `name: materials[2].friction: expected
+/// 0 to 100, found -1`. Any thread.
 Result<MaterialTable> readMaterials(std::string_view text, std::string_view name);
 
-/// The same of a file. M only.
+/// The same for a file. Message thread (M) only.
 Result<MaterialTable> loadMaterials(const std::filesystem::path& path);
 
-/// `table` as JSON, a material per line; readMaterials gives it back bit for bit. Any thread.
+/// `table` as JSON, a material per line; readMaterials restores it bit for bit. Any thread.
 std::string materialsJson(const MaterialTable& table);
 
-/// Table 5.1 of the thesis, then the other tables beside it. Read on first use; any thread.
+/// Table 5.1 of the thesis, then the other tables. Read on first use; any thread.
 const std::vector<MaterialTable>& builtInMaterials();
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the motors of a game controller would get of a render, as a table.
+// Computes the motor commands that a game controller would get for a render, as a table.
 #pragma once
 #include "Core/Pads/PadMotors.h"
 #include "Core/RenderControl.h"
@@ -10,9 +10,9 @@
 
 namespace physvib {
 
-/// All commands that differ from the one before, from 0 to `endNs`, where motors are at rest. `events` are
-/// felt as they are, by `panner` and what `controls` change of it, in the order of their times; of the others
-/// only stopAll counts. `lost`: events for which there was no room. Any thread.
+/// All commands that differ from the one before, from 0 to `endNs`, where motors are at rest. `events` use
+/// `panner` and its changes in `controls`; of other controls only stopAll matters. `lost`: events for which
+/// there was no room. Any thread.
 std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const CollisionEvent> events,
                                     std::span<const RenderControl> controls, const PhantomPanner& panner,
                                     std::int64_t endNs, std::uint64_t* lost = nullptr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Profiles of game controllers as JSON: what their motors do, and from where that is known.
+// Profiles of game controllers as JSON: properties of their rumble motors, and the source of the figures.
 #pragma once
 #include "Core/Pads/PadLaw.h"
 #include "Io/Result.h"
@@ -16,20 +16,19 @@ constexpr int padFormatVersion = 1;
 struct PadProfile {
     std::string name;
     std::string description;
-    std::string source; ///< where the figures are from
+    std::string source; ///< source of the figures
     PadLaw law;
     bool operator==(const PadProfile&) const = default;
 };
 
-/// The profile that `text` describes; or, of the first thing that is wrong, one line
-/// `name: low.half: expected a number from ...`. Every field must be there; unknown and repeated fields are
-/// errors. Any thread.
+/// The profile in `text`; or, for the first error, one line `name: low.half: expected a number from ...`.
+/// Every field is required; unknown and repeated fields are errors. Any thread.
 Result<PadProfile> readPad(std::string_view text, std::string_view name);
 
-/// `profile` as JSON; readPad gives it back bit for bit. Any thread.
+/// `profile` as JSON; readPad restores it bit for bit. Any thread.
 std::string padJson(const PadProfile& profile);
 
-/// Those that come with PhysVib, in the order of their listing. Built on first use; any thread.
+/// The profiles that come with PhysVib, in listing order. Built on first use; any thread.
 const std::vector<PadProfile>& builtInPads();
 
 /// A built-in profile by its name, else that of the file (NAME.json, or a path). M only.

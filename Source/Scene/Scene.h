@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A world as data: what a simulation is built from, and what a picture of it is drawn from. No Box2D here.
+// Description of a physics scene as plain data: the simulation is built from it and pictures are drawn from
+// it. Independent of Box2D.
 #pragma once
 #include "Contacts/Texture.h"
 #include "Contacts/Voice.h"
@@ -24,9 +25,9 @@ struct Material {
     double densityKgPerSquareMetre = 0.0; ///< 2-D: per area
     double friction = 0.0;
     double restitution = 0.0;
-    double frequencyHz = 0.0; ///< 0: never vibrates (allowed only where no camera needs it)
+    double frequencyHz = 0.0; ///< 0: never vibrates (allowed only where no haptic source needs it)
     double decayPerSecond = 0.0;
-    double grainMetres = 0.0; ///< these four: of its surface, see Texture
+    double grainMetres = 0.0; ///< these four: surface texture, see Texture
     double roughness = 1.0;
     GrainPattern grainPattern = GrainPattern::random;
     double rolling = 0.2;
@@ -59,9 +60,9 @@ struct PolygonShape {
     std::vector<Vector> verticesMetres;
     bool operator==(const PolygonShape&) const = default;
 };
-/// A line of edges without thickness or mass, for bodies that are not dynamic. It is hit from the right of
-/// its direction only: ground that carries runs from right to left, a loop that contains runs clockwise, and
-/// one that keeps things out runs counter-clockwise.
+/// A line of edges without thickness or mass, for bodies that are not dynamic. It collides on the right of
+/// its direction only: ground that carries runs from right to left, a loop that contains runs clockwise, one
+/// that keeps things out counter-clockwise.
 struct ChainShape {
     std::vector<Vector> verticesMetres;
     bool isLoop = false; ///< the last vertex is joined to the first
@@ -75,13 +76,13 @@ struct FixtureDescription {
     Vector offsetMetres; ///< of the shape's origin (circle, box: centre) from the body's
     double angleRadians = 0.0;
     int material = 0;      ///< index into Scene::materials
-    bool isCamera = false; ///< camera-focused: collisions of this fixture are felt (thesis 5.1.1)
+    bool isCamera = false; ///< haptic source: collisions of this fixture are felt (thesis 5.1.1)
     Voice voice = Voice::own;
     std::optional<double> restitution{}; ///< of this fixture alone; none: the material's
     bool operator==(const FixtureDescription&) const = default;
 };
 
-/// static: never moves; kinematic: moves as it is told, whatever it hits; dynamic: moves by forces.
+/// static: never moves; kinematic: moves at its set velocity, whatever it hits; dynamic: moves by forces.
 enum class BodyType { staticBody, kinematicBody, dynamicBody };
 
 /// One rigid body as it starts.
@@ -95,8 +96,8 @@ struct BodyDescription {
     double spinRadiansPerSecond = 0.0;
     double linearDampingPerSecond = 0.0;
     double angularDampingPerSecond = 0.0;
-    /// Dynamic: replaces the mass by density and area, 0 keeps that. Others: Box2D gives them none; Eq. 5.4
-    /// needs one above 0 if a fixture is a camera.
+    /// Dynamic: replaces the mass by density and area, 0 keeps that. Others have no mass in Box2D; Eq. 5.4
+    /// needs one above 0 if a fixture is a haptic source.
     double massKg = 0.0;
     bool operator==(const BodyDescription&) const = default;
 };
@@ -172,7 +173,7 @@ struct TiltAction {
     double angleRadians = 0.0;
     bool operator==(const TiltAction&) const = default;
 };
-/// A push or drag. A body that is not there or not dynamic does not notice.
+/// A push or drag. No effect if the body is absent or not dynamic.
 struct ImpulseAction {
     std::string body;
     Vector newtonSeconds;
@@ -186,8 +187,8 @@ struct VelocityAction {
     double spinRadiansPerSecond = 0.0;
     bool operator==(const VelocityAction&) const = default;
 };
-/// Puts a body into the world. Repeated, each repetition is a body of its own, "name 1", "name 2"..., `shift`
-/// farther than the one before. A body that is there already (in the script's next period) starts anew.
+/// Adds a body to the world. Repetitions are separate bodies, "name 1", "name 2"..., each `shift` farther. A
+/// body that exists already (in the script's next period) restarts.
 struct SpawnAction {
     BodyDescription body;
     Vector shiftMetres;
@@ -197,7 +198,7 @@ struct RemoveAction {
     std::string body;
     bool operator==(const RemoveAction&) const = default;
 };
-/// Changes the motor of a revolute or wheel joint; no torque given: as it was.
+/// Changes the motor of a revolute or wheel joint; without a torque the torque stays.
 struct MotorAction {
     std::string joint;
     double radiansPerSecond = 0.0;
@@ -207,7 +208,7 @@ struct MotorAction {
 
 constexpr int everyFixture = -1;
 
-/// Focuses the camera on a fixture of a body (or every one), or takes it away.
+/// Makes a fixture of a body (or every one) a haptic source, or not.
 struct CameraAction {
     std::string body;
     int fixture = everyFixture; ///< index in the body
@@ -240,16 +241,15 @@ struct TextureAction {
 
     Texture texture() const noexcept { return {grainMetres, roughness, grainPattern, rolling}; }
 };
-/// Whoever holds the device turns it counter-clockwise and makes it heavier or lighter, on top of what
-/// gravity and tilt say before and after.
+/// The user turns the device counter-clockwise and changes its weight, in addition to gravity and tilt.
 struct HoldAction {
     double factor = 1.0;
     double angleRadians = 0.0;
     bool operator==(const HoldAction&) const = default;
 };
-/// A hand holds a point of a body and pulls it towards `toMetres`, where it is `overSeconds` later, in a
-/// straight line from where it is now; nowhere: it lets go. See SceneGrips. A body that is not there or not
-/// dynamic does not notice.
+/// A hand grips a point of a body and pulls it towards `toMetres`, which it reaches after `overSeconds` in a
+/// straight line; without `toMetres` it lets go. See SceneGrips. No effect if the body is absent or not
+/// dynamic.
 struct GripAction {
     std::string body;
     std::optional<Vector> toMetres;
@@ -258,13 +258,12 @@ struct GripAction {
     double overSeconds = 0.0;
     bool operator==(const GripAction&) const = default;
 };
-/// The body of that name is as described from now on, and there again if it was removed: what an editor does.
-/// Not in a script. Its joints keep their points on it. Its fixtures have new numbers, as of a body that is
-/// spawned.
+/// Replaces the body of that name by this description, also if it was removed: an editor's action. Not in a
+/// script. Its joints keep their points on it. Its fixtures get new numbers, like those of a spawned body.
 struct ChangeAction {
     BodyDescription body;
-    bool stays = false; ///< where it is now, and as it moves, if it is there; the description says where the
-                        ///< scene starts it
+    bool stays = false; ///< true: keeps its present place and motion if it is present; the description has
+                        ///< its place at the scene's start
     bool operator==(const ChangeAction&) const = default;
 };
 /// Joins two bodies; places are those of the world when it acts. Not in a script.
@@ -281,7 +280,7 @@ using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAc
                             RemoveAction, MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction,
                             TextureAction, GripAction, ChangeAction, JoinAction, UnjoinAction>;
 
-/// What puts a body into the world as a live input, under the next number; nullptr: something else.
+/// The body that a live input adds to the world, under the next number; nullptr for other actions.
 inline const BodyDescription* bodyPutBy(const Action& action) noexcept {
     if (const auto* spawn = std::get_if<SpawnAction>(&action)) return &spawn->body;
     if (const auto* change = std::get_if<ChangeAction>(&action)) return &change->body;
@@ -297,8 +296,8 @@ struct ScriptInput {
     bool operator==(const ScriptInput&) const = default;
 };
 
-/// What a person or a host did while the world ran, once, at world time `timeSeconds`. What is spawned so is
-/// a new body, without the seed's jitter: it starts where it was put.
+/// An input by a user or host while the world ran, once, at world time `timeSeconds`. A spawned body is new,
+/// without the seed's jitter.
 struct LiveInput {
     double timeSeconds = 0.0;
     Action action;
@@ -312,7 +311,7 @@ struct Normalisation {
     bool operator==(const Normalisation&) const = default;
 };
 
-/// A choice that a scene's file leaves open, for listings and provenance.
+/// A choice that a scene's file offers, for listings and provenance.
 struct SceneVariable {
     std::string name;
     std::string value; ///< the one chosen
@@ -326,8 +325,8 @@ struct Scene {
     std::string description; ///< one line, for `physvib scenes`
     double fieldWidthMetres = 0.0;
     double fieldHeightMetres = 0.0;
-    Vector gravityMetresPerSecond2; ///< until the script says otherwise
-    double driveGain = 1.0;         ///< on top of Eq. 5.7, which leaves most hits near -40 dBFS
+    Vector gravityMetresPerSecond2; ///< until the script changes it
+    double driveGain = 1.0;         ///< factor on Eq. 5.7, which leaves most impacts near -40 dBFS
     Normalisation normalisation;
     std::vector<Material> materials;
     std::vector<BodyDescription> bodies; ///< those it starts with; fixture numbers: see sceneCast()

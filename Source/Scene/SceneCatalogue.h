@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes that come with PhysVib, and one way to get these or a file's.
+// The built-in scenes, and a lookup by name or file.
 #pragma once
 #include "Io/Disk/Embedded.h"
 #include "Scene/SceneFile.h"

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Live inputs that edit a scene rather than play in it: bodies that come, go and change, sounds of materials.
+// Live inputs that edit a scene permanently: adding, removing and changing bodies, joints and materials.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/SceneTake.h"
 
 namespace physvib {
 
-/// The description with what `action` changes of it for good: materials of fixtures, sounds, cameras; others
-/// change nothing. Bodies of the scene and of its live inputs are found by name. Any thread.
+/// Applies the permanent changes of `action` to the description: materials of fixtures, sounds, haptic
+/// sources; other actions change nothing. Finds bodies of the scene and of its live inputs by name. Any
+/// thread.
 void describeEdit(Scene& scene, const Action& action);
 
-/// Whether an action changes a scene for good, as an editor does, and not only its motion. Any thread.
+/// True if an action changes the scene permanently and not only its motion. Any thread.
 bool isLasting(const Action& action);
 
-/// The scene with what `action` changes of it for good, bodies and joints as well; false, and nothing is
-/// changed, if that is nothing or would leave a scene that is not valid. Any thread.
+/// The same, with bodies and joints; false, and nothing is changed, if there is no change or the scene would
+/// be invalid. Any thread.
 bool editScene(Scene& scene, const Action& action);
 
-/// The take's scene as its inputs left it, without inputs: what was added starts where it was put, what was
-/// removed is not there (unless a joint holds it or the script needs it). Any thread.
+/// The scene of a scene run as its inputs left it, without inputs: added bodies start where they were put,
+/// removed ones are absent (unless a joint holds them or the script needs them). Any thread.
 Scene sceneAsLeft(const SceneTake& take);
 
-/// The scene without what its script does of what hands do: pushes, tilts, and the way the device is held;
-/// where there is a player (ScenePlayer), what that does. Any thread.
+/// The scene without scripted user input: pushes, tilts and device orientation; with a player (ScenePlayer),
+/// the player's actions. Any thread.
 Scene sceneForHands(Scene scene);
 
 } // namespace physvib

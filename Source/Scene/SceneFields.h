@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every field of a scene once: its name in files, its place in the structs, its range. Readers, writers and
-// checks visit this table.
+// Table of all fields of a scene: name in files, member, range. Readers, writers and checks iterate over it.
 #pragma once
 #include "Core/Limits.h"
 #include "Io/Json/FieldTable.h"
@@ -43,7 +42,7 @@ inline constexpr Bounds fixtureBounds = upTo(static_cast<double>(sceneLimits::ma
 
 inline constexpr std::array<std::string_view, 2> grainPatternNames{"random", "regular"};
 
-/// The grains of T's surface: of a material, and of what changes them.
+/// Texture fields of T: a material, or an action that changes one.
 template <class T, class V>
 void visitTexture(V& v) {
     v.field("grain_m", &T::grainMetres, upTo(Texture::coarsestMetres), Need::optional);

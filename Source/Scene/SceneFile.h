@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes as JSON: worlds that anybody can write, read strictly, and written back the same.
+// Scenes as JSON, read strictly and written back unchanged.
 #pragma once
 #include "Io/Result.h"
 #include "Scene/Scene.h"
@@ -17,16 +17,16 @@ constexpr int sceneFormatVersion = 2; // 2: change, join, unjoin; slider, slack;
 /// Choices for a scene's variables, {"height", "2"}; a variable without one has its default.
 using SceneSettings = std::vector<std::pair<std::string, std::string>>;
 
-/// The scene that `text` describes, ready for a Simulation; or, of the first thing that is wrong, one line
-/// `name: bodies[3].fixtures[0].radius_m: expected 0.01 to 100, found 0`. Fields: scene.schema.json. Unknown
-/// and repeated fields are errors, and so are settings that the scene does not know. Any thread.
+/// The scene in `text`, valid for a Simulation; or, for the first error, one line `name:
+/// bodies[3].fixtures[0].radius_m: expected 0.01 to 100, found 0`. Fields: scene.schema.json. Unknown and
+/// repeated fields are errors, as are settings that the scene does not have. Any thread.
 Result<Scene> readScene(std::string_view text, std::string_view name, const SceneSettings& settings = {});
 
-/// The same of a file. M only.
+/// The same for a file. Message thread (M) only.
 Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& settings = {});
 
-/// A valid scene as JSON, as its variables are set; readScene gives all of it back but the variables, bit for
-/// bit. Any thread.
+/// A valid scene as JSON with its present settings; readScene restores everything except the variables, bit
+/// for bit. Any thread.
 std::string sceneJson(const Scene& scene);
 
 } // namespace physvib

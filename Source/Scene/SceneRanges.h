@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks every field of the table in SceneFields.h against its range, and names the first that is outside.
+// Checks every field of a scene against its range in SceneFields.h, and names the first that is outside.
 #pragma once
 #include "Scene/SceneFields.h"
 #include <charconv>
@@ -26,7 +26,7 @@ inline std::string itemPath(const std::string& path, std::size_t index) {
     return path + "[" + std::to_string(index) + "]";
 }
 
-/// Also refuses what is not a number.
+/// Also refuses NaN.
 inline std::string checkRange(const std::string& path, double value, const Bounds& bounds) {
     const bool isInside = value >= bounds.least && value <= bounds.most;
     return isInside ? std::string() : outside(path, bounds.least, bounds.most, value);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The checks of a scene that compare one part of it with another; parts of validate().
+// Checks of a scene that compare its parts with each other; part of validate().
 #pragma once
 #include "Scene/Scene.h"
 #include <string>
 
 namespace physvib {
 
-/// Names of bodies and joints, and what names them: joints, and the script with its times. Every field must
-/// be in range, and the totals too. The first fault, or empty. Any thread.
+/// Names of bodies and joints, and references to them in joints and the script with its times. Fields and
+/// totals must be in range. Returns the first error, or empty. Any thread.
 std::string checkReferences(const Scene& scene);
 
-/// Whatever ever has a camera has what it needs: a mass for Eq. 5.4, and the sounds that its voice may take.
-/// References must be good. The first fault, or empty. Any thread.
+/// Every fixture that may become a haptic source has what it needs: a mass for Eq. 5.4, and the sounds that
+/// its voice may play. References must be valid. Returns the first error, or empty. Any thread.
 std::string checkCameras(const Scene& scene);
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene's script by step index: the same inputs act in the same steps, however fast the world is run.
+// A scene's script by step index: the same inputs act in the same steps, whatever the speed of the
+// simulation.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/World/StepClock.h"
@@ -9,7 +10,7 @@
 
 namespace physvib {
 
-/// Something that happens now; `repetition` counts an input's times from 0.
+/// An action that is due; `repetition` counts an input's repetitions from 0.
 struct DueAction {
     const Action* action = nullptr; ///< of the scene
     int repetition = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One stretch of a session: a scene from its start on, with what was done to it, and when the world stood
-// still.
+// A scene run of a session: a scene from its start on, with its live inputs and stalls.
 #pragma once
 #include "Scene/Scene.h"
 #include <cstdint>
@@ -9,8 +8,8 @@
 
 namespace physvib {
 
-/// From world time `worldNs` on, the world is `lengthNs` later than before; and again after each of the
-/// following `steps` - 1 steps (slow motion).
+/// At world time `worldNs` the world is delayed by `lengthNs`, and again after each of the following `steps`
+/// - 1 steps (slow motion).
 struct WorldStall {
     std::int64_t worldNs = 0;
     std::int64_t lengthNs = 0;
@@ -18,14 +17,14 @@ struct WorldStall {
     bool operator==(const WorldStall&) const = default;
 };
 
-/// Reads a list of stalls along the steps of its world.
+/// Iterates over the stalls along the steps of their world.
 class StallReader {
 public:
     explicit StallReader(const std::vector<WorldStall>& stalls) noexcept
         : next_{stalls.begin()}
         , end_{stalls.end()} {}
 
-    /// By how much the world is later than before, at its step that begins at `worldNs`. Once per step.
+    /// Delay before the world's step that begins at `worldNs`. Call once per step.
     std::int64_t lengthBefore(std::int64_t worldNs) noexcept {
         std::int64_t length = 0;
         while (next_ != end_ && (done_ > 0 || next_->worldNs <= worldNs)) {
@@ -44,9 +43,9 @@ private:
 
 struct SceneTake {
     std::int64_t startNs = 0;    ///< session time of world time 0
-    std::int64_t worldEndNs = 0; ///< up to which it was stepped
+    std::int64_t worldEndNs = 0; ///< world time up to which it was stepped
     std::uint32_t seed = 1;
-    std::shared_ptr<const Scene> scene; ///< as it started; takes of the same scene may share it
+    std::shared_ptr<const Scene> scene; ///< in its start state; runs of the same scene may share it
     std::vector<LiveInput> inputs;      ///< since then
     std::vector<WorldStall> stalls;     ///< in time order
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Says what is wrong with a scene, before a world is built from it.
+// Validates a scene before a world is built from it.
 #pragma once
 #include "Scene/Scene.h"
 #include <string>
@@ -14,8 +14,8 @@ std::string validate(const Scene& scene);
 /// The same of materials alone: ranges, and a name of its own for each. Any thread.
 std::string validateMaterials(const std::vector<Material>& materials);
 
-/// Lines on what can be simulated, but badly: dynamic bodies outside of the 0.1 to 10 m that Box2D is made
-/// for. The scene must be valid. Any thread.
+/// Warnings about a valid scene that is simulated badly: dynamic bodies outside of the 0.1 to 10 m that Box2D
+/// is made for. Any thread.
 std::vector<std::string> sceneWarnings(const Scene& scene);
 
 } // namespace physvib

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Why nothing can be felt of hits: success is not told where there was none.
+// Explains why a render would be silent, so that the programs do not report success.
 #pragma once
 #include "Scene/FieldSize.h"
 #include <cstdint>
 
 namespace physvib {
 
-/// Empty if a hit that begins before `endNs` is stronger than `least`, of full scale, at one actuator. Any
-/// thread.
+/// Empty if an event that begins before `endNs` exceeds `least`, of full scale, at one actuator; else the
+/// reason. Any thread.
 inline std::string silentWords(std::span<const CollisionEvent> events, const PhantomPanner& panner,
                                bool isGuessed, std::int64_t endNs, double least = 0.0) {
     PhantomPanner::Gains gains{};
     bool begins = false;
-    double strongest = 0.0, most = 0.0; // as struck, and of what an actuator gets of it
+    double strongest = 0.0, most = 0.0; // as struck; at the actuators
     for (const CollisionEvent& e : events) {
         if (e.timeNs >= endNs) continue;
         begins = true;

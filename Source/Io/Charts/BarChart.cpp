@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Groups of bars with intervals, ceilings and brackets.
+// Bar chart as SVG: groups of bars with intervals, ceilings and significance brackets.
 #include "Io/Charts/ChartParts.h"
 #include "Io/Charts/Charts.h"
 #include <algorithm>
@@ -13,7 +13,7 @@ using namespace detail;
 constexpr double chartWidth = 680.0, plotHeight = 250.0, bracketHeight = 20.0, leftMargin = 66.0,
                  narrowGroup = 30.0;
 
-/// Brackets in rows so that none crosses another: the row of each, from 0 at the bottom.
+/// Arranges brackets in rows so that none overlap: the row of each, from 0 at the bottom.
 std::vector<std::size_t> bracketRows(const std::vector<ChartBracket>& brackets) {
     std::vector<std::size_t> rows;
     const auto overlap = [](const ChartBracket& a, const ChartBracket& b) {

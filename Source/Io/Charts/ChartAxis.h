@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An axis of numbers: its range, its ticks, their words.
+// A chart's numeric axis: range, ticks and tick labels.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,10 +12,10 @@ struct ChartAxis {
     std::vector<double> ticks{}; ///< from low to high, within the range
     std::vector<std::string> tickWords{};
 
-    /// From 0 at `least` to 1 at `most`; what is beyond stays beyond. Any thread.
+    /// From 0 at `least` to 1 at `most`; other values lie outside of that. Any thread.
     double share(double value) const noexcept;
 
-    /// Round ticks around all of `least` to `most`; equal ends are spread. Any thread (allocates).
+    /// An axis with round ticks that covers `least` to `most`; equal ends are spread. Any thread (allocates).
     static ChartAxis around(double least, double most, int aboutTicks = 5);
     static ChartAxis logarithmic(double least, double most);
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places that do not overlap, by the width that words take.
+// Layout of legends, titles and axes by estimated text width.
 #include "Io/Charts/ChartParts.h"
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What bars and lines share: title, legend, axes. For the .cpp files of Charts.
+// Parts common to all charts: title, legend, axes. For the .cpp files of Charts.
 #pragma once
 #include "Io/Charts/ChartAxis.h"
 #include "Io/Charts/Svg.h"
@@ -23,18 +23,18 @@ struct PlotArea {
 
 constexpr double titleSize = 14.0, labelSize = 12.0, smallSize = 11.0;
 
-/// A word of the legend and how it is drawn.
+/// An entry of the legend and how it is drawn.
 struct LegendItem {
     std::string words;
     std::size_t style = 0;
     enum class Kind { bar, marker, dashes } kind = Kind::bar;
 };
 
-/// Its height: rows as wide as `width`.
+/// Height of a legend with rows of at most `width`.
 double legendHeight(const std::vector<LegendItem>& items, double width);
 void drawLegend(Svg& svg, const std::vector<LegendItem>& items, ChartPoint corner, double width);
 
-/// Lines of words that fit into `width`. Any thread (allocates).
+/// Breaks text into lines of at most `width`. Any thread (allocates).
 std::vector<std::string> wrapped(std::string_view words, double width, double size);
 
 /// The title at the top, in lines, and the height that it takes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pictures of a report: what is to be seen goes in, SVG comes out.
+// Charts of study reports: data in, SVG text out.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace physvib {
 
-/// Of every chart.
+/// Common to every chart.
 struct ChartFrame {
-    std::string name;  ///< letters, digits, -; no other chart of the page has it
-    std::string title; ///< what is seen, in words
+    std::string name;  ///< letters, digits, -; unique on the page
+    std::string title; ///< describes the chart
     bool isSimulated = false;
 };
 
-/// A value and its interval.
+/// A value with its interval.
 struct ChartValue {
     double value = 0.0, least = 0.0, most = 0.0; ///< all alike: no interval is drawn
 
@@ -43,10 +43,10 @@ struct BarChart {
     std::vector<std::string> groups;
     std::vector<BarSeries> series;
     std::vector<ChartBracket> brackets{};
-    std::optional<std::pair<double, std::string>> reference{}; ///< a line across all groups, and what it is
-    std::vector<double> ceilings{};                            ///< per group: the most that is possible
+    std::optional<std::pair<double, std::string>> reference{}; ///< a line across all groups, and its label
+    std::vector<double> ceilings{};                            ///< per group: the maximum possible value
     std::string ceilingWords{};
-    std::optional<double> most{}; ///< of the axis, which begins at 0 or below; none: by the values
+    std::optional<double> most{}; ///< end of the axis, which begins at 0 or below; nullopt: from the values
 };
 
 struct LinePoint {
@@ -81,14 +81,14 @@ struct GridChart {
     std::vector<std::string> rows, columns;    ///< labels
     std::vector<std::optional<double>> values; ///< row by row
     std::vector<double> halfIntervals{};       ///< of the values; empty: none
-    double most = 1.0;                         ///< darkest
+    double most = 1.0;                         ///< value of the darkest shade
     int decimals = 0;                          ///< of the numbers in the cells
     std::optional<double> markedBelow{};       ///< cells below are framed
     double width = 330.0;
     double shape = 1.0; ///< of a cell: height / width
 };
 
-/// Where something was felt.
+/// Where a stimulus was felt.
 struct PlaceMark {
     std::size_t target = 0;  ///< row by row
     double x = 0.0, y = 0.0; ///< from 0 to 1, y downwards
@@ -106,12 +106,12 @@ struct PlaceChart {
     std::vector<PlaceEllipse> ellipses{};             ///< of one standard deviation
     std::vector<std::pair<double, double>> targets{}; ///< row by row
     std::vector<PlaceMark> labels{};                  ///< "row,column" of the target
-    std::vector<std::size_t> territory{}; ///< the target that each point of a map belongs to, row by row
+    std::vector<std::size_t> territory{}; ///< the target nearest to each point of a map, row by row
     std::size_t mapColumns = 0;
     double width = 335.0;
 };
 
-// The same input gives the same bytes. Any thread (allocates).
+// Equal input gives equal bytes. Any thread (allocates).
 
 std::string barChart(const BarChart& chart);
 std::string lineChart(const LineChart& chart);

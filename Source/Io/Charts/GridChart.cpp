@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A matrix of shades: confusions, shares by place, percent counts.
+// Matrix of shaded cells as SVG: confusion matrices, shares by place, percentages.
 #include "Io/Charts/ChartParts.h"
 #include "Io/Charts/Charts.h"
 #include "Io/Text/NumberText.h"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace detail;
 
-/// White to dark blue; as much darker in black and white.
+/// White to dark blue; lightness is monotonic, so it also works in greyscale.
 std::string shade(double share) {
     const double t = std::clamp(share, 0.0, 1.0);
     const auto mixed = [t](double dark) {
@@ -53,7 +53,7 @@ struct GridDrawing {
             svg.text({x, y + 12.0}, "\u00b1" + fixedNumber(chart.halfIntervals[index], chart.decimals),
                      {9.0, Anchor::middle, 0.0, false, colour});
     }
-    /// Every label that has room.
+    /// Draws every label that fits.
     void labels() const {
         const auto rowStep = static_cast<std::size_t>(std::ceil(11.0 / cellHeight())),
                    columnStep = static_cast<std::size_t>(std::ceil(13.0 / cellWidth()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines and points with intervals, on plain or logarithmic axes.
+// Line chart as SVG: lines and points with intervals, on linear or logarithmic axes.
 #include "Io/Charts/ChartParts.h"
 #include "Io/Charts/Charts.h"
 #include <algorithm>

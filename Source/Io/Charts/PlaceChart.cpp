@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The field: where people pointed, the normals of each target, whose territory a place is.
+// Chart of the response field as SVG: indicated places, normal ellipse of each target, map of the nearest
+// target.
 #include "Io/Charts/ChartParts.h"
 #include "Io/Charts/Charts.h"
 #include <algorithm>
@@ -21,7 +22,7 @@ struct PlaceDrawing {
     ChartPoint at(double x, double y) const {
         return {area.left + x * area.width(), area.top + y * area.height()};
     }
-    /// Neighbours in a row and in a column differ.
+    /// Neighbours in a row and in a column have different styles.
     std::size_t styleOf(std::size_t target) const {
         return (target % chart.columns + 3 * (target / chart.columns)) % 7;
     }
@@ -85,7 +86,8 @@ struct PlaceDrawing {
     }
     void ellipses() const {
         for (const PlaceEllipse& e : chart.ellipses) {
-            const double wx = area.width(), wy = area.height(); // pixels are not square in the field's shares
+            const double wx = area.width(), wy = area.height(); // because the field's shares are not square
+                                                                // in pixels
             const double a = e.varianceX * wx * wx, b = e.covariance * wx * wy, c = e.varianceY * wy * wy;
             const double middle = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
             const double degrees = 0.5 * std::atan2(2.0 * b, a - c) * 180.0 / std::numbers::pi;
@@ -102,7 +104,7 @@ struct PlaceDrawing {
             svg.text({place.x, place.y + 3.0}, words, {8.5, Anchor::middle});
         }
     }
-    /// Targets as crosses, lines to where they were felt.
+    /// Targets as crosses, with lines to where they were felt.
     void targets() const {
         for (const PlaceEllipse& e : chart.ellipses)
             if (e.target < chart.targets.size())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Elements as text.
+// Writes SVG elements as text.
 #include "Io/Charts/Svg.h"
 #include "Io/Charts/Charts.h"
 #include "Io/Text/CleanText.h"
@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, chartStyles> colours{"#0072B2", "#E69F00"
                                                             "#D55E00", "#56B4E9", "#F0E442", "#000000"};
 constexpr std::array<std::string_view, chartStyles> dashes{"",     "7 3", "2 3", "9 3 2 3",
                                                            "12 4", "4 4", "1 5", "14 3 3 3"};
-// In a tile of 8 x 8; white over the colour. The first is plain.
+// In a tile of 8 x 8, white over the colour. The first has no hatch.
 constexpr std::array<std::string_view, chartStyles> hatchPaths{"",
                                                                "M-2 10L10 -2M-2 2L2 -2M6 10L10 6",
                                                                "M2 2h0.01M6 6h0.01",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures as SVG text, the same bytes for the same input: no script, no network, fonts of the reader's own.
+// Writer of SVG pictures as text, with equal bytes for equal input: no scripts, no external references, the
+// reader's fonts.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -7,8 +8,8 @@
 
 namespace physvib {
 
-/// `text` between tags or in an attribute of HTML and SVG, whatever a file holds: no markup, no control
-/// characters. Any thread.
+/// Escapes `text` for HTML and SVG, between tags or in an attribute, and removes control characters. Any
+/// thread.
 std::string markup(std::string_view text);
 
 struct ChartPoint {
@@ -18,7 +19,7 @@ struct ChartPoint {
 struct Stroke {
     std::string_view colour = "#222";
     double width = 1.0;
-    std::string_view dash = {}; ///< "4 3"; empty: drawn through
+    std::string_view dash = {}; ///< "4 3"; empty: solid
 };
 
 enum class Anchor { start, middle, end };
@@ -31,20 +32,21 @@ struct TextStyle {
     std::string_view colour = "#222";
 };
 
-constexpr std::size_t chartStyles = 8; ///< of series: colour, hatch, marker and dash repeat after so many
+constexpr std::size_t chartStyles = 8; ///< number of series styles: colour, hatch, marker and dash repeat
+                                       ///< after these
 
-/// Okabe and Ito's colours (2008), which colour-blind readers tell apart; hatches, markers and dashes for
-/// those who print in black and white.
+/// Okabe and Ito's colours (2008), distinguishable for colour-blind readers; hatches, markers and dashes for
+/// black-and-white print.
 std::string_view seriesColour(std::size_t series) noexcept;
 std::string_view seriesDash(std::size_t series) noexcept;
 
-/// About how wide `text` is in a generic sans-serif font, rather too wide. Any thread.
+/// Estimated width of `text` in a generic sans-serif font, rather too large. Any thread.
 double textWidth(std::string_view text, double size) noexcept;
 
-/// A picture on its way. One thread at a time.
+/// A picture under construction. One thread at a time.
 class Svg {
 public:
-    /// `name`: letters, digits and - that no other picture of the page has: its parts are called after it.
+    /// `name`: letters, digits and -, unique on the page: prefix of its element ids.
     Svg(std::string name, double width, double height);
 
     void line(ChartPoint from, ChartPoint to, Stroke stroke = {});
@@ -59,11 +61,10 @@ public:
     void bar(ChartPoint corner, double width, double height, std::size_t series);
     /// Circle, square, triangle ...: the series'.
     void marker(ChartPoint at, std::size_t series, double radius = 4.0);
-    /// From `from` to `to` with feet, edged in white so that it shows on dark bars.
+    /// An interval with end ticks, edged in white so that it is visible on dark bars.
     void whisker(ChartPoint from, ChartPoint to, Stroke stroke = {});
 
-    /// The whole element; with `isSimulated` a watermark over all of it. `words`: for those who cannot see
-    /// it.
+    /// The complete element; with `isSimulated` a watermark over all of it. `words`: alternative text.
     std::string finish(std::string_view words, bool isSimulated) const;
 
 private:
@@ -74,10 +75,10 @@ private:
 
     std::string name_, body_;
     double width_, height_;
-    unsigned hatches_ = 0; // a bit per series whose hatch is used
+    unsigned hatches_ = 0; // one bit per series style whose hatch is used
 };
 
-/// Appends with at most two decimals; a place after a path's command. Any thread.
+/// Appends a number with at most two decimals; appendPoint: a path command with its point. Any thread.
 void appendPixels(std::string& out, double pixels);
 void appendPoint(std::string& out, char command, ChartPoint at);
 

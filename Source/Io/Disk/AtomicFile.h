@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file that appears whole or not at all: written beside its place, then renamed onto it.
+// Atomic file writing: a file appears complete or not at all. It is written beside its place, then renamed.
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace physvib {
 
-/// A file being written. commit() puts it in place; without that the destructor, or the signal that ends the
-/// program (see removeAllOnEnd()), removes it, and whatever stood at the path before is untouched. Its
-/// temporary file is its path's lock as well: one path has one writer at a time, in all programs. M only.
+/// A file being written. commit() puts it in place. Without that the destructor, or the signal that ends the
+/// program (see removeAllOnEnd()), removes it, and an earlier file at the path is unchanged. Its temporary
+/// file also locks the path: one writer at a time, across all programs. Message thread (M) only.
 class AtomicFile {
 public:
-    /// Makes the empty temporary file beside `path`; see error(). A link at `path` is followed within its
-    /// folder and below. Refused: a link that leads elsewhere, a folder, a device, a pipe (a rename would
-    /// replace it), a file that may not be written, and one that is being written already.
+    /// Creates the empty temporary file beside `path`; see error(). A link at `path` is followed if it leads
+    /// into its folder or below. Refused: other links, a folder, a device or a pipe (a rename would replace
+    /// it), a write-protected file, and one that is being written already.
     explicit AtomicFile(const std::filesystem::path& path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -25,25 +25,24 @@ public:
     /// Empty, or one line naming the path and why it cannot be written.
     const std::string& error() const noexcept { return error_; }
 
-    /// Whether that is because somebody else is writing it: then its path is worth another try.
+    /// True if another writer has locked the path: a retry may succeed.
     bool isTaken() const noexcept { return isTaken_; }
 
-    /// These bytes at that place of the file. False after an error.
+    /// Writes `bytes` at that position. False after an error.
     bool writeAt(std::int64_t position, std::string_view bytes);
 
-    /// Makes `bytes` all of the file. Returns error(); after an error nothing is left behind.
+    /// Makes `bytes` the whole content. Returns error(); after an error nothing is left behind.
     const std::string& write(std::string_view bytes);
 
-    /// Puts what was written in its place already, once: what follows is written there, and stays, whatever
-    /// ends the program, also after an error. Returns error().
+    /// Puts the file in its place early, once: later data is written there, and stays even if the program
+    /// ends or an error occurs. Returns error().
     const std::string& show();
 
-    /// Renames the temporary file onto the path, once; then both the file and its name are on the disk, so
-    /// that what was whole stays whole when the machine loses its power. After an error nothing is left
-    /// behind.
+    /// Renames the temporary file onto the path, once, and flushes file and folder to disk, so that the
+    /// result survives a power failure. After an error nothing is left behind.
     [[nodiscard]] const std::string& commit();
 
-    /// Beside the path, until then. It is never opened again: what has that name need not be ours.
+    /// Beside the path, until commit(). Do not open it again: another program may have replaced it.
     const std::filesystem::path& temporaryPath() const noexcept { return temporary_; }
 
 private:
@@ -58,13 +57,12 @@ private:
     std::filesystem::path temporary_;
     SystemFile file_;
     RemovedOnEnd onEnd_;
-    std::unique_ptr<AtomicFile> lock_; // of the path, once the file is there
+    std::unique_ptr<AtomicFile> lock_; // locks the path after show()
     std::string error_;
     bool isTaken_ = false;
 };
 
-/// Writes all of `bytes` to `path`, or leaves what was there. Gives "", or one line naming path and reason.
-/// M only.
+/// Writes `bytes` to `path` atomically. Returns "", or one line naming path and reason. M only.
 [[nodiscard]] std::string writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether something is what it was: sixteen digits of FNV-1a, against mistakes and not against forgers.
+// Hash that identifies content: sixteen hexadecimal digits of FNV-1a, against mistakes, not against forgery.
 #pragma once
 #include <cstdint>
 #include <string>

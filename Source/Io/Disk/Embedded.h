@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that stand in the library itself, so that no path is needed at run time.
+// Files that are compiled into the library, so that no path is needed at run time.
 #pragma once
 #include <stdexcept>
 #include <string_view>
@@ -8,7 +8,8 @@
 
 namespace physvib {
 
-/// Whether a thing is meant by its file and not by its name: NAME.json, or with a folder. Any thread.
+/// True if `name` is a file path rather than the name of an embedded file: it ends in .json or has a folder.
+/// Any thread.
 inline bool isJsonPath(std::string_view name) noexcept {
     return name.ends_with(".json") || name.find('/') != std::string_view::npos;
 }
@@ -18,8 +19,8 @@ struct EmbeddedFile {
     std::string_view text;
 };
 
-/// What `read` (text and name to a Result) makes of them all. Throws std::logic_error at one that cannot be
-/// read: a test reads them all. Any thread.
+/// The results of `read` (text and name to a Result) for all files. Throws std::logic_error if one cannot be
+/// read; a test reads them all. Any thread.
 template <class Read>
 auto readEmbedded(const std::vector<EmbeddedFile>& files, Read read) {
     std::vector<decltype(read(files.front().text, files.front().name).value)> all;

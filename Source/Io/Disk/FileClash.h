@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether two paths are one file, and whether one leaves its folder: by what paths are, not by how they are
-// spelled.
+// Checks whether two paths are the same file, and whether a path leaves its folder, whatever their spelling.
 #pragma once
 #include <filesystem>
 #include <span>
@@ -8,21 +7,21 @@
 
 namespace physvib {
 
-/// The folder that a file is in, or would be; "." of a name alone. Any thread.
+/// The parent folder; "." for a name alone. Any thread.
 std::filesystem::path folderOf(const std::filesystem::path& file);
 
-/// Whether both name one file, there or to be made; links and folders may be spelled in any way. Any thread.
+/// True if both name one file, existing or not; links and folders may be spelled in any way. Any thread.
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 
 inline constexpr const char* leadsElsewhere =
     "expected a file in its own folder or below, found a link that leads elsewhere";
 
-/// Whether what `path` names, once all links are followed, is in `folder` or below; there or to be made. Any
-/// thread but R.
+/// True if `path`, after following all links, is in `folder` or below, existing or not. Any thread but the
+/// render thread (R).
 bool isWithin(const std::filesystem::path& folder, const std::filesystem::path& path);
 
-/// Empty, or one line on the first of `outputs` that is one of `inputs` or another output. Empty names are no
-/// files. Any thread.
+/// Empty, or one line on the first of `outputs` that equals an input or another output. Empty names are
+/// skipped. Any thread.
 std::string fileClash(std::span<const std::string> outputs, std::span<const std::string> inputs);
 
 } // namespace physvib

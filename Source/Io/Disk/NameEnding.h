@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which endings the name of a file that is written may have: one sentence for all who ask for one.
+// Checks the file name ending of an output, with a common error message.
 #pragma once
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"

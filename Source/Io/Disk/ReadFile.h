@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A whole file as text, or one line that says why it cannot be read.
+// Reads a whole file as text, or returns a one-line error.
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include "Io/Result.h"
@@ -36,7 +36,7 @@ inline Result<std::string> readFile(const std::filesystem::path& path, std::size
     const OpenFile file{openStream(path, "rb")};
     if (!file) return unreadable(path, errno);
     std::string text;
-    std::error_code unknown; // of what is no file: it grows
+    std::error_code unknown; // pipes and devices have no size: the buffer grows
     if (const auto bytes = std::filesystem::file_size(path, unknown); !unknown && bytes <= maxBytes)
         text.reserve(bytes);
     else if (!unknown)
@@ -50,7 +50,7 @@ inline Result<std::string> readFile(const std::filesystem::path& path, std::size
     return text;
 }
 
-/// What `read` makes of a file's text and name. M only.
+/// The result of `read` for a file's text and name. Message thread (M) only.
 template <class Read>
 std::invoke_result_t<Read, std::string_view, std::string_view> loadText(const std::filesystem::path& path,
                                                                         std::size_t maxBytes, Read read) {
@@ -64,11 +64,11 @@ struct RegularFile {
     std::size_t bytes = 0;
 };
 
-/// A file that has an end and can be searched, of at most `maxBytes`, open at its beginning: no folder, and
-/// no pipe or device, which would wait or never end. Any thread.
+/// Opens a regular, seekable file of at most `maxBytes` at its beginning. Refuses folders, and pipes and
+/// devices, which may block or never end. Any thread.
 inline Result<RegularFile> openRegular(const std::filesystem::path& path, std::size_t maxBytes) {
     std::error_code code;
-    const auto status = std::filesystem::status(path, code); // before it is opened: opening a pipe waits
+    const auto status = std::filesystem::status(path, code); // before opening, because opening a pipe blocks
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return unreadable(path, "expected a regular file, found a folder, a device or a pipe");
     RegularFile file{OpenFile{openStream(path, "rb")}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is the same on every system: who owns what is open, what an error is called, and what goes when the
-// program ends.
+// Platform-independent part of SystemFile: ownership of the handle, error texts, and removal of temporary
+// files when the program ends.
 #include "Io/Disk/SystemFile.h"
 #include "Io/Disk/FileClash.h"
 #include <cerrno>
@@ -59,7 +59,7 @@ bool SystemFile::append(std::string_view bytes) noexcept {
     if (error_ != 0 || writeAt(end, bytes)) return error_ == 0;
     const int first = std::exchange(error_, 0);
     resize(end);
-    error_ = first; // what counts
+    error_ = first; // the first error is the one that counts
     return false;
 }
 

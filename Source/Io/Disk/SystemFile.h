@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An open file of the system, with its lock: what the rooms without JUCE ask of the system beside a board's
-// line. One file per system does it, SystemFilePosix.cpp and SystemFileWindows.cpp; nothing else of them
-// knows where it runs.
+// An open file with a lock, by direct system calls. SystemFilePosix.cpp and SystemFileWindows.cpp implement
+// it; with a board's serial line it is all that the modules without JUCE need of the operating system.
 #pragma once
 #include <array>
 #include <atomic>
@@ -14,18 +13,18 @@
 
 namespace physvib {
 
-/// A regular file that stays open, so that no other file can take its name's place unnoticed. The first error
-/// stays and refuses what follows. One thread at a time, not R.
+/// A regular file that stays open, so that a replacement at its path is detected. The first error is kept and
+/// later operations fail. One thread at a time, not the render thread (R).
 class SystemFile {
 public:
-    /// A new file; an error if there is anything of that name already, a link as well.
+    /// Creates a new file; an error if the name exists, even as a link.
     static SystemFile create(const std::filesystem::path& path);
 
-    /// What is there, to grow, or a new one. A link is followed, unless it leads out of its folder; a pipe or
-    /// a device is an error, and is not waited for.
+    /// Opens an existing file for appending, or creates it. A link is followed unless it leads out of its
+    /// folder; a pipe or a device is an error and does not block.
     static SystemFile grow(const std::filesystem::path& path);
 
-    /// What is there, only to lock it and to ask what it is; no link.
+    /// Opens an existing file only to lock and identify it; links are refused.
     static SystemFile look(const std::filesystem::path& path);
 
     SystemFile() = default;
@@ -34,37 +33,36 @@ public:
     ~SystemFile();
 
     bool isOpen() const noexcept { return handle_ != none; }
-    /// The first error number (of errno, everywhere), 0 if there was none; and in words.
+    /// The first error number (of errno, on every system), 0 if there was none; reason(): as text.
     int error() const noexcept { return error_; }
     std::string reason() const;
-    /// What follows is tried again: a full disk may have room by now.
+    /// Allows a retry: a full disk may have space again.
     void forgetError() noexcept { error_ = isOpen() ? 0 : error_; }
 
     enum class Lock { taken, others, none }; ///< none: the file system has no locks
-    /// Nobody else may lock it until it is closed, which any end of the program does.
+    /// Prevents other programs from locking it, until it is closed or the program ends.
     Lock lock() noexcept;
 
-    /// All of `bytes` at their place, or false.
+    /// Writes all of `bytes` at that position; false on failure.
     bool writeAt(std::int64_t position, std::string_view bytes) noexcept;
 
-    /// All of `bytes` at the end; or false, and the end is where it was.
+    /// Appends all of `bytes`; on failure false, and the length is unchanged.
     bool append(std::string_view bytes) noexcept;
 
-    /// All that was written is on the disk, whatever becomes of the machine; or false. Waits for the disk.
+    /// Flushes to disk, so that the data survives a power failure; false on failure. Blocks.
     bool sync() noexcept;
 
     bool resize(std::int64_t bytes) noexcept;
     std::int64_t size() noexcept; ///< 0 after an error
 
-    /// Whether it is the file of that name, itself or through nothing but folders.
+    /// True if `path` names this very file, not through a link.
     bool isAt(const std::filesystem::path& path) const noexcept;
 
-    /// May be read and written by whom `path` may. Best effort: another owner's permissions cannot always be
-    /// copied, and on Windows a new file's are its folder's.
+    /// Copies permissions from `path`. Best effort: another owner's permissions cannot always be copied, and
+    /// on Windows a new file has its folder's.
     void takePermissionsOf(const std::filesystem::path& path) const noexcept;
 
-    /// So are the names in a folder: of what was made or renamed in it. Where a system knows no such thing,
-    /// nothing happens.
+    /// Flushes the names in a folder after a file was created or renamed. No effect on systems without that.
     static void syncFolder(const std::filesystem::path& folder) noexcept;
 
 private:
@@ -74,21 +72,21 @@ private:
     enum class Opening { create, grow, look };
     static SystemFile opened(const std::filesystem::path& path, Opening opening) noexcept;
     static bool isAt(Handle handle, const std::filesystem::path& path) noexcept;
-    static void removeNow(const std::filesystem::path& path) noexcept; // calls the system, and nothing else
+    static void removeNow(const std::filesystem::path& path) noexcept; // one system call, nothing else
     void closeNow() noexcept;
-    void refuse() noexcept;          // is none of the files that this class is for
-    bool note(bool isGood) noexcept; // keeps the system's first error
+    void refuse() noexcept;          // refuses files that are not regular
+    bool note(bool isGood) noexcept; // records the first system error
 
     Handle handle_ = none;
     int error_ = 0;
 };
 
-/// Removes a file if a signal ends the program (see removeAllOnEnd()); until this object goes. Any thread but
-/// R.
+/// Removes a file if a signal ends the program (see removeAllOnEnd()) while this object exists. Any thread
+/// but R.
 class RemovedOnEnd {
 public:
     RemovedOnEnd() = default;
-    /// `file`, which outlives this object, if it is still what has that name then.
+    /// `file` must outlive this object; it is removed only if `name` still refers to it.
     RemovedOnEnd(const SystemFile& file, const std::filesystem::path& name);
     RemovedOnEnd(RemovedOnEnd&& other) noexcept;
     RemovedOnEnd& operator=(RemovedOnEnd&& other) noexcept;
@@ -98,14 +96,14 @@ private:
     friend void removeAllOnEnd() noexcept;
     struct Removal;
     static void removeAll() noexcept;
-    static std::array<std::atomic<Removal*>, 256> removals; // whoever takes one out of its slot owns it: the
-                                                            // handler of a signal frees none
+    static std::array<std::atomic<Removal*>, 256> removals; // the thread that takes an entry out of its slot
+                                                            // owns it; a signal handler frees none
     int slot_ = -1;
 };
 
-/// While it lives, what ends the program waits (a signal; on Windows the console's, which comes on a thread
-/// of its own): between making a file and being ready to remove it. Any thread but R; for the thread that
-/// made it.
+/// While it exists, signals that end the program (on Windows console events, which arrive on their own
+/// thread) are deferred: covers the time between creating a file and registering its removal. Any thread but
+/// R; for its own thread.
 class HeldSignals {
 public:
     HeldSignals() noexcept;
@@ -114,18 +112,17 @@ public:
     HeldSignals& operator=(const HeldSignals&) = delete;
 
 private:
-    unsigned others_ = 0; // those that were held already
+    unsigned others_ = 0; // signals that were blocked already
 };
 
-/// For the handler of a signal that ends the program: allocates, locks and waits for nothing (on Windows it
-/// waits for HeldSignals).
+/// For the handler of a signal that ends the program: neither allocates, locks nor waits (on Windows it waits
+/// for HeldSignals).
 void removeAllOnEnd() noexcept;
 
-/// What asks a program to end: Ctrl-C, `kill`, a terminal that is closed. Any thread.
+/// The signals that ask a program to end: Ctrl-C, `kill`, a closed terminal. Any thread.
 std::span<const int> endingSignals() noexcept;
 
-/// A file of that name by the C library, as std::fopen; nullptr and errno if it cannot be opened. Any thread
-/// but R.
+/// std::fopen for a path; nullptr and errno if it cannot be opened. Any thread but R.
 std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept;
 
 } // namespace physvib

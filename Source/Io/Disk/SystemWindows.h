@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Windows' own header, for the files that are its alone: without sockets of old, and without macros named min
-// and max.
+// Includes <windows.h> without old sockets and without the macros min and max; for Windows-only files.
 #pragma once
 #if defined(_WIN32)
 #if !defined(WIN32_LEAN_AND_MEAN)

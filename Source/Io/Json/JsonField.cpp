@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of a JSON value, and the words when it is not there.
+// Type and range checks of JSON values, with their error messages.
 #include "Io/Json/JsonField.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Text/CleanText.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Typed access to a JSON value, with errors that name the path to it. For the .cpp files of Files and
-// Formats.
+// Typed access to a JSON value, with errors that name its path. For .cpp files that read JSON.
 #pragma once
 #include "Io/Disk/FileLimits.h"
 #include "Io/Json/StrictJson.h"
@@ -14,7 +13,7 @@
 
 namespace physvib {
 
-/// A value and the path to it; whatever is asked of it and not there is thrown as JsonError.
+/// A value and its path. Missing or wrong values are thrown as JsonError.
 class JsonField {
 public:
     JsonField(const Json& value, std::string path)
@@ -36,16 +35,16 @@ public:
 
     double number() const;
     double positiveNumber() const;
-    double numberUpTo(double most) const; ///< from 0 on
+    double numberUpTo(double most) const; ///< from 0
     double numberWithin(double least, double most) const;
     int wholeNumber() const;
     int wholeWithin(int least, int most) const;
     bool truth() const;
-    /// One line of at most so many bytes.
+    /// One line of at most `mostBytes` bytes.
     std::string text(std::size_t mostBytes = limits::maxNameBytes) const;
-    /// Of any text what a screen shows as one line: of strangers' titles.
+    /// Any text made displayable as one line; for titles in imported files.
     std::string line() const;
-    /// Index of the word it is among `names`.
+    /// Its index in `names`.
     std::size_t oneOf(std::span<const std::string_view> names) const;
     /// The value as a file of its own.
     std::string fileText() const { return value_.dump(-1, ' ', false, Json::error_handler_t::replace); }

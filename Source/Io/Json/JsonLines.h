@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON for people: what fits on a line stands on one line, and numbers are the shortest that read back.
+// Human-readable JSON output: short values on one line, numbers with the fewest digits that read back.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How every JSON text is read: within its limit, strictly, whole or not at all; and the version that ours
-// have. For the .cpp files of Files.
+// Common entry for reading JSON texts, with a size limit and strict parsing, and the version check of
+// PhysVib's own files. For .cpp files that read JSON.
 #pragma once
 #include "Io/Json/JsonField.h"
 #include "Io/Result.h"
@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// What `read` makes of the value that `text` spells, or one line that begins with `name`. `read` takes a
+/// The result of `read` for the parsed value, or a one-line error that begins with `name`. `read` takes a
 /// Json& and throws JsonError. Any thread.
 template <class Read>
 Result<std::invoke_result_t<Read, Json&>> readJson(std::string_view text, std::string_view name,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words about strangers' files, fit for a terminal, a log, a screen: one line of UTF-8, whatever the file or
-// its name holds.
+// Makes untrusted text safe to display as one line of UTF-8 in a terminal, log or window.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +8,7 @@
 
 namespace physvib {
 
-/// A character at the front of a text; no bytes: what is there is no UTF-8.
+/// The first character of a text; 0 bytes: invalid UTF-8.
 struct Utf8Character {
     std::uint32_t code = 0;
     std::size_t bytes = 0;
@@ -41,7 +40,7 @@ constexpr bool isControl(std::uint32_t code) noexcept {
            (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
 }
 
-/// `text` with \xNN for every byte of what is no UTF-8 or controls. Any thread.
+/// `text` with \xNN for every byte of invalid UTF-8 and of control characters. Any thread.
 inline std::string cleanLine(std::string_view text) {
     constexpr std::string_view hex = "0123456789abcdef";
     std::string out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines into cells, strictly: what is not a table is refused by line.
+// Strict CSV parser: splits lines into cells, and reports errors by line.
 #include "Io/Text/CsvTable.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
@@ -11,7 +11,7 @@
 namespace physvib {
 namespace {
 
-/// Takes a cell off the front of `rest`; false if its quotes do not match.
+/// Removes a cell from the front of `rest`; false if its quotes do not match.
 bool takeCell(std::string_view& rest, std::string& cell) {
     const std::size_t start = std::min(rest.find_first_not_of(" \t"), rest.size());
     if (start == rest.size() || rest[start] != '"') {
@@ -32,8 +32,8 @@ bool takeCell(std::string_view& rest, std::string& cell) {
     return trimmed(takeUntil(',', rest)).empty();
 }
 
-/// A spreadsheet would take the text for a formula and reckon it: behind an apostrophe it stays text. Those
-/// that have one get another, so that reading takes away what writing has added.
+/// A spreadsheet would evaluate such text as a formula; a leading apostrophe keeps it text. Text that begins
+/// with an apostrophe gets a second one, so that reading restores it.
 bool isTakenForFormula(std::string_view text) noexcept {
     const std::size_t first = std::min(text.find_first_not_of('\''), text.size());
     constexpr std::string_view signs = "=+-@";
@@ -49,7 +49,7 @@ public:
         table_.name = name;
         dropByteOrderMark(rest_);
     }
-    /// What is wrong. Rows are not kept: `take` gets each.
+    /// Returns the error. Rows are not stored: `take` receives each.
     template <class Begin, class Take>
     std::string read(Begin begin, Take take) {
         if (!readHeader()) return placed();

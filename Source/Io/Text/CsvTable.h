@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A CSV file as a table of words: columns by name, cells in quotes where they hold commas.
+// CSV files as tables of strings: columns by name, quoted cells where they contain commas.
 #pragma once
 #include "Io/Result.h"
 #include <cstddef>
@@ -29,28 +29,28 @@ struct CsvTable {
     std::string fault(const CsvRow& row, std::size_t column, std::string_view expected) const;
 };
 
-/// Whether every column must have a name of its own. Experiment programs end lines with a comma, or name
-/// columns twice: of loose ones only those that are asked for matter, and of equal names the first counts.
+/// Whether column names must be present and unique. Experiment programs end lines with a comma or repeat
+/// names: with loose, unused columns may be faulty, and of equal names the first counts.
 enum class CsvHeader { named, loose };
 
-/// The table that `text` holds, or one line naming file, line and expectation. A header line names the
-/// columns, each once; comments (#) and blank lines may stand before it, blank lines at the end. A cell in
-/// double quotes may hold commas and doubled quotes, no line end. Any thread.
+/// The table in `text`, or a one-line error naming file, line and expectation. A header line names the
+/// columns; comments (#) and blank lines may precede it, blank lines may end the file. A cell in double
+/// quotes may contain commas and doubled quotes, but no line end. Any thread.
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view name,
                               CsvHeader header = CsvHeader::named);
 
-/// The same of a file. M only.
+/// The same for a file. Message thread (M) only.
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path);
 
-/// Row by row, for those who keep less than the table: `begin` gets it without rows, `take` one row at a
-/// time. What either says is wrong ends the reading; it, or what is wrong with the text, comes back: a whole
-/// line, empty if all is well. Any thread.
+/// Reads row by row without storing the table: `begin` receives it without rows, `take` one row at a time. An
+/// error that either returns stops the reading. Returns that error or one of the text, as a complete line;
+/// empty if there is none. Any thread.
 std::string eachCsvRow(std::string_view text, std::string_view name,
                        const std::function<std::string(const CsvTable&)>& begin,
                        const std::function<std::string(const CsvRow&)>& take);
 
-/// Appends `text` as a cell, in quotes if it needs them, behind an apostrophe if a spreadsheet would take it
-/// for a formula (the reader takes it off); control characters become spaces. Any thread.
+/// Appends `text` as a cell, quoted if necessary, with an apostrophe if a spreadsheet would evaluate it as a
+/// formula (the reader removes it); control characters become spaces. Any thread.
 void appendCell(std::string& line, std::string_view text);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every CSV reader does to a line.
+// String functions common to the CSV readers.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -14,7 +14,7 @@ inline std::string_view trimmed(std::string_view text) noexcept {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// Takes the text before the next `end`, and `end` itself, off the front of `rest`.
+/// Removes the text before the next `end`, and `end` itself, from the front of `rest`; returns the text.
 inline std::string_view takeUntil(char end, std::string_view& rest) noexcept {
     const std::size_t length = std::min(rest.find(end), rest.size());
     const std::string_view taken = rest.substr(0, length);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Decimal seconds as text <-> whole nanoseconds, digit by digit: no time is ever rounded by a double.
+// Converts between decimal seconds as text and whole nanoseconds, digit by digit, so that no time is rounded
+// through a double.
 #pragma once
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"
@@ -26,7 +27,7 @@ inline void appendSeconds(std::string& out, std::int64_t nanoseconds) {
 
 namespace detail {
 
-/// "-3" of "1.5e-3" as a number, 0 if there is no exponent; none if it is malformed or beyond reason.
+/// "-3" of "1.5e-3" as a number, 0 without an exponent; nullopt if it is malformed or too large.
 inline std::optional<std::int64_t> decimalExponent(std::string_view text, std::size_t mark) noexcept {
     if (mark == std::string_view::npos) return 0;
     std::string_view digits = text.substr(mark + 1);
@@ -39,9 +40,8 @@ inline std::optional<std::int64_t> decimalExponent(std::string_view text, std::s
 
 } // namespace detail
 
-/// Nanoseconds, 0 to limits::maxTimeNs, that `text` spells in seconds: digits with an optional point and
-/// exponent, no sign. Decimals beyond the ninth are rounded exactly, half to even. None if it is anything
-/// else. Any thread.
+/// Parses seconds to nanoseconds, 0 to limits::maxTimeNs: digits with an optional point and exponent, no
+/// sign. Decimals beyond the ninth are rounded exactly, half to even. nullopt for anything else. Any thread.
 inline std::optional<std::int64_t> parseSeconds(std::string_view text) noexcept {
     const std::size_t mark = text.find_first_of("eE");
     const std::string_view mantissa = text.substr(0, mark);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of a table as a person reads them, in help and in errors.
+// Formats lists of names for help texts and error messages: "linear, log or energy".
 #pragma once
 #include <array>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// Of a table whose rows have a name. Any thread.
+/// The names of a table's entries. Any thread.
 template <class Row, std::size_t size>
 constexpr std::array<std::string_view, size> namesOf(const std::array<Row, size>& rows) {
     std::array<std::string_view, size> names{};
@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, size> namesOf(const std::array<Row, size>
     return names;
 }
 
-/// "linear, log, energy", or with another word before the last: "linear, log or energy". Any thread.
+/// "linear, log, energy", or with another separator before the last: "linear, log or energy". Any thread.
 template <class Names>
 std::string listed(const Names& names, std::string_view last = ", ") {
     std::string all;
@@ -29,7 +29,7 @@ std::string listed(const Names& names, std::string_view last = ", ") {
     return all;
 }
 
-/// Names that are numbered one after the other are one: "phone1..phone4, ring1..ring4". Any thread.
+/// Abbreviates consecutively numbered names: "phone1..phone4, ring1..ring4". Any thread.
 inline std::string listedByNumber(std::span<const std::string_view> names, std::string_view to = "..",
                                   std::string_view last = ", ") {
     const auto follows = [&](std::size_t i) {

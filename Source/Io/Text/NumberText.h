@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers as text and back, the same in every locale, and untrusted text made fit for an error message.
+// Conversion between numbers and text, the same in every locale, and quoting of untrusted text for error
+// messages.
 #pragma once
 #include <charconv>
 #include <cmath>
@@ -19,14 +20,14 @@ void appendNumber(std::string& out, Number number) {
     out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
-/// The same as a string of its own. Any thread.
+/// The same as a string. Any thread.
 inline std::string numberText(double number) {
     std::string text;
     appendNumber(text, number);
     return text;
 }
 
-/// The number that the whole of `text` spells; none if it is anything else, not finite, or out of range. Any
+/// The number that all of `text` represents; nullopt if it is invalid, not finite, or out of range. Any
 /// thread.
 template <class Number>
 requires std::integral<Number> || std::floating_point<Number> std::optional<Number>
@@ -52,7 +53,7 @@ inline std::string plainNumber(double number) {
     return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed).ptr};
 }
 
-/// With that many decimals, for people to read: 4.81. Any thread.
+/// With that many decimals, for display: 4.81. Any thread.
 inline std::string fixedNumber(double number, int decimals) {
     char digits[400];
     const auto end =
@@ -63,7 +64,7 @@ inline std::string fixedNumber(double number, int decimals) {
                                                                                          : text;
 }
 
-/// At most 40 characters of `text`, whatever a terminal might misread as \xNN. Any thread.
+/// At most 40 characters of `text`, with \xNN for all that is not printable ASCII. Any thread.
 inline std::string printable(std::string_view text) {
     constexpr std::size_t longest = 40;
     constexpr std::string_view hex = "0123456789abcdef";

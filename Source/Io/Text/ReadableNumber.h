@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers as people read them on a screen or a picture; the same in every locale.
+// Formats numbers for display on a screen or picture, the same in every locale.
 #pragma once
 #include <string>
 
@@ -7,7 +7,7 @@ namespace physvib::readable {
 
 /// Fixed notation with thousands separators and a true minus sign (UTF-8). Any thread.
 std::string number(double value, int decimals);
-/// Three significant digits at most, no trailing zeros. Any thread.
+/// At most three significant digits, no trailing zeros. Any thread.
 std::string shortNumber(double value);
 /// 20 log10 |x|, or minus infinity. Any thread.
 double decibels(double amplitude);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lines of a text, or of a file without holding all of it.
+// Iterates over the lines of a text, or of a file without loading all of it.
 #pragma once
 #include "Io/Text/CsvText.h"
 #include <cstdio>
@@ -10,11 +10,11 @@ namespace physvib {
 
 class TextLines {
 public:
-    static constexpr std::size_t mostBytes = 1'000'000; // of a line of a file
+    static constexpr std::size_t mostBytes = 1'000'000; // limit for a line of a file
 
     explicit TextLines(std::string_view text)
         : rest_{text} {}
-    /// Stays open, from where it is on.
+    /// Reads from the current position; does not close the file.
     explicit TextLines(std::FILE* file)
         : file_{file} {}
     TextLines(const TextLines&) = delete;
@@ -37,18 +37,18 @@ private:
         constexpr std::size_t most = 65536;
         isTooLong_ = rest_.size() > mostBytes;
         if (isTooLong_) return false;
-        block_.erase(0, block_.size() - rest_.size()); // what is left of it
+        block_.erase(0, block_.size() - rest_.size()); // the unread rest
         const std::size_t begun = block_.size();
         block_.resize(begun + most);
         const std::size_t count = std::fread(block_.data() + begun, 1, most, file_);
-        if (count == 0) file_ = nullptr; // its end, or it cannot be read
+        if (count == 0) file_ = nullptr; // end of file, or a read error
         block_.resize(begun + count);
         rest_ = block_;
         return true;
     }
 
     std::string_view rest_;
-    std::string block_; // of a file, that ends with rest_
+    std::string block_; // of a file; rest_ is its end
     std::FILE* file_ = nullptr;
     bool isTooLong_ = false;
 };

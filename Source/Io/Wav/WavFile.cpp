@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chunk by chunk; only format and data are looked at, and never more is asked of memory than the file has
-// bytes for.
+// WAV parser, chunk by chunk; reads only format and data, and allocates no more than the file's size
+// justifies.
 #include "Io/Wav/WavFile.h"
 #include <algorithm>
 #include <bit>
@@ -14,8 +14,8 @@ namespace physvib {
 namespace {
 
 constexpr std::size_t blockFrames = 4096;
-constexpr std::uint64_t unknownLength = 0x7fff0000; // what is written to a pipe cannot say how long it is:
-                                                    // programs say this, or more
+constexpr std::uint64_t unknownLength = 0x7fff0000; // files written to a pipe have no known length; programs
+                                                    // write this value, or more
 
 class WavReader {
 public:
@@ -35,7 +35,7 @@ private:
     bool take(std::span<unsigned char> bytes) {
         return std::fread(bytes.data(), 1, bytes.size(), &file_) == bytes.size();
     }
-    std::uint64_t number(int bytes) { // little-endian; 0 behind the end, where no loop goes on
+    std::uint64_t number(int bytes) { // little-endian; 0 beyond the end, where all loops stop
         std::uint64_t value = 0;
         for (int i = 0; i < bytes; ++i)
             value |= static_cast<std::uint64_t>(std::max(0, std::fgetc(&file_))) << (8 * i);
@@ -53,11 +53,11 @@ private:
         size_ = static_cast<std::uint64_t>(std::max(0l, std::ftell(&file_)));
         std::rewind(&file_);
         if (!takeName() || !(isNamed("RIFF") || isNamed("RF64"))) return fail("expected a WAV file");
-        number(4); // its length: the file knows better
+        number(4); // RIFF length: ignored in favour of the file's size
         return (takeName() && isNamed("WAVE")) || fail("expected a WAV file");
     }
 
-    /// To the first sample.
+    /// Seeks to the first sample.
     bool findData() {
         while (takeName()) {
             std::uint64_t bytes = number(4);
@@ -77,9 +77,9 @@ private:
         std::uint64_t format = number(2);
         channels_ = static_cast<std::int64_t>(number(2));
         rateHz_ = static_cast<std::int64_t>(number(4));
-        number(6); // bytes per second and per frame: both follow
+        number(6); // bytes per second and per frame: redundant
         bits_ = number(2);
-        // the rest of its GUID is always the same
+        // the rest of the GUID is constant
         if (format == extensible && bytes >= 40) format = (number(8), number(2));
         isFloat_ = format == ieeeFloat;
         const bool isKnown = isFloat_
@@ -115,13 +115,13 @@ private:
         return {};
     }
 
-    /// The next one, and past it.
+    /// Reads the next sample and advances.
     float sample(const unsigned char*& from) const noexcept {
-        std::uint32_t high = 0; // its bits are the highest ones
+        std::uint32_t high = 0; // its bits are the most significant
         for (std::uint64_t i = 4 - bits_ / 8; i < 4; ++i)
             high |= static_cast<std::uint32_t>(*from++) << (8 * i);
         if (isFloat_) return std::bit_cast<float>(high);
-        if (bits_ == 8) high ^= 0x80000000; // the only one that is not signed
+        if (bits_ == 8) high ^= 0x80000000; // the only unsigned format
         return static_cast<float>(static_cast<std::int32_t>(high)) * 0x1p-31f;
     }
 

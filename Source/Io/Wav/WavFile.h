@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// WAV files in, without trust in their headers.
+// Reads WAV files without trusting their headers.
 #pragma once
 #include "Io/Wav/SampledSound.h"
 #include <cstdio>
@@ -15,8 +15,8 @@ std::string streamWav(std::FILE& file, SoundTaker& taker);
 
 constexpr std::size_t wavSizeBytes = 28;
 
-/// How long a WAVE file (RIFF or RF64) says it is in its first wavSizeBytes bytes; 0: they begin none. Any
-/// thread.
+/// Length of a WAVE file (RIFF or RF64) according to its first wavSizeBytes bytes; 0 if they are not its
+/// beginning. Any thread.
 std::int64_t wavFileBytes(std::string_view head) noexcept;
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands before the samples of a WAVE file, wherever it is written to.
+// The header before the samples of a WAV file.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -15,7 +15,7 @@ std::string wavInfo(const std::string& comment);
 /// mask; 4 GB and more RF64. `info`: of wavInfo. Any thread.
 std::string wavHead(int channels, int sampleRateHz, std::int64_t dataBytes, const std::string& info);
 
-/// Whether a WAVE file can hold so much and be no RF64. Any thread.
+/// True if a WAVE file of that size does not need RF64. Any thread.
 constexpr bool fitsWav(int channels, std::int64_t frames) noexcept {
     return frames <= 0xffff'ff00 / (4 * channels);
 }

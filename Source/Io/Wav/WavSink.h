@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A WAVE file that grows block by block: 32-bit float, one channel per enchanter, who made it and from what.
+// Writes a WAV file block by block: 32-bit float, one channel per actuator, with a provenance comment.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Wav/WavHead.h"
@@ -9,9 +9,10 @@
 
 namespace physvib {
 
-/// Writes as the blocks come, and puts the file in its place at the end; M only. One and two channels are
-/// plain WAVE_FORMAT_IEEE_FLOAT, three and more WAVE_FORMAT_EXTENSIBLE with an empty speaker mask (channels
-/// are enchanters, not speakers), 4 GB and more RF64. The bytes depend on the samples and the comment alone.
+/// Writes blocks as they arrive, and puts the file in its place at the end. Message thread (M) only. One and
+/// two channels are plain WAVE_FORMAT_IEEE_FLOAT, three and more WAVE_FORMAT_EXTENSIBLE with an empty speaker
+/// mask (channels are actuators, not speakers), 4 GB and more RF64. The bytes depend on the samples and the
+/// comment alone.
 class WavSink {
 public:
     /// Begins a file that appears at `path` (see AtomicFile). `comment` (who made this, from what) becomes
@@ -19,7 +20,7 @@ public:
     WavSink(const std::filesystem::path& path, int channels, int sampleRateHz,
             const std::string& comment = {});
 
-    /// Another comment than the constructor's; before the first frame.
+    /// Replaces the constructor's comment; only before the first frame.
     void setComment(const std::string& comment);
 
     /// Empty, or one line with the file and the reason.
@@ -28,14 +29,15 @@ public:
     /// Appends `frames` samples of each channel. False after the first error.
     bool write(const float* const* channels, int frames);
 
-    /// What was written until now is a whole file in its place, whatever ends the program; what follows is
-    /// added to it. Returns error(); after one it is what it was at the call before.
+    /// Makes everything written so far a complete file in its place, whatever ends the program; later samples
+    /// are added to it. Returns error(); after an error the file is as it was at the last call.
     const std::string& show();
 
-    /// Every sample and the header are with the system: nothing but the name is missing. Returns error().
+    /// Writes all samples and the header; only the rename is left. Returns error().
     const std::string& complete();
 
-    /// Completes the file and puts it in its place. Returns error(); after one nothing but what was shown.
+    /// Completes the file and puts it in its place. Returns error(); after an error only what show() has
+    /// placed is left.
     const std::string& finish() { return complete().empty() ? file_.commit() : error(); }
 
 private:
@@ -46,7 +48,7 @@ private:
     int channels_;
     int sampleRateHz_;
     std::string info_;    // the chunk with the comment
-    std::string waiting_; // samples that the file has not got
+    std::string waiting_; // samples not written yet
     std::int64_t dataBytes_ = 0;
     bool isComplete_ = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points that move with a body: what edits of places and joints share. Any thread.
+// Transform of points that move with a body, for edits of places and joints. Any thread.
 #pragma once
 #include "Scene/Drawing/BodyEdits.h"
 #include <cmath>
@@ -11,7 +11,7 @@ inline Vector turned(const Vector& v, double angle) {
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-/// From one place of a body to another.
+/// Transform from one place of a body to another.
 class Motion {
 public:
     Motion(const BodyPlace& from, const BodyPlace& to)

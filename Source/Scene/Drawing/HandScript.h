@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What hands did in a scene run, as the script of the scene: recorded, trimmed, and felt again by a render.
+// Records a user's inputs in a scene run, trims them, and stores them as the scene's script.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/SceneTake.h"
@@ -8,43 +8,42 @@
 
 namespace physvib {
 
-/// Inputs of hands in time order, in seconds of the world since its start.
+/// User inputs in time order, in seconds of the world since its start.
 struct HandScript {
     std::vector<LiveInput> inputs;
     double lengthSeconds = 0.0;
     bool operator==(const HandScript&) const = default;
 };
 
-/// Which part of a recording becomes the script.
+/// The part of a recording that becomes the script.
 struct ScriptTrim {
     double fromSeconds = 0.0, toSeconds = 0.0;
     bool repeats = false;
     bool operator==(const ScriptTrim&) const = default;
 };
 
-/// The scene that hands are recorded in: without what its script does of what hands do (sceneForHands), and
-/// without a period if nothing is left of the script. Any thread.
+/// The scene in which inputs are recorded: without scripted user input (sceneForHands), and without a period
+/// if the script is then empty. Any thread.
 Scene sceneToRecord(const Scene& scene);
 
-/// How long a recording in that scene may be, in s: its script's period, as what is left of the script goes
-/// on with the recording. Any thread.
+/// Maximum length of a recording in that scene, in s: the period of the remaining script, which continues
+/// with the recording. Any thread.
 double maxRecordedSeconds(const Scene& recordedIn);
 
-/// How many inputs a recording in that scene may have: as many as a script may, without those of the scene.
-/// Any thread.
+/// Maximum number of inputs of a recording: a script's limit, less the scene's own. Any thread.
 std::size_t maxRecordedInputs(const Scene& recordedIn);
 
-/// What hands did: from the start of the take to its end, or to the first edit of the scene, or to
+/// The user's inputs from the start of the scene run to its end, the first edit of the scene, or
 /// maxRecordedInputs(). Any thread.
 HandScript recordedHands(const SceneTake& take);
 
-/// The part between two times. How the device was held and what was driven before it is so from its start; a
-/// grip that is open at its end lets go there. The world is at the scene's start when it begins. Any thread.
+/// The part between two times. It starts with the device orientation and drives that were set before; a grip
+/// still open at its end is released there. The world starts at the scene's start. Any thread.
 HandScript trimmed(const Scene& recordedIn, const HandScript& hands, const ScriptTrim& trim);
 
-/// The scene that hands were recorded in, with the trimmed recording as its script. From the beginning of the
-/// recording its events are those of the take, to the bit, at the same seed and step rate (but for an input
-/// of its very first step, which a script does before it). Any thread.
+/// The scene with the trimmed recording as its script. If trimmed from the recording's beginning, its events
+/// equal those of the scene run to the bit, at the same seed and step rate (except for an input in the very
+/// first step, which a script executes before it). Any thread.
 Scene withHands(Scene recordedIn, const HandScript& hands, const ScriptTrim& trim);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene while it is edited: what stands there, and what undoes each edit. No window is needed for it.
+// The scene in an editor and the undo of its edits, independent of any window.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/World/SceneWorld.h"
@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// Where a body is now; none: as drawn.
+/// A body's present pose; nullopt: as drawn.
 using PoseNow = std::function<std::optional<BodyPose>(const std::string& body)>;
 
 /// One thread at a time.
@@ -20,43 +20,42 @@ public:
     /// A valid scene without inputs.
     explicit SceneDrawing(Scene scene);
 
-    /// What stands there, as it starts; without inputs.
+    /// The scene in its start state; without inputs.
     const Scene& drawn() const noexcept { return drawn_; }
 
-    /// The scene with all bodies that there have been, under the numbers of sceneCast(); as a session numbers
-    /// them.
+    /// The scene with all bodies that have ever existed, numbered as in sceneCast() and in a session.
     const Scene& cast() const noexcept { return cast_; }
 
-    /// What is wrong with these actions, one after the other; empty: a session would take them.
+    /// The error of these consecutive actions; empty: a session would accept them.
     std::string check(const std::vector<Action>& actions) const;
 
-    /// Shows what a session has taken. False: it does not show.
+    /// Applies an action that a session has accepted. False if it does not change the drawing.
     bool take(const Action& action);
 
-    /// What undoes it, if it acts next. A body that was removed comes back where it is now.
+    /// The actions that would undo it. A removed body returns to its present place.
     std::vector<Action> undoOf(const Action& action, const PoseNow& now) const;
 
-    const BodyDescription* find(std::string_view body) const noexcept; ///< of drawn(); nullptr: none
-    /// "ball 1", "ball 2"...: the first that nobody has or had.
+    const BodyDescription* find(std::string_view body) const noexcept; ///< in drawn(); nullptr: none
+    /// "ball 1", "ball 2"...: the first name that was never used.
     std::string freeName(const std::string& stem) const;
 
 private:
     Scene drawn_, cast_;
 };
 
-/// One edit of several actions that is done and undone as a whole.
+/// An edit of several actions that is done and undone as a whole.
 class SceneEdit {
 public:
     explicit SceneEdit(std::vector<Action> actions)
         : forth_{std::move(actions)} {}
 
-    /// Calls `act` with each action, after what undoes it was noted; empty, or what is wrong with the first
-    /// that was refused: those before it are undone by the next turn.
+    /// Calls `act` with each action, after recording its inverse. Empty, or the error of the first refused
+    /// action; those before it are undone by the next run in the other direction.
     std::string run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
                     const std::function<std::string(const Action&)>& act);
 
     const std::vector<Action>& forth() const noexcept { return forth_; }
-    /// `next` went on with this edit: undone, both are.
+    /// Merges `next` into this edit: undo reverses both.
     SceneEdit followedBy(const SceneEdit& next) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where exactly a body starts: as described, or a little beside it, which is all that a seed changes.
+// Start state of a body: as described, or with the small jitter that a seed adds.
 #pragma once
 #include "Scene/Scene.h"
 #include <random>
@@ -17,7 +17,7 @@ inline BodyStart describedStart(const BodyDescription& body) noexcept {
 }
 
 /// Five uniform draws, up to 1 mm, 1 mrad and 1 mm/s each way: a fall from 1 m shifts by at most 0.33 ms,
-/// while a box full of bodies is another one after some hits.
+/// while a box full of bodies diverges after some impacts.
 inline BodyStart jitteredStart(const BodyDescription& body, std::mt19937& random) noexcept {
     constexpr double reach = 1.0e-3;
     const auto draw = [&random] { return (static_cast<double>(random()) * 0x1p-31 - 1.0) * reach; };

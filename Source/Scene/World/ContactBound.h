@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No more contacts than a step can bear.
+// Limits the number of simultaneous contacts in a world, to bound time and memory per step.
 #pragma once
 #include "Scene/SceneLimits.h"
 #include <box2d/box2d.h>
@@ -7,8 +7,9 @@
 
 namespace physvib {
 
-/// Bodies in one place touch in pairs, which are as many as the square of the bodies: two thousand would ask
-/// for a gigabyte and minutes. From maxContacts on, pairs pass through each other, and are counted. M only.
+/// Bodies in one place touch pairwise, and pairs grow with the square of the bodies: two thousand would need
+/// a gigabyte and minutes. Beyond maxContacts, pairs pass through each other and are counted. Message thread
+/// (M) only.
 class ContactBound final : public b2ContactFilter {
 public:
     explicit ContactBound(const b2World& world)

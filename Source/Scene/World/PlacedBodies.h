@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bodies that a scene describes, with the places of their descriptions, for messages.
+// Lists all bodies that a scene describes, with their paths in the file for error messages.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/SceneRanges.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the descriptions of a scene to Box2D's bodies, fixtures and joints.
+// Creates Box2D bodies, fixtures and joints from a scene's descriptions.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/World/BodyStart.h"
@@ -18,10 +18,10 @@ inline b2Vec2 box2dVector(const Vector& v) noexcept {
 b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& body, const BodyStart& start,
                    double stepSeconds, std::vector<b2Fixture*>& fixtures);
 
-/// Puts a body, wherever it is, where it starts; enables it. M only.
+/// Resets a body to its start and enables it. M only.
 void restartBody(b2Body& created, const BodyDescription& body, const BodyStart& start);
 
-/// Gives a dynamic body the mass that its description says; others have none. M only.
+/// Sets a dynamic body's mass from its description; others have none. M only.
 void setMass(b2Body& created, const BodyDescription& body, const Scene& scene);
 
 /// Friction and restitution. M only.
@@ -30,8 +30,8 @@ void setSurface(b2Fixture& fixture, const FixtureDescription& description, const
 /// Creates a joint between two bodies where they are now. M only.
 b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB);
 
-/// Puts `to` in the place of `from` in one of its joints, with the same points of it; what takes the joint's
-/// place, which is destroyed. M only.
+/// Replaces `from` by `to` in one of its joints, with the same anchor points. Returns the new joint; the old
+/// one is destroyed. M only.
 b2Joint& moveJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All bodies that a scene can have, under the numbers that events give to their fixtures.
+// All bodies that a scene can have, numbered as in the fixture numbers of events.
 #pragma once
 #include "Scene/Scene.h"
 #include <cstddef>

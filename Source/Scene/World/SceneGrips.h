@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hands that hold bodies: each is a spring from a point of a body to where the hand is, as strong as a hand
-// may be.
+// Grips of hands on bodies: each is a spring of limited force from a point of a body to the hand.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/World/StepClock.h"
@@ -10,11 +9,12 @@
 
 namespace physvib {
 
-/// The grips of one world, one per body. A hand goes straight and evenly, so that what it drags over a rough
-/// surface is not felt to follow it in jumps. Whoever disables or destroys a body lets it go before. M only.
+/// The grips of one world, one per body. A hand moves straight at constant speed, so that a dragged body does
+/// not move in jumps. Release a body before it is disabled or destroyed. Message thread (M) only.
 class SceneGrips {
 public:
-    static constexpr float springHz = 5.0F; ///< Box2D's own for a mouse: firm, and calm at 100 steps a second
+    static constexpr float springHz = 5.0F; ///< Box2D's own value for mouse joints: firm, and stable at 100
+                                            ///< steps a second
     static constexpr float dampingRatio = 0.7F;
 
     /// Both outlive the grips.
@@ -26,7 +26,7 @@ public:
     void act(b2Body& body, const GripAction& action, std::int64_t step);
     void letGo(b2Body& body);
 
-    /// Hands are where they are when `step` begins.
+    /// Moves all hands to their places at the beginning of `step`.
     void move(std::int64_t step);
 
 private:
@@ -43,7 +43,7 @@ private:
     b2World& world_;
     const StepClock& clock_;
     std::vector<Grip> grips_;  // in the order in which they began
-    b2Body* ground_ = nullptr; // what hands stand on, for Box2D
+    b2Body* ground_ = nullptr; // the other body of all mouse joints
 };
 
 } // namespace physvib

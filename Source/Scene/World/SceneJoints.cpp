@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Box2D's definitions of a scene's joints.
+// Creates Box2D joints from a scene's descriptions.
 #include "Scene/World/SceneBodies.h"
 #include <cmath>
 #include <optional>
@@ -19,7 +19,7 @@ template <class Def, class Driven>
 void setMotor(Def& def, const Driven& joint) {
     def.motorSpeed = static_cast<float>(joint.motorRadiansPerSecond);
     def.maxMotorTorque = static_cast<float>(joint.maxTorqueNewtonMetres);
-    def.enableMotor = true; // with a torque of 0 it does nothing, and the script may change that
+    def.enableMotor = true; // without effect at a torque of 0, which the script may change
 }
 
 void setLimits(bool& isLimited, float& lower, float& upper, const std::optional<Interval>& limits) {

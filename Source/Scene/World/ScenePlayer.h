@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What somebody plays in a scene that has no hands for every body: a basket that is moved, a car that is
-// driven.
+// The part of a scene that a user controls by keys, mouse or tilt: a moved body (a basket) or driven wheels
+// (a car).
 #pragma once
 #include "Scene/Scene.h"
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace physvib {
 
-/// A kinematic body that is felt is moved sideways; else motors of wheels of a body that is felt are driven.
-/// One thread at a time.
+/// A kinematic haptic source is moved sideways; otherwise the wheel motors of a haptic source are driven. One
+/// thread at a time.
 class ScenePlayer {
 public:
-    static constexpr double mostMetresPerSecond = 4.0;  ///< of what is moved
-    static constexpr double stepRadiansPerSecond = 6.0; ///< of what is driven; each key goes a step faster
+    static constexpr double mostMetresPerSecond = 4.0;  ///< of the moved body
+    static constexpr double stepRadiansPerSecond = 6.0; ///< of driven wheels; each key press is a step
     static constexpr int mostSteps = 3;
 
     explicit ScenePlayer(const Scene& scene);
@@ -22,18 +22,19 @@ public:
     bool isThere() const noexcept { return moves() || drives(); }
     bool moves() const noexcept { return !body_.empty(); }
     bool drives() const noexcept { return !wheels_.empty(); }
-    const std::string& body() const noexcept { return body_; } ///< that is moved
+    const std::string& body() const noexcept { return body_; } ///< the moved body
 
-    /// A key to the left (-1) or right (1), or one that stops (0). Against the way it goes it stops, too.
+    /// A key to the left (-1) or right (1), or stop (0). A key against the present direction stops, too.
     std::vector<Action> steer(int way);
-    /// What is moved, with its middle at `fromMetres`, goes towards that place; a few times a second.
+    /// Moves the body, whose middle is at `fromMetres`, towards that place; call a few times a second.
     std::vector<Action> moveTowards(double toMetres, double fromMetres);
-    /// Held at that angle (counter-clockwise): what is moved slides down, faster by the angle.
+    /// Device held at that angle (counter-clockwise): the body slides down, at a speed that grows with the
+    /// angle.
     std::vector<Action> tilt(double angleRadians);
-    /// What is moved, with its middle at `fromMetres`, does not leave the field.
+    /// Keeps the body, whose middle is at `fromMetres`, inside the field.
     std::vector<Action> keepInside(double fromMetres);
 
-    /// Whether the scene's script does what the player does. Any thread.
+    /// True if the player controls what this action of the script changes. Any thread.
     bool isPlayedBy(const Action& action) const noexcept;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene from its start to a given time in one go, for renders that are not live.
+// Simulates a scene, or a session's scene runs, offline from the start to a given time.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Scene/Scene.h"
@@ -12,7 +12,7 @@
 
 namespace physvib {
 
-/// What decides the events of a scene, apart from the scene.
+/// Parameters that determine a scene's events, beside the scene.
 struct SceneRun {
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
@@ -25,36 +25,36 @@ struct SceneRun {
 struct SceneEvents {
     std::vector<CollisionEvent> events;
     std::uint64_t drops = 0;
-    ContactCounts counts{}; ///< of all takes
+    ContactCounts counts{}; ///< of all scene runs
 };
 
-/// Asked before the first step of a take and after each step, with the session time that is reached; false:
-/// what has been made so far is enough.
+/// Called before the first step of a scene run and after each step, with the session time reached; false
+/// stops.
 using StepWatch = std::function<bool(std::int64_t timeNs)>;
 
 /// M only. Throws what Simulation throws.
 SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs,
                      const StepWatch& goesOn = {});
 
-/// The events of a session, again, in session time: of each take up to its end, of the last one all before
-/// `endNs`. `run` gives the step rate; seeds are the takes' own. M only. Throws what Simulation throws.
+/// Recomputes a session's events in session time: of each scene run to its end, of the last one all before
+/// `endNs`. `run` gives the step rate; seeds are the scene runs' own. M only. Throws what Simulation throws.
 SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs,
                      const StepWatch& goesOn = {});
 
 /// Poses of all bodies at the last step not after `timeNs`. M only; simulates from the start.
 std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);
 
-/// Takes a session time, the scene of its take with all inputs, and the poses of that scene's cast at the
-/// last step not after it; false: that is enough.
+/// Receives a session time, the scene of its run with all inputs, and the poses of that scene's cast at the
+/// last step not after it; false stops.
 using TakeWatch =
     std::function<bool(std::int64_t timeNs, const Scene& scene, std::span<const BodyPose> poses)>;
 
-/// A session at fromNs, fromNs + everyNs... before `endNs`, with its pauses and slow motion, in one go. `run`
-/// and the rest as of runTakes.
+/// Follows a session at fromNs, fromNs + everyNs... before `endNs`, with its pauses and slow motion. `run`,
+/// thread and errors as of runTakes.
 void followTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t fromNs,
                  std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see);
 
-/// Takes a time and the poses of all bodies at the last step not after it; false: that is enough.
+/// Receives a time and the poses of all bodies at the last step not after it; false stops.
 using PoseWatch = std::function<bool(std::int64_t timeNs, std::span<const BodyPose> poses)>;
 
 /// The same at 0, everyNs, 2 everyNs... before `endNs`, in one go. M only; simulates from the start. Throws

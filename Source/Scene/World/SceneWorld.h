@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Box2D world of a scene, and what the actions of its script and of live inputs do to it.
+// The Box2D world of a scene, and the effects of scripted and live actions on it.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/SceneScript.h"
@@ -27,32 +27,31 @@ struct BodyPose {
     bool isPresent = true; ///< false: not spawned yet, or removed
 };
 
-/// All bodies of scriptedCast() exist from the start; those that are not there (yet) are disabled, which for
-/// Box2D means no contacts: the script may want them again. What a live input spawns or changes is created
-/// when it acts, under the numbers that follow, and destroyed soon after it was removed or changed again.
-/// Numbers are never used twice. Seed 0 starts bodies exactly as described, any other a little beside (see
-/// jitteredStart). M only.
+/// All bodies of scriptedCast() exist from the start. Absent ones are disabled, without contacts in Box2D,
+/// because the script may spawn them. Bodies that a live input spawns or changes are created when it acts,
+/// under the following numbers, and destroyed soon after they are removed or replaced. Numbers are never
+/// reused. Seed 0 starts bodies exactly as described, any other with jitter (see jitteredStart). Message
+/// thread (M) only.
 class SceneWorld {
 public:
-    /// The scene must be valid. Does what its script wants done in step 0.
+    /// The scene must be valid. Executes its script's actions of step 0.
     SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& clock);
     SceneWorld(const SceneWorld&) = delete;
     SceneWorld& operator=(const SceneWorld&) = delete;
 
-    /// Adds an input that is valid (see InputCheck) and acts in `step`, or as soon as those before it have.
+    /// Adds a valid input (see InputCheck) that acts in `step`, or once earlier ones have acted.
     void addInput(std::int64_t step, Action action);
 
-    /// Does what live inputs, then the script, want done in `step` or before; true if a fixture may be new or
-    /// have another sound, texture or camera since. Allocates for new bodies and grips only.
+    /// Executes the live inputs, then the script's actions, that are due in `step`. True if a fixture may be
+    /// new or have a new sound, texture or source flag. Allocates for new bodies and grips only.
     bool act(std::int64_t step);
 
-    /// Drops from scene() the live inputs that have acted, for worlds without end whose inputs are kept
-    /// elsewhere.
+    /// Removes executed live inputs from scene(), for endless worlds whose inputs are logged elsewhere.
     void forgetDone();
 
     b2World& world() noexcept { return world_; }
 
-    /// How often two bodies passed through each other because there were too many contacts.
+    /// How often bodies passed through each other because of the limit of contacts.
     std::uint64_t contactsRefused() const noexcept { return bound_.refused(); }
 
     const Scene& scene() const noexcept { return scene_; } ///< with all inputs so far, but those forgotten
@@ -60,7 +59,7 @@ public:
     /// Bodies so far; numbers as in sceneCast().
     std::size_t bodyCount() const noexcept { return nextBody_; }
     std::size_t bodiesInBox2d() const noexcept { return bodies_.size(); }
-    BodyPose pose(std::size_t body) const noexcept; ///< of one that is gone: not present
+    BodyPose pose(std::size_t body) const noexcept; ///< of a removed body: not present
     /// Calls `use` with number and pose of those that Box2D has, in the order of their numbers.
     template <class Use>
     void forAllBodies(Use use) const {
@@ -88,7 +87,7 @@ private:
         std::size_t firstFixture; // its number
         std::vector<b2Fixture*> fixtures;
         BodyDescription described;
-        BodyDescription now; // with the materials and cameras of now
+        BodyDescription now; // with the present materials and source flags
     };
     struct Leaving {
         std::int64_t step;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Area, inertia and sizes of shapes.
+// Area, centroid, inertia and extents of shapes.
 #pragma once
 #include "Scene/Scene.h"
 #include <vector>
@@ -16,7 +16,7 @@ struct ShapeMoments {
 /// Any thread. A polygon must be convex and counter-clockwise.
 ShapeMoments momentsOf(const Shape& shape) noexcept;
 
-/// Smallest and largest width over all directions: what may slip through a gap, and how far it reaches.
+/// Smallest and largest width over all directions.
 double thicknessMetres(const Shape& shape) noexcept;
 double lengthMetres(const Shape& shape) noexcept;
 

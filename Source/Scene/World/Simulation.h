@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene's world in motion: steps it, and hands out its collisions as a time-sorted stream of events.
+// Simulation of a scene: steps its world, and delivers its collisions as time-sorted events.
 #pragma once
 #include "Contacts/ImpactModel.h"
 #include "Core/CollisionEvent.h"
@@ -18,7 +18,7 @@ namespace physvib {
 /// pools up, step() allocates only where `finished` must grow.
 class Simulation {
 public:
-    static constexpr int minStepsPerSecond = 10;     // slower, bodies pass through each other
+    static constexpr int minStepsPerSecond = 10;     // at lower rates bodies pass through each other
     static constexpr int maxStepsPerSecond = 10'000; // finer than any tactile onset
 
     /// Seed 0 starts exactly as described; any other seed moves the start a little (see jitteredStart).
@@ -26,7 +26,7 @@ public:
     /// range.
     Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond,
                ImpactTiming timing = ImpactTiming::onset, ImpactLocation location = ImpactLocation::contact);
-    ~Simulation() { attachment_.detach(); } // the world is still there, and leaves with it
+    ~Simulation() { attachment_.detach(); } // detaches before the world is destroyed
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 
@@ -34,45 +34,43 @@ public:
     /// `timeSeconds`, or in the next one if that is past, or when those added before it have acted.
     void addInput(double timeSeconds, Action action);
 
-    /// The scene with all inputs so far: a simulation of it, with the same seed and rate, does all of it
-    /// again.
+    /// The scene with all inputs so far: a simulation of it, with the same seed and rate, repeats everything.
     const Scene& scene() const noexcept { return world_.scene(); }
 
-    /// Drops from scene() the inputs that have acted, for simulations without end whose inputs are kept
-    /// elsewhere.
+    /// Removes executed inputs from scene(), for endless simulations whose inputs are logged elsewhere.
     void forgetDone() { world_.forgetDone(); }
 
-    /// Advances the world by one step and appends the events that are final now.
+    /// Advances the world by one step and appends the events that are now final.
     void step(std::vector<CollisionEvent>& finished);
 
     /// World time after the steps done.
     std::int64_t timeNs() const noexcept { return clock_.timeNs(stepsDone_); }
 
-    /// Every event before this time has been handed out: one step behind timeNs(), since a contact is noticed
-    /// up to one step after it was made.
+    /// All events before this time have been delivered: one step behind timeNs(), because a contact may be
+    /// reported one step late.
     std::int64_t settledNs() const noexcept { return clock_.timeNs(stepsDone_ > 0 ? stepsDone_ - 1 : 0); }
 
-    /// Pose of body `index` (< bodyCount()) of sceneCast(), at timeNs(). Live inputs make bodies more.
+    /// Pose of body `index` (< bodyCount()) of sceneCast(), at timeNs(). Live inputs add bodies.
     BodyPose pose(std::size_t index) const noexcept { return world_.pose(index); }
     std::size_t bodyCount() const noexcept { return world_.bodyCount(); }
     template <class Use>
     void forAllBodies(Use use) const {
         world_.forAllBodies(use);
     } ///< see SceneWorld
-    /// Those that Box2D knows: what inputs spawn and remove goes.
+    /// Bodies in Box2D's world; removed live bodies are gone.
     std::size_t bodiesInBox2d() const noexcept { return world_.bodiesInBox2d(); }
 
-    /// Collisions lost so far because more began in one step, or lasted at once, than there is room for.
+    /// Collisions lost so far because of limits per step or of simultaneous contacts.
     std::uint64_t drops() const noexcept { return attachment_.drops() + world_.contactsRefused(); }
 
-    /// What became of all contacts so far; see explain().
+    /// Counts of all contacts so far; see explain().
     ContactCounts counts() const noexcept { return attachment_.counts(); }
 
     /// The constants of Eq. 5.4 in the last step.
     const ImpactModel& impactModel() const noexcept { return attachment_.impactModel(); }
 
 private:
-    void takeFixtures(); // their sounds and cameras as they are now
+    void takeFixtures(); // updates their sounds and source flags
 
     StepClock clock_;
     std::int64_t stepsDone_ = 0;
