@@ -123,7 +123,8 @@ void OutputTab::list(SinkChoice& sink) {
         std::ranges::find(sink.places, wanted) == sink.places.end())
         add({wanted});
     if (!sink.kind.other.empty())
-        sink.box.addItem("another" + juce::String::charToString(0x2026), otherSinkId);
+        sink.box.addItem("another " + juce::String{sink.kind.other.data()}.toLowerCase() + dots(),
+                         otherSinkId);
     const auto at = std::ranges::find(sink.places, wanted);
     sink.box.setSelectedId(wanted.empty() ? noSinkId
                            : wanted == sink.kind.any
