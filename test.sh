@@ -30,6 +30,7 @@ twice() {
     tests "$1" "$2-again" --rerun-failed --output-on-failure
 }
 
+rm -f build/tests-*-again.xml # of another run
 build release all
 tests release quiet -j2 --progress -LE 'live|display'
 twice release display -j2 -L display

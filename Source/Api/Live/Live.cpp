@@ -62,7 +62,7 @@ LiveStatus Live::status() const {
 
 void Live::run(std::promise<std::string> opened) {
     const juce::ScopedJuceInitialiser_GUI juce;
-    rig_.emplace(settings_, audioDeviceTypesAndNone);
+    rig_.emplace(std::move(settings_), audioDeviceTypesAndNone);
     if (std::string error = rig_->open(); error.empty()) {
         rig_->start();
         {

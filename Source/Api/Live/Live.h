@@ -40,13 +40,13 @@ public:
     Session& session() noexcept { return rig_->session(); }
     AudioOutput& output() noexcept { return rig_->output(); }
     LiveStatus status() const;
-    double longestGapSeconds() const noexcept { return settings_.setup.longestGapSeconds; }
+    double longestGapSeconds() const noexcept { return rig_->settings().setup.longestGapSeconds; }
 
 private:
     class Watch;
     void run(std::promise<std::string> opened);
 
-    const RigSettings settings_;
+    RigSettings settings_;   // until the rig has them
     std::optional<Rig> rig_; // of the message thread, which nobody else's call outlasts
     std::atomic<bool> isEnding_{false};
     mutable std::mutex statusMutex_;
