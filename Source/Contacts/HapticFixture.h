@@ -4,6 +4,7 @@
 #include "Contacts/Texture.h"
 #include "Contacts/Voice.h"
 #include "Core/Limits.h"
+#include "Core/SoundNumber.h"
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -31,6 +32,7 @@ struct HapticFixture {
     double gain = 1.0;           ///< of its events as a haptic source; 0: muted until it is raised again
     Texture texture{};           ///< for bodies that roll and slide along it
     std::optional<double> handMassKg{}; ///< m_h of Eq. 5.4 for this haptic source, instead of the settings'
+    SoundNumber sound = 0;              ///< of events of its first mode, for which there may be a recording
 };
 
 /// True if an impact with these values could not be played: it would not decay, or drive a coil with nearly
@@ -64,6 +66,7 @@ inline std::string_view faultOf(const HapticFixture& values) noexcept {
     }
     if (!isWithin(values.gain, 1.0e6)) return "gain: expected 0 to 10^6";
     if (!isWithin(values.handMassKg.value_or(0.0), 1.0e12)) return "hand mass: expected 0 to 10^12 kg";
+    if (values.sound < 0) return "sound: expected a number from 0 on";
     return faultOf(values.texture);
 }
 

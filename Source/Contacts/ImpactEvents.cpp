@@ -57,6 +57,7 @@ void EventMaker::add(const Impact& impact) {
         event_.frequencyHz = mode.frequencyHz;
         event_.decayPerSecond = mode.decayPerSecond;
         event_.amplitude = mode.relativeAmplitude * amplitude;
+        event_.sound = mode.sound;
         if (!isPlayable(event_)) {
             ++counts_.unplayable;
             continue;
@@ -104,9 +105,9 @@ void EventMaker::meet(std::int32_t other) {
 template <class Sound>
 void EventMaker::addModes(const Sound& sound) noexcept {
     const auto add = [this](const Mode& mode) { modes_[static_cast<std::size_t>(modeCount_++)] = mode; };
-    add({sound.frequencyHz, sound.decayPerSecond, 1.0});
+    add({sound.frequencyHz, sound.decayPerSecond, 1.0, sound.sound});
     for (const Overtone& mode : sound.overtones)
-        if (mode.frequencyHz > 0.0) add({mode.frequencyHz, mode.decayPerSecond, mode.relativeAmplitude});
+        if (mode.frequencyHz > 0.0) add({mode.frequencyHz, mode.decayPerSecond, mode.relativeAmplitude, 0});
 }
 
 void EventMaker::place(Vector2 world) noexcept {

@@ -34,6 +34,7 @@ public:
 private:
     struct Mode {
         double frequencyHz, decayPerSecond, relativeAmplitude;
+        SoundNumber sound;
     };
     void hold(std::int32_t camera);
     void meet(std::int32_t other);

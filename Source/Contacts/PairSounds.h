@@ -16,6 +16,7 @@ struct PairSound {
     double decayPerSecond = 0.0; ///< of that mode
     Overtones overtones{};       ///< further modes
     double gain = 1.0;           ///< factor on the source's gain
+    SoundNumber sound = 0;       ///< of events of the first mode, for which there may be a recording
 };
 
 /// By the numbers of two kinds (HapticFixture::surface), in any order. World thread (M) only.
@@ -28,7 +29,8 @@ public:
         if (const std::string_view fault = faultOf({.frequencyHz = sound.frequencyHz,
                                                     .decayPerSecond = sound.decayPerSecond,
                                                     .overtones = sound.overtones,
-                                                    .gain = sound.gain});
+                                                    .gain = sound.gain,
+                                                    .sound = sound.sound});
             !fault.empty())
             return fault;
         const auto pair = pairOf(surface, other);

@@ -2,8 +2,8 @@
 // One collision event, as the renderer plays it (the thesis' node L_col, Eq. 5.1, 6.2). The physics side
 // passes nothing else to the renderer.
 #pragma once
-#include "Core/ClipNumber.h"
 #include "Core/Limits.h"
+#include "Core/SoundNumber.h"
 #include "Core/Spread.h"
 #include <cmath>
 #include <cstdint>
@@ -25,14 +25,12 @@ struct CollisionSource {
     bool operator==(const CollisionSource&) const = default; ///< Compares all members.
 };
 
-/// Optional properties of an event: it may move, be spread over the actuators in its own way, and continue a
-/// tone that began earlier.
+/// Optional properties of an event: it may move, and continue a tone that began earlier.
 struct StrikeCourse {
     /** End x. */ double toX = 0.0, toY = 0.0; ///< end point, metres of the field; reached after travelNs
                                                ///< in a straight line at constant speed
     std::int64_t travelNs = 0;                 ///< 0: it stays at its starting point
-    std::int64_t sinceNs = 0;       ///< age of the tone at the onset: phase and decay continue from there
-    Spread spread = Spread::layout; ///< how it is distributed over the actuators
+    std::int64_t sinceNs = 0; ///< age of the tone at the onset: phase and decay continue from there
     bool operator==(const StrikeCourse&) const = default; ///< Compares all members.
 };
 
@@ -48,18 +46,19 @@ struct CollisionEvent {
     std::int64_t durationNs = 0; ///< 0: until it has decayed; else the vibration is cut after this time
     CollisionSource source;      ///< the bodies that caused it
     StrikeCourse course{};       ///< for events that no world produced
+    Spread spread = Spread::layout; ///< how it is distributed over the actuators
+    SoundNumber sound = 0;          ///< the recording that plays it; 0, or if there is none: its frequency
     bool operator==(const CollisionEvent&) const = default; ///< Compares all members.
 };
 
 /// True if the event would drive a coil with nearly direct current: it is slower than limits::slowestToneHz
-/// and hardly decays. A clip that does not move plays samples instead of a tone, so it is exempt. Any thread.
+/// and hardly decays. Any thread.
 inline bool isTooSlow(const CollisionEvent& e) noexcept {
-    return e.frequencyHz < limits::slowestToneHz && e.decayPerSecond < limits::slowDecayPerSecond &&
-           !(isClip(e.frequencyHz) && e.course.travelNs == 0);
+    return e.frequencyHz < limits::slowestToneHz && e.decayPerSecond < limits::slowDecayPerSecond;
 }
 
-/// True if the event can be played: finite, inside `limits`, not isTooSlow, and ended by a decay or a
-/// duration. Any thread.
+/// True if the event can be played: finite, inside `limits`, not isTooSlow, ended by a decay or a duration,
+/// and no clip that moves. Any thread.
 inline bool isPlayable(const CollisionEvent& e) noexcept {
     const bool inTime = e.timeNs >= 0 && e.timeNs <= limits::maxTimeNs && e.durationNs >= 0 &&
                         e.durationNs <= limits::maxTimeNs;
@@ -70,7 +69,9 @@ inline bool isPlayable(const CollisionEvent& e) noexcept {
     const StrikeCourse& c = e.course;
     const bool goes = c.travelNs >= 0 && c.travelNs <= limits::maxTimeNs && c.sinceNs >= 0 &&
                       c.sinceNs <= limits::maxTimeNs && std::isfinite(c.toX) && std::isfinite(c.toY);
-    return inTime && audible && ends && goes && !isTooSlow(e) && std::isfinite(e.x) && std::isfinite(e.y);
+    const bool isSound = e.sound >= 0 && !(isClip(e.sound) && c.travelNs > 0);
+    return inTime && audible && ends && goes && isSound && !isTooSlow(e) && std::isfinite(e.x) &&
+           std::isfinite(e.y);
 }
 
 } // namespace physvib

@@ -4,9 +4,9 @@
 #pragma once
 #include "Core/Actuators/PerceivedLevel.h"
 #include "Core/Actuators/Resonator.h"
-#include "Core/ClipNumber.h"
 #include "Core/FixedLevel.h"
 #include "Core/RenderingMethod.h"
+#include "Core/SoundNumber.h"
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +45,7 @@ struct EventShaping {
     /// The same; `hold` may change the event before the gain, when it has its played frequency.
     template <class Hold>
     CollisionEvent shaped(const CollisionEvent& collision, Hold hold) const noexcept {
-        if (isClip(collision.frequencyHz)) return collision;
+        if (isClip(collision.sound)) return collision;
         CollisionEvent event = method(collision);
         event.frequencyHz = remap(event.frequencyHz);
         hold(event);

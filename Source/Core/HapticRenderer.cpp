@@ -143,9 +143,9 @@ bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onse
         s.phase = phaseAfter(event.frequencyHz * seconds);
         s.amplitude *= shareLeft(event.decayPerSecond, seconds);
     }
-    const bool isRecorded =
-        isClip(event.frequencyHz) || (player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz)));
-    if (isRecorded) return player_.strike(s.frequencyHz, s.amplitude, onset.frame, closeFrame, gains_.data());
+    if (const RecordedContact* const contact = player_.find(event.sound, event.frequencyHz))
+        return player_.strike(*contact, s.amplitude, onset.frame, closeFrame, gains_.data());
+    if (isClip(event.sound) || (player_.isOn() && !othersAreModes_)) return false; // needs a recording
     return isCoupled() ? strikeCoupled(s) : bank_.strike(s, gains_.data());
 }
 

@@ -31,8 +31,8 @@ public:
     /// Gains of an event that is now at (x, y), by the event's own spread. Grains without one use grains().
     /// Any thread.
     void gainsAt(const CollisionEvent& event, double x, double y, Gains& gains) const noexcept {
-        const bool isGrain = event.source.kind != ContactKind::hit && event.course.spread == Spread::layout;
-        gainsAt(x, y, isGrain ? grains_ : event.course.spread, gains);
+        const bool isGrain = event.source.kind != ContactKind::hit && event.spread == Spread::layout;
+        gainsAt(x, y, isGrain ? grains_ : event.spread, gains);
     }
 
     /// Spread of grains, i.e. of roughness elements that a moving contact passes. Another spread than the

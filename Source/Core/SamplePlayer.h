@@ -27,20 +27,27 @@ public:
     void setContacts(std::span<const RecordedContact> contacts) noexcept { contacts_ = contacts; }
 
     bool isOn() const noexcept { return !contacts_.empty(); }
-    bool has(double frequencyHz) const noexcept {
-        return std::ranges::find(contacts_, frequencyHz, &RecordedContact::frequencyHz) != contacts_.end();
+
+    /// The recording of that sound or, unless it is a clip, the one of that frequency; null: there is none.
+    const RecordedContact* find(SoundNumber sound, double frequencyHz) const noexcept {
+        const RecordedContact* byFrequency = nullptr;
+        for (const RecordedContact& contact : contacts_) {
+            if (sound != 0 && contact.sound == sound) return &contact;
+            if (byFrequency == nullptr && contact.sound == 0 && contact.frequencyHz == frequencyHz)
+                byFrequency = &contact;
+        }
+        return isClip(sound) ? nullptr : byFrequency;
     }
 
-    /// Plays from frame `onset` on, cut at `closeFrame`. False if there is no recording of that frequency, or
-    /// if limits::maxSampleVoices already sound.
-    bool strike(double frequencyHz, double amplitude, std::int64_t onset, std::int64_t closeFrame,
+    /// Plays it from frame `onset` on, cut at `closeFrame`. False if it has no samples, or if
+    /// limits::maxSampleVoices already sound.
+    bool strike(const RecordedContact& contact, double amplitude, std::int64_t onset, std::int64_t closeFrame,
                 const double* gains) noexcept {
-        const auto found = std::ranges::find(contacts_, frequencyHz, &RecordedContact::frequencyHz);
-        if (found == contacts_.end() || found->samples.empty()) return false;
+        if (contact.samples.empty()) return false;
         Voice* const voice = voices_.add(onset);
         if (voice == nullptr) return false;
-        voice->samples = found->samples;
-        voice->end = std::min(closeFrame, onset + static_cast<std::int64_t>(found->samples.size()));
+        voice->samples = contact.samples;
+        voice->end = std::min(closeFrame, onset + static_cast<std::int64_t>(contact.samples.size()));
         for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j)
             voice->gains[j] = static_cast<float>(amplitude * gains[j]);
         return true;

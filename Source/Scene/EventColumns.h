@@ -4,6 +4,7 @@
 #include "Core/CollisionEvent.h"
 #include "Io/Text/DecimalSeconds.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/SoundNames.h"
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -37,11 +38,16 @@ struct WholeColumn {
 struct KindColumn {
     ContactKind& (*field)(CollisionEvent&);
 };
+
+/// The name of the sound; lists whose events have none have no such column.
+struct MaterialColumn {
+    SoundNumber& (*field)(CollisionEvent&);
+};
 inline constexpr std::array<std::string_view, 3> contactKindNames{"hit", "roll", "slide"};
 
 struct EventColumn {
     std::string_view name;
-    std::variant<SecondsColumn, NumberColumn, WholeColumn, KindColumn> cell;
+    std::variant<SecondsColumn, NumberColumn, WholeColumn, KindColumn, MaterialColumn> cell;
 };
 
 template <auto Member>
@@ -54,7 +60,7 @@ auto& ofSource(CollisionEvent& event) {
 }
 
 /// In writing order. The bounds are those of isPlayable; a mass is not negative.
-inline constexpr std::array<EventColumn, 12> eventColumns{{
+inline constexpr std::array<EventColumn, 13> eventColumns{{
     {"time_s", SecondsColumn{of<&CollisionEvent::timeNs>}},
     {"frequency_hz", NumberColumn{of<&CollisionEvent::frequencyHz>, 0.0, limits::maxFrequencyHz, true}},
     {"decay_per_s", NumberColumn{of<&CollisionEvent::decayPerSecond>, 0.0, limits::maxDecayPerSecond}},
@@ -67,6 +73,7 @@ inline constexpr std::array<EventColumn, 12> eventColumns{{
     {"impulse_ns", NumberColumn{ofSource<&CollisionSource::impulseNewtonSeconds>}},
     {"mass_kg", NumberColumn{ofSource<&CollisionSource::massKg>, 0.0}},
     {"kind", KindColumn{ofSource<&CollisionSource::kind>}},
+    {"material", MaterialColumn{of<&CollisionEvent::sound>}},
 }};
 
 /// Columns up to y_m are required; the others have defaults.
@@ -111,17 +118,28 @@ inline std::string readCell(const KindColumn& column, std::string_view cell, Col
     return {};
 }
 
-inline void writeCell(const SecondsColumn& column, CollisionEvent& event, std::string& out) {
+inline std::string readCell(const MaterialColumn& column, std::string_view cell, CollisionEvent& event) {
+    column.field(event) = soundNamed(cell);
+    return {};
+}
+
+inline void writeCell(const SecondsColumn& column, CollisionEvent& event, const SoundNames&,
+                      std::string& out) {
     appendSeconds(out, column.field(event));
 }
-inline void writeCell(const NumberColumn& column, CollisionEvent& event, std::string& out) {
+inline void writeCell(const NumberColumn& column, CollisionEvent& event, const SoundNames&,
+                      std::string& out) {
     appendNumber(out, column.field(event));
 }
-inline void writeCell(const WholeColumn& column, CollisionEvent& event, std::string& out) {
+inline void writeCell(const WholeColumn& column, CollisionEvent& event, const SoundNames&, std::string& out) {
     appendNumber(out, column.field(event));
 }
-inline void writeCell(const KindColumn& column, CollisionEvent& event, std::string& out) {
+inline void writeCell(const KindColumn& column, CollisionEvent& event, const SoundNames&, std::string& out) {
     out += contactKindNames[static_cast<std::size_t>(column.field(event))];
+}
+inline void writeCell(const MaterialColumn& column, CollisionEvent& event, const SoundNames& names,
+                      std::string& out) {
+    out += names.of(column.field(event));
 }
 
 } // namespace physvib

@@ -13,12 +13,19 @@ namespace {
 
 constexpr std::string_view fieldKey = "field_m=";
 
-bool isKind(const EventColumn& column) { return std::holds_alternative<KindColumn>(column.cell); }
+template <class Cell>
+bool is(const EventColumn& column) {
+    return std::holds_alternative<Cell>(column.cell);
+}
 
-std::string columnNames(bool hasKinds = false) {
+bool isIn(OptionalColumns columns, const EventColumn& column) {
+    return is<KindColumn>(column) ? columns.kinds : is<MaterialColumn>(column) ? columns.materials : true;
+}
+
+std::string columnNames(OptionalColumns columns = {}) {
     std::string names;
     for (const EventColumn& column : eventColumns) {
-        if (isKind(column) && !hasKinds) continue;
+        if (!isIn(columns, column)) continue;
         if (!names.empty()) names += ',';
         names += column.name;
     }
@@ -88,6 +95,7 @@ private:
             if (column.name != name) continue;
             if (has(column)) return fail("column " + std::string(name) + " appears twice");
             order_.push_back(&column);
+            hasMaterials_ = hasMaterials_ || is<MaterialColumn>(column);
             return true;
         }
         return fail("unknown column " + inQuotes(name) + ", expected a header line " + columnNames());
@@ -122,12 +130,14 @@ private:
         std::string_view rest = line;
         for (const EventColumn* column : order_)
             if (!readCellOf(*column, trimmed(takeUntil(',', rest)), event)) return false;
+        if (!hasMaterials_) takeFormerClip(event);
         return accept(event);
     }
 
     bool readCellOf(const EventColumn& column, std::string_view cell, CollisionEvent& event) {
         const std::string expected =
             std::visit([&](const auto& kind) { return readCell(kind, cell, event); }, column.cell);
+        if (is<MaterialColumn>(column) && isKept_ && !list_.names.has(event.sound)) list_.names.add(cell);
         return expected.empty() || fail("column " + std::string(column.name) + ": expected " + expected +
                                         ", found " + inQuotes(cell));
     }
@@ -177,7 +187,7 @@ private:
     std::size_t line_ = 0; // of the line last taken, from 1
     std::size_t count_ = 0;
     std::int64_t lastNs_ = 0; // of the event last accepted
-    bool isKept_ = true;
+    bool isKept_ = true, hasMaterials_ = false;
     std::vector<const EventColumn*> order_;
     EventList list_;
     std::string error_;
@@ -218,27 +228,34 @@ Result<EventList> loadEventsCsv(const std::filesystem::path& path) {
     return reader().read(found.value);
 }
 
-std::string eventsCsvHead(Provenance provenance, FieldSize field, bool hasKinds) {
-    if (isField(field)) provenance.entries.emplace_back("field_m", fieldWord(field));
-    return provenanceComment(provenance) + columnNames(hasKinds) + "\n";
+OptionalColumns columnsOf(std::span<const CollisionEvent> events, const SoundNames& names) {
+    const auto hasKind = [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; };
+    const auto hasName = [&](const CollisionEvent& e) { return !names.of(e.sound).empty(); };
+    return {std::ranges::any_of(events, hasKind), std::ranges::any_of(events, hasName)};
 }
 
-void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds) {
+std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumns columns) {
+    if (isField(field)) provenance.entries.emplace_back("field_m", fieldWord(field));
+    return provenanceComment(provenance) + columnNames(columns) + "\n";
+}
+
+void appendEventRow(std::string& text, CollisionEvent event, OptionalColumns columns,
+                    const SoundNames& names) {
     for (const EventColumn& column : eventColumns) {
-        if (isKind(column) && !hasKinds) continue;
-        std::visit([&](const auto& cell) { writeCell(cell, event, text); }, column.cell);
+        if (!isIn(columns, column)) continue;
+        std::visit([&](const auto& cell) { writeCell(cell, event, names, text); }, column.cell);
         text += ',';
     }
     text.back() = '\n';
 }
 
-std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance) {
-    const bool hasKinds = std::ranges::any_of(
-        events, [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; });
-    std::string text = eventsCsvHead(provenance, field, hasKinds);
+std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance,
+                      const SoundNames& names) {
+    const OptionalColumns columns = columnsOf(events, names);
+    std::string text = eventsCsvHead(provenance, field, columns);
     constexpr std::size_t usualRowBytes = 160;
     text.reserve(text.size() + events.size() * usualRowBytes);
-    for (const CollisionEvent& event : events) appendEventRow(text, event, hasKinds);
+    for (const CollisionEvent& event : events) appendEventRow(text, event, columns, names);
     return text;
 }
 

@@ -6,6 +6,7 @@
 #include "Io/Result.h"
 #include "Scene/FieldSize.h"
 #include "Scene/SceneFileLimits.h"
+#include "Scene/SoundNames.h"
 #include <cstddef>
 #include <filesystem>
 #include <span>
@@ -17,7 +18,8 @@ namespace physvib {
 
 struct EventList {
     std::vector<CollisionEvent> events;
-    FieldSize field; ///< as stated in the list; unknown otherwise
+    FieldSize field;  ///< as stated in the list; unknown otherwise
+    SoundNames names; ///< of the materials in the list
     bool operator==(const EventList&) const = default;
 };
 
@@ -35,13 +37,24 @@ Result<EventList> readEventsCsv(std::string_view text, std::string_view name,
 /// (M) only.
 Result<EventList> loadEventsCsv(const std::filesystem::path& path);
 
-/// Comment with header line, and the line of one event: the parts of eventsCsv. `field` is written if known.
-/// `hasKinds`: with the column `kind`, which a list of impacts alone does not need. Any thread.
-std::string eventsCsvHead(Provenance provenance, FieldSize field, bool hasKinds);
-void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds);
+/// Columns that only some lists need: a list of impacts alone has no kinds.
+struct OptionalColumns {
+    bool kinds = false, materials = false;
+};
 
-/// The events with every column (`kind` only if there is anything but impacts). readEventsCsv restores them
-/// bit for bit if they are playable and in time order, and refuses them otherwise. Any thread.
-std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance);
+/// Those that these events need. Any thread.
+OptionalColumns columnsOf(std::span<const CollisionEvent> events, const SoundNames& names);
+
+/// Comment with header line, and the line of one event: the parts of eventsCsv. `field` is written if known.
+/// Any thread.
+std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumns columns);
+void appendEventRow(std::string& text, CollisionEvent event, OptionalColumns columns,
+                    const SoundNames& names);
+
+/// The events with every column that they need. readEventsCsv restores them bit for bit if they are playable,
+/// in time order, and their sounds have names; it refuses them if they are not playable or in order. Any
+/// thread.
+std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance,
+                      const SoundNames& names = {});
 
 } // namespace physvib

@@ -93,6 +93,17 @@ std::string checkUnique(const std::string& list, const std::vector<T>& all) {
     return {};
 }
 
+/// Events carry the number of a material's name, so two names must not share one.
+std::string checkMaterialNames(const std::vector<Material>& all) {
+    if (std::string fault = checkUnique("materials", all); !fault.empty()) return fault;
+    std::map<SoundNumber, std::string_view> names;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (const auto [known, isNew] = names.emplace(soundOfMaterial(all[i].name), all[i].name); !isNew)
+            return itemPath("materials", i) + ".name: expected another name: \"" + all[i].name + "\" and \"" +
+                   std::string{known->second} + "\" have the same number by chance";
+    return {};
+}
+
 std::string checkEdges(const std::vector<Vector>& v, bool isLoop) {
     for (std::size_t i = 0; i + (isLoop ? 0 : 1) < v.size(); ++i) {
         const Vector& next = v[(i + 1) % v.size()];
@@ -156,14 +167,14 @@ std::string validateMaterials(const std::vector<Material>& materials) {
     for (std::size_t i = 0; i < materials.size(); ++i)
         if (std::string fault = checkRanges(materials[i], itemPath("materials", i)); !fault.empty())
             return fault;
-    return checkUnique("materials", materials);
+    return checkMaterialNames(materials);
 }
 
 std::string validate(const Scene& scene) {
     if (std::string fault = checkRanges(scene); !fault.empty()) return fault;
     const auto placed = placedBodies(scene);
     if (std::string fault = checkTotals(scene); !fault.empty()) return fault;
-    for (std::string fault : {checkUnique("materials", scene.materials), checkUnique("bodies", scene.bodies),
+    for (std::string fault : {checkMaterialNames(scene.materials), checkUnique("bodies", scene.bodies),
                               checkUnique("joints", scene.joints)})
         if (!fault.empty()) return fault;
     for (const PlacedBody& body : placed)

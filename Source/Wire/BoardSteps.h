@@ -34,7 +34,7 @@ public:
         const double share = std::min(1.0, middle / static_cast<double>(moving_.course.travelNs));
         step.x += share * (moving_.course.toX - moving_.x);
         step.y += share * (moving_.course.toY - moving_.y);
-        step.course = {.sinceNs = moving_.course.sinceNs + doneNs_, .spread = moving_.course.spread};
+        step.course = {.sinceNs = moving_.course.sinceNs + doneNs_};
         doneNs_ += step.durationNs;
         return step;
     }

@@ -15,6 +15,7 @@ inline std::vector<CollisionEvent> soundsOf(const Scene& scene) {
         CollisionEvent& sound = sounds.emplace_back();
         sound.frequencyHz = m.frequencyHz;
         sound.decayPerSecond = m.decayPerSecond;
+        sound.sound = soundOfMaterial(m.name);
     }
     return sounds;
 }

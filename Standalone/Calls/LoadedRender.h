@@ -4,8 +4,8 @@
 #include "Calls/ActuatorChoice.h"
 #include "Calls/CouplingChoice.h"
 #include "Calls/RenderOptions.h"
-#include "Core/ClipNumber.h"
 #include "Core/Decibels.h"
+#include "Core/SoundNumber.h"
 #include "Formats/ClipFile.h"
 #include "Host/Recordings/LoadContact.h"
 #include "Host/Recordings/LoadRecordings.h"
@@ -34,6 +34,7 @@ struct LoadedRender {
                                            ///< take's
     SceneEvents made;
     FieldSize listField{};                      ///< of the list; not known: it says none, or there is no list
+    SoundNames listNames{};                     ///< of the materials in the list
     std::vector<ContactRecording> recordings{}; ///< of --sound
     LoadedRecordings sessionRecordings{};       ///< of a session
     ActuatorChoice actuators{};                 ///< by the options; see equalised() and shaping()
@@ -43,6 +44,15 @@ struct LoadedRender {
     /// For messages about events.
     const std::string& source() const {
         return scene ? scene->name : clip ? options.scene : options.fromEvents;
+    }
+
+    /// Of the materials.
+    SoundNames names() const {
+        SoundNames all = listNames;
+        if (scene) all.addAll(scene->materials);
+        if (session)
+            for (const SceneTake& take : session->log.takes) all.addAll(take.scene->materials);
+        return all;
     }
 
     /// Those that are played instead of modes.
@@ -160,22 +170,52 @@ inline std::string fixedLevelFault(const LoadedRender& job) {
     return {};
 }
 
+/// What a --sound is for: its file, with the frequency and decay that its events have.
+inline Result<RecordingFile> recordingOf(const RecordedSound& sound, const LoadedRender& job,
+                                         const std::vector<CollisionEvent>& events) {
+    RecordingFile file{sound.frequencyHz, sound.path, 0.0, job.options.matchesStrength, {}, sound.material};
+    const auto isMeant = [&](const CollisionEvent& e) {
+        return sound.material.empty() ? e.frequencyHz == sound.frequencyHz : e.sound == file.sound();
+    };
+    if (const auto struck = std::ranges::find_if(events, isMeant); struck != events.end()) {
+        file.frequencyHz = struck->frequencyHz;
+        file.decayPerSecond = struck->decayPerSecond;
+        return file;
+    }
+    if (sound.material.empty()) return file;
+    if (job.scene) // nothing met it
+        for (const Material& m : job.scene->materials)
+            if (m.name == sound.material && m.frequencyHz > 0.0) {
+                file.frequencyHz = m.frequencyHz;
+                file.decayPerSecond = m.decayPerSecond;
+                return file;
+            }
+    return Failure{"--sound " + sound.material + "=" + sound.path + ": expected a material of " +
+                   job.source() + " that vibrates, or a frequency"};
+}
+
 /// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty,
 /// or one line. Their notes are the caller's to tell.
 inline std::string takeRecordings(LoadedRender& job, const std::vector<CollisionEvent>& events,
                                   const std::string& source) {
-    for (const auto& [hz, path] : job.options.sounds) {
-        const auto struck = std::ranges::find(events, hz, &CollisionEvent::frequencyHz);
-        auto contact = loadContact(
-            {hz, path, struck != events.end() ? struck->decayPerSecond : 0.0, job.options.matchesStrength});
+    for (const RecordedSound& sound : job.options.sounds) {
+        const auto file = recordingOf(sound, job, events);
+        if (!file) return file.error;
+        auto contact = loadContact(file.value);
         if (!contact) return contact.error;
         job.recordings.push_back(std::move(contact.value));
     }
-    for (const CollisionEvent& e : events)
-        if (job.options.playsRecordings && !isClip(e.frequencyHz) &&
-            std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) ==
-                job.recordings.end())
-            return source + ": expected a --sound for " + numberText(e.frequencyHz) + " Hz, found none";
+    const auto plays = [](const CollisionEvent& e, const ContactRecording& r) {
+        return r.file.material.empty() ? r.frequencyHz == e.frequencyHz : r.file.sound() == e.sound;
+    };
+    for (const CollisionEvent& e : events) {
+        const auto isItsOwn = [&](const ContactRecording& r) { return plays(e, r); };
+        if (!job.options.playsRecordings || isClip(e.sound) || std::ranges::any_of(job.recordings, isItsOwn))
+            continue;
+        const std::string material = job.names().of(e.sound);
+        return source + ": expected a --sound for " + (material.empty() ? "" : material + " or ") +
+               numberText(e.frequencyHz) + " Hz, found none";
+    }
     return {};
 }
 

@@ -2,12 +2,15 @@
 // What is wrong with a render before any file is read.
 #include "Calls/RenderJob.h"
 #include "Io/Disk/NameEnding.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <concepts>
 
 namespace physvib {
 
 static_assert(std::equality_comparable<RenderJob>);
+
+std::string RecordedSound::name() const { return material.empty() ? numberText(frequencyHz) : material; }
 
 std::string RenderJob::methodName() const {
     const auto name = nameOf(method);

@@ -20,8 +20,16 @@
 
 namespace physvib {
 
-/// Of which frequency a material is, and in which file its recorded contact.
-using RecordedSounds = std::vector<std::pair<double, std::string>>;
+/// The recorded contact of a material, or of all events of a frequency.
+struct RecordedSound {
+    std::string material;     ///< empty: by frequency
+    double frequencyHz = 0.0; ///< 0: by material
+    std::string path;
+
+    std::string name() const; ///< what a call says before the "="
+    bool operator==(const RecordedSound&) const = default;
+};
+using RecordedSounds = std::vector<RecordedSound>;
 
 constexpr double usualContactDb = -20.0; ///< of the contact sound of a hit at full scale
 

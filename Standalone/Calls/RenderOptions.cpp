@@ -35,8 +35,8 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
         "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)");
     addMethod(command, o);
     addSounds(command, o.sounds,
-              "for SV and --contact-sound: the recorded contact of the material of that frequency, or "
-              "synthetic-SEED; may be repeated");
+              "for SV and --contact-sound: the recorded contact of a material, or HZ=FILE.wav of all of that "
+              "frequency; FILE may be synthetic-SEED; may be repeated");
     command.addOneOf<bool>(
         "--sound-match", o.matchesStrength, {{"peak", false}, {"rms", true}},
         "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)");

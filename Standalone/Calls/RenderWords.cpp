@@ -29,9 +29,15 @@ std::string readSounds(const std::vector<std::string>& words, RecordedSounds& so
     for (const std::string& word : words) {
         const auto equals = word.find('=');
         const auto hz = parseNumber<double>(std::string_view{word}.substr(0, equals));
-        if (equals == std::string::npos || !hz || !(*hz > 0.0) || equals + 1 == word.size())
-            return "expected HZ=FILE.wav, the frequency of a material and its recorded contact";
-        sounds.emplace_back(*hz, word.substr(equals + 1));
+        if (equals == std::string::npos || equals == 0 || equals + 1 == word.size() || (hz && !(*hz > 0.0)))
+            return "expected MATERIAL=FILE.wav, a material and its recorded contact, or HZ=FILE.wav, its "
+                   "frequency";
+        const RecordedSound sound{hz ? "" : word.substr(0, equals), hz.value_or(0.0),
+                                  word.substr(equals + 1)};
+        const auto isSame = [&](const RecordedSound& other) { return other.name() == sound.name(); };
+        if (std::ranges::any_of(sounds, isSame))
+            return "expected one recording of " + sound.name() + ", found another";
+        sounds.push_back(sound);
     }
     return {};
 }
@@ -60,7 +66,7 @@ Option& addSounds(OptionTable& command, RecordedSounds& sounds, std::string says
     const WordsReader read = [&sounds](const std::vector<std::string>& words) {
         return readSounds(words, sounds);
     };
-    return command.addRow("--sound", read, std::move(says)).as("HZ=FILE.wav").single();
+    return command.addRow("--sound", read, std::move(says)).as("MATERIAL=FILE.wav").single();
 }
 
 Option& addField(OptionTable& command, FieldSize& field) {

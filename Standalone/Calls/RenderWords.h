@@ -9,7 +9,7 @@ namespace physvib {
 /// --law, by the table of laws. M only, as all here.
 Option& addLaw(OptionTable& command, PanningLaw& law);
 
-/// --sound HZ=FILE.wav, which may be repeated; `says` is its meaning.
+/// --sound MATERIAL=FILE.wav or HZ=FILE.wav, which may be repeated; `says` is its meaning.
 Option& addSounds(OptionTable& command, RecordedSounds& sounds, std::string says);
 
 /// --field W,H, --set NAME=VALUE and --method.

@@ -53,6 +53,7 @@ int leave(int code, std::string_view reason) {
 struct Source {
     std::optional<Scene> scene; ///< none: a list
     std::vector<CollisionEvent> events;
+    SoundNames names;        ///< of the materials
     std::uint64_t drops = 0; ///< collisions that the world had no room for
     FieldSize field;         ///< not known: the layout's extent
     Provenance provenance{PHYSVIB_VERSION, {}};
@@ -64,6 +65,7 @@ Result<Source> sourceOf(const Options& o) {
         auto events = loadEventsCsv(o.input);
         if (!events) return Failure{events.error};
         source.events = std::move(events.value.events);
+        source.names = std::move(events.value.names);
         source.field = o.told().isKnown() ? o.told() : events.value.field;
         source.provenance.entries.emplace_back("events", std::to_string(source.events.size()));
         return source;
@@ -81,6 +83,7 @@ Result<Source> sourceOf(const Options& o) {
     for (const SceneVariable& variable : scene.value.variables)
         source.provenance.entries.emplace_back(variable.name, variable.value);
     source.scene = scene.value;
+    source.names.addAll(scene.value.materials);
     return source;
 }
 
@@ -181,7 +184,8 @@ std::string render(const Options& o) {
     warn(source.value.drops, "collisions lost because too many began in one physics step");
     std::string error;
     if (list)
-        error = list->write(eventsCsv(source.value.events, source.value.field, source.value.provenance));
+        error = list->write(
+            eventsCsv(source.value.events, source.value.field, source.value.provenance, source.value.names));
     if (error.empty() && !(o.wavPath.empty() && o.picturePath.empty()))
         error = writeSound(o, source.value, layout.value);
     if (error.empty() && list) error = list->commit();

@@ -94,7 +94,7 @@ struct ParsedCall {
     void findFiles(const std::string& folder) {
         for (std::string* path : {&renderOptions.layout, &renderOptions.scene, &stimulusOptions.job.layout})
             *path = besideProtocol(folder, *path);
-        for (auto& [hz, sound] : renderOptions.sounds) sound = besideProtocol(folder, sound);
+        for (RecordedSound& sound : renderOptions.sounds) sound.path = besideProtocol(folder, sound.path);
     }
     OptionTable words{"physvib", {}};
     RenderJob renderOptions;

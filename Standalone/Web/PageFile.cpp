@@ -38,7 +38,8 @@ Result<PageFile> readClipFile(std::string_view name, std::string_view text, Clip
     SampledSound sound = clipSound(read.value, sampleRateHz);
     takeSlowPart(sound.channels.front(), sampleRateHz);
     const Vector field{1.6, 0.9};
-    const CollisionEvent strike{0, PageFile::clipFrequencyHz, 1.0, 1.0, field.x / 2, field.y / 2, 0, {}};
+    CollisionEvent strike{0, clipFrequencyHz, 1.0, 1.0, field.x / 2, field.y / 2, 0, {}};
+    strike.sound = soundOfClip(0);
     return PageFile{emptyScene(name, field), {strike}, std::move(sound.channels.front())};
 }
 

@@ -13,7 +13,6 @@ namespace physvib {
 /// A world, and what is played beside it: of a scene nothing, of a list its strikes, of a clip one that
 /// stands for its samples.
 struct PageFile {
-    static constexpr double clipFrequencyHz = 1.0; ///< of the strike that stands for samples
 
     Scene scene;
     std::vector<CollisionEvent> strikes; ///< in the order of their times

@@ -16,7 +16,7 @@ constexpr double pullPerSecond = 12.0, fastestPull = 12.0; // of the way that is
 
 PageWorld::PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int outputs)
     : file_{std::move(file)}
-    , clip_{PageFile::clipFrequencyHz, file_.samples}
+    , clip_{clipFrequencyHz, file_.samples, soundOfClip(0)}
     , simulation_{file_.scene, seed, stepsPerSecond}
     , check_{file_.scene, InputCheck::endless}
     , player_{file_.scene}

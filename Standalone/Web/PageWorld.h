@@ -77,7 +77,7 @@ private:
     void stepTo(std::int64_t frame);
 
     const PageFile file_;
-    RecordedContact clip_;   // its samples, by the frequency of its strike
+    RecordedContact clip_;   // its samples
     std::size_t struck_ = 0; // of the file's strikes
     Simulation simulation_;
     InputCheck check_;

@@ -53,15 +53,16 @@ TEST(RenderWords, EveryOptionChangesTheJob) {
 }
 
 TEST(RenderWords, TextIsReadWhereItStands) {
-    const auto job =
-        jobOf("drop --set ball=steel --set n=3 --field 0.5,2 --law log-outer --method AF-FV-DRF --sound "
-              "200=a.wav --sound 90.5=b=c.wav --limiter off --marker m.wav --marker-of hits");
+    const auto job = jobOf(
+        "drop --set ball=steel --set n=3 --field 0.5,2 --law log-outer --method AF-FV-DRF --sound "
+        "200=a.wav --sound 90.5=b=c.wav --sound oak=d.wav --limiter off --marker m.wav --marker-of hits");
     ASSERT_TRUE(job) << job.error;
     EXPECT_EQ(job.value.settings, (SceneSettings{{"ball", "steel"}, {"n", "3"}}));
     EXPECT_EQ(job.value.field, (FieldSize{0.5, 2.0}));
     EXPECT_EQ(job.value.law, PanningLaw::logOuter);
     EXPECT_EQ(job.value.methodName(), "AF-FV-DRF");
-    EXPECT_EQ(job.value.sounds, (RecordedSounds{{200.0, "a.wav"}, {90.5, "b=c.wav"}}));
+    EXPECT_EQ(job.value.sounds,
+              (RecordedSounds{{"", 200.0, "a.wav"}, {"", 90.5, "b=c.wav"}, {"oak", 0.0, "d.wav"}}));
     EXPECT_FALSE(job.value.isLimited);
     EXPECT_EQ(job.value.marks(), MarkedOnsets::hits);
     EXPECT_EQ(jobOf("drop").value.marks(), std::nullopt);
@@ -77,8 +78,14 @@ TEST(RenderWords, WrongTextIsRefusedWithItsOption) {
               "--law: expected linear, log, log-outer or energy, found \"loud\"");
     EXPECT_EQ(jobOf("drop --method AX-FV-DRV").error,
               "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"AX-FV-DRV\"");
-    EXPECT_EQ(jobOf("drop --sound 0=a.wav").error,
-              "--sound: expected HZ=FILE.wav, the frequency of a material and its recorded contact");
+    for (const char* word : {"0=a.wav", "oak", "oak=", "=a.wav"})
+        EXPECT_EQ(jobOf(std::string{"drop --sound "} + word).error,
+                  "--sound: expected MATERIAL=FILE.wav, a material and its recorded contact, or HZ=FILE.wav, "
+                  "its frequency");
+    EXPECT_EQ(jobOf("drop --sound 80=a.wav --sound 80.0=b.wav").error,
+              "--sound: expected one recording of 80, found another");
+    EXPECT_EQ(jobOf("drop --sound oak=a.wav --sound oak=a.wav").error,
+              "--sound: expected one recording of oak, found another");
 }
 
 TEST(RenderWords, WhatDoesNotFitTogetherIsAFaultOfTheJob) {

@@ -47,6 +47,33 @@ TEST_F(SoundMethod, TheRecordingPlaysAtEachHitWithTheHitsAmplitudeAsItsPeak) {
     EXPECT_NEAR(peakOf(samplesOf("a.wav"), 0.2, 0.55, 44100), 0.4f, 0.002f);
 }
 
+TEST_F(SoundMethod, MaterialsOfOneFrequencyHaveRecordingsOfTheirOwn) {
+    write("two.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m,material\n0.1,349,40,0.4,0,0,oak\n"
+                     "0.5,349,40,0.4,0,0,pine\n0.8,349,40,0.1,0,0,\n");
+    const std::string render = "render --from-events two.csv --layout phone1 --seconds 1 --limiter off "
+                               "--method SV --out a.wav ";
+    const std::string both = "--sound oak=knock.wav --sound pine=synthetic-3 ";
+    refuses(render + both, 1, "two.csv: expected a --sound for 349 Hz, found none", 3);
+    refuses(render + "--sound oak=knock.wav", 1, "two.csv: expected a --sound for pine or 349 Hz, found none",
+            3);
+    refuses(render + "--sound elm=knock.wav", 1,
+            "--sound elm=knock.wav: expected a material of two.csv that vibrates, or a frequency", 3);
+    ASSERT_EQ(call(render + both + "--sound 349=knock.wav --events again.csv").exitCode, 0);
+    const auto a = samplesOf("a.wav");
+    const auto differ = [&](double first, double second) {
+        float most = 0.0f;
+        for (int n = 0; n < 4800; ++n)
+            most = std::max(
+                most, std::abs(a[static_cast<std::size_t>(first * 48000.0) + static_cast<std::size_t>(n)] -
+                               a[static_cast<std::size_t>(second * 48000.0) + static_cast<std::size_t>(n)]));
+        return most;
+    };
+    EXPECT_GT(differ(0.1, 0.5), 0.1f);
+    EXPECT_NE(read("a.wav").find("sound=oak=knock.wav"), std::string::npos);
+    EXPECT_NE(read("again.csv").find(",oak\n"), std::string::npos);
+    EXPECT_NE(read("again.csv").find(",pine\n"), std::string::npos);
+}
+
 TEST_F(SoundMethod, MarksAreAFileOfTheirOwnInSyncWithWhatIsFelt) {
     write("close.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.2000005,349,40,0.4,0,0\n0."
                        "6000005,349,40,0.1,0,0\n0.6002,349,40,0.1,0,0\n");
@@ -118,7 +145,7 @@ TEST_F(SoundMethod, WhatIsMissingOrNoHitIsToldInOneLine) {
             "--sound: expected --method SV, to feel it, or --contact-sound, to hear it", 3);
     refuses(render + "--sound 349=knock.wav --contact-sound b.wav --method AV-FF-DRV", 2,
             "--sound: expected hits at their material's own frequency, found --method AV-FF-DRV", 3);
-    refuses(render + "--method SV --sound knock.wav", 2, "--sound: expected HZ=FILE.wav", 3);
+    refuses(render + "--method SV --sound knock.wav", 2, "--sound: expected MATERIAL=FILE.wav", 3);
     refuses(render + "--method SV --sound 80=knock.wav", 1,
             "hits.csv: expected a --sound for 349 Hz, found none", 3);
     refuses(render + "--method SV --sound 349=none.wav", 1, "none.wav: cannot be read", 3);

@@ -99,7 +99,7 @@ TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
     refuses("study run model-or-sound --observer simulated --out other --sound 349=gone.wav", 1,
             "gone.wav: cannot be read", 3);
     refuses("study run model-or-sound --observer simulated --out other --sound gone.wav", 2,
-            "--sound: expected HZ=FILE.wav", 3);
+            "--sound: expected MATERIAL=FILE.wav", 3);
 }
 
 TEST_F(Study, EightMethodsWhole) {

@@ -39,8 +39,22 @@ TEST(CollisionEvent, WhatIsSlowerThan5HzDecays) {
     EXPECT_FALSE(isTaken(0.5, 1e-9)) << "a decay that is none";
     EXPECT_TRUE(isTaken(0.5, 1.0));
     EXPECT_FALSE(isTaken(2.0, 0.0, 10'000'000'000)) << "wherever it goes";
-    EXPECT_TRUE(isTaken(clipFrequencyHz(3), 0.0)) << "a clip";
-    EXPECT_FALSE(isTaken(clipFrequencyHz(3), 0.0, 10'000'000'000)) << "no clip moves";
+    e.sound = soundOfClip(3);
+    EXPECT_TRUE(isTaken(clipFrequencyHz, 0.0)) << "a clip";
+    EXPECT_FALSE(isTaken(clipFrequencyHz, 0.0, 10'000'000'000)) << "no clip moves";
+    e.sound = soundOfMaterial("wood");
+    EXPECT_TRUE(isTaken(80.0, 0.0, 10'000'000'000)) << "materials do";
+    e.sound = -1;
+    EXPECT_FALSE(isTaken(80.0, 0.0)) << "no sound has this number";
+}
+
+TEST(SoundNumber, AMaterialKeepsItsNumberInFilesOfAllVersions) {
+    EXPECT_EQ(soundOfMaterial("wood"), 923368111);
+    EXPECT_EQ(soundOfMaterial("steel"), 2095187368);
+    EXPECT_FALSE(isClip(soundOfMaterial("wood")));
+    EXPECT_FALSE(isClip(0));
+    for (int k = 0; k < mostClips; ++k) EXPECT_TRUE(isClip(soundOfClip(k))) << k;
+    EXPECT_FALSE(isClip(soundOfClip(mostClips)));
 }
 
 TEST(CollisionEvent, NothingThatIsNotANumberIsPlayable) {

@@ -75,7 +75,7 @@ TEST(EventShaping, AClipStaysAsItIsAloneAndAmongTheHitsOfAWorld) {
                              .durationNs = 9,
                              .source = {1, 2, 3, 4}};
     CollisionEvent clip = hit;
-    clip.frequencyHz = clipFrequencyHz(mostClips - 1);
+    clip.sound = soundOfClip(mostClips - 1);
     EventShaper shaper{shaping};
     EXPECT_EQ(shaping(clip), clip);
     EXPECT_EQ(shaper(clip), clip);

@@ -136,7 +136,7 @@ TEST(MovingTones, AnyBlocksGiveTheSameBits) {
                              placeOf(static_cast<char>('A' + (i + 1) % 4)), 3'333'331 * i,
                              20'000'000 + 1'234'567 * i));
         events.back().decayPerSecond = i % 3 * 7.0;
-        events.back().course.spread = static_cast<Spread>(i % static_cast<int>(spreadNames.size()));
+        events.back().spread = static_cast<Spread>(i % static_cast<int>(spreadNames.size()));
     }
     const auto reference = test::renderEvents(events, phone4(), 6000, {8192});
     EXPECT_EQ(reference.status.played, events.size());
@@ -150,7 +150,7 @@ TEST(MovingTones, WhatGoesNowhereIsTheStillStrike) {
     still.course = {};
     still.x = moving.x = moving.course.toX = 0.04;
     still.y = moving.y = moving.course.toY = 0.02;
-    moving.course.spread = Spread::layout;
+    moving.spread = Spread::layout;
     const auto a = test::renderEvents({still}, phone4(), rate).channels,
                b = test::renderEvents({moving}, phone4(), rate).channels;
     for (std::size_t j = 0; j < 4; ++j)

@@ -164,9 +164,9 @@ TEST(PhantomPanner, GrainsAreFeltWhereTheyAre) {
             EXPECT_NEAR(centroidOf(panner, grain), share, 0.01) << name;
         }
         grain.x = 0.3 * W;
-        grain.course.spread = spreadBy(PanningLaw::linear);
+        grain.spread = spreadBy(PanningLaw::linear);
         EXPECT_NEAR(centroidOf(panner, grain), 0.16, 0.005) << name << ": what an event asks for stands";
-        grain.course.spread = Spread::layout;
+        grain.spread = Spread::layout;
         grain.source.kind = ContactKind::hit;
         EXPECT_NEAR(centroidOf(panner, grain), 0.16, 0.005) << name << ": hits go by the law";
     }

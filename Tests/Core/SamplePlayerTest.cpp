@@ -99,7 +99,8 @@ TEST(SamplePlayer, WhatHasNoRecordingOrNoRoomIsRejectedAndCounted) {
 
 TEST(SamplePlayer, AClipThatIsNotThereIsNotASlowToneInstead) { // as in a list of what a session played
     CollisionEvent clip = hit(0, 1.0, 0.0, 1.0);
-    clip.frequencyHz = clipFrequencyHz(mostClips - 1);
+    clip.frequencyHz = clipFrequencyHz;
+    clip.sound = soundOfClip(mostClips - 1);
     clip.decayPerSecond = 0.0;
     clip.durationNs = 10'000'000'000;
     const auto renderer = std::make_unique<HapticRenderer>();
@@ -115,6 +116,24 @@ TEST(SamplePlayer, AClipThatIsNotThereIsNotASlowToneInstead) { // as in a list o
     EXPECT_EQ(renderer->status().rejected, 1u);
 }
 
+TEST(SamplePlayer, ASoundHasItsOwnRecordingWhateverItsFrequency) {
+    const std::vector<float> oak(10), pine(10), any(10);
+    const RecordedContact all[] = {{80.0, any},
+                                   {80.0, oak, soundOfMaterial("oak")},
+                                   {80.0, pine, soundOfMaterial("pine")},
+                                   {80.0, oak, soundOfClip(0)}};
+    SamplePlayer player;
+    player.prepare(48000, 1);
+    player.setContacts(all);
+    EXPECT_EQ(player.find(soundOfMaterial("oak"), 80.0), &all[1]);
+    EXPECT_EQ(player.find(soundOfMaterial("pine"), 81.0), &all[2]);
+    EXPECT_EQ(player.find(soundOfMaterial("elm"), 80.0), &all[0]) << "which has none of its own";
+    EXPECT_EQ(player.find(0, 80.0), &all[0]);
+    EXPECT_EQ(player.find(0, 81.0), nullptr);
+    EXPECT_EQ(player.find(soundOfClip(0), 5.0), &all[3]);
+    EXPECT_EQ(player.find(soundOfClip(1), 80.0), nullptr) << "a clip is never found by frequency";
+}
+
 TEST(SamplePlayer, StopFadesItWithoutAStep) {
     SamplePlayer player;
     const std::vector<float> ones(48000, 1.0f);
@@ -122,7 +141,7 @@ TEST(SamplePlayer, StopFadesItWithoutAStep) {
     player.prepare(48000, 1);
     player.setContacts(constant);
     const double gain = 1.0;
-    ASSERT_TRUE(player.strike(1.0, 1.0, 0, INT64_MAX, &gain));
+    ASSERT_TRUE(player.strike(*player.find(0, 1.0), 1.0, 0, INT64_MAX, &gain));
     player.fadeAll(100);
     std::vector<float> out(1000);
     float* at = out.data();

@@ -35,6 +35,36 @@ TEST(SessionFile, AStrikeThatWouldHoldACoilAtDirectCurrentIsNamed) {
               "found 2 Hz");
 }
 
+TEST(SessionFile, ClipsOfOlderSessionsAreKnownByTheirFrequency) {
+    const auto old = readFile(PHYSVIB_SOURCE_DIR "/Tests/Fuzz/corpus/session/clips.json", 100'000).value;
+    const auto session = readSession(old, "s.json");
+    ASSERT_EQ(session.error, "");
+    ASSERT_FALSE(session.value.log.clips.empty());
+    const auto& strikes = session.value.log.strikes;
+    ASSERT_FALSE(strikes.empty());
+    EXPECT_EQ(strikes.front().sound, soundOfClip(0));
+    EXPECT_EQ(strikes.front().frequencyHz, clipFrequencyHz);
+    const auto again = readSession(sessionJson(session.value), "s.json");
+    ASSERT_EQ(again.error, "");
+    EXPECT_EQ(again.value.log.strikes, strikes);
+    EXPECT_EQ(again.value.log.clips.size(), session.value.log.clips.size());
+}
+
+TEST(SessionFile, ARecordingNamesItsMaterial) {
+    const auto session = readSession(
+        sessionWith("\"channels\": 2,",
+                    "\"channels\": 2, \"recordings\": [{\"time_s\": 0.1, \"files\": [{\"frequency_hz\": 80, "
+                    "\"file\": \"synthetic-1\", \"material\": \"oak\"}, {\"frequency_hz\": 80, \"file\": "
+                    "\"synthetic-2\"}]}],"),
+        "s.json");
+    ASSERT_EQ(session.error, "");
+    const auto& files = session.value.log.recordings.front().files;
+    EXPECT_EQ(files[0].sound(), soundOfMaterial("oak"));
+    EXPECT_EQ(files[1].sound(), 0);
+    EXPECT_EQ(readSession(sessionJson(session.value), "s.json").value.log.recordings,
+              session.value.log.recordings);
+}
+
 TEST(SessionFile, AnEqualiserOutOfRangeIsNamed) {
     const auto fault = [](const std::string& resonator, const std::string& band) {
         return faultWith("\"channels\": 2,", "\"channels\": 2, \"equalised\": [null, {" + resonator +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A file that is dropped on the field, a badge or a strip: felt there, saved with the session, or refused in
 // one line.
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Host/Recordings/LoadRecordings.h"
 #include "MixerTesting.h"
 
@@ -44,7 +44,7 @@ struct DeskClipsTest : testing::Test {
             desk.look();
             clips.clear();
             for (const RecentContact& contact : desk.recent().newestFirst())
-                if (isClip(contact.event.frequencyHz)) clips.push_back(contact.event);
+                if (isClip(contact.event.sound)) clips.push_back(contact.event);
             return clips.size() > felt_;
         }));
         felt_ = clips.size();
@@ -67,7 +67,7 @@ TEST_F(DeskClipsTest, InTheFieldAClipIsFeltAtThatPlace) {
     const auto clip = felt();
     EXPECT_NEAR(clip.x, 0.3 * desk.world().scene().fieldWidthMetres, 0.02);
     EXPECT_NEAR(clip.y, 0.6 * desk.world().scene().fieldHeightMetres, 0.02);
-    EXPECT_EQ(clip.course.spread, Spread::layout);
+    EXPECT_EQ(clip.spread, Spread::layout);
     EXPECT_TRUE(runUntil([&] { return desk.edits() > edits; })) << "the document has to be saved";
     EXPECT_EQ(desk.trouble(), "");
 }
@@ -77,12 +77,12 @@ TEST_F(DeskClipsTest, OnABadgeOrAStripItIsFeltOnThatEnchanterAlone) {
                  height = desk.world().scene().fieldHeightMetres;
     drop(field, knocks, field.placeOfEnchanter(1) + juce::Point<float>{5.0f, 5.0f});
     const auto onB = felt();
-    EXPECT_EQ(onB.course.spread, Spread::alone);
+    EXPECT_EQ(onB.spread, Spread::alone);
     EXPECT_EQ(onB.x, width);
     EXPECT_EQ(onB.y, height);
     drop(strip("Strip C"), knocks);
     const auto onC = felt();
-    EXPECT_EQ(onC.course.spread, Spread::alone);
+    EXPECT_EQ(onC.spread, Spread::alone);
     EXPECT_EQ(onC.x, 0.0);
     EXPECT_EQ(onC.y, 0.0);
 }

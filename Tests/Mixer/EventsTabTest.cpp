@@ -2,7 +2,7 @@
 // What is chosen in the list of events, dragged out or saved: those contacts alone, from the first on, on the
 // enchanters that are there.
 #include "Mixer/Output/EventsTab.h"
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "MixerTesting.h"
 #include <cmath>
@@ -179,7 +179,7 @@ TEST_F(EventsTabTest, IsSavedInEveryFormatOrRefusedInALine) {
 TEST(HitFiles, AClipIsNoHitAndNothingIsWritten) {
     TestFolder folder;
     CollisionEvent clip;
-    clip.frequencyHz = clipFrequencyHz(3);
+    clip.sound = soundOfClip(3);
     const auto written = writeHits({clip}, Desk::firstMix(), 48000, folder("a.wav"));
     EXPECT_EQ(written.error, "Chosen contacts: expected hits, found a clip, which is a file already");
     EXPECT_EQ(writeHits({}, Desk::firstMix(), 48000, folder("a.wav")).error,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A million guarded blocks of a live session while another thread edits it ten thousand times.
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Live/Session/Session.h"
 #include "Realtime/RealtimeGuard.h"
 #include "Scene/SceneCatalogue.h"
@@ -49,7 +49,8 @@ bool strikeClip(Session& session, test::Random& random) {
                                 8000 + 1000 * which,
                                 std::vector<float>(2000, 0.1f),
                                 {.path = std::to_string(which), .hash = "0123456789abcdef"}};
-    strike.frequencyHz = clipFrequencyHz(session.keepClip({&clip, 1}).value());
+    strike.frequencyHz = clipFrequencyHz;
+    strike.sound = soundOfClip(session.keepClip({&clip, 1}).value());
     strike.amplitude = 1.0;
     strike.durationNs = 100'000'000;
     strike.timeNs = session.timeline().presentNs();

@@ -87,6 +87,40 @@ TEST(EventsCsv, KindsAreWrittenWhereThereAreAny) {
               "hits.csv:2: column kind: expected hit, roll or slide, found \"fall\"");
 }
 
+TEST(EventsCsv, MaterialsAreNamedWhereTheyAreKnown) {
+    Events events = randomEvents(5, 5);
+    events[0].sound = soundOfMaterial("wood");
+    events[1].sound = soundOfMaterial("a, b"); // would be two cells
+    events[2].sound = soundOfClip(6);
+    events[3].sound = soundOfMaterial("clip-1"); // would be a clip
+    SoundNames names;
+    for (const char* name : {"wood", "a, b", "clip-1", " c", "never struck"}) names.add(name);
+    const std::string text = eventsCsv(events, field, provenance, names);
+    EXPECT_NE(text.find("mass_kg,material\n"), std::string::npos);
+    EXPECT_NE(text.find(",wood\n"), std::string::npos);
+    const auto read = readEventsCsv(text, "hits.csv");
+    ASSERT_EQ(read.error, "");
+    events[1].sound = events[3].sound = 0;
+    EXPECT_TRUE(read.value.events == events);
+    EXPECT_EQ(read.value.names.of(soundOfMaterial("wood")), "wood");
+    EXPECT_EQ(read.value.names.of(soundOfClip(6)), "clip-7");
+    EXPECT_EQ(eventsCsv(read.value.events, field, provenance, read.value.names).size(), text.size());
+    events.resize(1);
+    EXPECT_EQ(eventsCsv(events, field, provenance).find("material"), std::string::npos) << "not known here";
+}
+
+TEST(EventsCsv, OlderListsNameClipsByTheirFrequency) {
+    const auto of = [](const std::string& header, const std::string& row) {
+        return readGood(header + row).front();
+    };
+    const std::string head = shortHeader.substr(0, shortHeader.size() - 1);
+    const CollisionEvent clip = of(head + ",duration_s\n", "0.5,0.0029296875,0,0.5,0.1,0.2,1\n");
+    EXPECT_EQ(clip.sound, soundOfClip(2));
+    EXPECT_EQ(clip.frequencyHz, clipFrequencyHz);
+    EXPECT_EQ(of(head + "\n", "0.5,0.003,10,0.5,0.1,0.2\n").sound, 0);
+    EXPECT_EQ(of(head + ",material\n", "0.5,0.0029296875,10,0.5,0.1,0.2,\n").sound, 0);
+}
+
 TEST(EventsCsv, ReadThenWriteGivesTheSameBytes) {
     const std::string text = eventsCsv(randomEvents(4, 2'000), field, provenance);
     EXPECT_TRUE(eventsCsv(readGood(text), field, provenance) == text);

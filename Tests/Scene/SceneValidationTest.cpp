@@ -192,6 +192,13 @@ INSTANTIATE_TEST_SUITE_P(
     References, FaultyScene,
     testing::Values(Fault{"MaterialNames", [](Scene& s) { s.materials[1].name = "concrete"; },
                           "materials[1].name: expected a name of its own, found \"concrete\" again"},
+                    Fault{"MaterialNumbers",
+                          [](Scene& s) {
+                              s.materials[0].name = "m39559";
+                              s.materials[1].name = "m354015";
+                          },
+                          "materials[1].name: expected another name: \"m354015\" and \"m39559\" have the "
+                          "same number by chance"},
                     Fault{"BodyNames", [](Scene& s) { s.bodies[1].name = "plate"; },
                           "bodies[1].name: expected a name of its own"},
                     Fault{"SpawnedName", [](Scene& s) { s.bodies[1].name = "stone 2"; },

@@ -84,7 +84,7 @@ TEST(Session, TenThousandGrainsASecondAreTheRenderedFileToo) {
     EXPECT_GT(played.size(), 36'000u);
     EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 4 * rate));
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, 4'000'000'000).events;
-    const auto list = readEventsCsv(eventsCsv(made, {}, {}), "list");
+    const auto list = readEventsCsv(eventsCsv(made, {}, {}, SoundNames{s.scene.materials}), "list");
     ASSERT_EQ(list.error, "");
     EXPECT_TRUE(list.value.events == made);
 }

@@ -30,7 +30,7 @@ CollisionEvent diagonal(Spread spread, double amplitude) {
 auto gainsOf(const PhantomPanner& panner) {
     return [&panner](const CollisionEvent& e, double x, double y) {
         PhantomPanner::Gains gains{};
-        panner.gainsAt(x, y, e.course.spread, gains);
+        panner.gainsAt(x, y, e.spread, gains);
         return PathGains::Gains{gains[0], gains[1], gains[2], gains[3]};
     };
 }

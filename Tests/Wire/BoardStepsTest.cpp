@@ -67,7 +67,7 @@ TEST(BoardSteps, OnTheBoardItIsEquallyStrongAllTheWay) {
     const PhantomPanner panner = square();
     for (const auto& step : stepsOf(fromAToD())) {
         PhantomPanner::Gains gains{};
-        panner.gainsAt(step.x, step.y, step.course.spread, gains);
+        panner.gainsAt(step.x, step.y, step.spread, gains);
         BoardEvent event = boardEventOf(step, {gains[0], gains[1], gains[2], gains[3]});
         event.frame = static_cast<std::uint32_t>(step.timeNs / (second / limits::board::sampleRateHz));
         ASSERT_TRUE(renderer->schedule(event));

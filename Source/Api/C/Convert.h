@@ -16,7 +16,8 @@ inline CollisionEvent eventOf(const physvib_event& e) noexcept {
                              : e.kind == PHYSVIB_SLIDE ? ContactKind::slide
                                                        : ContactKind::hit;
     return {e.time_ns, e.frequency_hz, e.decay_per_s, e.amplitude,
-            e.x_m,     e.y_m,          e.duration_ns, {e.fixture, e.other, e.impulse_n_s, e.mass_kg, kind}};
+            e.x_m,     e.y_m,          e.duration_ns, {e.fixture, e.other, e.impulse_n_s, e.mass_kg, kind},
+            {},        Spread::layout, e.sound};
 }
 static_assert(PHYSVIB_HIT == static_cast<int>(ContactKind::hit) &&
               PHYSVIB_ROLL == static_cast<int>(ContactKind::roll) &&
@@ -35,7 +36,7 @@ inline physvib_event eventOf(const CollisionEvent& e) noexcept {
             e.source.fixture,
             e.source.other,
             static_cast<int>(e.source.kind),
-            0};
+            e.sound};
 }
 
 inline std::optional<double> optional(double value) noexcept {

@@ -199,11 +199,9 @@ int physvib_events_save_field(const char* path, const physvib_event* events, phy
             return fail(PHYSVIB_ERROR_ARGUMENT, "field: expected 0.001 to 1e6 m, or 0 and 0");
         const std::span list{events, static_cast<std::size_t>(count)};
         if (const auto fault = faultOf(list); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
-        const bool hasKinds = std::ranges::any_of(
-            list, [](int kind) { return kind != PHYSVIB_HIT; }, &physvib_event::kind);
-        std::string text = eventsCsvHead({PHYSVIB_VERSION, {}}, field, hasKinds);
-        for (const physvib_event& event : list) appendEventRow(text, eventOf(event), hasKinds);
-        return written(writeFile(path, text));
+        std::vector<CollisionEvent> own;
+        for (const physvib_event& event : list) own.push_back(eventOf(event));
+        return written(writeFile(path, eventsCsv(own, field, {PHYSVIB_VERSION, {}})));
     });
 }
 

@@ -87,7 +87,7 @@ typedef struct physvib_event {
     int fixture;        /**< the haptic source; -1: unknown */
     int other;          /**< the body that it collided with; -1: unknown */
     int kind;           /**< PHYSVIB_HIT (0) and so on */
-    int unused;         /**< 0 */
+    int sound;          /**< number of its sound's name, 0: none; lists give it the number of a material */
 } physvib_event;
 
 /** Places of the actuators: channel j at x_m[j], y_m[j] from the lower left corner of the extent, onto which

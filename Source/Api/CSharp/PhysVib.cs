@@ -15,7 +15,7 @@ public struct Event {
     public double FrequencyHz, DecayPerS, Amplitude, X_m, Y_m, Impulse_Ns, MassKg;
     public int Fixture, Other;
     public Kind Kind;
-    int unused;
+    public int Sound;
 }
 
 /// <summary>Where the enchanters sit; see physvib_layout.</summary>

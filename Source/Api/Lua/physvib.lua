@@ -10,7 +10,7 @@ local ffi = require("ffi")
 ffi.cdef [[
 typedef struct physvib_renderer_name *physvib_renderer;
 typedef struct physvib_world_name *physvib_world;
-typedef struct { int64_t time_ns, duration_ns; double frequency_hz, decay_per_s, amplitude, x_m, y_m, impulse_n_s, mass_kg; int fixture, other, kind, unused; } physvib_event;
+typedef struct { int64_t time_ns, duration_ns; double frequency_hz, decay_per_s, amplitude, x_m, y_m, impulse_n_s, mass_kg; int fixture, other, kind, sound; } physvib_event;
 typedef struct { double extent_width_m, extent_height_m, x_m[64], y_m[64]; int count; } physvib_layout;
 typedef struct { size_t size; int rate_hz, channels, law, limiter; double exponent, field_width_m, field_height_m; physvib_layout layout; } physvib_renderer_settings;
 typedef struct { size_t size; int live_modes, pending; int64_t frames, played, late, rejected, refused; } physvib_renderer_status;

@@ -31,7 +31,7 @@ PhantomPanner PadMotors::gripsOf(const PhantomPanner& field) noexcept {
 }
 
 bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& grips) noexcept {
-    if (!isPlayable(event) || isClip(event.frequencyHz) || event.amplitude == 0.0) return true;
+    if (!isPlayable(event) || isClip(event.sound) || event.amplitude == 0.0) return true;
     if (waits_ == waiting_.size()) return ++lost_, false;
     Voice voice;
     voice.startNs = std::max<std::int64_t>(0, event.timeNs - leadNs());

@@ -10,7 +10,8 @@ Recording::Recording(const std::filesystem::path& path, int channels, int sample
     : path_{path}
     , recorder_{path, channels, sampleRateHz} {}
 
-std::string Recording::finish(std::int64_t playOutFrames, FieldSize field, const Provenance& provenance) {
+std::string Recording::finish(std::int64_t playOutFrames, FieldSize field, const Provenance& provenance,
+                              const SoundNames& names) {
     if (auto error = recorder_.finish(); !error.empty()) return error;
     const std::int64_t rate = recorder_.sampleRateHz(), late = playOutFrames - recorder_.firstFrame();
     const std::int64_t shiftNs = late / rate * 1'000'000'000 + late % rate * 1'000'000'000 / rate;
@@ -20,7 +21,7 @@ std::string Recording::finish(std::int64_t playOutFrames, FieldSize field, const
     std::erase_if(played_,
                   [lengthNs](const CollisionEvent& e) { return e.timeNs < 0 || e.timeNs >= lengthNs; });
     std::ranges::stable_sort(played_, {}, &CollisionEvent::timeNs);
-    return writeFile(eventsPath(), eventsCsv(played_, field, provenance));
+    return writeFile(eventsPath(), eventsCsv(played_, field, provenance, names));
 }
 
 } // namespace physvib

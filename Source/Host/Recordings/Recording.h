@@ -24,9 +24,10 @@ public:
 
     void take(const PlayedEvent& played) { played_.push_back(played.event); }
 
-    /// Both files in their places, after R has stopped; `playOutFrames` is L; `field` is what places are in.
-    /// Empty, or one line with the reason.
-    std::string finish(std::int64_t playOutFrames, FieldSize field, const Provenance& provenance);
+    /// Both files in their places, after R has stopped; `playOutFrames` is L; `field` is what places are in;
+    /// `names`: of the scene's materials. Empty, or one line with the reason.
+    std::string finish(std::int64_t playOutFrames, FieldSize field, const Provenance& provenance,
+                       const SoundNames& names);
 
 private:
     std::filesystem::path path_;

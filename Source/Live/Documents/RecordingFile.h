@@ -2,6 +2,7 @@
 // Recorded contacts as sessions and calls name them: where the samples are, and how to know that they are
 // still the same.
 #pragma once
+#include "Core/SoundNumber.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Json/FieldTable.h"
 #include "Io/Result.h"
@@ -15,13 +16,16 @@
 namespace physvib {
 
 struct RecordingFile {
-    double frequencyHz = 0.0;    ///< of the material's events
+    double frequencyHz = 0.0;    ///< of the material's mode
     std::string path{};          ///< a WAV file, or "synthetic-SEED"
     double decayPerSecond = 0.0; ///< of the material; 0: not known
     bool isMatched = false;      ///< as strong as the material's mode; else as high: its peak is 1
-    std::string hash{}; ///< contentHash of the file when it was read; empty: whatever it holds; always of
-                        ///< what is synthetic
+    std::string hash{};     ///< contentHash of the file when it was read; empty: whatever it holds; always of
+                            ///< what is synthetic
+    std::string material{}; ///< whose events play it; empty: all events of that frequency
     bool operator==(const RecordingFile&) const = default;
+
+    SoundNumber sound() const noexcept { return material.empty() ? 0 : soundOfMaterial(material); }
 };
 
 void visitFields(auto& v, FieldsOf<RecordingFile>) {
@@ -31,6 +35,7 @@ void visitFields(auto& v, FieldsOf<RecordingFile>) {
     v.field("hash", &R::hash, kinds::text, Need::optional);
     v.field("decay_per_s", &R::decayPerSecond, kinds::positive, Need::optional);
     v.field("matched", &R::isMatched, kinds::truth, Need::optional);
+    v.field("material", &R::material, kinds::text, Need::optional.from(9));
 }
 
 /// The seed of "synthetic-7", a contact that nobody recorded; none: it is a file's path. Any thread.

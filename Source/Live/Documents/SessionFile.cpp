@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Reading and writing a session; scenes and inputs by the table in SceneFields.h.
 #include "Live/Documents/SessionFile.h"
-#include "Core/ClipNumber.h"
 #include "Core/Decibels.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"
-#include "Io/Text/NumberText.h"
 #include "Live/Documents/SessionJournalText.h"
 #include "Live/Documents/SessionJson.h"
 #include "Scene/EventColumns.h"
@@ -91,7 +89,8 @@ void readTimedControl(const JsonField& json, SavedSession& session) {
 }
 
 CollisionEvent readStrike(const JsonField& json) {
-    const auto strike = kinds::Object<CollisionEvent>{}(json);
+    auto strike = kinds::Object<CollisionEvent>{}(json);
+    if (!json.has("sound")) takeFormerClip(strike);
     if (isTooSlow(strike)) json["frequency_hz"].fail(tooSlowFault(strike));
     if (!isPlayable(strike))
         json.fail("expected a strike that can be played: within the ranges of an event list, with a decay or "
@@ -100,15 +99,9 @@ CollisionEvent readStrike(const JsonField& json) {
 }
 
 void readClipFile(const JsonField& json, SessionLog& log) {
-    const auto number = static_cast<int>(log.clips.size());
-    if (number == mostClips)
+    if (log.clips.size() == mostClips)
         json.fail("expected at most " + std::to_string(mostClips) + " channels of clips, found more");
-    const auto clip = kinds::Object<ClipFile>{}(json);
-    if (clip.file.frequencyHz != clipFrequencyHz(number))
-        json["frequency_hz"].fail("expected " + numberText(clipFrequencyHz(number)) + ", for clip " +
-                                  std::to_string(number + 1) + ", found " +
-                                  numberText(clip.file.frequencyHz));
-    log.clips.push_back(clip);
+    log.clips.push_back(kinds::Object<ClipFile>{}(json));
 }
 
 void readRecordingsChange(const JsonField& json, SessionLog& log) {

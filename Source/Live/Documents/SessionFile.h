@@ -20,8 +20,8 @@ namespace physvib {
 
 /// The version of the format that is written, and the newest that is read. 2: desk, strikes, slow motion; 3:
 /// recordings, gain, perceived level; 4: drags by metres of the screen; 5: strikes that move; 6: clips; 7:
-/// law of grains, scenes of version 2; 8: groups, lanes.
-constexpr int sessionFormatVersion = std::max(7, stripsVersion);
+/// law of grains, scenes of version 2; 8: groups, lanes; 9: sounds by number, recordings by material.
+constexpr int sessionFormatVersion = std::max(9, stripsVersion);
 
 inline constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};     // as ImpactTiming
 inline constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"}; // as ImpactLocation

@@ -36,6 +36,8 @@ void visitFields(auto& v, FieldsOf<CollisionEvent>) {
     constexpr auto travel = in(course, &C::travelNs);
     v.field("time_s", &E::timeNs, kinds::Time{});
     v.field("frequency_hz", &E::frequencyHz, kinds::positive);
+    v.field("sound", &E::sound, kinds::whole(0, std::numeric_limits<SoundNumber>::max()),
+            Need::filled.from(9));
     v.field("decay_per_s", &E::decayPerSecond, kinds::number);
     v.field("amplitude", &E::amplitude, kinds::number);
     v.field("x_m", &E::x, kinds::number);
@@ -47,7 +49,7 @@ void visitFields(auto& v, FieldsOf<CollisionEvent>) {
         v.field("travel_s", travel, kinds::Time{});
     }
     v.field("since_s", in(course, &C::sinceNs), kinds::Time{}, Need::optional.from(5));
-    v.field("spread", in(course, &C::spread), kinds::OneOf{spreadNames}, Need::optional.from(5));
+    v.field("spread", &E::spread, kinds::OneOf{spreadNames}, Need::optional.from(5));
 }
 
 Ceilings readKind(const JsonField& list, const PerChannel<Ceilings>& kind);

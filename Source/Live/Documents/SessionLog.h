@@ -49,7 +49,7 @@ void visitFields(auto& v, FieldsOf<RecordingsChange>) {
     v.field("files", &RecordingsChange::files, kinds::Objects<RecordingFile>{});
 }
 
-/// One channel of a clip, which strikes of its file's frequency play.
+/// One channel of a clip. Its place in SessionLog::clips gives the number by which strikes play it.
 struct ClipFile {
     RecordingFile file; ///< always with its hash
     int channel = 0;
@@ -58,7 +58,7 @@ struct ClipFile {
 
 void visitFields(auto& v, FieldsOf<ClipFile>) {
     constexpr auto file = &ClipFile::file;
-    v.field("frequency_hz", in(file, &RecordingFile::frequencyHz), kinds::positive);
+    v.formerly("frequency_hz", in(file, &RecordingFile::frequencyHz), kinds::positive);
     v.field("file", in(file, &RecordingFile::path), kinds::text);
     v.field("channel", &ClipFile::channel, kinds::whole(0, limits::maxEnchanters - 1), Need::optional);
     v.field("hash", in(file, &RecordingFile::hash), kinds::text);
@@ -70,7 +70,7 @@ struct SessionLog {
     std::vector<ChannelChange> channels;      ///< in time order
     std::vector<RecordingsChange> recordings; ///< in time order; without one there are none
     std::vector<CollisionEvent> strikes; ///< apart from the world, in the order in which they were asked for
-    std::vector<ClipFile> clips{}; ///< each once, before its first strike; named clipFrequencyHz(0), (1)...
+    std::vector<ClipFile> clips{};       ///< each once, before its first strike
 
     std::int64_t lastControlNs() const noexcept {
         return std::max(panners.empty() ? 0 : panners.back().timeNs,

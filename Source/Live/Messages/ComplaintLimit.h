@@ -2,6 +2,7 @@
 // Rate limit for error reports per cause, so that many faulty messages do not flood a log or an input's reply
 // line.
 #pragma once
+#include "Core/Fnv1a.h"
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,13 +40,13 @@ public:
     /// Hash that is equal for errors that differ only in what was found, in numbers and in quoted words. Any
     /// thread.
     static constexpr std::uint64_t causeOf(std::string_view reason) noexcept {
-        std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
+        std::uint64_t hash = fnv1a({});
         bool isQuoted = false;
         for (const char c : reason.substr(0, reason.find(", found "))) {
             if (c == '"')
                 isQuoted = !isQuoted;
             else if (!isQuoted && (c < '0' || c > '9'))
-                hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+                hash = fnv1a({&c, 1}, hash);
         }
         return hash;
     }

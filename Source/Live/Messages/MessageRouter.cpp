@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Routes messages: looks up the name, checks values and time, acts, and answers queries.
 #include "Live/Messages/MessageRouter.h"
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
@@ -156,7 +156,7 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
     for (CollisionEvent& strike : strikes) {
         strike.timeNs += start;
         // levels are shares of full scale in every scene, so the scene's gain is divided out
-        if (sceneGain > 0.0 && !isClip(strike.frequencyHz)) strike.amplitude /= sceneGain;
+        if (sceneGain > 0.0 && !isClip(strike.sound)) strike.amplitude /= sceneGain;
     }
     if (auto taken = session_.take({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
 }
@@ -177,7 +177,7 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
                                 std::to_string(limits::maxRecordingSamples) + " samples");
     note = loaded.value.channels.front().note;
     for (std::size_t j = 0; j < strikes.size(); ++j)
-        strikes[j].frequencyHz = clipFrequencyHz(*number + static_cast<int>(j));
+        strikes[j].sound = soundOfClip(*number + static_cast<int>(j));
     return strikes;
 }
 

@@ -22,7 +22,7 @@ CollisionEvent toneOf(const MessageValues& values, const EnchanterPlace& at, dou
     tone.amplitude = values.number("level");
     tone.x = at.xMetres;
     tone.y = at.yMetres;
-    tone.course.spread = spread;
+    tone.spread = spread;
     return tone;
 }
 
@@ -40,6 +40,7 @@ void takeMaterial(CollisionEvent& strike, const MessageValues& values,
         values.fail("material", "expected a material of the scene that vibrates, found " + inQuotes(name));
     if (values.has("decay_per_s"))
         values.fail("decay_per_s", "expected it with frequency_hz; a material has its own");
+    strike.sound = soundOfMaterial(name);
     strike.frequencyHz = found->frequencyHz;
     strike.decayPerSecond = found->decayPerSecond;
 }
@@ -246,13 +247,14 @@ std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const Loade
         const EnchanterPlace at = placeOfChannel(j, values, clip, panner);
         const ContactRecording& channel = clip.channels[j];
         CollisionEvent& strike = strikes.emplace_back();
+        strike.frequencyHz = clipFrequencyHz;
         strike.amplitude = values.number("level");
         strike.x = at.xMetres;
         strike.y = at.yMetres;
         // so that the last sample is included
         strike.durationNs =
             nanoseconds(static_cast<double>(channel.samples.size()) / channel.sampleRateHz) + 1;
-        strike.course.spread = values.spread();
+        strike.spread = values.spread();
     }
     return strikes;
 }

@@ -2,7 +2,7 @@
 // Converts session events to board events: session time to board time, places to four amplitudes, moving
 // tones to segments.
 #include "Live/Session/BoardOutput.h"
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Live/Session/BoardWords.h"
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ void BoardOutput::follow(FeltOutput* device) {
 
 void BoardOutput::made(const CollisionEvent& event) noexcept {
     // the board has no recordings; a full queue counts the events that it drops
-    if (!isClip(event.frequencyHz)) events_.push(event);
+    if (!isClip(event.sound)) events_.push(event);
 }
 
 SinkState BoardOutput::state() const {

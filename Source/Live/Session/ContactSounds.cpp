@@ -53,7 +53,7 @@ ContactSounds::ContactSounds(const std::vector<ContactRecording>& recordings, in
     for (const ContactRecording& recording : recordings)
         samples_.push_back(resampled(recording, sampleRateHz));
     for (std::size_t i = 0; i < recordings.size(); ++i)
-        contacts_.push_back({recordings[i].frequencyHz, samples_[i]});
+        contacts_.push_back({recordings[i].frequencyHz, samples_[i], recordings[i].file.sound()});
 }
 
 } // namespace physvib

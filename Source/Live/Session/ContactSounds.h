@@ -11,7 +11,7 @@ namespace physvib {
 
 /// A recording from its onset on, with its original level.
 struct ContactRecording {
-    double frequencyHz = 0.0; ///< of the events that play it
+    double frequencyHz = 0.0; ///< of the events that play it, unless its file names a material
     int sampleRateHz = 0;
     std::vector<float> samples;
     RecordingFile file{}; ///< its file, with hash

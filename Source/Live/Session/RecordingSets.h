@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Storage of a session's recordings: each set once per sample rate, and its clips.
 #pragma once
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Live/Session/ContactSounds.h"
 #include <algorithm>
 #include <deque>
@@ -59,7 +59,7 @@ public:
         Set& set = sets_.emplace_back(Set{recordings, sampleRateHz, {recordings, sampleRateHz}, {}});
         const auto sounds = set.sounds.contacts();
         set.contacts.assign(sounds.begin(), sounds.end());
-        for (int k = 0; k < mostClips; ++k) set.contacts.push_back({clipFrequencyHz(k), {}});
+        for (int k = 0; k < mostClips; ++k) set.contacts.push_back({clipFrequencyHz, {}, soundOfClip(k)});
         for (std::size_t k = 0; k < clips_.size(); ++k) fill(set, k);
         return set.played();
     }
@@ -74,7 +74,7 @@ public:
     const std::deque<ClipSound>& clips() const noexcept { return clips_; }
 
     /// Adds a clip with the number clips().size(), which must be below mostClips. Fast if it is at all
-    /// rates() already. R may be searching any list meanwhile: it reads the frequencies of the clips'
+    /// rates() already. R may be searching any list meanwhile: it reads the numbers of the clips'
     /// entries, which do not change, and reads this clip's samples only for an event that is sent after this
     /// call.
     void add(ClipSound clip) {

@@ -2,7 +2,7 @@
 // The channels that a session renders: those of the actuators, then the audio of contacts, then the trigger
 // output.
 #pragma once
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Live/Session/HeardContacts.h"
 #include "Live/Session/OnsetMarks.h"
 #include "Live/Session/SessionSetup.h"
@@ -64,7 +64,7 @@ private:
     /// Repeats what the actuators' renderer was given; struck: what it plays, with its first frame. Render
     /// thread (R), wait-free.
     void tell(const CollisionEvent& event) noexcept {
-        if (heard_ && !isClip(event.frequencyHz)) heard_->tell(event);
+        if (heard_ && !isClip(event.sound)) heard_->tell(event);
     }
     void tell(const RenderControl& control) noexcept {
         if (heard_) heard_->tell(control);

@@ -2,7 +2,7 @@
 // Processes external inputs while a session plays (actions, controls, recordings, events, stops, lanes), and
 // logs them.
 #include "Live/Session/Scheduler.h"
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Io/Disk/FileLimits.h"
 #include "Live/Documents/StripGroups.h"
 #include <algorithm>
@@ -214,8 +214,7 @@ std::optional<int> Scheduler::keepClip(std::span<const ContactRecording> channel
 int Scheduler::logClip(std::span<const ContactRecording> channels) {
     const int first = static_cast<int>(clips_.size());
     for (int j = 0; j < std::ssize(channels); ++j) {
-        ClipFile& file = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
-        file.file.frequencyHz = clipFrequencyHz(first + j);
+        const ClipFile& file = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
         if (isLogged_) log_.clips.push_back(file);
     }
     return first;

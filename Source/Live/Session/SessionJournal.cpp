@@ -26,7 +26,7 @@ SessionJournal::SessionJournal(std::filesystem::path path, Session& session, con
     : path_{std::move(path)}
     , eventsPath_{std::filesystem::path{path_}.replace_extension(".events.csv")}
     , session_{session}
-    , hasKinds_{isAnyRough(setup.scene.materials)}
+    , columns_{isAnyRough(setup.scene.materials), true}
     , lines_{headOf(setup), std::filesystem::absolute(path_).parent_path()} {
     begin(fieldOf(setup.panner), provenance);
     if (!error_.empty()) return;
@@ -44,7 +44,7 @@ SessionJournal::~SessionJournal() {
 void SessionJournal::begin(FieldSize field, const Provenance& provenance) {
     AtomicFile session{path_}, events{eventsPath_};
     session.write(lines_.head());
-    events.write(eventsCsvHead(provenance, field, hasKinds_));
+    events.write(eventsCsvHead(provenance, field, columns_));
     for (AtomicFile* file : {&session, &events})
         if (error_.empty()) error_ = file->error();
     for (AtomicFile* file : {&events, &session})
@@ -83,13 +83,15 @@ void SessionJournal::write(std::optional<std::int64_t> endNs) {
         played.swap(played_);
     }
     const std::int64_t toldNs = session_.readLog(log_);
+    for (const SceneTake& take : log_.takes)
+        if (take.scene) names_.addAll(take.scene->materials);
     file_.append(lines_.take(log_, endNs.value_or(toldNs)));
     std::string rows;
     for (CollisionEvent event : played) {
         if (rows_++ >= limits::maxEventRows) break;
         // a late event was played after others, but rows must be in time order
         event.timeNs = lastNs_ = std::max(lastNs_, event.timeNs);
-        appendEventRow(rows, event, hasKinds_);
+        appendEventRow(rows, event, columns_, names_);
     }
     events_.append(rows);
     tell();

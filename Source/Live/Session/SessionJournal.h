@@ -64,7 +64,7 @@ private:
     std::filesystem::path path_, eventsPath_;
     Session& session_;
     std::string error_;
-    const bool hasKinds_;             // column of the event list
+    const OptionalColumns columns_;   // of the event list
     std::optional<AtomicFile> whole_; // the final session file; reserves the name against other writers until
                                       // then
 
@@ -74,6 +74,7 @@ private:
     GrowingFile file_, events_;
     std::int64_t lastNs_ = 0;
     std::size_t rows_ = 0;
+    SoundNames names_;
     bool wasHeldUp_ = false;
 
     mutable std::mutex mutex_; // guards the following members

@@ -41,6 +41,7 @@ HapticFixture hapticOf(const SceneWorld::FixtureNow& now) {
     HapticFixture values{isSilent ? 0.0 : now.material.frequencyHz, now.material.decayPerSecond,
                          now.description.isCamera, now.body.massKg, now.description.voice};
     values.texture = now.material.texture();
+    values.sound = soundOfMaterial(now.material.name);
     return values;
 }
 

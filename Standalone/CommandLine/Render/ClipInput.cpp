@@ -53,9 +53,10 @@ ClipVoices::ClipVoices(const LoadedRender& job)
     if (const std::string note = takeSlowPart(sound_, job.options.scene); !note.empty()) tell(note);
     for (std::size_t j = 0; j < sound_.channels.size(); ++j) {
         const EnchanterPlace place = placeOf(job, j);
-        const double name = static_cast<double>(j + 1); // recordings are known by a frequency
-        events_.push_back({0, name, 1.0, job.gain(), place.xMetres, place.yMetres, 0, {}});
-        contacts_.push_back({name, sound_.channels[j]});
+        const SoundNumber sound = soundOfClip(static_cast<int>(j));
+        events_.push_back({0, clipFrequencyHz, 1.0, job.gain(), place.xMetres, place.yMetres, 0, {}});
+        events_.back().sound = sound;
+        contacts_.push_back({clipFrequencyHz, sound_.channels[j], sound});
     }
 }
 

@@ -76,7 +76,7 @@ void renderContactSound(const LoadedRender& job, std::vector<RenderControl> cont
     std::erase_if(controls,
                   [](const RenderControl& control) { return control.kind != RenderControl::Kind::stopAll; });
     auto hits = job.made.events;
-    std::erase_if(hits, [](const CollisionEvent& event) { return isClip(event.frequencyHz); });
+    std::erase_if(hits, [](const CollisionEvent& event) { return isClip(event.sound); });
     renderOffline(hits,
                   {HeardContacts::settingsAt(job.options.sampleRateHz),
                    job.frames(),

@@ -38,6 +38,7 @@ std::string readInputs(LoadedRender& job) {
     if (!events) return events.error;
     job.made.events = std::move(events.value.events);
     job.listField = events.value.field;
+    job.listNames = std::move(events.value.names);
     return {};
 }
 

@@ -114,7 +114,7 @@ std::string RenderOutputs::finish() {
     for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
         if (error.empty() && wav) error = wav->complete();
     if (error.empty() && eventsFile_)
-        error = eventsFile_->write(eventsCsv(job_.made.events, job_.saidField(), provenance()));
+        error = eventsFile_->write(eventsCsv(job_.made.events, job_.saidField(), provenance(), job_.names()));
     if (error.empty() && movie_) error = movie_->draw(pictureInput(), poses());
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
@@ -133,9 +133,9 @@ Provenance RenderOutputs::provenance() const {
     if (!job_.method().fixesNothing() || o.playsRecordings) p.entries.emplace_back("method", o.methodName());
     if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
     if (o.isWeighted) p.entries.emplace_back("perceived_level", "on");
-    for (const auto& [hz, path] : o.sounds)
-        p.entries.emplace_back("sound", numberText(hz) + '=' +
-                                            std::filesystem::path{path}.filename().string() +
+    for (const RecordedSound& sound : o.sounds)
+        p.entries.emplace_back("sound", sound.name() + '=' +
+                                            std::filesystem::path{sound.path}.filename().string() +
                                             (o.matchesStrength ? ":rms" : ""));
     if (o.actuator != "none")
         p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());

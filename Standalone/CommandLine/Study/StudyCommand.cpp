@@ -58,10 +58,13 @@ std::string runParticipant(const StudyRun& run, const ObserverSettings& settings
 
 /// The protocol with the sounds of the call; one line if one of either is no recording.
 std::string takeSounds(const RecordedSounds& sounds, Protocol& protocol) {
-    for (const auto& [hz, path] : sounds) {
+    for (const RecordedSound& given : sounds) {
+        if (!given.material.empty())
+            return "--sound: expected HZ=FILE.wav, the frequency of a study's stimuli, found " +
+                   inQuotes(given.material);
         std::erase_if(protocol.sounds,
-                      [hz = hz](const StudySoundFile& sound) { return sound.frequencyHz == hz; });
-        protocol.sounds.push_back({hz, path});
+                      [&](const StudySoundFile& sound) { return sound.frequencyHz == given.frequencyHz; });
+        protocol.sounds.push_back({given.frequencyHz, given.path});
     }
     for (const StudySoundFile& sound : protocol.sounds)
         if (auto contact = loadContact({sound.frequencyHz, besideProtocol(protocol.folder, sound.file)});
@@ -186,7 +189,8 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
     for (OptionTable* const one : {&run, &check})
         addSounds(*one, o.sounds,
                   "for a protocol that calls render --method SV: the recorded contact of the material of "
-                  "that frequency; may be repeated");
+                  "that frequency; may be repeated")
+            .as("HZ=FILE.wav");
     run.add("--out", o.folder, "folder of the trial files, NAME-CODE.csv").as("FOLDER");
     run.add("--pace", o.paceSeconds, "seconds per trial of a simulated observer").in(0.0, 60.0);
 }

@@ -96,7 +96,7 @@ std::string SweepPlan::tryTask(const SweepTask& task) {
     channels_ = std::max(channels_, job.channels());
     noteFile(task.scene, task.scene);
     for (const std::string& option : task.options) noteFile(option, option);
-    for (const auto& [hz, path] : options.value.sounds) noteFile(path, path);
+    for (const RecordedSound& sound : options.value.sounds) noteFile(sound.path, sound.path);
     for (const std::string& path : job.namedInputs()) noteFile(options.value.layout, path);
     return {};
 }

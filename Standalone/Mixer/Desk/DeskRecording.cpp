@@ -77,7 +77,8 @@ juce::String DeskRecording::close() {
     const FieldSize field{mix_.scene->fieldWidthMetres, mix_.scene->fieldHeightMetres};
     session_.sinks().detach(recording_->recorder());
     for (PlayedEvent played; session_.played().pop(played);) recording_->take(played);
-    const auto error = utf8(recording_->finish(session_.timeline().playOutFrames(), field, provenance));
+    const auto error = utf8(recording_->finish(session_.timeline().playOutFrames(), field, provenance,
+                                               SoundNames{mix_.scene->materials}));
     recording_.reset();
     return error;
 }

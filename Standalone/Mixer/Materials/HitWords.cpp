@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Materials are known by their two numbers: that is all an event carries.
+// Names of what is felt in an impact: its material, its place, its strongest actuator.
 #include "Mixer/Materials/HitWords.h"
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include <cmath>
 
 namespace physvib {
 
 int materialOf(const Scene& scene, const CollisionEvent& hit) {
-    const auto sounds = [&hit](const Material& m) {
-        return m.frequencyHz == hit.frequencyHz && m.decayPerSecond == hit.decayPerSecond;
-    };
+    const auto sounds = [&hit](const Material& m) { return hit.sound == soundOfMaterial(m.name); };
     const auto found = std::ranges::find_if(scene.materials, sounds);
     return found == scene.materials.end() ? -1 : static_cast<int>(found - scene.materials.begin());
 }
 
 juce::String materialName(const Scene& scene, const CollisionEvent& hit) {
     const int index = materialOf(scene, hit);
-    return isClip(hit.frequencyHz) ? juce::String{"clip"}
-           : index < 0             ? juce::String{"hit"}
-                                   : utf8(scene.materials[static_cast<std::size_t>(index)].name);
+    return isClip(hit.sound) ? juce::String{"clip"}
+           : index < 0       ? juce::String{"hit"}
+                             : utf8(scene.materials[static_cast<std::size_t>(index)].name);
 }
 
 FeltMost feltMost(const Mix& mix, const CollisionEvent& hit) {

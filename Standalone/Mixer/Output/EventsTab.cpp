@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A list that is brought up to date a few times a second, and under it what can be done with what is chosen.
 #include "Mixer/Output/EventsTab.h"
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Mixer/Materials/HitWords.h"
 #include <algorithm>
 #include <iterator>
@@ -174,7 +174,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     g.setFont(juce::Font{text::small});
     cell(timeText(hit.timeNs), at.time, Shade::muted, false);
     cell(nameOf(desk.world().scene(), contact), at.name, Shade::text, false);
-    const bool isMode = !isClip(hit.frequencyHz);
+    const bool isMode = !isClip(hit.sound);
     cell(isMode ? number(hit.frequencyHz, 1) : "clip", at.frequency, Shade::text, true);
     cell(isMode ? number(hit.decayPerSecond, 1) : "", at.decay, Shade::text, true);
     cell(number(most.levelG, 3), at.level, Shade::text, true);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hits by the door of `physvib export`, or as samples.
 #include "Mixer/Output/HitFiles.h"
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Host/Recordings/HitExport.h"
 #include <algorithm>
 #include <filesystem>
@@ -30,7 +30,7 @@ Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner
     drawn.channels = static_cast<std::size_t>(panner.channels());
     drawn.gains = [&panner](const CollisionEvent& event, PhantomPanner::Gains& gains) {
         gains = {};
-        panner.gainsAt(event.x, event.y, event.course.spread, gains);
+        panner.gainsAt(event.x, event.y, event.spread, gains);
     };
     const auto clip = clipOfHits(hits, drawn);
     if (!clip) return Failure{clip.error};
@@ -51,7 +51,7 @@ Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner
 Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
                               const juce::File& path) {
     if (hits.empty()) return Failure{"Chosen contacts: expected one whose grains are still kept"};
-    if (std::ranges::any_of(hits, [](const CollisionEvent& hit) { return isClip(hit.frequencyHz); }))
+    if (std::ranges::any_of(hits, [](const CollisionEvent& hit) { return isClip(hit.sound); }))
         return Failure{"Chosen contacts: expected hits, found a clip, which is a file already"};
     startAtFirst(hits);
     const auto panner = mix.panner();

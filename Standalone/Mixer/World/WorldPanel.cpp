@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/World/WorldPanel.h"
-#include "Core/ClipNumber.h"
+#include "Core/SoundNumber.h"
 #include "Mixer/Materials/HitWords.h"
 #include "Scene/SceneEdits.h"
 #include <utility>
@@ -227,7 +227,7 @@ void WorldPanel::moveHand() {
 
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = desk_.world().scene();
-    if (isClip(hit.frequencyHz)) return materialName(scene, hit) + dot + placeText(scene, hit);
+    if (isClip(hit.sound)) return materialName(scene, hit) + dot + placeText(scene, hit);
     return materialName(scene, hit) + dot + number(hit.frequencyHz, 0) + " Hz" + dot +
            juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
            number(feltMost(desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);

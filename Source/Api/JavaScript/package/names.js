@@ -3,7 +3,7 @@
 export const names = {
     physvib_event: {
         time_ns: 'timeNs', duration_ns: 'durationNs', frequency_hz: 'frequencyHz', decay_per_s: 'decayPerSecond', amplitude: 'amplitude', x_m: 'x', y_m: 'y',
-        impulse_n_s: 'impulse', mass_kg: 'massKg', fixture: 'fixture', other: 'other', kind: 'kind',
+        impulse_n_s: 'impulse', mass_kg: 'massKg', fixture: 'fixture', other: 'other', kind: 'kind', sound: 'sound',
     },
     physvib_layout: { extent_width_m: 'extentWidth', extent_height_m: 'extentHeight', x_m: 'x', y_m: 'y', count: 'count' },
     physvib_renderer_settings: {

@@ -17,7 +17,7 @@ MAX_ENCHANTERS = 64
 
 #: A collision as it is felt, as numpy has it: fields as in physvib.h, times in whole nanoseconds.
 EVENT = np.dtype([("time_ns", "<i8"), ("duration_ns", "<i8"), ("frequency_hz", "<f8"), ("decay_per_s", "<f8"), ("amplitude", "<f8"),
-                  ("x_m", "<f8"), ("y_m", "<f8"), ("impulse_n_s", "<f8"), ("mass_kg", "<f8"), ("fixture", "<i4"), ("other", "<i4"), ("kind", "<i4"), ("unused", "<i4")])
+                  ("x_m", "<f8"), ("y_m", "<f8"), ("impulse_n_s", "<f8"), ("mass_kg", "<f8"), ("fixture", "<i4"), ("other", "<i4"), ("kind", "<i4"), ("sound", "<i4")])
 
 #: What an event came of, as its field `kind` says it.
 HIT, ROLL, SLIDE = 0, 1, 2

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Numbers of sounds. An event's number says which recording plays it, if there is one: a clip, or the
+// recorded contact of its material. An event without a number, or whose number has no recording, is played by
+// its frequency and decay.
+#pragma once
+#include "Core/Fnv1a.h"
+#include "Core/Limits.h"
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+namespace physvib {
+
+using SoundNumber = std::int32_t; ///< 0: none; 1 to mostClips: clips; above: materials
+
+constexpr int mostClips = 32; ///< channels of clips that a session keeps; small, because each strike searches
+                              ///< them linearly
+
+/// The frequency of an event that plays a clip. Samples have none, but an event needs one that can be played.
+constexpr double clipFrequencyHz = limits::slowestToneHz;
+
+/// The number of clip `clip`, from 0 on. Any thread.
+constexpr SoundNumber soundOfClip(int clip) noexcept { return clip + 1; }
+
+/// True if the number is that of a clip. Any thread.
+constexpr bool isClip(SoundNumber sound) noexcept { return sound > 0 && sound <= mostClips; }
+
+/// The number of a material, which follows from its name alone. It is therefore the same in every scene, list
+/// and session, and no table has to travel with the events. Two names share a number with a probability of
+/// 5e-10; a scene that has such a pair is refused. Any thread.
+constexpr SoundNumber soundOfMaterial(std::string_view name) noexcept {
+    constexpr std::uint64_t numbers = std::numeric_limits<SoundNumber>::max() - mostClips;
+    return static_cast<SoundNumber>(fnv1a(name) % numbers) + mostClips + 1;
+}
+
+} // namespace physvib

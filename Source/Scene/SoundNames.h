@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Names of the sounds that events carry as numbers, as event lists write and read them.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Io/Text/NumberText.h"
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+inline constexpr std::string_view clipNamePrefix = "clip-"; // and its number, from 1 on
+
+/// The number of the sound that a list calls `name`; 0 if it has none. Any thread.
+inline SoundNumber soundNamed(std::string_view name) noexcept {
+    if (name.empty()) return 0;
+    if (name.starts_with(clipNamePrefix))
+        if (const auto clip = parseNumber<SoundNumber>(name.substr(clipNamePrefix.size())))
+            if (isClip(*clip)) return *clip;
+    return soundOfMaterial(name);
+}
+
+/// Before events had numbers, clip `k`, from 0 on, was the frequency (k + 1) / 1024 Hz. Gives an event of an
+/// old file its number. Any thread.
+inline void takeFormerClip(CollisionEvent& event) noexcept {
+    const double number = event.frequencyHz * 1024.0;
+    if (!(number >= 1.0 && number <= mostClips) || number != std::floor(number)) return;
+    event.sound = static_cast<SoundNumber>(number);
+    event.frequencyHz = clipFrequencyHz;
+}
+
+/// The names of materials by their numbers. One thread at a time.
+class SoundNames {
+public:
+    SoundNames() = default;
+
+    /// Those of a scene's materials.
+    template <class Materials>
+    explicit SoundNames(const Materials& materials) {
+        addAll(materials);
+    }
+    template <class Materials>
+    void addAll(const Materials& materials) {
+        for (const auto& material : materials) add(material.name);
+    }
+
+    /// A list has no quotes, so a name that would not be read again as it is stays unwritten.
+    void add(std::string_view name) {
+        const SoundNumber sound = soundNamed(name);
+        if (sound != 0 && !isClip(sound) && isPlain(name)) names_.try_emplace(sound, name);
+    }
+    bool has(SoundNumber sound) const { return names_.contains(sound); }
+
+    /// What a list writes: the material's name, clip-1 and so on, or nothing.
+    std::string of(SoundNumber sound) const {
+        if (isClip(sound)) return std::string{clipNamePrefix} + std::to_string(sound);
+        const auto known = names_.find(sound);
+        return known == names_.end() ? std::string{} : known->second;
+    }
+
+    bool operator==(const SoundNames&) const = default;
+
+private:
+    static bool isPlain(std::string_view name) {
+        const auto breaks = [](char c) {
+            return c == ',' || c == '"' || static_cast<unsigned char>(c) < ' ';
+        };
+        return std::ranges::none_of(name, breaks) && name.front() != ' ' && name.back() != ' ';
+    }
+
+    std::map<SoundNumber, std::string> names_;
+};
+
+} // namespace physvib
