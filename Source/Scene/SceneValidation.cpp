@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Validates a scene: ranges, totals, outlines and masses, then references.
 #include "Scene/SceneValidation.h"
+#include "Core/SoundNumber.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneRanges.h"
 #include "Scene/SceneReferences.h"

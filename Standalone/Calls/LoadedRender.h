@@ -16,6 +16,7 @@
 #include "Scene/LayoutNamed.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/SoundNames.h"
 #include "Scene/World/SceneRun.h"
 #include "System/ExitCode.h"
 #include <algorithm>
