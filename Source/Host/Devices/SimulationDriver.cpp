@@ -37,11 +37,9 @@ void ThreadDriver::run() {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::nanoseconds leastPause{1'000'000}, mostPause{20'000'000}, mostHold{20'000'000};
     for (auto deadline = Clock::now(); !threadShouldExit() && !isOver(ends_); deadline += step_) {
-        if (const auto now = Clock::now(); now > deadline + 10 * step_) // after a stall: no burst of ticks,
-                                                                        // and
-            deadline = now + std::clamp<Clock::duration>((now - deadline) / 8, leastPause,
-                                                         mostPause); // a pause in which threads that wait for
-                                                                     // the world's mutex get it
+        // After a stall: no burst of ticks, and a pause for threads that wait for the world's mutex.
+        if (const auto now = Clock::now(); now > deadline + 10 * step_)
+            deadline = now + std::clamp<Clock::duration>((now - deadline) / 8, leastPause, mostPause);
         std::this_thread::sleep_until(deadline);
         const auto begin = Clock::now();
         bool wasLong = false; // a world too slow for real time: a thread that draws it waits a step or two,
