@@ -21,7 +21,7 @@ struct LiveStatus {
     std::string trouble;
 };
 
-/// At most one per process. Created and ended on the same thread, which may be any.
+/// At most one per process. Created and ended on any thread, one call at a time.
 class Live {
 public:
     explicit Live(RigSettings settings)

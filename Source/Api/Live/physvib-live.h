@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-#define PHYSVIB_ERROR_DEVICE (-9) /**< not there, or does not start; also of a board */
+#define PHYSVIB_ERROR_DEVICE (-9) /**< a device or board is missing or does not start */
 
 typedef struct physvib_live_name* physvib_live;       /**< an open device, a board or both */
 typedef struct physvib_session_name* physvib_session; /**< a session that can be rendered; it does not change
@@ -57,7 +57,7 @@ typedef struct physvib_live_status {
     physvib_int64 played;     /**< events played */
     physvib_int64 late;       /**< of these: played at once, after their time */
     physvib_int64 rejected;   /**< could not be played */
-    char trouble[256];        /**< what is missing, one line; "": nothing */
+    char trouble[256];        /**< one-line error; "": none */
     int board;                /**< PHYSVIB_BOARD_NONE and so on */
     int unused;               /**< 0 */
     physvib_int64 board_sent; /**< events sent to the board so far */
@@ -99,8 +99,8 @@ PHYSVIB_API int physvib_live_strike(physvib_live live, const physvib_event* even
  * world's time 0, and stays so for as long as the world is within `longest_gap_s` of session time. If the
  * world lags behind or runs ahead, it is set again. Any thread; one at a time per world. */
 PHYSVIB_API int physvib_live_align(physvib_live live, physvib_world world, physvib_int64* start_ns);
-/** The events of a world (as physvib_world_take), whose time 0 is session time `start_ns`. Returns how many.
- * Any thread; one at a time per world. */
+/** Takes the events of a world (as physvib_world_take), whose time 0 is session time `start_ns`, and plays
+ * them. Returns their number. Any thread; one at a time per world. */
 PHYSVIB_API physvib_int64 physvib_live_send(physvib_live live, physvib_world world, physvib_int64 start_ns,
                                             int at_once);
 

@@ -108,7 +108,7 @@ std::string AudioOutput::openDevice(DeviceKeeper::Limit limit) {
     return {};
 }
 
-// Waits for a device only as long as it keeps asking for blocks.
+// Returns when the fade has been played, or at once if the device no longer asks for blocks.
 void AudioOutput::fadeOut() {
     if (!running_) return;
     ending_ = true;

@@ -5,8 +5,8 @@
 
 namespace physvib {
 
-/// Number of outputs that reach the hardware one to one. A device that mixes for a sound server has two,
-/// whatever it reports. Any thread.
+/// Number of outputs that reach the hardware one to one. A device that mixes for a sound server counts as
+/// two at most, whatever it reports. Any thread.
 int ownOutputs(const AudioDeviceName& device);
 
 /// Sorted by likelihood: many outputs before few, a running JACK server before other drivers, displays and

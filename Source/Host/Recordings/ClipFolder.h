@@ -15,8 +15,8 @@ public:
     explicit ClipFolder(std::filesystem::path folder)
         : folder_{std::move(folder)} {}
 
-    /// Loads a recording or a haptic file (see readRecording) from the folder or below; links may lead
-    /// outside. Or one line.
+    /// Loads a recording or a haptic file (see readRecording), which must be in the folder or below after all
+    /// links are followed. Or one line.
     Result<LoadedClip> operator()(const std::string& name) const;
 
 private:

@@ -16,8 +16,8 @@ namespace physvib {
 
 /// Records all channels of the session, or the first ones, before the output's master gain. A file has one
 /// sample rate, so the recording ends when the rate changes. The file is a valid WAV from its first samples
-/// on; if the program is killed or the disk is full, at most the last half second is missing. Only finish()
-/// waits for the disk.
+/// on: if the program is killed or the disk fills up, only the half second before that is missing. Only
+/// finish() waits for the disk.
 class PlayedRecorder final : public Sink {
 public:
     /// `seconds`: capacity of the buffer, for delays of the disk. M.

@@ -56,7 +56,7 @@ struct NoteRule {
 /// Pitch of a note without a rule.
 enum class NotePitch {
     material, ///< each octave plays one of the scene's materials
-    note      ///< its own frequency, transposed into the range that can be felt
+    note      ///< its own frequency, moved by octaves into the range that can be felt
 };
 inline constexpr std::array<std::string_view, 2> notePitchNames{"material", "note"}; // indexed by NotePitch
 
@@ -69,7 +69,7 @@ enum class NotePlaces {
 // indexed by NotePlaces
 inline constexpr std::array<std::string_view, 3> notePlaceNames{"octave", "actuators", "middle"};
 
-/// Sound of the notes: all settings apply to notes without a rule; struck materials use level and velocity
+/// Sound of the notes: all settings apply to notes without a rule; rules that strike use level and velocity
 /// only.
 struct NoteVoice {
     NotePitch pitch = NotePitch::material;
