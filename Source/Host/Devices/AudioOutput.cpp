@@ -108,7 +108,7 @@ std::string AudioOutput::openDevice(DeviceKeeper::Limit limit) {
     return {};
 }
 
-// Returns when the fade has been played, or at once if the device no longer asks for blocks.
+// Waits until the fade has been played, but for a limited time, because the device may have stopped calling.
 void AudioOutput::fadeOut() {
     if (!running_) return;
     ending_ = true;

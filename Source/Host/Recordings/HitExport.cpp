@@ -34,7 +34,7 @@ std::vector<CollisionEvent> stillStrikes(std::span<const CollisionEvent> events)
     return still;
 }
 
-/// Device data of an actuator; no error if it has no profile.
+/// Data of an actuator's profile; without one ("none"), only its full scale.
 Result<ClipDevice> deviceOf(const HitExport& hits, const EnchanterDescription& enchanter) {
     const ClipDevice device{0.0, 0.0, 0.0, enchanter.fullScaleG};
     const std::string& name = hits.actuator.empty() ? enchanter.actuator : hits.actuator;
