@@ -27,8 +27,7 @@ ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond, const std::atom
     , session_{session}
     , step_{1'000'000'000 / stepsPerSecond}
     , ends_{ends} {
-    if (!startRealtimeThread({}))
-        startThread(Priority::highest); // most users may not start a realtime thread
+    if (!startRealtimeThread({})) startThread(Priority::highest); // realtime needs a privilege
 }
 
 ThreadDriver::~ThreadDriver() { stopThread(-1); }

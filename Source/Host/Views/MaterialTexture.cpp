@@ -92,8 +92,7 @@ void fillWithPicture(juce::Graphics& g, const juce::Path& path, const juce::Affi
     const auto bounds = path.getBounds();
     const float scale =
         std::max(bounds.getWidth() / static_cast<float>(picture.getWidth()),
-                 bounds.getHeight() / static_cast<float>(picture.getHeight())); // covers the body without
-                                                                                // distortion
+                 bounds.getHeight() / static_cast<float>(picture.getHeight())); // covers without distortion
     const auto onBody = juce::AffineTransform::translation(-0.5f * static_cast<float>(picture.getWidth()),
                                                            -0.5f * static_cast<float>(picture.getHeight()))
                             .scaled(scale)

@@ -79,8 +79,7 @@ GainLane sumOf(const GainLane& a, const GainLane& b) {
 }
 
 GainLane thinned(const GainLane& lane, std::size_t mostPoints) {
-    constexpr double hardlyFeltDb = 0.25; // a quarter of the smallest noticeable difference of vibration
-                                          // level
+    constexpr double hardlyFeltDb = 0.25; // a quarter of the just noticeable difference
     GainLane kept = withinTolerance(lane, hardlyFeltDb);
     for (double toleranceDb = hardlyFeltDb; kept.size() > mostPoints; toleranceDb *= 2.0)
         kept = withinTolerance(lane, toleranceDb);

@@ -24,12 +24,12 @@ struct Mix {
     std::vector<Strip> strips; ///< one per actuator
     std::vector<StripGroup> groups{};
     double levelDb = -12.0;                              ///< master level; leastStripDb is silence
-    double dragNewtonSecondsPerScreenMetre = thesisDrag; ///< force of a drag in the world
+    double dragNewtonSecondsPerScreenMetre = thesisDrag; ///< impulse of a drag in the world
 
     int count() const noexcept { return layout.geometry.count; }
     PhantomPanner panner() const noexcept {
         PhantomPanner made{layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres};
-        // the default law applies to impacts only
+        // no law was chosen: grains keep the default
         if (law == PanningLaw::linear && exponent == 1.0) made.setGrains(grainSpread);
         return made;
     }

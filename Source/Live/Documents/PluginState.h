@@ -37,8 +37,8 @@ enum class NoteKind {
     spawn   ///< drops a disc of a material at a place
 };
 
-inline constexpr std::array<std::string_view, 3> noteKindNames{"strike", "push", "spawn"}; // indexed by
-                                                                                           // NoteKind
+// indexed by NoteKind
+inline constexpr std::array<std::string_view, 3> noteKindNames{"strike", "push", "spawn"};
 
 /// What one MIDI note does, instead of the default mapping.
 struct NoteRule {

@@ -23,9 +23,9 @@ namespace physvib {
 /// law of grains, scenes of version 2; 8: groups, lanes.
 constexpr int sessionFormatVersion = std::max(7, stripsVersion);
 
-inline constexpr std::array<std::string_view, 2> timingNames{"onset", "release"}; // indexed by ImpactTiming
-inline constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"}; // indexed by
-                                                                                      // ImpactLocation
+// indexed by ImpactTiming and ImpactLocation
+inline constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};
+inline constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"};
 
 using Ceilings = std::array<float, limits::maxEnchanters>;
 

@@ -59,8 +59,7 @@ namespace detail {
 
 // Readers; all throw JsonError.
 SceneTake readTakeStart(const JsonField& json, const SceneTake* before, bool isJournal);
-WorldStall readStall(const JsonField& json, const SceneTake& take); ///< not before the last stall of the
-                                                                    ///< scene run
+WorldStall readStall(const JsonField& json, const SceneTake& take); ///< not before the run's last
 void readTimedControl(const JsonField& json, SavedSession& session);
 void readRecordingsChange(const JsonField& json, SessionLog& log);
 CollisionEvent readStrike(const JsonField& json);

@@ -21,8 +21,7 @@ namespace physvib {
 
 /// Counts of what was sent to a controller, for display and tests.
 struct PadCounts {
-    std::uint64_t events = 0, commands = 0, repeats = 0; ///< repeats: commands sent again before they time
-                                                         ///< out
+    std::uint64_t events = 0, commands = 0, repeats = 0; ///< repeats: sent again before the time-out
     std::uint64_t late = 0;    ///< commands replaced by the next one before they were sent
     std::uint64_t refused = 0; ///< by the controller
     std::uint64_t connections = 0;
