@@ -11,8 +11,7 @@ namespace {
 
 bool isOf(std::string_view address, std::string_view format) {
     if (!format.starts_with('*')) return address == format;
-    const auto rest = address.substr(std::min<std::size_t>(1, address.size())).find('/'); // skips the phone's
-                                                                                          // name
+    const auto rest = address.substr(std::min<std::size_t>(1, address.size())).find('/'); // skips the name
     return rest != std::string_view::npos && address.substr(rest + 1) == format.substr(1);
 }
 
