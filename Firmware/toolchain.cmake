@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Cross-compiling for the board: Debian's gcc-arm-none-eabi. The flags keep float results equal to a computer's.
+# Cross-compiler for the board: Debian's gcc-arm-none-eabi. The flags give the same floating-point results as on a PC.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)

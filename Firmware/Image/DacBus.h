@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The two TLC7528 dual converters on port C: eight data lines, one latch select, one write line, two chip
-// selects.
+// Drives the two dual converters TLC7528 on port C: eight data lines, one latch select, one write line, two
+// chip selects.
 //
-// Times assumed of the TLC7528 at 5 V (unverified: Docs/board.md): chip and latch select 50 ns before the
+// Times assumed for the TLC7528 at 5 V (unverified: Docs/board.md): chip and latch select 50 ns before the
 // write, data 25 ns before its end, write pulse 50 ns, data and select held 10 ns after it. One cycle at 72
-// MHz is 13.9 ns. The latches are transparent while the write line is low: a select that still moves would
-// put the code into the other channel.
+// MHz is 13.9 ns. The latches are transparent while the write line is low: a select line that changes then
+// would write the code to the wrong channel.
 #pragma once
 #include "Registers.h"
 #include <array>
@@ -20,7 +20,7 @@ public:
     using Frame = std::array<std::uint8_t, 4>; ///< channels 1 A, 1 B, 2 A, 2 B
     static constexpr std::uint8_t midScale = 128;
 
-    /// Lines at rest, then mid-scale.
+    /// Sets the lines inactive, then writes mid-scale.
     static void start() noexcept {
         reg(gpio::c + gpio::bsrr) = write | chip1 | chip2;
         reg(gpio::c + gpio::moder) = (reg(gpio::c + gpio::moder) & 0xFF000000u) | 0x00555555u;
@@ -28,7 +28,7 @@ public:
         silence();
     }
 
-    /// About 1 us. Timer interrupt only, but for silence().
+    /// Writes a frame in about 1 us. Timer interrupt only, except for silence().
     static void put(const Frame& frame) noexcept {
         put(frame[0], chip1, 0);
         put(frame[1], chip1, latch);
@@ -37,14 +37,14 @@ public:
         reg(gpio::c + gpio::bsrr) = chip1 | chip2;
     }
 
-    /// From anywhere, even a fault handler: needs no memory and no other interrupt.
+    /// May be called from anywhere, even a fault handler: needs no memory and no other interrupt.
     static void silence() noexcept { put({midScale, midScale, midScale, midScale}); }
 
 private:
     static constexpr std::uint32_t latch = 1u << 8, write = 1u << 9, chip1 = 1u << 10, chip2 = 1u << 11;
 
-    // Reads of the port wait for the writes before them and take two cycles, or one when they follow each
-    // other: at least 69 ns at 72 MHz.
+    // A read of the port waits for the writes before it and takes two cycles, or one directly after another
+    // read: at least 69 ns in total at 72 MHz.
     static void settle() noexcept {
         for (int i = 0; i < 4; ++i) [[maybe_unused]] const std::uint32_t state = reg(gpio::c + gpio::odr);
     }
@@ -56,7 +56,7 @@ private:
         settle();
         reg(gpio::c + gpio::bsrr) = write << 16;
         settle();
-        reg(gpio::c + gpio::bsrr) = write; // the next change of a line is two cycles away or more: 28 ns
+        reg(gpio::c + gpio::bsrr) = write; // the next change of a line comes at least two cycles later: 28 ns
         [[maybe_unused]] const std::uint32_t state = reg(gpio::c + gpio::odr);
     }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Messages in, answers out, and the watchdog of the link.
+// Executes messages from the serial line, sends replies, and silences the board when messages stop.
 #include "Link.h"
 #include <algorithm>
 
@@ -7,8 +7,8 @@ namespace physvib::board {
 namespace {
 
 constexpr std::uint32_t framesPerMs = limits::board::sampleRateHz / 1000;
-constexpr std::uint32_t fadeFrames = 3 * framesPerMs; // render-ahead and fade, so that silence is there in
-                                                      // time
+constexpr std::uint32_t fadeFrames = 3 * framesPerMs; // rendered-ahead frames plus fade: the fade starts so
+                                                      // early that silence is on time
 constexpr std::uint32_t watchdogFrames(int ms) noexcept {
     return static_cast<std::uint32_t>(std::clamp(ms, 20, wire::defaultWatchdogMs)) * framesPerMs - fadeFrames;
 }
@@ -72,7 +72,7 @@ void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept 
         stopAll();
         selfTest_.begin();
         break;
-    default: break; // of a later version
+    default: break; // message of a later protocol version
     }
 }
 
@@ -82,7 +82,7 @@ void Link::greet(const wire::Hello& hello) noexcept {
     order_ = {};
     watchdogFrames_ = watchdogFrames(hello.watchdogMs);
     wire::HelloReply reply;
-    // an older computer takes it for one of its own
+    // older hosts get the version that they sent
     reply.version = std::min(hello.version, wire::protocolVersion);
     reply.channels = BoardRenderer::channels;
     reply.sampleRateHz = limits::board::sampleRateHz;
@@ -148,7 +148,7 @@ void Link::afterBlock(BoardRenderer::Codes& block, std::uint32_t cycles) noexcep
 template <class Message>
 void Link::send(const Message& message) noexcept {
     std::array<std::uint8_t, wire::maxFrame> frame;
-    // a full line drops answers, never what is asked again
+    // if the line is full, replies are dropped; hosts repeat requests whose reply matters
     serial_->send({frame.data(), wire::encode(message, frame)});
 }
 

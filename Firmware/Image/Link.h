@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the board does with each message, and what it answers.
+// The board's side of the link: executes messages and sends replies.
 #pragma once
 #include "Clock.h"
 #include "Core/BoardRenderer.h"
@@ -12,7 +12,7 @@
 
 namespace physvib::board {
 
-/// What only the start-up code knows.
+/// Values that only the start-up code can provide.
 struct Machine {
     Clock clock;
     std::uint8_t watchdogResets = 0;
@@ -25,10 +25,10 @@ public:
     void start(const Machine& machine, BoardRenderer& renderer, Outputs& outputs,
                SerialPort& serial) noexcept;
 
-    /// Takes what has come in; falls silent when nothing has come for too long.
+    /// Executes received messages; silences the board when none has come for too long.
     void poll() noexcept;
 
-    /// Around each block of the renderer.
+    /// Called before and after each block of the renderer.
     void beforeBlock() noexcept;
     void afterBlock(BoardRenderer::Codes& block, std::uint32_t cycles) noexcept;
 
@@ -51,7 +51,7 @@ private:
     SerialPort* serial_ = nullptr;
     wire::FrameDecoder decoder_;
     wire::SelfTestRun selfTest_;
-    std::uint32_t heardAt_ = 0; // frame of the last message
+    std::uint32_t heardAt_ = 0; // frame number of the last message
     std::uint32_t watchdogFrames_ = 0;
     std::uint32_t worstBlockCycles_ = 0;
     wire::StrikeOrder order_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The few registers that are used, by the names of ST's reference manual RM0364 and of the ARMv7-M manual.
+// The registers used, named as in ST's reference manual RM0364 and in the ARMv7-M manual.
 #pragma once
 #include <cstdint>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The serial line: bytes in and out by interrupt. Built for the ST-Link's port (USART2) or a Bluetooth module
-// (USART1).
+// Interrupt-driven serial port, built for the ST-Link's port (USART2) or a Bluetooth module (USART1).
 #pragma once
 #include "Clock.h"
 #include "Outputs.h"
@@ -12,7 +11,7 @@
 
 namespace physvib::board {
 
-/// A moment of the board's clock.
+/// A time of the board's clock.
 struct Moment {
     std::uint32_t frame = 0;
     std::uint8_t fraction = 0; ///< 1/256 frame
@@ -24,7 +23,7 @@ public:
         outputs_ = &outputs;
         cyclesPerFrame_ = clock.cyclesPerFrame();
 #ifdef PHYSVIB_BLUETOOTH
-        reg(rcc::cfgr3) |= 1; // USART1 from the processor's clock
+        reg(rcc::cfgr3) |= 1; // USART1 uses the processor clock
         reg(rcc::apb2enr) |= 1u << 14;
         reg(gpio::a + gpio::afrh) = (reg(gpio::a + gpio::afrh) & ~0xFF0u) | 0x770u; // PA9, PA10
         reg(gpio::a + gpio::moder) = (reg(gpio::a + gpio::moder) & ~(0xFu << 18)) | 0xAu << 18;
@@ -40,7 +39,8 @@ public:
         enableInterrupt(number, 1);
     }
 
-    /// False if nothing has come. `ended`: when the byte came in, if it is a zero. Main loop.
+    /// Reads a byte; false if there is none. `ended`: time at which the byte arrived, set for zeros only,
+    /// which end a message. Main loop.
     bool take(std::uint8_t& byte, Moment& ended) noexcept {
         if (readAt_ == receivedAt_) return false;
         byte = received_[readAt_ % received_.size()];
@@ -49,7 +49,7 @@ public:
         return true;
     }
 
-    /// All or nothing. Main loop.
+    /// Queues all bytes, or none if they do not fit. Main loop.
     bool send(std::span<const std::uint8_t> bytes) noexcept {
         if (toSend_.size() - static_cast<std::uint8_t>(putAt_ - sentAt_) < bytes.size() + 1) return false;
         for (const std::uint8_t byte : bytes) {
@@ -60,17 +60,17 @@ public:
         return true;
     }
 
-    /// Bytes lost: they came faster than they were taken.
+    /// Number of bytes lost because they came faster than they were read.
     std::uint32_t overruns() const noexcept { return overruns_; }
 
-    /// USART interrupt.
+    /// Called by the USART interrupt.
     void serve() noexcept {
         constexpr std::uint32_t overrun = 1u << 3, arrived = 1u << 5, empty = 1u << 7;
         const std::uint32_t state = reg(port + usart::isr);
         if (state & arrived) receive(static_cast<std::uint8_t>(reg(port + usart::rdr)));
         if (state & 0xF) {
             if (state & overrun) overruns_ = overruns_ + 1;
-            reg(port + usart::icr) = 0xF; // parity, framing, noise, overrun: the CRC sees what is broken
+            reg(port + usart::icr) = 0xF; // parity, framing, noise, overrun: the CRC detects damaged messages
         }
         if ((state & empty) && (reg(port + usart::cr1) & wantsToSend)) sendNext();
     }
@@ -80,7 +80,7 @@ public:
         do {
             frame = outputs_->played();
             count = reg(tim6::cnt);
-        } while (frame != outputs_->played()); // the sample timer came between
+        } while (frame != outputs_->played()); // repeat if the sample timer's interrupt came between
         return {frame, static_cast<std::uint8_t>(count * 256u / cyclesPerFrame_)};
     }
 
@@ -120,10 +120,10 @@ private:
 
     const Outputs* outputs_ = nullptr;
     std::uint32_t cyclesPerFrame_ = 1;
-    std::array<volatile std::uint8_t, 256> received_{}; // 22 ms of the line; indices wrap by themselves
+    std::array<volatile std::uint8_t, 256> received_{}; // 22 ms of the line; 8-bit indices wrap
     std::array<std::uint8_t, 128> toSend_{};
-    std::array<Moment, 16> zeros_{}; // of a flood of empty frames some get too late a moment, which a clock
-                                     // does not mind
+    std::array<Moment, 16> zeros_{}; // in a flood of empty frames, some get too late a time, which clock
+                                     // synchronisation tolerates
     volatile std::uint8_t receivedAt_ = 0, readAt_ = 0, putAt_ = 0, sentAt_ = 0;
     std::uint8_t zerosSeen_ = 0, zerosTaken_ = 0;
     volatile std::uint32_t overruns_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From reset to main: memory, floating-point unit, stack paint; and the vectors. Every fault ends in silence
-// and, by the hardware watchdog, in a restart.
+// Start-up from reset to main: memory, floating-point unit, stack paint, interrupt vectors. Every processor
+// fault silences the outputs, and the hardware watchdog then restarts the board.
 #include "Startup.h"
 #include "DacBus.h"
 #include "Registers.h"
@@ -21,7 +21,7 @@ namespace physvib::board {
 namespace {
 
 constexpr std::uint32_t paint = 0xA5C35A3C;
-__attribute__((section(".noinit"))) std::uint32_t resets; // survives a reset, not a loss of power
+__attribute__((section(".noinit"))) std::uint32_t resets; // survives a reset, but not a power cycle
 
 void copy(std::uint32_t* to, const std::uint32_t* end, const std::uint32_t* from) {
     while (to != end) *to++ = *from++;
@@ -50,7 +50,7 @@ std::uint16_t stackFree() noexcept {
 
 void startUp() {
     using namespace physvib::board;
-    reg(core::cpacr) |= 0xFu << 20; // floating-point unit on, before any function that may use it
+    reg(core::cpacr) |= 0xFu << 20; // enables the floating-point unit before any function that may use it
     asm volatile("dsb\nisb" ::: "memory");
     std::uint32_t* here;
     asm volatile("mov %0, sp" : "=r"(here));
@@ -66,7 +66,7 @@ void fault() {
     asm volatile("cpsid i");
     physvib::board::DacBus::silence();
     for (;;) {
-    } // until the hardware watchdog restarts us
+    } // until the hardware watchdog restarts the board
 }
 
 namespace {
@@ -83,7 +83,7 @@ struct Vectors {
 constexpr Vectors makeVectors() {
     Vectors v{&linkStackTop, {}, {}};
     v.system.fill(fault);
-    v.external.fill(fault); // the brown-out detector among them
+    v.external.fill(fault); // among them the brown-out detector's
     v.system[0] = startUp;
     v.external[physvib::board::irq::usart1] = serialInterrupt;
     v.external[physvib::board::irq::usart2] = serialInterrupt;

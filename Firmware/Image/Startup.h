@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What the start-up code tells the program.
+// Facts from the start-up code: watchdog resets and unused stack.
 #pragma once
 #include <cstdint>
 
 namespace physvib::board {
 
-/// How often the hardware watchdog has restarted us since power came. Call once.
+/// Number of restarts by the hardware watchdog since power-on. Call once.
 std::uint8_t countWatchdogReset() noexcept;
 
-/// Bytes of the stack that were never used.
+/// Bytes of the stack that have never been used.
 std::uint16_t stackFree() noexcept;
 
 } // namespace physvib::board

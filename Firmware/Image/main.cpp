@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The four-channel board: serial messages in, codes for four converters out.
+// Main program of the four-channel board: renders events from the serial line to codes for four converters.
 //
-// Three levels: the sample timer's interrupt (writes one frame to the converters), the serial interrupt
-// (moves bytes), and this loop (messages and rendering, a few frames ahead). Whatever hangs, the hardware
-// watchdog notices: it is fed once per rendered block, so timer, interrupts and loop must all be alive.
+// Three priorities: the sample timer's interrupt writes one frame to the converters, the serial interrupt
+// moves bytes, and the main loop handles messages and renders a few frames ahead. The hardware watchdog is
+// reset once per rendered block, so it detects when timer, interrupts or loop hang.
 #include "Clock.h"
 #include "DacBus.h"
 #include "Link.h"
@@ -15,25 +15,24 @@
 namespace physvib::board {
 namespace {
 
-// made at start: 10 KB of image less
+// constructed at run time, which saves 10 KB of the image
 alignas(BoardRenderer) unsigned char rendererMemory[sizeof(BoardRenderer)];
 Outputs outputs;
 SerialPort serial;
 Link link;
 
-// PA5
+// The LED is on PA5.
 void startLed() noexcept {
     reg(gpio::a + gpio::moder) = (reg(gpio::a + gpio::moder) & ~(3u << 10)) | 1u << 10;
 }
 
-// Steady: somebody talks to us. Blinking twice a second: silent.
+// On: a host is connected. Blinking twice a second: silenced.
 void showLed() noexcept {
     const bool isOn = !link.isSilenced() || (outputs.played() & 2048) != 0;
     reg(gpio::a + gpio::bsrr) = isOn ? 1u << 5 : 1u << 21;
 }
 
-// The supply falls below 2.9 V (RM0364 6.2.2): an interrupt, before the processor's own reset at 2.0 V or
-// less.
+// Interrupt when the supply falls below 2.9 V (RM0364 6.2.2), before the processor resets at 2.0 V or less.
 void startBrownOutDetector() noexcept {
     reg(rcc::apb1enr) |= 1u << 28;
     reg(pwr::cr) |= 7u << 5 | 1u << 4;
@@ -42,7 +41,7 @@ void startBrownOutDetector() noexcept {
     enableInterrupt(irq::pvd, 0);
 }
 
-void startHardwareWatchdog() noexcept { // 50 ms of the 40 kHz oscillator
+void startHardwareWatchdog() noexcept { // 50 ms at 40 kHz
     reg(iwdg::kr) = 0xCCCC;
     reg(iwdg::kr) = 0x5555;
     reg(iwdg::pr) = 0;
@@ -55,11 +54,11 @@ void startCycleCounter() noexcept {
     reg(core::dwtControl) |= 1;
 }
 
-// Apart from the start and never inlined there: the linker puts it beside the core.
+// Never inlined into run(), so that the linker places it in the memory beside the core.
 [[noreturn, gnu::noinline]] void loop(BoardRenderer& renderer) noexcept {
     for (;;) {
         while (!outputs.hasRoom()) asm volatile("wfi");
-        link.poll(); // every half millisecond: six bytes of the line at most
+        link.poll(); // every half millisecond: at most six bytes have come
         BoardRenderer::Codes block;
         link.beforeBlock();
         const std::uint32_t began = reg(core::dwtCycles);

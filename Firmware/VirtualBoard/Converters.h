@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two TLC7528 on port C, as wired in Docs/board.md: they latch codes, and judge the times they were given.
+// Model of the two TLC7528 converters on port C, wired as in Docs/board.md: latches codes and checks the
+// timing of their lines.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -8,13 +9,13 @@
 
 namespace physvib::virtualboard {
 
-/// Times in nanoseconds, assumed for a supply of 5 V: what of TI SLAS062B could be verified stands in
-/// Docs/board.md.
+/// Required times in ns, assumed for a 5 V supply; Docs/board.md says which of them were verified with TI
+/// SLAS062B.
 struct ConverterTimes {
     double selectSetUp = 50, dataSetUp = 25, writePulse = 50, hold = 10;
 };
 
-/// The shortest times seen.
+/// The shortest times observed.
 struct ConverterTimings {
     double selectSetUp = std::numeric_limits<double>::infinity(), dataSetUp = selectSetUp,
            writePulse = selectSetUp, hold = selectSetUp;
@@ -25,7 +26,7 @@ class Converters {
 public:
     using Frame = std::array<std::uint8_t, 4>;
 
-    /// The levels of PC0 to PC11 from `ns` on. True if this latched the last converter of a frame.
+    /// Sets the levels of PC0 to PC11 from `ns` on. True if this latched the last converter of a frame.
     bool levels(std::uint32_t pins, double ns) {
         const std::uint32_t changed = pins ^ pins_;
         if (changed & (latch | chips)) checkHold(ns), selectChanged_ = ns;
@@ -37,7 +38,7 @@ public:
             writeFell_ = ns;
             note(timings_.selectSetUp, ns - selectChanged_, limits_.selectSetUp);
         }
-        // The latches follow the data while the write line is low.
+        // The latches are transparent while the write line is low.
         if (!(pins & write) || rises) follow(rises ? before : pins);
         if (!rises) return false;
         ++timings_.writes;
@@ -63,7 +64,7 @@ private:
 
     void checkHold(double ns) {
         if (writeRose_ >= 0) note(timings_.hold, ns - writeRose_, limits_.hold);
-        if (!(pins_ & write)) ++timings_.violations; // moved while the latch was open
+        if (!(pins_ & write)) ++timings_.violations; // a line changed while the latch was transparent
         writeRose_ = -1;
     }
 
@@ -75,7 +76,7 @@ private:
     ConverterTimes limits_;
     ConverterTimings timings_;
     Frame codes_{};
-    std::uint32_t pins_ = 0xFFF; // pulled up while the processor does not drive them
+    std::uint32_t pins_ = 0xFFF; // pull-ups while the processor does not drive the lines
     double selectChanged_ = -1e9, dataChanged_ = -1e9, writeFell_ = -1e9, writeRose_ = -1;
 };
 

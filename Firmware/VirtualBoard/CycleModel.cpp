@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cost of each instruction, as decoded by Capstone.
+// Cycle cost of each instruction, decoded with Capstone.
 #include "CycleModel.h"
 #include <algorithm>
 #include <stdexcept>
@@ -19,7 +19,7 @@ struct Instruction {
     bool isRegister(std::size_t i) const { return i < operands.size() && operands[i].type == ARM_OP_REG; }
     int reg(std::size_t i) const { return isRegister(i) ? operands[i].reg : ARM_REG_INVALID; }
 
-    // Words that a multiple load or store moves.
+    // Words transferred by a multiple load or store.
     std::uint32_t words() const {
         std::uint32_t n = 0;
         for (const auto& o : operands)
@@ -51,7 +51,7 @@ struct Instruction {
     }
 };
 
-// Cycles without stalls; `follows`: right after another load or store.
+// Cycles without stalls; `follows`: directly after another load or store.
 std::uint32_t plainCycles(const Instruction& i, bool follows, CostModel model) {
     const bool slow = model == CostModel::pessimistic;
     if (i.movesMany())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading 32-bit little-endian ELF files of our own linker.
+// Parses the 32-bit little-endian ELF files that the firmware's linker writes.
 #include "ElfImage.h"
 #include <cstring>
 #include <elf.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The firmware's ELF file: what goes where in flash, and the addresses of its names.
+// The firmware's ELF file: segments with their flash addresses, and symbols.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -10,20 +10,20 @@ namespace physvib::virtualboard {
 
 struct ElfImage {
     struct Segment {
-        std::uint32_t address = 0; ///< where it is loaded (flash)
+        std::uint32_t address = 0; ///< load address (flash)
         std::vector<std::uint8_t> bytes;
     };
     struct Symbol {
         std::uint32_t address = 0, size = 0;
     };
     std::vector<Segment> segments;
-    std::map<std::string, Symbol> symbols; ///< as the linker writes them (mangled)
+    std::map<std::string, Symbol> symbols; ///< by mangled name
 
-    /// The one symbol whose name contains `part`; throws std::runtime_error if none does.
+    /// The symbol whose name contains `part`; throws std::runtime_error if there is none.
     Symbol symbolLike(const std::string& part) const;
 };
 
-/// Throws std::runtime_error: the file's name and what was expected.
+/// Throws std::runtime_error with the file's name and what was expected.
 ElfImage readElf(const std::string& path);
 
 } // namespace physvib::virtualboard

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Registers by address; RM0364.
+// Register access of the peripheral models, by address as in RM0364.
 #include "Peripherals.h"
 #include <algorithm>
 #include <utility>
@@ -61,7 +61,7 @@ void Peripherals::write(std::uint32_t a, std::uint32_t value, unsigned bytes, st
     if (isUsart(a) && (a & 0x3FF) == 0x20) overrun_ = overrun_ && !(value & 1u << 3);
     if (isUsart(a) && (a & 0x3FF) == 0x28) return transmit(value, cycle);
     plain_[a] = value;
-    if (isUsart(a) && (a & 0x3FF) == 0) serialControl_ = value; // one of the two is used
+    if (isUsart(a) && (a & 0x3FF) == 0) serialControl_ = value; // the firmware uses one of the two
     switch (a) {
     case address::tim6Dier: timerControl_ = value; break;
     case address::tim6Sr: timerFlag_ = timerFlag_ && (value & 1); break;
@@ -94,10 +94,10 @@ void Peripherals::writePort(std::uint32_t output, std::uint64_t cycle) {
 
 void Peripherals::setPins(std::uint64_t cycle) {
     std::uint32_t pins = 0;
-    // not driven: pulled up
+    // undriven lines are pulled up
     for (int i = 0; i < 12; ++i) pins |= (portMode_ >> (2 * i) & 3) == 1 ? portOutput_ & 1u << i : 1u << i;
     if (!converters.levels(pins, static_cast<double>(cycle) * 1e9 / hz())) return;
-    if (timerNext_ == never) return; // mid-scale at start-up
+    if (timerNext_ == never) return; // mid-scale during start-up
     frames.push_back(converters.codes());
     frameCycles.push_back(cycle);
 }
@@ -129,9 +129,9 @@ void Peripherals::advance(std::uint64_t cycle) {
         timerNext_ += plain_[address::tim6Arr] + 1;
     }
     for (; !toCome_.empty() && toCome_.front().cycle <= cycle; toCome_.pop_front()) {
-        if (!(serialControl_ & 1)) continue; // not switched on
+        if (!(serialControl_ & 1)) continue; // not enabled
         if (received_)
-            overrun_ = true, ++lineOverruns; // the newcomer is lost
+            overrun_ = true, ++lineOverruns; // the new byte is lost
         else
             receivedByte_ = toCome_.front().value, received_ = true;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of an STM32F334 that the firmware uses, driven by the processor's cycles.
+// Models of the STM32F334 peripherals that the firmware uses, driven by processor cycles.
 #pragma once
 #include "Converters.h"
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace physvib::virtualboard {
 
-/// A byte on the line, and the cycle at which its last bit is over.
+/// A byte on the line, and the cycle at which its last bit ends.
 struct LineByte {
     std::uint64_t cycle = 0;
     std::uint8_t value = 0;
@@ -23,32 +23,33 @@ public:
     std::uint32_t read(std::uint32_t address, std::uint64_t cycle);
     void write(std::uint32_t address, std::uint32_t value, unsigned bytes, std::uint64_t cycle);
 
-    /// What happens by itself up to `cycle`.
+    /// Advances the peripherals to `cycle`.
     void advance(std::uint64_t cycle);
-    /// When something happens next.
+    /// Cycle of the next event.
     std::uint64_t nextEvent() const;
 
-    /// The number of the enabled interrupt that comes first and has a priority below `than`; -1 if none.
+    /// Number of the enabled, pending interrupt with the lowest priority value, if that is below `than`; -1:
+    /// none.
     int pendingInterrupt(int than) const;
     int priority(int interrupt) const { return priorities_[static_cast<std::size_t>(interrupt)]; }
 
-    /// The processor's clock, once the program has set it.
+    /// The processor clock after start-up.
     double hz() const { return hasCrystal ? 72e6 : 64e6; }
     std::uint64_t cyclesPerByte() const { return static_cast<std::uint64_t>(hz() * 10 / 115200); }
 
     /// Queues a byte whose last bit ends at `cycle` or when the line is free.
     void lineIn(std::uint8_t byte, std::uint64_t cycle);
 
-    /// As the processor's reset does; the converters keep what they hold.
+    /// Resets like the processor; the converters keep their codes.
     void reset(bool byWatchdog);
     bool watchdogExpired(std::uint64_t cycle) const { return cycle >= watchdogEnd_; }
     void brownOut() { brownOut_ = true; }
 
-    std::deque<LineByte> lineOut;          ///< taken by whoever listens
+    std::deque<LineByte> lineOut;          ///< the reader removes bytes
     std::vector<Converters::Frame> frames; ///< one per sample
     std::vector<std::uint64_t> frameCycles;
     Converters converters;
-    std::uint64_t timerOverruns = 0; ///< a sample's interrupt was not served before the next
+    std::uint64_t timerOverruns = 0; ///< sample interrupts not served before the next
     std::uint64_t lineOverruns = 0;
     bool ledIsOn = false;
 
@@ -58,9 +59,8 @@ private:
     std::uint32_t serialState() const;
     void transmit(std::uint32_t byte, std::uint64_t cycle);
 
-    std::unordered_map<std::uint32_t, std::uint32_t> plain_; // registers that only remember
-    std::uint32_t serialControl_ = 0, timerControl_ = 0;     // these are looked at for every block of
-                                                             // instructions
+    std::unordered_map<std::uint32_t, std::uint32_t> plain_; // registers without side effects
+    std::uint32_t serialControl_ = 0, timerControl_ = 0;     // read for every instruction block
     std::uint64_t enabled_ = 0;
     std::array<std::uint8_t, 82> priorities_{};
     std::uint32_t portOutput_ = 0, portMode_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plug of the virtual board's serial line: pulled, the port is gone, as with a USB cable.
+// Connects and disconnects the virtual board's serial port, like pulling a USB cable.
 #pragma once
 #include "PseudoTerminal.h"
 #include <filesystem>
@@ -9,7 +9,7 @@ namespace physvib::virtualboard {
 
 class Plug {
 public:
-    /// In. `link`: a name that stays the same from plug to plug (a symbolic link), or empty. Throws what
+    /// Connects. `link`: a symbolic link that stays the same between connections, or empty. Throws what
     /// PseudoTerminal and std::filesystem throw.
     explicit Plug(std::string link)
         : link_{std::move(link)} {
@@ -21,7 +21,7 @@ public:
     Plug(const Plug&) = delete;
     Plug& operator=(const Plug&) = delete;
 
-    /// Out if it was in, in if it was out; true if it is in now.
+    /// Disconnects if connected, and vice versa; returns whether it is connected now.
     bool move() {
         if (line_)
             pull();
@@ -30,7 +30,7 @@ public:
         return line_.has_value();
     }
 
-    /// The port's name.
+    /// Path of the port.
     const std::string& path() const { return link_.empty() ? line_->path() : link_; }
 
     std::vector<std::uint8_t> read() { return line_ ? line_->read() : std::vector<std::uint8_t>{}; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A serial port that is none: the end of a pseudo-terminal that others do not see.
+// Pseudo-terminal that other programs open as a serial port.
 #pragma once
 #include <cstdint>
 #include <cstdlib>
@@ -15,13 +15,14 @@ namespace physvib::virtualboard {
 
 class PseudoTerminal {
 public:
-    /// Throws std::runtime_error if the system gives none.
+    /// Throws std::runtime_error if the system provides none.
     PseudoTerminal()
         : master_{posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)} {
         if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0)
             throw std::runtime_error("no pseudo-terminal");
         path_ = ptsname(master_);
-        slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY); // held open, so that a caller may come and go
+        slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY); // kept open, so that programs may open and close the
+                                                         // port
         termios raw{};
         tcgetattr(slave_, &raw);
         cfmakeraw(&raw);
@@ -43,7 +44,7 @@ public:
         return bytes;
     }
 
-    /// What nobody reads is lost, as on a line.
+    /// Bytes that no program reads are lost, as on a serial line.
     void write(std::span<const std::uint8_t> bytes) {
         if (::write(master_, bytes.data(), bytes.size()) < 0) return;
     }

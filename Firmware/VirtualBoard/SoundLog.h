@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When the converters leave silence and come back to it, in time of the steady clock, which all programs of a
-// machine share: what plays beside the board can be compared with it.
+// Logs when the converters leave and reach silence, in time of the steady clock. All programs of a machine
+// share that clock, so the log can be compared with devices that play beside the board.
 #pragma once
 #include "Peripherals.h"
 #include <algorithm>
@@ -12,10 +12,11 @@
 
 namespace physvib::virtualboard {
 
-/// A CSV of `steady_ns,what`, a line at a time; `what`: sound, silence (for 20 ms at least), or a note.
+/// A CSV file of `steady_ns,what`, written line by line; `what`: sound, silence (of at least 20 ms), or a
+/// note.
 class SoundLog {
 public:
-    /// Empty: nothing is written. Throws std::runtime_error.
+    /// With an empty path nothing is written. Throws std::runtime_error.
     explicit SoundLog(const std::string& path) {
         if (path.empty()) return;
         file_.open(path);
@@ -23,7 +24,7 @@ public:
         file_ << "steady_ns,what" << std::endl;
     }
 
-    /// The board's time 0.
+    /// Sets the time 0 of the board.
     void begin(std::chrono::steady_clock::time_point at) { began_ = at; }
 
     void note(const char* what, double seconds) {
@@ -33,7 +34,7 @@ public:
                   << std::endl;
     }
 
-    /// Looks at the frames since the last call.
+    /// Evaluates the frames since the last call.
     void follow(const Peripherals& io) {
         for (; seen_ < io.frames.size(); ++seen_) {
             const bool isSilent =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The processor's side of the virtual board: blocks, exceptions, sleep.
+// Processor of the virtual board: instruction blocks, exceptions and sleep.
 #include "VirtualBoard.h"
 #include <algorithm>
 #include <array>
@@ -172,7 +172,7 @@ void VirtualBoard::onWrite(uc_engine*, std::uint64_t offset, unsigned size, std:
     const auto& r = *static_cast<Region*>(region);
     r.board->io_.write(r.base + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(value), size,
                        r.board->storeTime());
-    const std::uint64_t next = r.board->io_.nextEvent(); // what was written may let something happen sooner
+    const std::uint64_t next = r.board->io_.nextEvent(); // the write may have caused an earlier event
     r.board->deadline_ = std::min(r.board->deadline_, next);
 }
 
@@ -185,7 +185,7 @@ void VirtualBoard::enterException(int vector, int number, int priority) {
     frame[6] &= ~1u;
     for (std::size_t i = 0; i < stackedFloat.size(); ++i) frame[8 + i] = reg(stackedFloat[i]);
     frame[24] = reg(UC_ARM_REG_FPSCR);
-    // Unicorn may stop between an IT instruction and what hangs on it
+    // Unicorn may stop between an IT instruction and the instructions that depend on it
     setReg(UC_ARM_REG_XPSR, frame[7] & ~ifThenBits);
     const std::uint32_t before = reg(UC_ARM_REG_SP), stack = (before & ~7u) - frameBytes;
     demand(uc_mem_write(engine_, stack, frame.data(), frameBytes), "stack");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The board without the board: the unmodified firmware image, instruction by instruction in Unicorn, with a
-// model of what is around the processor. Time is counted in the processor's cycles by CycleModel.
+// Virtual board: runs the unmodified firmware image in the Unicorn emulator, with a model of the processor's
+// surroundings. CycleModel counts time in processor cycles.
 //
-// Known limits: interrupts are taken between blocks of instructions (up to about a hundred cycles late); the
-// clock counts as at full speed from reset on; analogue behaviour is outside.
+// Known limits: interrupts are taken between instruction blocks (up to about a hundred cycles late); the
+// clock runs at full speed from reset on; analogue behaviour is not modelled.
 #pragma once
 #include "CycleModel.h"
 #include "ElfImage.h"
@@ -27,14 +27,14 @@ public:
     VirtualBoard(const VirtualBoard&) = delete;
     VirtualBoard& operator=(const VirtualBoard&) = delete;
 
-    /// Runs until this many seconds since power came. Throws std::runtime_error if the emulator gives up.
+    /// Runs until that many seconds after power-on. Throws std::runtime_error if the emulator fails.
     void runUntil(double seconds);
     double seconds() const { return static_cast<double>(cycle_) / io_.hz(); }
 
-    /// Bytes for the board's serial line: as fast as the line is, from `seconds` on (now: 0).
+    /// Sends bytes to the board at line speed, from `seconds` on (0: now).
     void send(std::span<const std::uint8_t> bytes, double seconds = 0.0);
 
-    /// What has come from the board since the last call.
+    /// Bytes sent by the board since the last call.
     std::vector<LineByte> received();
 
     Peripherals& io() { return io_; }
@@ -44,12 +44,13 @@ public:
     std::uint64_t cycle() const { return cycle_; }
     std::uint64_t idleCycles() const { return idle_; }
     std::uint64_t instructions() const { return instructions_; }
-    /// True if the processor waits for an interrupt: its memory is then as the main loop left it.
+    /// Whether the processor waits for an interrupt; its memory is then in a consistent state of the main
+    /// loop.
     bool isAsleep() const { return asleep_; }
     int resets() const { return resets_; }
     int faults() const { return faults_; }
 
-    /// Cycles by function, since power came.
+    /// Cycles per function since power-on.
     std::vector<std::pair<std::uint64_t, std::string>> profile() const;
 
 private:
@@ -68,7 +69,7 @@ private:
     };
     struct Block {
         BlockCost cost;
-        std::uint64_t* spent = nullptr; // of its function
+        std::uint64_t* spent = nullptr; // cycles spent in its function
     };
 
     void enterBlock(std::uint32_t address, std::uint32_t size);

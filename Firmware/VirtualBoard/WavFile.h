@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the converters held, sample by sample, as a WAV file: 8 bit, four channels.
+// Writes the converter codes as a WAV file: 8 bit, four channels, one sample per frame.
 #pragma once
 #include "Converters.h"
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace physvib::virtualboard {
 
-/// False if the file cannot be written. `rate`: samples per second.
+/// False if the file cannot be written. `rate`: frames per second.
 inline bool writeWav(const std::string& path, const std::vector<Converters::Frame>& frames,
                      std::uint32_t rate) {
     std::ofstream out(path, std::ios::binary);

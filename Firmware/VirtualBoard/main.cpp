@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// physvib-virtual-board: the firmware's image as a board on a pseudo-terminal, in real time.
+// physvib-virtual-board: runs the firmware image in real time, with its serial line on a pseudo-terminal.
 #include "Plug.h"
 #include "SoundLog.h"
 #include "VirtualBoard.h"
@@ -54,8 +54,8 @@ void runLive(VirtualBoard& board, Plug& plug, SoundLog& log, double seconds) {
     const auto began = std::chrono::steady_clock::now();
     log.begin(began);
     while (!interrupted && (seconds <= 0 || board.seconds() < seconds)) {
-        // Bytes come when they are read, not when the board stood still for want of a processor: its clock
-        // stays steady.
+        // Bytes are timed by when they are read. If the emulation paused for lack of processor time, they are
+        // not sent into the past, so the board's clock stays steady.
         const auto bytes = plug.read();
         const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
         if (plugMoved.exchange(false)) log.note(plug.move() ? "plugged" : "unplugged", now);
@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
         std::signal(SIGINT, [](int) { interrupted = true; });
         std::signal(SIGTERM, [](int) { interrupted = true; });
         std::signal(SIGUSR1, [](int) { plugMoved = true; });
-        std::cout << plug.path() << std::endl; // the port to connect to; scripts wait for this line
+        std::cout << plug.path() << std::endl; // port to connect to; scripts wait for this line
         runLive(board, plug, log, o.seconds);
         report(board);
         if (!o.wav.empty() && !writeWav(o.wav, board.io().frames, 8000))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every call has in common: no exception gets out, and what was wrong is said in one line.
+// Shared by all C functions: turns exceptions into error codes, keeps the error text, and copies versioned
+// structures.
 #pragma once
 #include "Api/C/physvib.h"
 #include <algorithm>
@@ -13,7 +14,7 @@
 
 namespace physvib::api {
 
-/// Of this thread; see physvib_error().
+/// Error text of this thread; see physvib_error().
 inline std::array<char, 640>& lastError() noexcept {
     thread_local std::array<char, 640> line{};
     return line;
@@ -33,12 +34,12 @@ inline int unknownHandle() noexcept {
 }
 inline int nothingThere(std::string_view line) noexcept { return fail(PHYSVIB_ERROR_ARGUMENT, line); }
 
-/// Of a call that says "": fine.
+/// PHYSVIB_OK for an empty `fault`, otherwise an error with that text.
 inline int resultOf(std::string_view fault, int code = PHYSVIB_ERROR_ARGUMENT) noexcept {
     return fault.empty() ? PHYSVIB_OK : fail(code, fault);
 }
 
-/// What `call` returns, a code or a count; of an exception, a code.
+/// Returns the result of `call`, a code or a count; an exception becomes an error code.
 template <class Call>
 auto guarded(Call call) noexcept -> decltype(call()) {
     try {
@@ -56,7 +57,7 @@ auto guarded(Call call) noexcept -> decltype(call()) {
     }
 }
 
-/// Also between its members, which other languages may see.
+/// A structure whose padding is zero too, because other languages may read it.
 template <class Struct>
 Struct zeroed() noexcept {
     Struct values;
@@ -64,7 +65,7 @@ Struct zeroed() noexcept {
     return values;
 }
 
-/// `values`, as far as the caller's version of the structure goes.
+/// Copies `values` as far as the caller's version of the structure extends.
 template <class Struct>
 int begin(Struct* filled, std::size_t size, const Struct& values) noexcept {
     if (filled == nullptr) return nothingThere("structure: expected one, found NULL");
@@ -75,8 +76,8 @@ int begin(Struct* filled, std::size_t size, const Struct& values) noexcept {
     return PHYSVIB_OK;
 }
 
-/// A structure of the caller's as this version knows it: what an older one lacks is as init has it. False,
-/// and said, if it is none.
+/// Reads the caller's structure. Members that an older version lacks keep the values of its init function.
+/// Sets the error and returns false if the size is invalid.
 template <class Struct>
 bool take(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noexcept {
     init(&to, sizeof to);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The structures of physvib.h and ours.
+// Conversions between the structures of physvib.h and the types of the engine.
 #pragma once
 #include "Api/C/Calls.h"
 #include "Core/CollisionEvent.h"
@@ -43,12 +43,12 @@ inline std::optional<double> optional(double value) noexcept {
     return value == PHYSVIB_UNKNOWN ? std::nullopt : std::optional{value};
 }
 
-/// Settings as a renderer takes them; what is wrong, and what was expected, or empty.
+/// Converts and checks settings; returns empty, or what is wrong and what was expected.
 std::string_view convert(const physvib_renderer_settings& from, RendererSettings& to) noexcept;
 std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexcept;
 physvib_layout layoutOf(const EnchanterLayout& from) noexcept;
 
-/// Events that are playable and in time order, or why they are not.
+/// Empty if all events are playable and in time order; otherwise the reason.
 std::string_view faultOf(std::span<const physvib_event> events) noexcept;
 
 } // namespace physvib::api

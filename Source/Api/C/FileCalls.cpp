@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Version, errors, structures as they begin; layouts, lists and files of sound; a whole list to samples.
+// C functions for version, errors, defaults of structures, layouts, event lists, WAV files and offline
+// rendering.
 #include "Api/C/Convert.h"
 #include "Contacts/Texture.h"
 #include "Core/OfflineLoop.h"
@@ -21,7 +22,7 @@ namespace {
 
 int written(const std::string& error) noexcept { return resultOf(error, PHYSVIB_ERROR_FILE); }
 
-/// A list of the caller's as a renderer takes it.
+/// Adapts the caller's event list to the renderer's source interface.
 struct ListSource {
     std::span<const physvib_event> events;
     bool pop(CollisionEvent& event) noexcept {
@@ -32,7 +33,7 @@ struct ListSource {
     }
 };
 
-/// As many as there is room for; how many there are.
+/// Copies as many events as fit; returns the number there are.
 physvib_int64 listTo(physvib_event* events, physvib_int64 capacity, const std::vector<CollisionEvent>& list) {
     const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(list));
     std::transform(list.begin(), list.begin() + count, events,
@@ -149,7 +150,7 @@ int physvib_layout_save(const char* path, const char* name, const physvib_layout
         if (const auto fault = convert(*layout, geometry); !fault.empty())
             return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         const std::string text = layoutJson(describeLayout(name, geometry));
-        // nobody could load it
+        // refuses to write a file that could not be loaded
         if (const auto again = readLayout(text, name); !again)
             return fail(PHYSVIB_ERROR_ARGUMENT, again.error);
         return written(writeFile(path, text));

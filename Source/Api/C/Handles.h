@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Names for what others hold: nothing that they could make up, or have freed, is ever followed.
+// Handles for objects that callers own. A forged handle, or one of a freed object, is detected and never
+// dereferenced.
 #pragma once
 #include "Core/Nonblocking.h"
 #include <array>
@@ -13,14 +14,14 @@
 
 namespace physvib::api {
 
-/// Up to 256 objects of one kind. A name is the place in the table and a count of what has been there, so it
-/// is used once only (on machines of 64 bits; on others it comes back after 2^20).
+/// Table of up to 256 objects of one kind. A handle combines the index in the table and a use count, so each
+/// is unique (on 32-bit machines it repeats after 2^20 uses).
 template <class Object, std::uintptr_t Kind>
 class Handles {
 public:
     static constexpr std::size_t capacity = 256;
 
-    /// An object in use: as long as one is held, it is not freed.
+    /// Keeps an object from being freed while it is in use.
     class Use {
     public:
         Use() = default;
@@ -43,7 +44,7 @@ public:
         std::atomic<int>* users_ = nullptr;
     };
 
-    /// Its name; 0: there is no room. Any thread but R.
+    /// Adds an object and returns its handle; 0: the table is full. Any thread but R.
     std::uintptr_t add(std::unique_ptr<Object> object) noexcept {
         const std::lock_guard lock{mutex_};
         for (std::size_t i = 0; i < capacity; ++i) {
@@ -57,7 +58,8 @@ public:
         return 0;
     }
 
-    /// The object of that name, which nobody uses any more; null if there is none. Any thread but R.
+    /// Removes the object from the table once no thread uses it; null if the handle is unknown. Any thread
+    /// but R.
     std::unique_ptr<Object> take(std::uintptr_t name) noexcept {
         const std::lock_guard lock{mutex_};
         Slot& slot = slotOf(name);
@@ -67,13 +69,13 @@ public:
         return std::move(slot.object);
     }
 
-    /// Ends it. False if there is none. Any thread but R.
+    /// Destroys the object. False if the handle is unknown. Any thread but R.
     bool remove(std::uintptr_t name) noexcept { return take(name) != nullptr; }
 
-    /// Any thread, wait-free.
+    /// The object of that handle, if it exists. Any thread, wait-free.
     Use use(std::uintptr_t name) noexcept PHYSVIB_NONBLOCKING {
         Slot& slot = slotOf(name);
-        slot.users.fetch_add(1); // before the look at the name: remove() looks the other way round
+        slot.users.fetch_add(1); // before reading the name; take() clears the name before it reads the users
         if (name != 0 && slot.name.load() == name) return {*slot.object, slot.users};
         slot.users.fetch_sub(1);
         return {};

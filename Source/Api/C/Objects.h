@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the handles stand for.
+// Objects behind the handles of the C library.
 #pragma once
 #include "Api/C/Handles.h"
 #include "Api/C/physvib.h"
@@ -13,7 +13,7 @@
 
 namespace physvib::api {
 
-/// A renderer with the queues that lead to it.
+/// A renderer with its input queues.
 struct Renderer {
     struct Source {
         EventQueue<CollisionEvent, 8192> events;
@@ -24,9 +24,9 @@ struct Renderer {
     HapticRenderer renderer;
     Source source;
     int rateHz = 0, channels = 0;
-    std::mutex producers, readers; // never R
+    std::mutex producers, readers; // any thread but R
     LatestValue<RenderStatus> status;
-    std::atomic_flag isPulled; // by R
+    std::atomic_flag isPulled; // set while R renders
 };
 
 struct World {
@@ -34,7 +34,7 @@ struct World {
         : feed(settings) {}
     std::mutex mutex;
     ContactFeed feed;
-    std::vector<CollisionEvent> taken; // and not yet handed out
+    std::vector<CollisionEvent> taken; // events not yet handed out
 };
 
 inline Handles<Renderer, 1>& renderers() {

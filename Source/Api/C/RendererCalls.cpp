@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strikes and changes in, samples out.
+// C functions of a renderer: queue events and changes, render samples.
 #include "Api/C/Convert.h"
 #include "Api/C/Objects.h"
 #include "Core/ClockLaw.h"
@@ -39,7 +39,7 @@ RenderControl controlOf(RenderControl::Kind kind, physvib_int64 timeNs, int chan
     return control;
 }
 
-/// For as long as a pull takes. R.
+/// Marks a renderer as rendering, so that a second thread is refused. R.
 class Pulling {
 public:
     explicit Pulling(Renderer& renderer) noexcept
@@ -57,7 +57,7 @@ private:
     bool isAlone_;
 };
 
-/// `block(renderer)` renders, once it is sure that the caller has as many channels; what it returns. R.
+/// Runs `block(renderer)`, which renders, after checking the caller's channel count; returns its result. R.
 template <class Block>
 int pull(physvib_renderer name, int channels, int frames, Block block) noexcept PHYSVIB_NONBLOCKING {
     const auto renderer = use(name);
@@ -127,7 +127,7 @@ int physvib_renderer_pull(physvib_renderer name, float* const* channels, int cou
 int physvib_renderer_pull_interleaved(physvib_renderer name, float* samples, int count, int frames) {
     if (samples == nullptr) return PHYSVIB_ERROR_ARGUMENT;
     return pull(name, count, frames, [=](Renderer& renderer) noexcept {
-        constexpr int most = 64; // 16 KB of a callback's stack
+        constexpr int most = 64; // 16 KB on the audio callback's stack
         std::array<std::array<float, most>, limits::maxEnchanters> block;
         std::array<float*, limits::maxEnchanters> at{};
         for (std::size_t j = 0; j < block.size(); ++j) at[j] = block[j].data();

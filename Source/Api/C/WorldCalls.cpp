@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts in, events out.
+// C functions of a world: report contacts, take events.
 #include "Api/C/Convert.h"
 #include "Api/C/Objects.h"
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double longestStepSeconds = 3600.0;
 
-/// `call(World&)` of the world of that name, alone: a code or a count.
+/// Calls `call(World&)` with the world of that handle, under its mutex; returns its code or count.
 template <class Call>
 auto in(physvib_world name, Call call) noexcept -> decltype(call(std::declval<World&>())) {
     return guarded([&]() -> decltype(call(std::declval<World&>())) {
@@ -135,7 +135,7 @@ int physvib_world_configure(physvib_world name, const physvib_world_settings* se
     return in(name, [&](World& world) {
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        // builds without exceptions would keep the lock
+        // checked here, because without exceptions configure() could not release the lock
         if (const std::string_view fault = faultOf(wanted); !fault.empty())
             return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         world.feed.configure(wanted);

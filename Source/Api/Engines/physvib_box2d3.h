@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Box2D 3 (3.0, 3.1 and its state of August 2026): physvib_box2d3_set gives a body its number (from 0 on) and
- * its values; call physvib_box2d3_step instead of b2World_Step. Shapes need no hit events, and no threshold
- * of Box2D's matters: contacts are read after the step, so landings slower than hitEventThreshold are felt,
- * too. C and C++; one world, one thread. */
+/* Box2D 3 (3.0, 3.1 and its state of August 2026). physvib_box2d3_set assigns a body its number (from 0) and
+ * its values; call physvib_box2d3_step instead of b2World_Step. Shapes need no hit events: contacts are read
+ * after the step, so impacts slower than Box2D's hitEventThreshold are felt too. C and C++; one world, one
+ * thread. */
 #ifndef PHYSVIB_BOX2D3_H
 #define PHYSVIB_BOX2D3_H
 #include <box2d/box2d.h>
@@ -12,9 +12,9 @@
 #include <string.h>
 #define PHYSVIB_BOX2D3_MOST 64 /**< contacts of a body in a step; more are an error */
 
-/* What changed its name from version to version. */
+/* Names that differ between versions. */
 #if defined(b2_maxPolygonVertices) /* 3.0 */
-/* of a sub-step: at least so much */
+/* maximum of the sub-steps: a lower bound */
 #define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse)
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetInertiaTensor(body)
 #else
@@ -26,27 +26,27 @@
 #else
 #define PHYSVIB_BOX2D3_CENTRE(body) b2Body_GetWorldCenterOfMass(body)
 #endif
-/* 3.1 counts each sub-step twice: as it is solved, and as it is relaxed */
+/* 3.1 counts each sub-step twice: when it is solved and when it is relaxed */
 #if !defined(PHYSVIB_BOX2D3_PUSHED)
 #define PHYSVIB_BOX2D3_PUSHED(point) (0.5 * (double)(point)->totalNormalImpulse)
 #endif
 
 /** A body of Box2D and its number. */
 typedef struct physvib_box2d3_number {
-    b2BodyId body; /**< when it got its number */
+    b2BodyId body; /**< the body when it got its number */
     int id;        /**< -1: removed */
 } physvib_box2d3_number;
 
 /** State between two steps; zero it, and set `world` and `box2d`. */
 typedef struct physvib_box2d3 {
-    physvib_world world;                       /**< of PhysVib */
-    b2WorldId box2d;                           /**< of Box2D */
-    double restitution_threshold;              /**< of box2d, m/s; 0: 1, as b2DefaultWorldDef has it */
-    double (*mix_restitution)(double, double); /**< of two shapes; NULL: the larger, as Box2D has it */
+    physvib_world world;                       /**< PhysVib's world */
+    b2WorldId box2d;                           /**< Box2D's world */
+    double restitution_threshold;              /**< of box2d, m/s; 0: 1, Box2D's default */
+    double (*mix_restitution)(double, double); /**< of two shapes; NULL: the larger, Box2D's default */
     int code;                                  /**< the first error so far, or PHYSVIB_OK */
-    char error[160];                           /**< what it was about */
-    physvib_box2d3_number* numbers;            /**< by Box2D's index, from 1 on */
-    int capacity;                              /**< of these */
+    char error[160];                           /**< text of that error */
+    physvib_box2d3_number* numbers;            /**< by Box2D's index, from 1 */
+    int capacity;                              /**< of `numbers` */
 } physvib_box2d3;
 
 PHYSVIB_UNUSED static void physvib_box2d3_fail(physvib_box2d3* haptics, int code, const char* line) {
@@ -55,7 +55,7 @@ PHYSVIB_UNUSED static void physvib_box2d3_fail(physvib_box2d3* haptics, int code
     strncpy(haptics->error, line, sizeof haptics->error - 1);
 }
 
-/* The number of a body, -1 if it has none; user data stay yours. */
+/* The number of a body, -1 if it has none. The body's user data are not used. */
 PHYSVIB_UNUSED static int physvib_box2d3_id(const physvib_box2d3* haptics, b2BodyId body) {
     if (body.index1 >= haptics->capacity || !B2_ID_EQUALS(haptics->numbers[body.index1].body, body))
         return -1;
@@ -73,13 +73,13 @@ PHYSVIB_UNUSED static int physvib_box2d3_grow(physvib_box2d3* haptics, int index
     return 1;
 }
 
-/* At the end; `world` is yours to free. */
+/* Call at the end; freeing `world` is left to the caller. */
 PHYSVIB_UNUSED static void physvib_box2d3_free(physvib_box2d3* haptics) {
     free(haptics->numbers);
     haptics->numbers = NULL, haptics->capacity = 0;
 }
 
-/* Before b2DestroyBody. */
+/* Call before b2DestroyBody. */
 PHYSVIB_UNUSED static int physvib_box2d3_remove(physvib_box2d3* haptics, b2BodyId body) {
     const int id = physvib_box2d3_id(haptics, body);
     if (id < 0) return PHYSVIB_OK;
@@ -87,8 +87,8 @@ PHYSVIB_UNUSED static int physvib_box2d3_remove(physvib_box2d3* haptics, b2BodyI
     return physvib_world_remove_body(haptics->world, id);
 }
 
-/* Values of a body (from physvib_body_init); its mass, inertia and gravity scale are Box2D's. Call it again
- * when these change. */
+/* Sets the values of a body (from physvib_body_init); mass, inertia and gravity scale are read from Box2D.
+ * Call it again when these change. */
 PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3* haptics, b2BodyId body, int id,
                                              physvib_body values) {
     const int falls = b2Body_GetType(body) == b2_dynamicBody;
@@ -103,9 +103,8 @@ PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3* haptics, b2BodyId b
     return PHYSVIB_OK;
 }
 
-PHYSVIB_UNUSED static double physvib_box2d3_pull(b2WorldId world, b2BodyId body, b2Vec2 normal) { /* m/s^2,
-                                                                                                     along the
-                                                                                                     normal */
+/* Acceleration by gravity along the normal, m/s^2. */
+PHYSVIB_UNUSED static double physvib_box2d3_pull(b2WorldId world, b2BodyId body, b2Vec2 normal) {
     const b2Vec2 g = b2World_GetGravity(world);
     return b2Body_GetType(body) == b2_dynamicBody
                ? (double)b2Body_GetGravityScale(body) * (g.x * normal.x + g.y * normal.y)
@@ -125,9 +124,9 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
     double one = b2Shape_GetRestitution(found->shapeIdA), other = b2Shape_GetRestitution(found->shapeIdB),
            meets, impulse = PHYSVIB_BOX2D3_PUSHED(point);
     physvib_contact contact;
-    if (impulse <= 0 && point->separation > 0) return;  /* close, but not touching yet */
-    meets = speed > 0 && root > 0 ? sqrt(root) : speed; /* Box2D's speed is that at the start of the step;
-                                                           gravity goes on until they meet */
+    if (impulse <= 0 && point->separation > 0) return; /* near, but not touching yet */
+    /* Box2D's speed is that at the start of the step; gravity accelerates the bodies until they meet. */
+    meets = speed > 0 && root > 0 ? sqrt(root) : speed;
     physvib_contact_init(&contact, sizeof contact);
     contact.a = physvib_box2d3_id(haptics, a), contact.b = physvib_box2d3_id(haptics, b);
 #if defined(B2_NULL_INDEX)
@@ -146,7 +145,7 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
     if (gap > 0 && speed + meets > 0)
         contact.fraction = fmin(1, 2 * gap / (speed + meets) / seconds);
     else
-        contact.gap_m = point->separation; /* they overlapped before */
+        contact.gap_m = point->separation; /* they overlapped before the step */
     if (contact.a < 0 || contact.b < 0)
         physvib_box2d3_fail(haptics, PHYSVIB_ERROR_ARGUMENT,
                             "body: expected a number (physvib_box2d3_set) of every body that touches");
@@ -154,8 +153,8 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
         physvib_box2d3_fail(haptics, physvib_world_touch(haptics->world, &contact), physvib_error());
 }
 
-/* Contacts of a body that is awake, each of them once: with the second of its bodies, or with the first where
- * that lies still. */
+/* Reports the contacts of an awake body. Each contact is reported once: with its second body, or with the
+ * first if the second is static or asleep. */
 PHYSVIB_UNUSED static void physvib_box2d3_body(physvib_box2d3* haptics, b2BodyId body, double seconds) {
     b2ContactData found[PHYSVIB_BOX2D3_MOST];
     const int count = b2Body_GetContactData(body, found, PHYSVIB_BOX2D3_MOST);
@@ -173,7 +172,8 @@ PHYSVIB_UNUSED static void physvib_box2d3_body(physvib_box2d3* haptics, b2BodyId
     }
 }
 
-/* Instead of b2World_Step. PHYSVIB_OK, or the first error since the beginning, which haptics->error names. */
+/* Call instead of b2World_Step. Returns PHYSVIB_OK, or the first error so far, with its text in
+ * haptics->error. */
 PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double seconds, int sub_steps) {
     const b2Vec2 g = b2World_GetGravity(haptics->box2d);
     b2BodyEvents moved;
@@ -181,7 +181,7 @@ PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double se
     physvib_box2d3_fail(
         haptics, physvib_world_begin_step(haptics->world, seconds, sqrt((double)(g.x * g.x + g.y * g.y))),
         physvib_error());
-    for (i = 1; i < haptics->capacity; ++i) { /* as they would go on without contacts */
+    for (i = 1; i < haptics->capacity; ++i) { /* velocities as they would be without contacts */
         const b2BodyId body = haptics->numbers[i].body;
         b2Vec2 v;
         double pull;
@@ -199,8 +199,8 @@ PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double se
     }
     b2World_Step(haptics->box2d, (float)seconds, sub_steps);
     moved = b2World_GetBodyEvents(haptics->box2d);
-    for (i = 0; i < moved.moveCount; ++i) { /* what contacts pushed follows from momentum: what Box2D says of
-                                               it differs from version to version */
+    /* Impulses are computed from changes of momentum, because Box2D's own differ between versions. */
+    for (i = 0; i < moved.moveCount; ++i) {
         const b2BodyId body = moved.moveEvents[i].bodyId;
         const b2Vec2 v = b2Body_GetLinearVelocity(body);
         if (physvib_box2d3_id(haptics, body) < 0) continue;
@@ -214,7 +214,7 @@ PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double se
     return haptics->code;
 }
 
-/* Why nothing is felt, in one sentence, to `text`. */
+/* Writes to `text` why nothing is felt, in one sentence. */
 PHYSVIB_UNUSED static void physvib_box2d3_explain(const physvib_box2d3* haptics, char* text, size_t size) {
     if (haptics->code == PHYSVIB_OK)
         physvib_world_explain(haptics->world, text, size);

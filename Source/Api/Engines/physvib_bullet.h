@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Bullet 3: attach, number the bodies (setUserIndex, from 0 on); call stepSimulation as before. The field is
-// the plane x, y. C++17 and later.
+// Bullet 3: construct PhysVibBullet, number the bodies (setUserIndex, from 0), and call stepSimulation as
+// usual. The field is the x, y plane. C++17 and later.
 #pragma once
 #include <algorithm>
 #include <btBulletDynamicsCommon.h>
 #include <physvib/physvib.h>
 #include <string>
 
-/// Keep it while the world steps. Bullet has one tick callback of each kind: if you have your own, call begin
-/// and end from them.
+/// Must exist while the world steps. Bullet has one tick callback of each kind; programs with callbacks of
+/// their own call begin() and end() from them.
 class PhysVibBullet {
 public:
-    /// Both must outlive it; `name` has bodies of the same numbers.
+    /// Both arguments outlive this object; bodies have the same numbers in both.
     PhysVibBullet(btDynamicsWorld& world, physvib_world name)
         : name_(name) {
         world.setInternalTickCallback([](btDynamicsWorld* w, btScalar dt) { self(w).begin(*w, dt); }, this,
                                       true);
         world.setInternalTickCallback([](btDynamicsWorld* w, btScalar) { self(w).end(*w); }, this, false);
     }
-    /// The first error so far, such as a body that touches without a number; empty: none.
+    /// The first error so far, e.g. a touching body without a number; empty: none.
     const std::string& error() const { return error_; }
 
-    /// Before Bullet's step: the velocities with which surfaces meet.
+    /// Before Bullet's step: reports the velocities at which surfaces meet.
     void begin(btDynamicsWorld& world, double dt) {
         check(physvib_world_begin_step(name_, dt, world.getGravity().length()));
         for (int i = 0; i < world.getNumCollisionObjects(); ++i)
@@ -32,16 +32,16 @@ public:
                                          body->getAngularVelocity().z()));
             }
     }
-    /// After it: what touches.
+    /// After Bullet's step: reports the contacts.
     void end(btDynamicsWorld& world) {
         for (int i = 0; i < world.getDispatcher()->getNumManifolds(); ++i) {
             const btPersistentManifold& manifold = *world.getDispatcher()->getManifoldByIndexInternal(i);
-            // a trigger
+            // a trigger volume
             if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse())
                 continue;
             for (int p = 0; p < manifold.getNumContacts(); ++p) {
                 const btManifoldPoint& point = manifold.getContactPoint(p);
-                // close, but not touching yet
+                // near, but not touching yet
                 if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue;
                 physvib_contact contact;
                 physvib_contact_init(&contact, sizeof contact);
@@ -49,12 +49,13 @@ public:
                 contact.b = manifold.getBody1()->getUserIndex();
                 contact.x_m = point.getPositionWorldOnB().x(), contact.y_m = point.getPositionWorldOnB().y();
                 const btVector3 normal = inPlane(-point.m_normalWorldOnB);
-                if (normal.isZero()) continue; // across the field
+                if (normal.isZero()) continue; // the normal is across the field
                 contact.normal_x = normal.x(), contact.normal_y = normal.y();
                 contact.impulse_n_s = point.getAppliedImpulse();
                 contact.restitution = std::clamp(static_cast<double>(point.m_combinedRestitution), 0.0, 1.0);
                 contact.gap_m = point.getDistance();  // at the start of the step
-                contact.is_soft = PHYSVIB_SOFT_WHOLE; // it also pushes overlaps apart, or lets gaps be closed
+                contact.is_soft = PHYSVIB_SOFT_WHOLE; // the impulse also separates overlaps, or lets gaps
+                                                      // close
                 contact.point_id = PHYSVIB_POINT_BY_PLACE;
                 check(physvib_world_touch(name_, &contact));
             }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Chipmunk 7: attach, number the shapes (cpShapeSetUserData, integers from 1 on), and step with
- * physvib_chipmunk_step. A shape that touches without a number is an error, which names it. Numbers from 0
- * on, as before: define PHYSVIB_NUMBERS_FROM_0; then a shape without one is body 0. C99 and later, C++11 and
+/* Chipmunk 7: attach, number the shapes (cpShapeSetUserData, integers from 1), and step with
+ * physvib_chipmunk_step. A touching shape without a number is an error. Define PHYSVIB_NUMBERS_FROM_0 for
+ * numbers from 0, as in earlier versions; a shape without a number is then body 0. C99 and later, C++11 and
  * later. */
 #ifndef PHYSVIB_CHIPMUNK_H
 #define PHYSVIB_CHIPMUNK_H
@@ -10,7 +10,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* The first error so far, or PHYSVIB_OK; and what it was about. */
+/* The first error so far, or PHYSVIB_OK; and its text. */
 PHYSVIB_UNUSED static int physvib_chipmunk_code;
 PHYSVIB_UNUSED static char physvib_chipmunk_error[160];
 
@@ -41,7 +41,7 @@ PHYSVIB_UNUSED static void physvib_chipmunk_move(physvib_world world, const cpSh
                            physvib_error());
 }
 
-/* Before the solver: the velocities with which the surfaces met. */
+/* Before the solver: reports the velocities at which the surfaces met. */
 PHYSVIB_UNUSED static cpBool physvib_chipmunk_look(cpArbiter* arbiter, cpSpace* space, cpDataPointer world) {
     CP_ARBITER_GET_SHAPES(arbiter, a, b);
     physvib_chipmunk_move((physvib_world)world, a, cpShapeGetBody(a));
@@ -49,7 +49,7 @@ PHYSVIB_UNUSED static cpBool physvib_chipmunk_look(cpArbiter* arbiter, cpSpace* 
     return (void)space, cpTrue;
 }
 
-/* What gravity adds to what is pushed in this step: a load, and not part of an impact. */
+/* Impulse that gravity adds in this step: a load, not part of an impact. */
 PHYSVIB_UNUSED static double physvib_chipmunk_load(cpSpace* space, cpBody* a, cpBody* b, cpVect normal) {
     const double pull = cpvdot(cpSpaceGetGravity(space), normal) * cpSpaceGetCurrentTimeStep(space);
     const int falls_a = cpBodyGetType(a) == CP_BODY_TYPE_DYNAMIC,
@@ -61,7 +61,7 @@ PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter* arbiter, cpSpace* sp
     CP_ARBITER_GET_SHAPES(arbiter, a, b);
     const cpVect normal = cpArbiterGetNormal(arbiter);
     const cpContactPointSet points = cpArbiterGetContactPointSet(arbiter);
-    double impulse = cpfabs(cpvdot(cpArbiterTotalImpulse(arbiter), normal)); /* of either of the two */
+    double impulse = cpfabs(cpvdot(cpArbiterTotalImpulse(arbiter), normal)); /* equal for both shapes */
     int i;
     if (!physvib_chipmunk_is_numbered(a) || !physvib_chipmunk_is_numbered(b)) {
         physvib_chipmunk_check(
@@ -78,24 +78,24 @@ PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter* arbiter, cpSpace* sp
         contact.x_m = points.points[i].pointA.x, contact.y_m = points.points[i].pointA.y,
         contact.normal_x = normal.x, contact.normal_y = normal.y;
         contact.impulse_n_s = impulse;
-        contact.is_impulse_of_pair = 1; /* Chipmunk reports no other */
+        contact.is_impulse_of_pair = 1; /* Chipmunk reports no impulse per point */
         contact.restitution = cpfclamp01(cpArbiterGetRestitution(arbiter));
         contact.gap_m = points.points[i].distance;
-        contact.gap_fraction = 1.0; /* Chipmunk moves bodies first, then finds contacts */
+        contact.gap_fraction = 1.0; /* Chipmunk moves bodies before it finds contacts */
         contact.point_id = PHYSVIB_POINT_BY_PLACE;
         physvib_chipmunk_check(physvib_world_touch((physvib_world)world, &contact), physvib_error());
     }
 }
 
-/* Takes the default handler; call look and push from handlers of your own. */
+/* Uses the default handler; programs with handlers of their own call look and push from them. */
 PHYSVIB_UNUSED static void physvib_chipmunk_attach(cpSpace* space, physvib_world world) {
     cpCollisionHandler* handler = cpSpaceAddDefaultCollisionHandler(space);
     handler->preSolveFunc = physvib_chipmunk_look, handler->postSolveFunc = physvib_chipmunk_push,
     handler->userData = world;
 }
 
-/* Instead of cpSpaceStep. PHYSVIB_OK, or the first error so far, of which physvib_chipmunk_error says more.
- */
+/* Call instead of cpSpaceStep. Returns PHYSVIB_OK, or the first error so far, with its text in
+ * physvib_chipmunk_error. */
 PHYSVIB_UNUSED static int physvib_chipmunk_step(cpSpace* space, physvib_world world, double seconds) {
     physvib_chipmunk_check(physvib_world_begin_step(world, seconds, cpvlength(cpSpaceGetGravity(space))),
                            physvib_error());

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* MuJoCo 2: bodies are its body ids (0: the world); instead of mj_step call physvib_mujoco_step. The field is
- * the plane x, z. Integrators: all but RK4. Contacts are soft: their impulse is spread over many steps, so an
- * impact follows from its speed and from a restitution that you choose. */
+/* MuJoCo 2: bodies are numbered by their body ids (0: the world); call physvib_mujoco_step instead of
+ * mj_step. The field is the x, z plane. All integrators but RK4. MuJoCo's contacts are soft and spread their
+ * impulse over many steps, so an impact is computed from its speed and a restitution that the caller sets. */
 #ifndef PHYSVIB_MUJOCO_H
 #define PHYSVIB_MUJOCO_H
 #include <math.h>
@@ -20,7 +20,7 @@ PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d
     const mjContact* found = &d->contact[index];
     mjtNum force[6];
     physvib_contact contact;
-    if (found->dist > 0) return PHYSVIB_OK; /* close, but not touching yet */
+    if (found->dist > 0) return PHYSVIB_OK; /* near, but not touching yet */
     physvib_contact_init(&contact, sizeof contact);
     contact.a = m->geom_bodyid[found->geom1], contact.b = m->geom_bodyid[found->geom2];
     contact.x_m = found->pos[0], contact.y_m = found->pos[2], contact.normal_x = found->frame[0],
@@ -37,7 +37,7 @@ PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d
 PHYSVIB_UNUSED static int physvib_mujoco_step(const mjModel* m, mjData* d, physvib_world world,
                                               double restitution) {
     int i, code, refused = PHYSVIB_OK;
-    mj_step1(m, d); /* contacts where bodies are now, velocities with which they came there */
+    mj_step1(m, d); /* contacts at the current positions, and the velocities that led there */
     code = physvib_world_begin_step(world, m->opt.timestep, sqrt(mju_dot3(m->opt.gravity, m->opt.gravity)));
     if (code < 0) refused = code;
     for (i = 1; i < m->nbody; ++i)
@@ -46,6 +46,6 @@ PHYSVIB_UNUSED static int physvib_mujoco_step(const mjModel* m, mjData* d, physv
     for (i = 0; i < d->ncon; ++i)
         if ((code = physvib_mujoco_touch(m, d, world, i, restitution)) < 0) refused = code;
     code = physvib_world_end_step(world);
-    return code < 0 ? code : refused; /* PHYSVIB_OK, or an error: physvib_error() says more */
+    return code < 0 ? code : refused; /* PHYSVIB_OK, or an error, with its text in physvib_error() */
 }
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* ODE: number the geoms (dGeomSetData, integers from 1 on); call physvib_ode_touch for each contact joint in
- * your near callback, then step. A geom that touches without a number is an error, which names it. Numbers
- * from 0 on, as before: define PHYSVIB_NUMBERS_FROM_0; then a geom without one is body 0. C99 and later,
- * C++11 and later. */
+/* ODE: number the geoms (dGeomSetData, integers from 1); call physvib_ode_touch for each contact joint in the
+ * near callback, then physvib_ode_step. A touching geom without a number is an error. Define
+ * PHYSVIB_NUMBERS_FROM_0 for numbers from 0, as in earlier versions; a geom without a number is then body 0.
+ * C99 and later, C++11 and later. */
 #ifndef PHYSVIB_ODE_H
 #define PHYSVIB_ODE_H
 #include <math.h>
@@ -14,14 +14,14 @@
 
 /** State between two steps; zero it, and set `world`. */
 typedef struct physvib_ode {
-    physvib_world world; /**< of PhysVib */
-    int count;           /**< of joints in this step; those beyond PHYSVIB_ODE_MOST are ignored */
+    physvib_world world; /**< PhysVib's world */
+    int count;           /**< joints in this step; more than PHYSVIB_ODE_MOST are an error */
     dJointFeedback feedback[PHYSVIB_ODE_MOST]; /**< of each joint */
     physvib_contact contact[PHYSVIB_ODE_MOST]; /**< of each joint */
-    double pull_kg[PHYSVIB_ODE_MOST]; /**< of what falls onto another kind: its mass, towards the first geom
-                                         or from it */
+    double pull_kg[PHYSVIB_ODE_MOST]; /**< mass of a falling body against a fixed one, towards the first geom
+                                         or away from it */
     int code;                         /**< the first error so far, or PHYSVIB_OK */
-    char error[160];                  /**< what it was about */
+    char error[160];                  /**< text of that error */
 } physvib_ode;
 
 PHYSVIB_UNUSED static void physvib_ode_check(physvib_ode* ode, int code, const char* line) {
@@ -38,7 +38,7 @@ PHYSVIB_UNUSED static int physvib_ode_is_numbered(dGeomID geom) {
 #endif
 }
 
-/* How far a point may slide from one step to the next. */
+/* Reports position and velocity of the geom's body. */
 PHYSVIB_UNUSED static void physvib_ode_move(physvib_ode* ode, dGeomID geom) {
     dBodyID body = dGeomGetBody(geom);
     const dReal *at = body ? dBodyGetPosition(body) : NULL, *v = body ? dBodyGetLinearVel(body) : NULL;
@@ -64,7 +64,7 @@ PHYSVIB_UNUSED static double physvib_ode_speed(dGeomID geom, const dContactGeom*
     return dCalcVectorDot3(v, at->normal);
 }
 
-/* In the near callback, after dJointCreateContact(...) and dJointAttach(joint, ...). Normals of ODE point
+/* Call in the near callback, after dJointCreateContact(...) and dJointAttach(joint, ...). ODE's normals point
  * into the first geom. */
 PHYSVIB_UNUSED static void physvib_ode_touch(physvib_ode* ode, dJointID joint, const dContactGeom* geom) {
     physvib_contact* contact = &ode->contact[ode->count < PHYSVIB_ODE_MOST ? ode->count : 0];
@@ -91,7 +91,7 @@ PHYSVIB_UNUSED static void physvib_ode_touch(physvib_ode* ode, dJointID joint, c
     dJointSetFeedback(joint, &ode->feedback[ode->count++]);
 }
 
-/* Instead of dWorldStep. PHYSVIB_OK, or the first error so far, which ode->error names. */
+/* Call instead of dWorldStep. Returns PHYSVIB_OK, or the first error so far, with its text in ode->error. */
 PHYSVIB_UNUSED static int physvib_ode_step(physvib_ode* ode, dWorldID world, double seconds) {
     dVector3 g;
     int i;
@@ -105,7 +105,7 @@ PHYSVIB_UNUSED static int physvib_ode_step(physvib_ode* ode, dWorldID world, dou
         const double pull = -ode->pull_kg[i] * (g[0] * contact->normal_x + g[1] * contact->normal_y);
         contact->impulse_n_s =
             seconds * fabs(f[0] * contact->normal_x + f[1] * contact->normal_y); /* of either of the two */
-        /* What gravity adds in this step is a load, and not part of an impact. */
+        /* Gravity adds a load in this step that is not part of an impact. */
         if (contact->approach_m_per_s > 0.1 && pull > 0) contact->impulse_n_s -= seconds * pull;
         physvib_ode_check(ode, physvib_world_touch(ode->world, contact), physvib_error());
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Haptic files of others: read to samples, written from events.
+// JavaScript exports for haptic clips: read a file to samples, write events as a file.
 #include "Api/C/Convert.h"
 #include "Api/JavaScript/Exports.h"
 #include "Formats/ClipFile.h"
@@ -20,7 +20,7 @@ ClipFormat formatOf(const char* name) {
     return *format;
 }
 
-/// Only channel `channel`, as a format with one channel takes it.
+/// A clip with only channel `channel`, for formats with one channel.
 Clip oneOf(const Clip& all, int channel) {
     return {all.title, 0.0, 0.0, {all.channels[static_cast<std::size_t>(channel)]}};
 }
@@ -29,7 +29,8 @@ Clip oneOf(const Clip& all, int channel) {
 
 extern "C" {
 
-/// Reads a file of that name, to samples at that rate. How many channels; what is refused does not return.
+/// Reads a file of that name to samples at that rate; returns the number of channels. Errors throw in
+/// JavaScript.
 int PHYSVIB_JS(clip_read)(const char* bytes, int count, const char* name, int rateHz) {
     auto read = readClip({bytes, static_cast<std::size_t>(count)}, name, formatOf(name));
     if (!read) refuse(read.error);
@@ -46,7 +47,8 @@ const float* PHYSVIB_JS(clip_samples)(int channel) {
 }
 int PHYSVIB_JS(clip_frames)() { return static_cast<int>(sound.channels.front().size()); }
 
-/// Of one that has a place, x or y in the extent, m; of others not a number. Axis 2 and 3: the extent.
+/// Place of a channel, x (axis 0) or y (1), in m; not a number if it has none. Axes 2 and 3: width and height
+/// of the extent.
 double PHYSVIB_JS(clip_place)(int channel, int axis) {
     if (axis > 1) return axis == 2 ? clip.extentWidthMetres : clip.extentHeightMetres;
     const auto& place = clip.channels[static_cast<std::size_t>(channel)].place;
@@ -54,8 +56,8 @@ double PHYSVIB_JS(clip_place)(int channel, int axis) {
     return axis == 0 ? place->xMetres : place->yMetres;
 }
 
-/// Events as a clip of one channel per actuator. How many channels have something to play; what is refused
-/// does not return.
+/// Converts events to a clip with one channel per actuator; returns the number of channels. Errors throw in
+/// JavaScript.
 int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_renderer_settings* settings,
                         double error) {
     const std::span list{events, static_cast<std::size_t>(count)};
@@ -83,8 +85,8 @@ int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_re
     return static_cast<int>(clip.channels.size());
 }
 
-/// The clip as a file of that name's format, to the text; of one channel (-1: all). 0: that channel plays
-/// nothing.
+/// Writes the clip in the format of that file name to text(): one channel (-1: all). Returns 0 if the channel
+/// is silent.
 int PHYSVIB_JS(clip_write)(const char* name, int channel) {
     const ClipFormat format = formatOf(name);
     const Clip one = channel < 0 ? clip : oneOf(clip, channel);

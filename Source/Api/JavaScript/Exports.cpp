@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the module has beside physvib.h: where exceptions end, where the members of its structures are.
+// Exports of the WebAssembly module that physvib.h lacks: error handling, and the memory layout of its
+// structures.
 #include "Api/JavaScript/Exports.h"
 #include "Api/C/physvib.h"
 #include <cstddef>
@@ -12,7 +13,8 @@ namespace physvib::js {
 extern "C" {
 [[noreturn]] void fail(const char* line) __attribute__((import_module("physvib"), import_name("fail")));
 
-// Exceptions end here: this C++ library has no way back to a handler. All of ours are std::exceptions.
+// Throwing calls fail() instead, because this C++ library has no unwinder. All exceptions of this project are
+// std::exceptions.
 void* __cxa_allocate_exception(std::size_t bytes) noexcept { return std::malloc(bytes); }
 [[noreturn]] void __cxa_throw(void* thrown, std::type_info*, void (*)(void*)) {
     fail(static_cast<std::exception*>(thrown)->what());
@@ -53,11 +55,12 @@ constexpr char kind<std::size_t> = 'u';
 template <>
 constexpr char kind<physvib_int64> = 'l';
 
-/// Four numbers of 32 bits, as JavaScript reads them.
+/// Four 32-bit numbers per member, as JavaScript reads them. The last entry of a structure describes the
+/// structure.
 struct Member {
-    const char* name; // of the structure at its end
-    int at;           // its size there
-    int kind;         // 0 there
+    const char* name; // in the last entry: the structure's name
+    int at;           // in the last entry: the structure's size
+    int kind;         // in the last entry: 0
     int count;
 };
 

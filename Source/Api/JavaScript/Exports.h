@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names that JavaScript sees, and texts that it reads. One thread.
+// Export names and text buffer shared with JavaScript. One thread.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,11 +8,11 @@
 
 namespace physvib::js {
 
-/// The bytes that are read next, by js_text and js_text_bytes; all of them, with zeros inside.
+/// Buffer that JavaScript reads with js_text and js_text_bytes; it may contain zeros.
 std::string& text() noexcept;
 
-/// Ends this instance: JavaScript throws, and nothing after it runs. It is thrown away then, as texts are
-/// read in an instance of their own.
+/// Aborts the current call: JavaScript throws, and discards this instance. Texts are therefore parsed in an
+/// instance of their own.
 [[noreturn]] void refuse(std::string_view line);
 
 } // namespace physvib::js

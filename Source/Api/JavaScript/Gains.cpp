@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each actuator gets of a hit at a place.
+// JavaScript export of the panner: gain of each actuator for an impact at a place.
 #include "Api/C/Convert.h"
 #include "Api/JavaScript/Exports.h"
 #include <algorithm>
@@ -8,7 +8,8 @@ namespace physvib::js {
 
 extern "C" {
 
-/// Gains of a place in the field, m, to `gains` (room for PHYSVIB_MAX_ENCHANTERS): how many, or an error.
+/// Writes the gains for a place in the field, in m, to `gains` (PHYSVIB_MAX_ENCHANTERS entries); returns
+/// their number, or an error.
 int PHYSVIB_JS(gains)(const physvib_renderer_settings* settings, double x, double y, double* gains) {
     RendererSettings wanted;
     if (const auto fault = api::convert(*settings, wanted); !fault.empty())

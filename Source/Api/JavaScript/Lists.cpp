@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Event lists as text, and the head of a sound file.
+// JavaScript exports for event lists as CSV text, and for the header of a WAV file.
 #include "Api/C/Convert.h"
 #include "Api/JavaScript/Exports.h"
 #include "Io/Wav/WavHead.h"
@@ -10,7 +10,7 @@ namespace physvib::js {
 
 extern "C" {
 
-/// An event list as text, with its field, if that is one; an error as those of physvib.h.
+/// Writes an event list with its field, if given, to text(); errors as in physvib.h.
 int PHYSVIB_JS(events_text)(const physvib_event* events, int count, double width, double height) {
     const std::span list{events, static_cast<std::size_t>(count)};
     if (const auto fault = api::faultOf(list); !fault.empty())
@@ -22,7 +22,7 @@ int PHYSVIB_JS(events_text)(const physvib_event* events, int count, double width
     return PHYSVIB_OK;
 }
 
-/// What stands before the samples of a WAVE file.
+/// Writes the bytes before the samples of a WAV file to text().
 void PHYSVIB_JS(wav_head)(int channels, int rateHz, double frames) {
     text() = wavHead(channels, rateHz, static_cast<std::int64_t>(frames) * channels * 4, {});
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Included before all else: what a C++ library without threads and files lacks. An instance has one thread,
-// so nobody is ever waited for; what would ask for a file is compiled, and linked away.
+// Included first in the WebAssembly build: replaces what its C++ library lacks, which has no threads and
+// files. An instance has one thread, so locks are empty. File functions are only declared; the linker drops
+// their callers.
 #pragma once
 #include <filesystem>
 #include <mutex>
 
-namespace std { // NOLINT(cert-dcl58-cpp): this library declares none of these
+namespace std { // this library declares none of these
 
 struct mutex {
     void lock() noexcept {}
@@ -13,7 +14,7 @@ struct mutex {
 };
 
 namespace this_thread {
-inline void yield() noexcept { __builtin_trap(); } // a wait that could never end
+inline void yield() noexcept { __builtin_trap(); } // a wait on one thread would never end
 } // namespace this_thread
 
 namespace filesystem {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The two motors of a game controller, by the arithmetic of the native sink.
+// JavaScript exports for the two motors of a game controller, with the computation of the native sink.
 #include "Api/C/Convert.h"
 #include "Api/JavaScript/Exports.h"
 #include "Core/Pads/PadMotors.h"
@@ -26,8 +26,8 @@ struct Pad {
 
 extern "C" {
 
-/// `law`: numbers of a profile, as PadLaw has them: low and high (threshold, half, full, rise, fall), then
-/// the others. 0 and physvib_error() if they make no sense.
+/// `law`: the numbers of a PadLaw: low and high motor (threshold, half, full, rise, fall), then the others.
+/// Returns 0 and sets physvib_error() if they are invalid.
 Pad* PHYSVIB_JS(pad_create)(const double* law, double widthMetres, double heightMetres) {
     if (!(widthMetres > 0.0 && widthMetres <= 1e9 && heightMetres > 0.0 && heightMetres <= 1e9))
         return api::nothingThere("field: expected more than 0 m, to 10^9 m"), nullptr;
@@ -50,7 +50,7 @@ Pad* PHYSVIB_JS(pad_create)(const double* law, double widthMetres, double height
 
 void PHYSVIB_JS(pad_free)(Pad* pad) { delete pad; }
 
-/// At the time at which it is to be felt. 0, or an error.
+/// Queues an event at the time at which it is to be felt. Returns 0, or an error.
 int PHYSVIB_JS(pad_strike)(Pad* pad, const physvib_event* event) {
     if (const auto fault = api::faultOf({event, 1}); !fault.empty())
         return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
@@ -58,13 +58,13 @@ int PHYSVIB_JS(pad_strike)(Pad* pad, const physvib_event* event) {
     return PHYSVIB_OK;
 }
 
-/// When the next command is due, ns; infinite: motors are at rest.
+/// Time of the next command, ns; infinity: the motors are at rest.
 double PHYSVIB_JS(pad_due)(const Pad* pad) {
     const std::int64_t dueNs = pad->motors.dueNs();
     return dueNs == PadMotors::never ? std::numeric_limits<double>::infinity() : static_cast<double>(dueNs);
 }
 
-/// The command that is due: ns, low, high.
+/// The next command: ns, low, high.
 const double* PHYSVIB_JS(pad_next)(Pad* pad, double level) {
     const PadCommand next = pad->motors.next(level);
     pad->command = {static_cast<double>(next.timeNs), next.low, next.high};

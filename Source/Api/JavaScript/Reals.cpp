@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What std::to_chars asks for when it writes numbers, by printf, which is exact as well: the library's own
-// tables for it are a hundred kilobytes. The linker puts these in their place (--wrap).
+// Writes numbers for std::to_chars with printf, which is exact too: the C++ library's tables would add 100 KB
+// to the module. The linker substitutes these functions (--wrap).
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 static std::to_chars_result printed(char* first, char* last, const char* form, double number,
                                     std::uint32_t precision) {
-    char text[1500]; // 309 digits, a point, and as many decimals as an exact double has
+    char text[1500]; // 309 digits, a point, and the 1,074 decimals of an exact double
     const int length = std::snprintf(text, sizeof text, form, static_cast<int>(precision), number);
     if (length < 0 || length >= static_cast<int>(sizeof text) || length > last - first)
         return {last, std::errc::value_too_large};
@@ -19,17 +19,17 @@ static std::to_chars_result printed(char* first, char* last, const char* form, d
 
 namespace {
 
-constexpr int mostDigits = 17; // give any double back
+constexpr int mostDigits = 17; // enough to restore any double
 
-/// As few digits as give the number back, with a point behind the first and an exponent; of a power of two
-/// far from 1 perhaps one more.
+/// The fewest digits that restore the number, as d.ddd with an exponent; for powers of two far from 1
+/// possibly one more.
 struct Shortest {
     int digits, exponent;
 };
 Shortest shortestOf(double number) {
     char text[32];
     int digits = mostDigits;
-    for (int least = 1, most = mostDigits; least <= most;) { // if so many do, more do as well
+    for (int least = 1, most = mostDigits; least <= most;) { // binary search: more digits restore it too
         const int some = (least + most) / 2;
         std::snprintf(text, sizeof text, "%.*e", some - 1, number);
         if (std::strtod(text, nullptr) == number)
@@ -44,7 +44,7 @@ Shortest shortestOf(double number) {
 } // namespace
 
 extern "C" {
-// Without a form: fixed where that is not longer, as the standard has it.
+// Without a format: fixed notation unless it is longer, as the standard requires.
 // NOLINTNEXTLINE(bugprone-reserved-identifier)
 std::to_chars_result __wrap__ZNSt3__216__d2s_buffered_nEPcS0_dNS_12chars_formatE(char* first, char* last,
                                                                                  double number,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Included before what reads real numbers from text: clang 19's library has no from_chars for them.
+// std::from_chars for floating-point numbers, which clang 19's library lacks; included before code that
+// parses numbers.
 #pragma once
 #include <cerrno>
 #include <charconv>
@@ -7,9 +8,9 @@
 #include <string>
 #include <system_error>
 
-namespace std { // NOLINT(cert-dcl58-cpp): this library has none
+namespace std { // this library has none
 
-// By strtod, which rounds rightly and knows one locale here; but for what from_chars does not take.
+// Uses strtod, which rounds correctly and has a single locale here; rejects what from_chars does not accept.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {
     const string text(first, last);
     const bool isSigned = !text.empty() && text[0] == '-',
@@ -21,7 +22,7 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
     errno = 0;
     const double read = strtod(text.c_str(), &end);
     if (end == text.c_str()) return {first, errc::invalid_argument};
-    // the 0 before the x
+    // stop after the 0 that precedes the x
     if (isHex) return value = isSigned ? -0.0 : 0.0, from_chars_result{first + isSigned + 1, errc{}};
     const char* const stop = first + (end - text.c_str());
     if (errno == ERANGE && !(read > -1.0 && read < 1.0)) return {stop, errc::result_out_of_range};

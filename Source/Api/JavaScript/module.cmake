@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# What the package's modules and the page's have in common: include/physvib/Version.h, include/Members.inc, package/profiles.js, and ${exports}, the
-# header's functions.
+# Generates what the modules of the package and of the web page share: include/physvib/Version.h, include/Members.inc, package/profiles.js, and
+# ${exports}, the header's functions.
 get_filename_component(physvib_root ${CMAKE_CURRENT_LIST_DIR}/../../.. ABSOLUTE)
 
-# The version has one home.
+# The version is read from where it is defined.
 file(STRINGS ${physvib_root}/CMakeLists.txt project REGEX "^project\\(PhysVib VERSION ")
 string(REGEX REPLACE ".* VERSION ([0-9]+)\\.([0-9]+)\\.([0-9]+) .*" "\\1;\\2;\\3" numbers "${project}")
 list(GET numbers 0 PROJECT_VERSION_MAJOR)
@@ -11,11 +11,11 @@ list(GET numbers 1 PROJECT_VERSION_MINOR)
 list(GET numbers 2 PROJECT_VERSION_PATCH)
 string(REPLACE ";" "." PROJECT_VERSION "${numbers}")
 configure_file(${physvib_root}/Source/Package/Version.h.in include/physvib/Version.h @ONLY)
-# What of the header JavaScript calls: all functions but those of files, which a page has not; and all members of its structures.
+# JavaScript calls all functions of the header except those of files, which a page lacks, and reads all members of its structures.
 set(header ${physvib_root}/Source/Api/C/physvib.h)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
 file(READ ${header} text)
-string(REGEX REPLACE "[][;]" "|" text "${text}") # which lists of CMake take for their own
+string(REGEX REPLACE "[][;]" "|" text "${text}") # these characters have a meaning in CMake lists
 string(REPLACE "\n" ";" lines "${text}")
 set(members "")
 set(exports "")
@@ -33,7 +33,7 @@ foreach(line IN LISTS lines)
 endforeach()
 file(CONFIGURE OUTPUT include/Members.inc CONTENT "${members}" @ONLY)
 
-# Profiles of controllers, as a module of JavaScript.
+# Profiles of game controllers, as a JavaScript module.
 file(GLOB pads CONFIGURE_DEPENDS ${physvib_root}/Source/Scene/Pads/*.json)
 set(text "")
 foreach(pad ${pads})

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The message thread: JUCE's, and so the device's, from its beginning to its end.
+// The message thread of the live library: runs JUCE's message loop and owns the device.
 #include "Api/Live/Live.h"
 #include "Host/Devices/NoDevice.h"
 #include <utility>
 
 namespace physvib::api {
 
-// Empties what the session tells, keeps the device, ends the loop.
+// Passes on played events, supervises the device, and ends the message loop.
 class Live::Watch final : private juce::Timer {
 public:
     explicit Watch(Live& live)
@@ -71,11 +71,11 @@ void Live::run(std::promise<std::string> opened) {
             juce::MessageManager::getInstance()->runDispatchLoop();
         }
         rig_->stop([](const PlayedEvent&) {});
-        unsaved_ = rig_->finish(false); // before what may hang
+        unsaved_ = rig_->finish(false); // before closing the device, which may hang
     } else {
         opened.set_value(std::move(error));
     }
-    rig_.reset(); // before JUCE
+    rig_.reset(); // before JUCE shuts down
 }
 
 } // namespace physvib::api

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A session without a world of its own on a device and sinks beside it, with a message thread for it: what a
-// program that has none is lent.
+// A live rig for programs without a message loop: session, audio device and sinks, with a message thread of
+// their own. The session has no world of its own.
 #pragma once
 #include "Host/Rig/Rig.h"
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace physvib::api {
 
-/// What is told of it.
+/// Status of the rig.
 struct LiveStatus {
     AudioOutputStatus output;
     RenderStatus render;
@@ -21,7 +21,7 @@ struct LiveStatus {
     std::string trouble;
 };
 
-/// One at a time in a process. Made and ended on any thread, the same for each.
+/// At most one per process. Created and ended on any thread, one call at a time.
 class Live {
 public:
     explicit Live(RigSettings settings)
@@ -30,10 +30,11 @@ public:
     Live(const Live&) = delete;
     Live& operator=(const Live&) = delete;
 
-    /// Empty, or one line with the reason; waits for the device and what is beside it.
+    /// Waits for device and sinks. Returns empty, or one line with the reason.
     std::string open();
 
-    /// Silent, and closed; empty, or why the session is not saved whole. Waits for both.
+    /// Silences and closes the device, and waits for both. Returns empty, or why the session file is
+    /// incomplete.
     std::string end();
 
     /// Any thread, after open().
@@ -46,12 +47,12 @@ private:
     class Watch;
     void run(std::promise<std::string> opened);
 
-    RigSettings settings_;   // until the rig has them
-    std::optional<Rig> rig_; // of the message thread, which nobody else's call outlasts
+    RigSettings settings_;   // until the rig is created
+    std::optional<Rig> rig_; // owned by the message thread, which outlives every call
     std::atomic<bool> isEnding_{false};
     mutable std::mutex statusMutex_;
     LiveStatus status_;
-    std::string unsaved_; // of the message thread, until it has ended
+    std::string unsaved_; // written by the message thread; read after it has ended
     std::thread messages_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions of physvib-live.h.
+// The functions of physvib-live.h that act on an open device: events, levels, silence and status.
 #include "Api/Live/Lives.h"
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
     events.reserve(told.size());
     for (const physvib_event& event : told) {
         events.push_back(eventOf(event));
-        // before all began: late, at once
+        // events before the session's start are late and play at once
         if (startNs != 0) events.back().timeNs = std::max<std::int64_t>(0, events.back().timeNs + startNs);
     }
     if (!std::ranges::all_of(events, [](const CollisionEvent& e) { return isPlayable(e); }))
@@ -129,7 +129,7 @@ int physvib_live_silence(physvib_live name, int isSilent) {
     };
     const int code = in(name, act);
     if (code != PHYSVIB_OK && isSilent != 0)
-        in(openLive(), act); // who has lost the name of it means that one
+        in(openLive(), act); // without its handle, the caller can only mean the open device
     return code;
 }
 
@@ -151,7 +151,7 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
         told.played = static_cast<physvib_int64>(now.render.played);
         told.late = static_cast<physvib_int64>(now.render.late);
         told.rejected = static_cast<physvib_int64>(now.render.rejected);
-        for (const SinkState& sink : now.sinks) { // more than one are told as one
+        for (const SinkState& sink : now.sinks) { // several sinks are reported as one
             if (told.board != PHYSVIB_BOARD_SOUGHT)
                 told.board = sink.isReady ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;
             told.board_sent += static_cast<physvib_int64>(sink.sent);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the functions of physvib-live.h have in common.
+// Handles, checks and conversions that the functions of physvib-live.h share.
 #pragma once
 #include "Api/C/Convert.h"
 #include "Api/C/Handles.h"
@@ -17,10 +17,10 @@ inline Handles<Live, 3>& lives() {
 
 inline std::uintptr_t nameOf(physvib_live live) noexcept { return reinterpret_cast<std::uintptr_t>(live); }
 
-/// The one that is open; null: none. Any thread.
+/// The open device; null: none. Any thread.
 physvib_live openLive() noexcept;
 
-/// `call(live)`, or that there is none.
+/// Calls `call(live)`, or returns the error for an unknown handle.
 template <class Call>
 auto in(physvib_live name, Call call) noexcept -> decltype(call(std::declval<Live&>())) {
     return guarded([&]() -> decltype(call(std::declval<Live&>())) {
@@ -33,7 +33,7 @@ auto in(physvib_live name, Call call) noexcept -> decltype(call(std::declval<Liv
 inline bool isLevel(double db) noexcept { return db >= -90.0 && db <= 0.0; } // not NaN
 inline float gainOf(double db) noexcept { return static_cast<float>(fromDecibels(db)); }
 
-/// Null: as init has it. False, and said, if they are none.
+/// Reads renderer settings; null: the defaults. Sets the error and returns false if they are invalid.
 inline bool takeRenderer(const physvib_renderer_settings* from, RendererSettings& to) {
     physvib_renderer_settings taken;
     if (from == nullptr)

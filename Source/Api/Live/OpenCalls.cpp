@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A device and what is beside it, from physvib_live_open to physvib_live_close.
+// Opens and closes a device and its sinks: physvib_live_open, physvib_live_close.
 #include "Api/Live/Lives.h"
 #include <algorithm>
 #include <atomic>
@@ -16,7 +16,7 @@ std::mutex& openMutex() {
     static std::mutex mutex;
     return mutex;
 }
-std::atomic<std::uintptr_t> openName{0}; // changed under it
+std::atomic<std::uintptr_t> openName{0}; // written under openMutex()
 
 int closeNamed(std::uintptr_t name) noexcept {
     return guarded([&] {
@@ -28,7 +28,8 @@ int closeNamed(std::uintptr_t name) noexcept {
     });
 }
 
-// JUCE has statics, which end after what was registered later than they were made.
+// JUCE has static objects. The exit handler is registered after they are created, so it runs before they are
+// destroyed.
 void closeAtExit() {
     static const int registered = std::atexit([] {
         if (openName != 0) closeNamed(openName);
@@ -50,7 +51,7 @@ std::string_view faultOf(const physvib_live_settings& s) noexcept {
 
 SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& renderer) {
     SessionSetup setup;
-    setup.scene.name = "live"; // empty: the world is the caller's
+    setup.scene.name = "live"; // empty: the caller simulates the world
     setup.scene.fieldWidthMetres = setup.scene.fieldHeightMetres = 1.0;
     setup.stepsPerSecond = s.steps_per_s;
     setup.longestGapSeconds = s.longest_gap_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Session files: read, made of strikes, written, rendered again.
+// The session functions of physvib-live.h: load, create from events, save, render.
 #include "Api/Live/Lives.h"
 #include "Host/Recordings/LoadRecordings.h"
 #include "Io/Disk/AtomicFile.h"
@@ -18,7 +18,7 @@ Handles<const SavedSession, 4>& sessions() {
     return *all;
 }
 
-/// `call(session)`, or that there is none.
+/// Calls `call(session)`, or returns the error for an unknown handle.
 template <class Call>
 auto of(physvib_session name, Call call) noexcept -> decltype(call(std::declval<const SavedSession&>())) {
     return guarded([&]() -> decltype(call(std::declval<const SavedSession&>())) {
@@ -35,10 +35,10 @@ int keep(SavedSession made, physvib_session* session) {
     return PHYSVIB_OK;
 }
 
-// Worlds are simulated: nobody waits for more.
+// The limit is a day, because the session's worlds have to be simulated.
 bool isWithinADay(physvib_int64 ns) noexcept { return ns >= 0 && ns <= 86'400'000'000'000; }
 
-/// A world in which nothing is, since a session has one.
+/// A scene run of an empty world, because a session needs one.
 SceneTake emptyTake() {
     Scene scene;
     scene.name = "strikes";
@@ -90,7 +90,7 @@ int physvib_session_save(physvib_session name, const char* path) {
     return of(name, [&](const SavedSession& session) {
         if (path == nullptr) return nothingThere("session: expected a path, found NULL");
         const std::string text = sessionJson(session, std::filesystem::path{path}.parent_path());
-        // nobody could load it
+        // refuses to write a file that could not be loaded
         if (const auto again = readSession(text, path); !again)
             return fail(PHYSVIB_ERROR_ARGUMENT, again.error);
         return resultOf(writeFile(path, text), PHYSVIB_ERROR_FILE);

@@ -19,28 +19,28 @@
 extern "C" {
 #endif
 
-#define PHYSVIB_ERROR_DEVICE (-9) /**< not there, or does not start; also of a board */
+#define PHYSVIB_ERROR_DEVICE (-9) /**< a device or board is missing or does not start */
 
-typedef struct physvib_live_name* physvib_live;       /**< a device, a board or both, open */
+typedef struct physvib_live_name* physvib_live;       /**< an open device, a board or both */
 typedef struct physvib_session_name* physvib_session; /**< a session that can be rendered; it does not change
                                                        */
 
-/** How a device is opened; defaults in brackets. */
+/** Settings of a device; defaults in brackets. */
 typedef struct physvib_live_settings {
     size_t size;          /**< set by init */
     int rate_hz;          /**< 0: the device default (0) */
     int block_frames;     /**< 0: the device default (0) */
     int steps_per_s;      /**< of your world: 20 to 1,000 (100) */
-    double longest_gap_s; /**< for which the thread that plays events may pause and still be in time: 0 to 1
-                             (0.026) */
+    double longest_gap_s; /**< longest pause of the thread that plays events during which events are still on
+                             time: 0 to 1 (0.026) */
     double level_db;      /**< of all channels: -90 to 0 (-12) */
     char save[1024]; /**< a session file (.json, UTF-8) of all events, written while it plays, a list of its
                         events beside it; "": none ("") */
 } physvib_live_settings;
 
-#define PHYSVIB_BOARD_NONE 0   /**< none was opened */
-#define PHYSVIB_BOARD_SOUGHT 1 /**< it was disconnected, and is searched for */
-#define PHYSVIB_BOARD_PLAYS 2  /**< it plays */
+#define PHYSVIB_BOARD_NONE 0   /**< no board was opened */
+#define PHYSVIB_BOARD_SOUGHT 1 /**< disconnected; the library is searching for it */
+#define PHYSVIB_BOARD_PLAYS 2  /**< the board is playing */
 
 /** Status of a device. */
 typedef struct physvib_live_status {
@@ -52,17 +52,17 @@ typedef struct physvib_live_status {
     int live_modes;           /**< modes that sound */
     int losses;               /**< times the device was disconnected and opened again */
     int xruns;                /**< as the device counts them; -1: it does not */
-    double load;              /**< of the last block: time taken by time that it lasts */
+    double load;              /**< of the last block: processing time / duration */
     double worst_load;        /**< of all blocks */
     physvib_int64 played;     /**< events played */
-    physvib_int64 late;       /**< of these: at once, after their time */
+    physvib_int64 late;       /**< of these: played at once, after their time */
     physvib_int64 rejected;   /**< could not be played */
-    char trouble[256];        /**< what is missing, one line; "": nothing */
+    char trouble[256];        /**< one-line error; "": none */
     int board;                /**< PHYSVIB_BOARD_NONE and so on */
     int unused;               /**< 0 */
     physvib_int64 board_sent; /**< events sent to the board so far */
-    physvib_int64 board_lost; /**< of these lost: more than the line carries, too late, or not playable there
-                               */
+    physvib_int64 board_lost; /**< of these: dropped, because the line was full, they were late or the board
+                                 cannot play them */
 } physvib_live_status;
 
 /** As physvib_error(), for the functions of this header. Any thread. */
@@ -88,35 +88,35 @@ PHYSVIB_API int physvib_live_close(physvib_live live);
 
 /** Session time. Any thread. */
 PHYSVIB_API physvib_int64 physvib_live_now_ns(physvib_live live);
-/** L: how long after their session times events leave for the device. Any thread. */
+/** The output latency L: time from an event's session time until it leaves for the device. Any thread. */
 PHYSVIB_API physvib_int64 physvib_live_latency_ns(physvib_live live);
 
-/** Plays events at session times, in any order; those in the past at once, counted as late if L has passed,
- * too. All of them or, if one cannot be played, none. PHYSVIB_ERROR_FULL: 65,536 are waiting for their time.
- * Any thread. */
+/** Plays events at session times, in any order. Events in the past play at once; they count as late if the
+ * output latency has passed too. If one event cannot be played, none is. PHYSVIB_ERROR_FULL: 65,536 events
+ * are waiting for their time. Any thread. */
 PHYSVIB_API int physvib_live_strike(physvib_live live, const physvib_event* events, physvib_int64 count);
 /** For a world that is stepped as time goes on: `*start_ns`, at first 0, becomes the session time of the
  * world's time 0, and stays so for as long as the world is within `longest_gap_s` of session time. If the
  * world lags behind or runs ahead, it is set again. Any thread; one at a time per world. */
 PHYSVIB_API int physvib_live_align(physvib_live live, physvib_world world, physvib_int64* start_ns);
-/** The events of a world (as physvib_world_take), whose time 0 is session time `start_ns`. Returns how many.
- * Any thread; one at a time per world. */
+/** Takes the events of a world (as physvib_world_take), whose time 0 is session time `start_ns`, and plays
+ * them. Returns their number. Any thread; one at a time per world. */
 PHYSVIB_API physvib_int64 physvib_live_send(physvib_live live, physvib_world world, physvib_int64 start_ns,
                                             int at_once);
 
-/** From session time on, felt L later: `gain` from 0 to 10,000, with a ramp of 10 ms. PHYSVIB_ERROR_FULL: 256
- * changes are waiting. Any thread. */
+/** Sets the gain of a channel, 0 to 10,000, from session time on, so it is felt after the output latency;
+ * with a ramp of 10 ms. PHYSVIB_ERROR_FULL: 256 changes are waiting. Any thread. */
 PHYSVIB_API int physvib_live_set_gain(physvib_live live, int channel, double gain);
-/** From session time on, felt L later; as physvib_live_set_gain(). Any thread. */
+/** Mutes a channel, like physvib_live_set_gain(). Any thread. */
 PHYSVIB_API int physvib_live_set_mute(physvib_live live, int channel, int is_muted);
-/** From session time on: at most as many actuators as channels. Of `renderer` the layout, law, exponent and
- * field are taken. PHYSVIB_ERROR_FULL. Any thread. */
+/** Changes the layout from session time on; it has at most as many actuators as there are channels. Only
+ * layout, law, exponent and field of `renderer` are used. PHYSVIB_ERROR_FULL. Any thread. */
 PHYSVIB_API int physvib_live_set_layout(physvib_live live, const physvib_renderer_settings* renderer);
 
 /** Sets the level of all channels, -90 to 0 dB, at once, with a ramp. Any thread. */
 PHYSVIB_API int physvib_live_set_level(physvib_live live, double level_db);
-/** Silences the device within a block, or, with 0, ends that with a ramp. Also if `live` is not its name,
- * which is an error. Any thread. */
+/** Silences the device within a block; 0 ends the silence with a ramp. An unknown `live` is an error, but
+ * silences the open device all the same. Any thread. */
 PHYSVIB_API int physvib_live_silence(physvib_live live, int is_silent);
 
 /** The status, at most 20 ms old. Any thread. */
@@ -125,30 +125,30 @@ PHYSVIB_API int physvib_live_get_status(physvib_live live, physvib_live_status* 
 /* ---- Session files: what the mixer, the plug-in, `physvib play --save` and `save` above write. No device is
  * needed. ---- */
 
-/** A session file (JSON, `path` is UTF-8), also an incomplete journal. PHYSVIB_ERROR_FILE,
- * PHYSVIB_ERROR_FULL: 256 of them. Any thread. */
+/** Loads a session file (JSON; `path` is UTF-8) or an incomplete journal. PHYSVIB_ERROR_FILE;
+ * PHYSVIB_ERROR_FULL: 256 sessions are open. Any thread. */
 PHYSVIB_API int physvib_session_load(const char* path, physvib_session* session);
-/** A session of events alone, in time order, at session times, without a world. Of `renderer` as in
+/** Creates a session of events only, without a world, in time order at session times. `renderer` as for
  * physvib_live_open(). Any thread. */
 PHYSVIB_API int physvib_session_create(const physvib_renderer_settings* renderer, const physvib_event* events,
                                        physvib_int64 count, physvib_int64 length_ns,
                                        physvib_session* session);
-/** Waits until calls that are under way on other threads are over. Any thread. */
+/** Frees a session; waits for calls on other threads to finish. Any thread. */
 PHYSVIB_API int physvib_session_free(physvib_session session);
-/** As a file that the programs above read, whole or not at all. Any thread. */
+/** Saves a session as a file that these programs read; the whole file or none. Any thread. */
 PHYSVIB_API int physvib_session_save(physvib_session session, const char* path);
 
-/** How long it was played, in nanoseconds. Any thread. */
+/** Length of the session, in nanoseconds. Any thread. */
 PHYSVIB_API physvib_int64 physvib_session_length_ns(physvib_session session);
-/** Its channels, limiter, layout, law, exponent and field, as they were at the start; `renderer` as init has
- * left it. Any thread. */
+/** Channels, limiter, layout, law, exponent and field at the start of the session; `renderer` must have been
+ * initialised. Any thread. */
 PHYSVIB_API int physvib_session_get_renderer(physvib_session session, physvib_renderer_settings* renderer);
-/** What was felt before `end_ns`: its worlds are simulated again, which takes a while. How many there are;
- * the first `capacity` of them are written to `events`, which may be NULL if that is 0. Any thread. */
+/** Simulates the session again and returns the number of events before `end_ns`, which takes a while. The
+ * first `capacity` of them are written to `events`, which may be NULL if that is 0. Any thread. */
 PHYSVIB_API physvib_int64 physvib_session_events(physvib_session session, physvib_int64 end_ns,
                                                  physvib_event* events, physvib_int64 capacity);
-/** samples[channel * frames + n] for each of its channels, frame n at n / rate_hz: those of `physvib render
- * SESSION.json`. PHYSVIB_ERROR_FILE: a recording is missing. Any thread. */
+/** Renders the session: samples[channel * frames + n], with frame n at n / rate_hz, the same samples as
+ * `physvib render SESSION.json`. PHYSVIB_ERROR_FILE: a recording is missing. Any thread. */
 PHYSVIB_API int physvib_session_render(physvib_session session, int rate_hz, physvib_int64 frames,
                                        float* samples);
 

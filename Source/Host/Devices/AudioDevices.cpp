@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scanning.
+// Lists the system's audio output devices and finds one by name, through JUCE's device types.
 #include "Host/Devices/AudioDevices.h"
 #include "Io/Text/CleanText.h"
 #include <algorithm>
@@ -13,8 +13,8 @@ int channelsOf(juce::AudioIODeviceType& type, const juce::String& name) {
     return device ? device->getOutputChannelNames().size() : 0;
 }
 
-// Without a server, JACK's library says so in five lines on stderr, each time it is asked. Our message is one
-// line.
+// Without a running server, JACK's library prints five lines to stderr for each query. PhysVib reports that
+// in one line of its own.
 void quietenJack() {
     using Handler = void (*)(const char*);
     static juce::DynamicLibrary jack{"libjack.so.0"};
@@ -32,7 +32,7 @@ std::vector<std::unique_ptr<juce::AudioIODeviceType>> systemAudioDeviceTypes() {
                        Type::createAudioIODeviceType_CoreAudio(),
                        Type::createAudioIODeviceType_WASAPI(juce::WASAPIDeviceMode::exclusive),
                        Type::createAudioIODeviceType_ASIO()})
-        if (type != nullptr) types.emplace_back(type); // null: not on this system
+        if (type != nullptr) types.emplace_back(type); // null: this system lacks the driver
     return types;
 }
 

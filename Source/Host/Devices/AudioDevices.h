@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which audio devices there are, and one of them by its name.
+// Lists the audio output devices of the system, and finds one of them by its name.
 #pragma once
 #include <functional>
 #include <juce_audio_devices/juce_audio_devices.h>
@@ -13,31 +13,31 @@ namespace physvib {
 struct AudioDeviceName {
     std::string type; ///< "ALSA", "JACK", "CoreAudio"...
     std::string name;
-    int channels = 0; ///< outputs it offers; 0 if it could not be asked
+    int channels = 0; ///< number of outputs; 0 if the driver could not be queried
 };
 
-/// Makes the driver types to look in; they have not been scanned. M.
+/// Creates the driver types to search; they have not been scanned yet. M.
 using AudioDeviceTypes = std::function<std::vector<std::unique_ptr<juce::AudioIODeviceType>>()>;
 
-/// The drivers of this system that JUCE knows, in the order in which names are looked up.
+/// The drivers of this system that JUCE supports, in the order in which names are searched.
 std::vector<std::unique_ptr<juce::AudioIODeviceType>> systemAudioDeviceTypes();
 
-/// All output devices. M; asks the system, which takes a while.
+/// All output devices. M; scans the drivers, which takes a while.
 std::vector<AudioDeviceName> listAudioDevices(const AudioDeviceTypes& types = systemAudioDeviceTypes);
 
-/// A device that is not open yet, and its driver, which must outlive it.
+/// A device that is not open yet, and its driver, which must outlive the device.
 struct FoundDevice {
     std::unique_ptr<juce::AudioIODeviceType> type;
     std::unique_ptr<juce::AudioIODevice> device;
 
-    /// "type:name": means this device and no other.
+    /// "type:name": identifies this device and no other.
     std::string fullName() const {
         return type->getTypeName().toStdString() + ":" + device->getName().toStdString();
     }
 };
 
-/// The device of that name, or type:name; empty if there is none. `withInputs`: its inputs as well, if it has
-/// any of the same name. M; scans no more drivers than it must.
+/// The device with that name or type:name; empty if there is none. `withInputs`: opens inputs of the same
+/// name too, if there are any. M; scans drivers only until it finds the device.
 FoundDevice findAudioDevice(const AudioDeviceTypes& types, const std::string& name, bool withInputs = false);
 
 } // namespace physvib

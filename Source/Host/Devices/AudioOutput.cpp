@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keeping and feeding a device.
+// Opens, feeds and supervises the audio device that plays a session on the actuators.
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/InputTap.h"
 #include <algorithm>
@@ -13,11 +13,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double fadeInSeconds = 0.005;
-constexpr DeviceKeeper::Limit opening = 10s;     // whoever opens a device waits for it
-constexpr DeviceKeeper::Limit reopening = 500ms; // a driver that takes longer is looked at again a second
-                                                 // later
-constexpr DeviceKeeper::Limit ending = 400ms;    // cut off in the middle, a JACK client keeps its server busy
-constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // for three blocks
+constexpr DeviceKeeper::Limit opening = 10s;     // time limit for a device that a user opens
+constexpr DeviceKeeper::Limit reopening = 500ms; // a driver that takes longer is tried again a second later
+constexpr DeviceKeeper::Limit ending = 400ms;    // a JACK client aborted here keeps its server busy
+constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // limits of three blocks' time
 constexpr int mostOutputs = 65'536;                                      // of a device
 
 } // namespace
@@ -72,7 +71,8 @@ std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanter
     return {};
 }
 
-// Unlike an enchanter without an output, which is felt as missing, noise that is missing would go unnoticed.
+// A missing actuator output is noticed because nothing is felt there. A missing noise output would go
+// unnoticed, so it is an error.
 std::string AudioOutput::listeningFault() const {
     if (!settings_.listening.contacts.empty() && played_.own().rendered().heard() == 0)
         return "expected a session that makes contact sounds, found none";
@@ -103,15 +103,16 @@ std::string AudioOutput::openDevice(DeviceKeeper::Limit limit) {
                                    : ": runs at " + std::to_string(rate) + " Hz; expected 5000 to 192000");
     }
     wasConnected_ = !keeper_.device()->getActiveOutputChannels().isZero();
-    settings_.device = keeper_.fullName(); // this one from now on, also where another driver knows its name
+    settings_.device = keeper_.fullName(); // from now on this very device, even if another driver has one
+                                           // with the same name
     return {};
 }
 
-// A device that calls no more is not waited for.
+// Waits until the fade has been played, but for a limited time, because the device may have stopped calling.
 void AudioOutput::fadeOut() {
     if (!running_) return;
     ending_ = true;
-    const auto blocks = status().blocks + 2; // one may have begun before
+    const auto blocks = status().blocks + 2; // one block may have started before `ending_` was set
     const auto end =
         Clock::now() +
         std::clamp(std::chrono::milliseconds{3000 * blockFrames() / sampleRateHz()}, leastFade, mostFade);
@@ -154,8 +155,9 @@ std::string AudioOutput::maintain(Clock::time_point now) {
            std::to_string(map_.enchanters()) + " actuators have no output there";
 }
 
-// Some drivers say so; JUCE's ALSA thread just ends. Whose outputs somebody disconnected is not called, and
-// has not gone; but JUCE may miss that JACK connects them, and then knows of none from the beginning.
+// Some drivers report that a device has gone; JUCE's ALSA thread just ends. A device whose outputs were
+// disconnected is not called, but has not gone. JUCE may also miss that JACK connects the outputs, and then
+// sees none from the start.
 bool AudioOutput::hasGone(Clock::time_point now) {
     const auto* device = keeper_.device();
     if (!device || !keeper_.device()->isOpen() || !running_) return true;
@@ -164,7 +166,8 @@ bool AudioOutput::hasGone(Clock::time_point now) {
     return watch_.hasGone(now, load_.read().blocks, wasConnected_ && !isConnected);
 }
 
-// A block that is longer than all so far has to be covered by L; another rate is another session's time.
+// A block longer than all before needs a longer output latency; a new sample rate needs the session's time
+// recalculated.
 std::string AudioOutput::follow() {
     const int rate = juce::roundToInt(keeper_.device()->getCurrentSampleRate()), before = sampleRateHz();
     const bool isChanged = rate != before && rate > 0;
@@ -179,7 +182,7 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     const int rate = juce::roundToInt(device->getCurrentSampleRate());
     const int block = std::min(std::max(device->getCurrentBufferSizeSamples(), largestBlock_.load()),
                                limits::maxBlockFrames);
-    if (!isSampleRate(rate) || block < 1) return; // stays silent
+    if (!isSampleRate(rate) || block < 1) return; // the device plays silence
     played_.begin(rate, block, device->getOutputLatencyInSamples());
     inputTap_ = settings_.tap;
     exposure_.prepare(rate);
@@ -219,7 +222,7 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     for (int done = 0; done < frames; done += blockFrames())
         renderPart(session, out, outputs, done, std::min(blockFrames(), frames - done));
     if (session.timeline().nextFeltNs() != felt.sessionNs)
-        tell(felt); // else nobody steps the world: session time stands still
+        tell(felt); // otherwise nothing steps the world, and session time stands still
     load_.take(start, frames, sampleRateHz());
 }
 
@@ -233,13 +236,13 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
     played_.own().sinks().rendered(
         {samples, frames, session.timeline().framesRendered() - frames, sampleRateHz()});
     motors_.apply(samples, frames);
-    for (int j = 0; j < session.channels(); ++j) { // the limiter, if on, leaves nothing to cut
+    for (int j = 0; j < session.channels(); ++j) { // with the limiter on, nothing is clipped here
         float* at = samples[j];
         juce::FloatVectorOperations::clip(at, at, -session.rendered().ceiling(j),
                                           session.rendered().ceiling(j), frames);
     }
     master_.apply(samples, session.channels(), frames);
-    std::array<float*, limits::maxEnchanters> felt{}; // of each actuator that has a coil
+    std::array<float*, limits::maxEnchanters> felt{}; // the signal of each actuator that has a coil
     for (int j = 0; j < session.channels(); ++j) {
         float* at = samples[j];
         const int k = map_.play(j, at, frames);
@@ -250,7 +253,7 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
     guard_.process(felt.data(), frames);
     for (int j = 0; j < session.channels(); ++j)
         if (const float* const at = felt[static_cast<std::size_t>(j)]) exposure_.take(j, at, frames);
-    exposure_.publish(); // how a motor shakes, nobody says
+    exposure_.publish(); // on/off motors are left out: their vibration level is unknown
 }
 
 AudioOutputStatus AudioOutput::status() {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A session on a multichannel audio device, with hands in mind: a device that is not there means silence and
-// a message, never another device; levels come up in a ramp; one switch silences everything within a block.
+// Plays a session on a multichannel audio device. A missing device means silence and a message, never another
+// device, because the outputs drive actuators on a person's skin. Levels rise in a ramp, and one switch
+// silences everything within a block.
 //
-// It uses JUCE's devices themselves and not its AudioDeviceManager, which opens the default device (the
-// speakers) when the chosen one disappears.
+// It uses JUCE's devices directly and not AudioDeviceManager, which opens the default device (the
+// loudspeakers) when the chosen device disappears.
 #pragma once
 #include "Core/Actuators/ExposureMeter.h"
 #include "Core/Actuators/GainRamp.h"
@@ -27,57 +28,58 @@ class AudioOutput final : public FeltOutput, private juce::AudioIODeviceCallback
 public:
     using Clock = DeviceWatch::Clock;
 
-    /// `session` outlives the output; `types` is where devices are looked for. `isEnded` as FeltOutput's. M.
+    /// `session` outlives the output; `types` lists the drivers to search; `isEnded` as for FeltOutput. M.
     explicit AudioOutput(Session& session, AudioDeviceTypes types = systemAudioDeviceTypes,
                          const std::atomic<bool>* isEnded = nullptr);
     ~AudioOutput() override;
 
-    /// Opens that device and no other; empty, or one line with the reason. The session is prepared by the
-    /// first device and resumed by later ones. M.
+    /// Opens that device and no other. Returns empty, or one line with the reason. The first device prepares
+    /// the session; later ones resume it. M.
     std::string open(const AudioOutputSettings& settings);
 
-    /// Another map of outputs and number of enchanters, while it plays if the device's outputs are open;
-    /// empty, or one line with the reason, and all is as before. M.
+    /// Changes the assignment of outputs and the number of actuators, without interruption if the device's
+    /// outputs are open. Returns empty, or one line with the reason, in which case nothing changes. M.
     std::string assign(const std::vector<int>& channelMap, int enchanters);
 
-    /// What is listened to, while it plays as assign(); empty, or one line with the reason, and all is as
-    /// before. M.
+    /// Changes what plays on the listening outputs, without interruption as in assign(). Returns empty, or
+    /// one line with the reason, in which case nothing changes. M.
     std::string hear(const ListeningSettings& listening);
 
-    /// Plays `other` from the next block on, from its beginning, instead of the output's own session, which
-    /// stands still meanwhile; null: the own one goes on. `other` has no more channels and outputs, no
-    /// contact sound, and is prepared here. R has left the one that was played when this returns; what rings
-    /// in it is cut. False, and nothing changes, while no device has run. M.
+    /// Plays `other` from its beginning, from the next block on, while the output's own session pauses; null
+    /// returns to the own session. `other` has no more channels and outputs than the own session and no
+    /// contact sound; this call prepares it. When the call returns, the render thread no longer uses the
+    /// session that was playing, and its modes are cut off. Returns false and changes nothing while no device
+    /// has run. M.
     bool lend(Session* other);
 
-    /// Silent within two blocks; then R has left session, recorder and taps, though the device may go on. M.
+    /// Silent within two blocks. Afterwards the render thread no longer uses session, recorder and taps,
+    /// though the device may go on. M.
     void stop();
 
-    /// The same, and closes the device, or leaves it to a driver that hangs; what is left of the session
-    /// stays. M.
+    /// Does what stop() does and closes the device, or abandons it to a driver that hangs. The session keeps
+    /// its state. M.
     void close();
 
-    /// Tries to get back a device that has gone, follows one that has changed its block or rate; empty while
-    /// all is well, else what is missing or was changed. M, about once a second.
+    /// Reopens a device that has gone, and adapts to a changed block size or sample rate. Returns empty if
+    /// all is well, else one line that says what is missing or changed. M, about once a second.
     std::string maintain(Clock::time_point now = Clock::now());
 
-    /// The device that is wanted, as type:name once it was found; empty: none. M.
+    /// The wanted device, as type:name once it was found; empty: none. M.
     const std::string& device() const noexcept { return settings_.device; }
 
-    /// What plays is a session that was lent. Any thread.
+    /// Whether a session borrowed through lend() is playing. Any thread.
     bool isLent() const noexcept { return played_.isLent(); }
 
-    /// What has left for the enchanters, behind the master level, the ceilings and the switch; of the
-    /// session's channels. M.
+    /// Exposure of the session's channels as played: after ceilings, master level, silence and guard. M.
     const ExposureSums& exposure() noexcept { return exposure_.read(); }
-    std::uint32_t restartLevels() noexcept { return exposure_.restart(); } ///< peaks and plain sums. M
+    std::uint32_t restartLevels() noexcept { return exposure_.restart(); } ///< see ExposureMeter. M
 
     /// M.
     AudioOutputStatus status();
     int sampleRateHz() const noexcept { return played_.sampleRateHz(); }
     int blockFrames() const noexcept { return played_.blockFrames(); }
     int deviceLatencyFrames() const;
-    int deviceOutputs() const; ///< that it offers; 0: there is none
+    int deviceOutputs() const; ///< number of outputs the device has; 0: no device
 
 private:
     void audioDeviceIOCallbackWithContext(const float* const* in, int inputs, float* const* out, int outputs,
@@ -99,12 +101,12 @@ private:
     PlayedSession played_;
     AudioOutputSettings settings_;
     std::atomic<bool> running_{false}, ending_{false};
-    std::atomic<int> largestBlock_{0}; // that the device has asked for
+    std::atomic<int> largestBlock_{0}; // largest block that the device has asked for
     LoadMeter load_;
 
     // M
     DeviceWatch watch_;
-    bool wasConnected_ = false; // since it was opened
+    bool wasConnected_ = false; // since the device was opened
 
     // R, set while the device is stopped
     InputTap* inputTap_ = nullptr;
@@ -114,7 +116,7 @@ private:
     ExposureMeter exposure_;
     OnOffMotors motors_;
     DeviceGuard guard_;
-    DeviceKeeper keeper_; // last: its thread calls the others
+    DeviceKeeper keeper_; // last: its thread calls the members above
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the outputs play, for views: of the plug-in and of the mixer.
+// Meter values of the outputs, for the views of plug-in and mixer.
 #pragma once
 #include "Core/Limits.h"
 #include <array>
@@ -12,7 +12,7 @@ struct ChannelMeters {
     int enchanters = 0;
     int connected = 0;
     float limiterGain = 1.0f;
-    float guardGain = 1.0f; ///< of the channel that OutputGuard turns down most
+    float guardGain = 1.0f; ///< of the channel that OutputGuard attenuates most
 };
 
 constexpr double meterFallDbPerSecond = 20.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a driver calls in somebody's place: that one can go while the driver still calls, and hears no more of
-// it.
+// Device callback that forwards to its owner until it is detached. The owner can then be destroyed while a
+// driver that hangs still calls.
 #pragma once
 #include <atomic>
 #include <juce_audio_devices/juce_audio_devices.h>
@@ -8,21 +8,21 @@
 
 namespace physvib {
 
-/// Silence once it was let go. It lives as long as the device, however late a driver lets that go.
+/// Outputs silence once detached. It lives as long as the device, however late the driver releases it.
 class DeviceCallback final : public juce::AudioIODeviceCallback {
 public:
     explicit DeviceCallback(juce::AudioIODeviceCallback& owner) noexcept
         : owner_{&owner} {}
 
-    /// From now on the owner is called no more, and R has left it. M, in no call of the driver's.
+    /// Detaches the owner and returns when the render thread has left it. M, not from within a driver's call.
     void letGo() noexcept {
         owner_ = nullptr;
         awaitBlock();
     }
 
-    /// R has left the block that it was in, if it was in one. M.
+    /// Returns when the render thread has left the block it was in, if any. M.
     void awaitBlock() const noexcept {
-        while (calls_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1}); // a block at most
+        while (calls_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1}); // at most for one block
     }
 
 private:
@@ -46,8 +46,8 @@ private:
 
     template <class Words>
     bool call(const Words& words) {
-        ++calls_; // sequentially consistent, as owner_: either this sees that it was let go, or letGo() sees
-                  // this
+        ++calls_; // sequentially consistent, as owner_: either this call sees the detachment, or letGo() sees
+                  // this call
         auto* const owner = owner_.load();
         if (owner != nullptr) words(*owner);
         --calls_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The guard of what a device gets, whatever session it comes from, and what other threads may know of it.
+// OutputGuard at the device output, for every session that plays there, with its state readable by other
+// threads.
 #pragma once
 #include "Core/Actuators/OutputGuard.h"
 #include <atomic>
@@ -23,7 +24,7 @@ public:
     std::uint64_t episodes() const noexcept {
         return episodes_.load(std::memory_order_relaxed);
     } ///< any thread
-    /// Whether `episodes`, of this and other guards, are more than at the last call. M.
+    /// Whether `episodes`, the sum over this and other guards, has grown since the last call. M.
     bool hasNews(std::uint64_t episodes) noexcept { return std::exchange(told_, episodes) < episodes; }
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calls of the thread, and what becomes of those that were late.
+// Opens and closes a device on the device thread, and handles calls of the driver that finish after their
+// time limit.
 #include "Host/Devices/DeviceKeeper.h"
 #include <utility>
 
@@ -60,8 +61,8 @@ DeviceKeeper::~DeviceKeeper() {
 }
 
 std::string DeviceKeeper::open(const DeviceWish& wish, Limit limit) {
-    const auto end = isLate_ ? Clock::time_point{} : Clock::now() + limit; // whoever was late once is looked
-                                                                           // at, and not waited for
+    const auto end = isLate_ ? Clock::time_point{} : Clock::now() + limit; // after one time-out, later calls
+                                                                           // only check and do not wait
     isLate_ = true;
     const std::string noAnswer = wish.name + ": its driver does not answer; nothing else is played on";
     if (!isIdle(end, hurry_)) {
@@ -104,7 +105,7 @@ void DeviceKeeper::awaitBlock() const noexcept {
 void DeviceKeeper::close(Limit limit) {
     letGo();
     if (opening_ && isIdle({}, nullptr))
-        found_ = std::move(std::exchange(opening_, nullptr)->found); // it came late
+        found_ = std::move(std::exchange(opening_, nullptr)->found); // opened after the time limit
     drop(found_);
     isIdle(Clock::now() + limit, nullptr);
 }
@@ -119,7 +120,8 @@ void DeviceKeeper::drop(FoundDevice& found) {
     });
 }
 
-// Devices are destroyed while M waits for it: JUCE's JACK device is told of its ports on M's loop.
+// Devices are destroyed while M waits, because JUCE's JACK device receives port notifications on the message
+// loop.
 bool DeviceKeeper::isIdle(Clock::time_point end, const std::atomic<bool>* hurry) {
     if (!thread_.isOver(end, hurry)) return false;
     if (!closed_) return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One device of a system: found, opened, called and closed. What a driver may take for ever for (finding,
-// opening, closing) is done on a thread of its own, for which nobody waits longer than he says.
+// Finds, opens, calls and closes one audio device. A driver may hang while it does so, so these calls run on
+// a thread of their own and the caller waits only for a time that it sets.
 #pragma once
 #include "Host/Devices/AudioDevices.h"
 #include "Host/Devices/DeviceCallback.h"
@@ -12,17 +12,17 @@
 
 namespace physvib {
 
-/// What is wanted of a device.
+/// Which device to open, and how.
 struct DeviceWish {
-    std::string name;                 ///< or type:name
-    juce::BigInteger inputs, outputs; ///< outputs that it does not have are left out, as long as it has one
-    int highestHeard = -1;            ///< an output that it has to have
-    int sampleRateHz = 0, blockFrames = 0; ///< 0: as the device stands
-    bool opensAll = false;                 ///< all its outputs
+    std::string name;                 ///< name or type:name
+    juce::BigInteger inputs, outputs; ///< outputs that the device lacks are left out, as long as one remains
+    int highestHeard = -1;            ///< index of an output that the device must have
+    int sampleRateHz = 0, blockFrames = 0; ///< 0: device default
+    bool opensAll = false;                 ///< opens all outputs
 
     bool operator==(const DeviceWish&) const = default;
 
-    /// Empty, or what the device lacks. M, or the thread that opens it.
+    /// Empty, or what the device lacks. M, or the thread that opens the device.
     std::string fault(juce::AudioIODevice& device) const;
 };
 
@@ -31,24 +31,23 @@ class DeviceKeeper {
 public:
     using Limit = std::chrono::milliseconds;
 
-    /// `hurry`, if there is one, ends all waiting when it is true, but that of close(); it outlives the
-    /// keeper.
+    /// `hurry` (may be null; outlives the keeper) ends every wait but that of close() when it becomes true.
     DeviceKeeper(AudioDeviceTypes types, const std::atomic<bool>* hurry);
     ~DeviceKeeper();
 
-    /// Finds and opens a device; none is open. Empty, or one line with the reason; it may be that the driver
-    /// has not answered yet: when it does, the next call of the same wish has the device.
+    /// Finds and opens a device; none may be open. Returns empty, or one line with the reason. If the driver
+    /// has not answered in time, a later call with the same wish gets the device.
     std::string open(const DeviceWish& wish, Limit limit);
 
-    /// `owner` is called from now on. It is told of the device before this returns.
+    /// From now on the device calls `owner`; its first call (about to start) comes before this returns.
     void start(juce::AudioIODeviceCallback& owner);
-    void restart(); ///< with what the device is now
-    /// The owner is called no more, and R has left it; what the device asks for is silence.
+    void restart(); ///< with the device's current settings
+    /// Stops calling the owner and returns when the render thread has left it; the device then plays silence.
     void letGo() noexcept;
-    /// R has left the block that it was in.
+    /// Returns when the render thread has left the block it was in.
     void awaitBlock() const noexcept;
 
-    /// A device that is not closed within `limit` is left to its thread.
+    /// A device that is not closed within `limit` is abandoned to its thread.
     void close(Limit limit = closing);
     static constexpr Limit closing{250};
 
@@ -65,10 +64,10 @@ private:
     const std::atomic<bool>* const hurry_;
     FoundDevice found_;
     std::shared_ptr<DeviceCallback> callback_;
-    std::shared_ptr<Opening> opening_;    // until its result is taken
-    std::shared_ptr<FoundDevice> closed_; // until it is destroyed
-    std::string at_;                      // what the thread is at
-    bool isLate_ = false;                 // by more than somebody waited
+    std::shared_ptr<Opening> opening_;    // until its result is used
+    std::shared_ptr<FoundDevice> closed_; // until the device is destroyed
+    std::string at_;                      // device that the thread works on
+    bool isLate_ = false;                 // a call has exceeded its time limit
     DeviceThread thread_;
 };
 

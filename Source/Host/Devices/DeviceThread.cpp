@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A thread per call; what it has left to do is counted where it is left.
+// Runs each driver call on a thread of its own and counts the calls that were abandoned.
 #include "Host/Devices/DeviceThread.h"
 #include <algorithm>
 #include <condition_variable>
@@ -14,7 +14,8 @@ namespace {
 
 std::atomic<int> left{0};
 
-// Drivers of Windows belong to the thread that made them, and need its COM: there M calls them.
+// On Windows, drivers belong to the thread that created them and need its COM apartment, so M calls them
+// itself.
 bool mustCallerCall() {
     return (juce::SystemStats::getOperatingSystemType() & juce::SystemStats::Windows) != 0;
 }
@@ -33,7 +34,7 @@ void DeviceThread::begin(std::function<void()> call) {
     call_ = std::make_shared<Call>();
     thread_ = std::thread{[state = call_, call = std::move(call)]() mutable {
         call();
-        call = nullptr; // and all that it holds
+        call = nullptr; // and everything it holds
         const std::lock_guard lock{state->mutex};
         state->isOver = true;
         if (state->isLeft) --left;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A thread for calls of a driver that may take for ever: whoever waits for one waits for a limited time.
+// Thread for calls of an audio driver that may hang; the caller waits for a limited time only.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -9,28 +9,27 @@
 
 namespace physvib {
 
-/// One call at a time. M, but for threadsLeft().
+/// One call at a time. M, except threadsLeft().
 class DeviceThread {
 public:
     DeviceThread() = default;
-    /// A call that is not over is left to its thread.
+    /// A call that has not finished is abandoned to its thread.
     ~DeviceThread() { leave(); }
     DeviceThread(const DeviceThread&) = delete;
     DeviceThread& operator=(const DeviceThread&) = delete;
 
-    /// Begins `call`, which owns or shares all that it uses; the one before is over.
+    /// Starts `call`, which must own or share everything it uses; the call before has finished.
     void begin(std::function<void()> call);
 
     using Clock = std::chrono::steady_clock;
-    /// Whether the call is over, after waiting until `end` at most, or until `hurry`, if there is one, is
-    /// true.
+    /// Whether the call has finished; waits until `end`, or until `hurry` (may be null) is true.
     bool isOver(Clock::time_point end = {}, const std::atomic<bool>* hurry = nullptr);
 
-    /// Another call may begin. One that is not over is left to its thread.
+    /// Allows another call to start; one that has not finished is abandoned to its thread.
     void leave();
 
-    /// Calls of this process that were left and are not over. While there are any, a program ends without
-    /// destructors of static objects, which the thread may still use (endProgram). Any thread.
+    /// Number of abandoned calls of this process that are still running. While there are any, a program exits
+    /// without destructors of static objects, which such a thread may still use (endProgram). Any thread.
     static int threadsLeft() noexcept;
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a device still asks for blocks: what some drivers never say when it has gone.
+// Detects that a device has stopped asking for blocks, because some drivers do not report that a device has
+// gone.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -11,13 +12,13 @@ class DeviceWatch {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// A device that asks for no block for this long has gone; the longest block lasts 1.6 s (8192 frames at
-    /// 5 kHz).
+    /// A device that asks for no block during this time counts as gone; the longest block lasts 1.6 s (8192
+    /// frames at 5 kHz).
     static constexpr std::chrono::seconds patience{2};
 
-    /// About once a second: whether it has gone. `blocks`: that it has asked for so far; `isIdle`: it has
-    /// nothing to ask for. A look that comes later than `patience` after the one before begins anew: then the
-    /// program was paused, and the device with it.
+    /// Whether the device has gone; call about once a second. `blocks`: number the device has asked for so
+    /// far. `isIdle`: the device has no reason to ask. If more than `patience` passed since the last call,
+    /// the program was paused together with the device, and the watch restarts.
     bool hasGone(Clock::time_point now, std::uint64_t blocks, bool isIdle) noexcept {
         const bool wasAway = now - lookedAt_ > patience;
         if (blocks != blocks_ || isIdle || wasAway) movedAt_ = now;
@@ -26,7 +27,7 @@ public:
         return now - movedAt_ > patience;
     }
 
-    /// It had gone, and runs again, or another does.
+    /// Counts a loss, and watches the device that runs now.
     void lose(Clock::time_point now) noexcept {
         movedAt_ = lookedAt_ = now;
         ++losses_;
@@ -36,7 +37,7 @@ public:
 private:
     int losses_ = 0;
     std::uint64_t blocks_ = 0;
-    Clock::time_point movedAt_, lookedAt_; // of the clock's beginning, before the first look
+    Clock::time_point movedAt_, lookedAt_; // zero before the first call
 };
 
 } // namespace physvib

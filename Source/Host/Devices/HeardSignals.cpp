@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Levels, ramps, and the outputs' turns.
+// Levels and ramps of noise, contact sounds and marks, and their distribution over the listening outputs.
 #include "Host/Devices/HeardSignals.h"
 #include "Core/Decibels.h"
 #include <algorithm>
@@ -11,11 +11,11 @@ namespace physvib {
 namespace {
 
 constexpr double fadeInSeconds = 0.005;
-constexpr double noiseFadeSeconds = 2.0; // to full scale; nobody shall start
+constexpr double noiseFadeSeconds = 2.0; // ramp to full scale, slow enough not to startle
 
 } // namespace
 
-// The noise's generator has a level of its own.
+// The noise generator has a level of its own, so the gain is relative to it.
 void HeardSignals::setLevels(const ListeningSettings& l) {
     const auto gainOf = [](double db, double leastDb, double mostDb) {
         return fromDecibels(std::clamp(db, leastDb, mostDb));
@@ -62,8 +62,8 @@ void HeardSignals::render(const Session& session, float* const* signals, float* 
         renderMarks(signals[session.rendered().count() - 1], out, outputs, first, frames);
 }
 
-// What is silenced is not felt, so it is not marked; what is left of a pulse when all comes back has its edge
-// in the silence.
+// Output that is silenced gets no marks. If the silence ends within a pulse, the rest of that pulse is
+// skipped, because its edge was silenced.
 void HeardSignals::renderMarks(float* marks, float* const* out, int outputs, int first, int frames) noexcept {
     int begin = rests_ ? frames : 0;
     while (begin < frames && !areMarksOpen_)
@@ -72,8 +72,8 @@ void HeardSignals::renderMarks(float* marks, float* const* out, int outputs, int
     addTo(Heard::marks, &marks, 1, out, outputs, first + begin, frames - begin);
 }
 
-// Of two signals the outputs take turns: left, right, left... Nothing else plays on them; together noise and
-// contacts stay within full scale.
+// Two signals alternate over the outputs: left, right, left... Nothing else plays on these outputs, and the
+// sum of noise and contact sounds is clipped to full scale.
 void HeardSignals::addTo(Heard source, float* const* signals, int count, float* const* out, int outputs,
                          int first, int frames) noexcept {
     for (int i = 0; i < OutputMap::mostHeard; ++i) {

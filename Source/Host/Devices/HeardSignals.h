@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What plays on outputs that are no enchanter's: noise and contact sounds for ears, marks for machines.
+// Signals on outputs that drive no actuator: masking noise and contact sounds for headphones, onset marks for
+// measuring devices.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
 #include "Host/Devices/AudioOutputSettings.h"
@@ -12,10 +13,10 @@
 
 namespace physvib {
 
-/// As loud as its settings say, not as the master level does.
+/// Levels come from ListeningSettings; the master level does not apply.
 class HeardSignals {
 public:
-    /// `map` says which outputs; it outlives this object.
+    /// `map` assigns the outputs; it outlives this object.
     explicit HeardSignals(const OutputMap& map)
         : map_{map} {}
 
@@ -24,10 +25,10 @@ public:
     /// M, while R does not run.
     void prepare(int sampleRateHz, int blockFrames);
 
-    /// The next block of `frames`: in silence if it `rests`. R, wait-free, as what follows.
+    /// Starts a block of `frames`; `rests`: it is silent. R, wait-free, as render().
     void begin(bool rests, int frames) noexcept;
-    /// `frames` of it to `out`, from `first` on. `signals`: those of `session`, ears and marks behind its
-    /// channels; ears are changed.
+    /// Writes `frames` of the block to `out`, from `first` on. `signals` are the outputs of `session`:
+    /// contact sounds and marks follow its channels. The contact sounds are scaled in place.
     void render(const Session& session, float* const* signals, float* const* out, int outputs, int first,
                 int frames) noexcept;
 
@@ -39,11 +40,11 @@ private:
     const OutputMap& map_;
     std::atomic<float> noiseGain_{0.0f}, contactGain_{0.0f};
 
-    // R, set while it does not run
+    // R; set while R does not run
     GainRamp noiseRamp_, contactRamp_;
     PinkNoise noise_;
     std::vector<float> noiseScratch_;
-    bool rests_ = false, areMarksOpen_ = true; // the next pulse is whole
+    bool rests_ = false, areMarksOpen_ = true; // the next pulse is complete
 };
 
 } // namespace physvib

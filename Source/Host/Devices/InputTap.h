@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a device hears, in pieces that know their session time, on its way from the render role to another
-// thread.
+// Lock-free queue of audio input with session time, from the render thread to one reader.
 #pragma once
 #include "Core/EventQueue.h"
 #include <algorithm>
@@ -10,9 +9,9 @@
 
 namespace physvib {
 
-/// A few samples of the mean of all inputs.
+/// Up to 256 samples of the mean of all inputs.
 struct HeardPiece {
-    std::int64_t sessionNs = 0; ///< of the first
+    std::int64_t sessionNs = 0; ///< of the first sample
     int rateHz = 0;
     int count = 0;
     std::array<float, 256> samples;
@@ -22,11 +21,11 @@ struct HeardPiece {
     }
 };
 
-/// One writer, one reader; half a megabyte, 2.7 s at 48 kHz.
+/// One writer, one reader. The capacity is half a megabyte, 2.7 s at 48 kHz.
 class InputTap {
 public:
-    /// The next samples of each input; the first is session time `sessionNs`. Pieces that find no room are
-    /// lost: the next one's time tells. R, wait-free.
+    /// Queues the next samples of each input; the first is at session time `sessionNs`. Pieces that find the
+    /// queue full are lost; the time of the next piece shows the gap. R, wait-free.
     void take(const float* const* in, int inputs, int frames, std::int64_t sessionNs,
               int rateHz) noexcept PHYSVIB_NONBLOCKING {
         HeardPiece piece;
@@ -40,7 +39,7 @@ public:
         }
     }
 
-    /// False: nothing has come. The reader, wait-free.
+    /// False if the queue is empty. The reader, wait-free.
     bool next(HeardPiece& piece) noexcept { return pieces_.pop(piece); }
 
     std::size_t piecesLost() const noexcept { return pieces_.overflows(); } ///< Any thread.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// By name and number of outputs: nothing is opened for it.
+// Scores devices by name and number of outputs, without opening any.
 #include "Host/Devices/LikelyDevices.h"
 #include "Host/Devices/NoDevice.h"
 #include <algorithm>

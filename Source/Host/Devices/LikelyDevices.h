@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Of the devices that are there, the one that actuators are likely to hang on.
+// Guesses which audio device the actuators are connected to.
 #pragma once
 #include "Host/Devices/AudioDevices.h"
 
 namespace physvib {
 
-/// How many outputs lead somewhere of their own: what mixes for a sound server has two, whatever it says. Any
-/// thread.
+/// Number of outputs that reach the hardware one to one. A device that mixes for a sound server counts as
+/// two at most, whatever it reports. Any thread.
 int ownOutputs(const AudioDeviceName& device);
 
-/// The likely ones first: many outputs before few, a running JACK before its rivals, screens and no device at
-/// last. Any thread.
+/// Sorted by likelihood: many outputs before few, a running JACK server before other drivers, displays and
+/// "no device" last. Any thread.
 std::vector<AudioDeviceName> byLikelihood(std::vector<AudioDeviceName> devices);
 
-/// The preset for so many outputs, at most four. Any thread.
+/// The layout preset for that many outputs, at most four. Any thread.
 const char* layoutFor(int outputs);
 
 } // namespace physvib

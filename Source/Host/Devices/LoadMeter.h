@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How many blocks were rendered, and how much of their time that took.
+// Counts rendered blocks and measures the share of their duration that rendering takes.
 #pragma once
 #include "Live/Session/Session.h"
 #include <algorithm>
@@ -12,10 +12,10 @@ class LoadMeter {
 public:
     struct Load {
         std::uint64_t blocks = 0;
-        float last = 0.0f, worst = 0.0f; ///< time taken / time it lasts
+        float last = 0.0f, worst = 0.0f; ///< processing time / duration
     };
 
-    /// A block of `frames` that began at `startTicks` of JUCE's clock is rendered. R, wait-free.
+    /// A block of `frames` that started at `startTicks` of JUCE's clock has been rendered. R, wait-free.
     void take(juce::int64 startTicks, int frames, int sampleRateHz) noexcept {
         const double taken =
             juce::Time::highResolutionTicksToSeconds(juce::Time::getHighResolutionTicks() - startTicks);

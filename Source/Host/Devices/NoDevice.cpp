@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A thread with absolute deadlines, one per block.
+// The null device's thread, with one absolute deadline per block.
 #include "Host/Devices/NoDevice.h"
 #include "Core/Limits.h"
 #include "Host/Devices/AudioDevices.h"
@@ -70,7 +70,7 @@ private:
         for (auto& channel : out) at.push_back(channel.data());
         const auto length = std::chrono::nanoseconds{static_cast<std::int64_t>(1e9 * block_ / rate_)};
         for (auto deadline = Clock::now(); !threadShouldExit(); deadline += length) {
-            // after a stall: no burst of blocks
+            // after a stall, the missed blocks are skipped instead of played in a burst
             if (const auto now = Clock::now(); now > deadline + 10 * length) deadline = now;
             std::this_thread::sleep_until(deadline);
             callback_->audioDeviceIOCallbackWithContext(nullptr, 0, at.data(), static_cast<int>(at.size()),
@@ -78,7 +78,7 @@ private:
         }
     }
 
-    juce::AudioIODeviceCallback* callback_ = nullptr; // changes while the thread does not run
+    juce::AudioIODeviceCallback* callback_ = nullptr; // changes only while the thread does not run
     juce::BigInteger active_;
     double rate_ = 48000.0;
     int block_ = 512;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An audio device that is not there: blocks in time with a steady clock, felt by nobody. With it a world
-// runs, is seen, and can be recorded on a machine without an interface.
+// Null audio device that asks for blocks by a steady clock and discards them. It lets a world run, be shown
+// and be recorded on a machine without an audio interface.
 #pragma once
 #include <juce_audio_devices/juce_audio_devices.h>
 #include <memory>
@@ -12,7 +12,8 @@ namespace physvib {
 inline constexpr const char* noDeviceType = "None";
 inline constexpr const char* noDeviceName = "no device";
 
-/// A driver with that one device: 64 outputs, 48 kHz, blocks of 512 frames unless others are asked for. M.
+/// A driver with that one device: 64 outputs, 48 kHz and blocks of 512 frames unless the settings say
+/// otherwise. M.
 class NoDeviceType final : public juce::AudioIODeviceType {
 public:
     NoDeviceType()
@@ -29,7 +30,7 @@ public:
     juce::AudioIODevice* createDevice(const juce::String& output, const juce::String&) override;
 };
 
-/// The system's drivers, and that one. M.
+/// The system's drivers and the null driver. M.
 std::vector<std::unique_ptr<juce::AudioIODeviceType>> audioDeviceTypesAndNone();
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Enchanters that are motors which are on or off: their signal becomes a switch.
+// Converts the signals of on/off motors (ERMs without speed control) into switching signals.
 #pragma once
 #include "Core/Actuators/VibrationConverter.h"
 #include <algorithm>
@@ -17,8 +17,8 @@ public:
             motors_.push_back({static_cast<std::size_t>(j), OnOffSteps{sampleRateHz, threshold}});
     }
 
-    /// A step late, as it says what was in it; then as loud as ceiling and master level let it be. R,
-    /// wait-free.
+    /// The switch state follows one step late, because a step is judged by all samples in it. Ceiling and
+    /// master level set the on level. R, wait-free.
     void apply(float* const* channels, int frames) noexcept {
         for (Motor& motor : motors_)
             for (int n = 0; n < frames; ++n) {

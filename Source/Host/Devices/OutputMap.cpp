@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sets of outputs, and the way from one to another.
+// Checks the assignment of outputs, and fades an actuator over from one output to another.
 #include "Host/Devices/OutputMap.h"
 #include <algorithm>
 #include <numeric>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int nowhere = -1, unsaid = -2;
 
-// Noise in a motor would be felt; a motor's drive in headphones would be far too loud.
+// Noise in a motor would be felt; a motor's signal in headphones would be far too loud.
 std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) {
     for (const Heard source : {Heard::noise, Heard::contacts}) {
         const auto& outputs = heard[static_cast<std::size_t>(source)];
@@ -25,7 +25,7 @@ std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) 
     return {};
 }
 
-// A pulse at full scale, for a box that looks for its edge.
+// A mark is a pulse at full scale, for a measuring device that detects its edge.
 std::string marksFault(const std::vector<int>& felt, const HeardOutputs& heard) {
     const auto& marks = heard[static_cast<std::size_t>(Heard::marks)];
     const auto has = [](const std::vector<int>& outputs, int output) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which session a device plays: its own, or one that it was lent; at which rate, and where a block of it
-// goes.
+// Selects the session that a device plays, its own or a borrowed one, and holds its sample rate, block size
+// and output buffers.
 #pragma once
 #include "Live/Session/FeltOutput.h"
 #include "Live/Session/Session.h"
@@ -20,13 +20,14 @@ public:
     Session& now() const noexcept { return *now_.load(); }
     bool isLent() const noexcept { return &now() != &own_; }
 
-    /// 0: no device has run. M and R, as what follows.
+    /// 0: no device has run. M and R, as the next two.
     int sampleRateHz() const noexcept { return rate_; }
     int blockFrames() const noexcept { return block_; }
-    /// Room for that many frames of each output of the own one.
+    /// Buffers of blockFrames() frames for each output of the own session.
     float* const* samples() const noexcept { return at_.data(); }
 
-    /// What plays goes on at that rate, or begins, on a device that is felt so late. M, while R does not run.
+    /// Starts or resumes the current session at that rate, on a device with that latency. M, while R does not
+    /// run.
     void begin(int sampleRateHz, int maxBlockFrames, int latencyFrames) {
         if (rate_ == 0)
             now().prepare(sampleRateHz, maxBlockFrames);
@@ -41,13 +42,13 @@ public:
         for (auto& channel : samples_) at_.push_back(channel.data());
     }
 
-    /// Of the next block, asked for at `steadyNs`. R.
+    /// Time at which the next block is felt, for a block requested at `steadyNs`. R.
     FeltMoment nextFelt(std::int64_t steadyNs) const noexcept {
         const std::int64_t felt = now().timeline().nextFeltNs();
         return {felt, steadyNs + latencyNs_, now().timeline().nextNs(0) - felt + latencyNs_, rate_};
     }
 
-    /// Another from the next block on; null: the own one goes on. A device has run. M.
+    /// Plays another session from the next block on; null returns to the own one. A device has run. M.
     void lend(Session* other) {
         if (other != nullptr)
             other->prepare(rate_, block_);
@@ -59,11 +60,11 @@ public:
 
 private:
     Session& own_;
-    std::atomic<Session*> now_; // sequentially consistent, as the keeper's calls: who has changed it sees
-                                // whether R may still have the old one
-    int lentRate_ = 0, lentBlock_ = 0; // as they were when a session was lent
+    std::atomic<Session*> now_; // sequentially consistent, as the calls of DeviceKeeper: after a change, M
+                                // can see whether R may still use the old session
+    int lentRate_ = 0, lentBlock_ = 0; // of the own session when another was borrowed
 
-    // R, set while the device is stopped
+    // R; set while the device is stopped
     int rate_ = 0, block_ = 0;
     std::int64_t latencyNs_ = 0; // of the device
     std::vector<std::vector<float>> samples_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a live session plays, on its way to meters, scopes and files: the render role fills a ring, another
-// thread reads.
+// Ring buffer that copies the output signals of a live session from the render thread to meters, scopes and
+// files.
 #pragma once
 #include "Core/Nonblocking.h"
 #include "Live/Session/Sink.h"
@@ -14,7 +14,7 @@ namespace physvib {
 
 class SignalTap final : public Sink {
 public:
-    /// Room for `frames` of each channel until they are read. M.
+    /// `frames`: capacity of each channel. M.
     SignalTap(int channels, int frames)
         : ring_(static_cast<std::size_t>(channels), std::vector<float>(static_cast<std::size_t>(frames)))
         , fifo_{frames}
@@ -22,7 +22,7 @@ public:
 
     int channels() const noexcept { return static_cast<int>(ring_.size()); }
 
-    /// Only the first `channels` are worth the copy from now on; the others keep what they have. Any thread.
+    /// Copies only the first `channels` from now on; the others keep their old samples. Any thread.
     void hear(int channels) noexcept {
         heard_.store(std::clamp(channels, 0, this->channels()), std::memory_order_relaxed);
     }
@@ -31,7 +31,7 @@ public:
         take(block.channels, block.frames);
     }
 
-    /// R, wait-free. Frames that find no room are lost and counted.
+    /// Frames that find the ring full are lost and counted. R, wait-free.
     void take(const float* const* channels, int frames) noexcept PHYSVIB_NONBLOCKING {
         const auto scope = fifo_.write(frames);
         const auto heard = static_cast<std::size_t>(heard_.load(std::memory_order_relaxed));
@@ -44,7 +44,7 @@ public:
         lost_.store(lost_.load(std::memory_order_relaxed) + missing, std::memory_order_relaxed);
     }
 
-    /// Calls `use(const float* const* channels, int frames)` with what has come, in one or two parts. One
+    /// Calls `use(const float* const* channels, int frames)` with all unread frames, in one or two parts. One
     /// reader.
     template <class Use>
     void read(Use use) {

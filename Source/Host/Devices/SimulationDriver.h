@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who steps a live session's world: the message thread's timer, or a thread of its own.
+// Steps the world of a live session, by the message thread's timer or by a thread of its own.
 #pragma once
 #include "Live/Session/Session.h"
 #include <atomic>
@@ -8,8 +8,8 @@
 
 namespace physvib {
 
-/// Steps a session while it lives, and until `ends`, if there is one, is true: then after one step more at
-/// most. One at a time per session. Made and destroyed on M.
+/// Steps a session from construction to destruction, or until `ends` (may be null) is true; then at most one
+/// more step follows. One driver at a time per session. Created and destroyed on M.
 class SimulationDriver {
 public:
     virtual ~SimulationDriver() = default;
@@ -27,9 +27,9 @@ private:
     const std::atomic<bool>* const ends_;
 };
 
-/// A thread with absolute deadlines, one per step, so that lateness does not add up (driverThreadGapSeconds).
-/// It runs at realtime priority where the system lets it: on a loaded machine an ordinary thread comes late
-/// now and then.
+/// A thread with absolute deadlines, one per step, so that delays do not add up (driverThreadGapSeconds). It
+/// runs at realtime priority where the system permits, because an ordinary thread is sometimes late on a
+/// loaded machine.
 class ThreadDriver final : public SimulationDriver, private juce::Thread {
 public:
     /// `stepsPerSecond` up to 1000.

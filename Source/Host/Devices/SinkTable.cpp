@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table, and how its names are read.
+// The table of sinks, and the parser of output names such as DEVICE+BOARD:auto.
 #include "Host/Devices/SinkTable.h"
 #include "Core/Limits.h"
 #include "Host/Devices/NoDevice.h"
@@ -51,7 +51,7 @@ const std::array kinds{
              }},
 };
 
-// Where the last sink of `text` begins; npos: there is none.
+// Position where the last sink of `text` starts; npos: there is none.
 std::size_t lastSink(std::string_view text, const SinkKind*& kind) {
     std::size_t last = text.npos;
     for (const SinkKind& one : kinds) {

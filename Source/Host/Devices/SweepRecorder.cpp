@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One callback, which copies, and a message thread, which waits.
+// Audio callback that plays and records a sweep, and a message thread that waits for its end.
 #include "Host/Devices/SweepRecorder.h"
 #include "Core/Actuators/OutputGuard.h"
 #include "Core/Nonblocking.h"
@@ -38,7 +38,7 @@ private:
     std::atomic<std::size_t> done_{0};
 };
 
-/// What is measured with is what leaves.
+/// Applies OutputGuard in advance, so that the measurement uses the samples that leave the device.
 void guard(std::vector<float>& samples, int rateHz) {
     const auto guard = std::make_unique<OutputGuard>();
     guard->prepare(rateHz, 1, GuardPlace::last);
@@ -52,7 +52,7 @@ juce::BigInteger only(int channel) {
     return mask;
 }
 
-/// Until all is played; false if nothing moves for too long.
+/// Waits until all is played; false if there is no progress for too long.
 bool wait(const Callback& callback, std::size_t frames) {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::seconds patience{3};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays samples on one output of a device and records one of its inputs meanwhile, frame for frame.
+// Plays samples on one output of a device and records one of its inputs at the same time, aligned frame by
+// frame.
 #pragma once
 #include "Host/Devices/AudioDevices.h"
 #include "Io/Result.h"
@@ -8,25 +9,25 @@
 
 namespace physvib {
 
-/// Outputs and inputs from 0.
+/// Outputs and inputs count from 0.
 struct SweepPorts {
     std::string device; ///< name, or type:name
     int output = 0;
     int input = 0;
-    int sampleRateHz = 0; ///< 0: as the device stands
+    int sampleRateHz = 0; ///< 0: device default
 };
 
 struct RecordedSweep {
     double rateHz = 0.0;
-    std::vector<float> played, recorded; ///< equally long; they begin together
-    int xruns = 0;                       ///< as the device counts them; -1: it does not
+    std::vector<float> played, recorded; ///< of equal length and start
+    int xruns = 0;                       ///< counted by the device; -1: the device does not count
 };
 
-/// What to play at a rate that only the open device knows.
+/// Makes the samples to play, at a rate known only once the device is open.
 using SweepSource = std::function<std::vector<float>(double rateHz)>;
 
-/// Opens that device and no other, plays once, closes it; all other outputs stay silent. One line if
-/// something is missing or the device stops calling. M only; takes as long as the sweep.
+/// Opens that device and no other, plays once and closes it; all other outputs stay silent. One line if
+/// something is missing or the device stops. M only; blocks for the duration of the sweep.
 Result<RecordedSweep> recordSweep(const SweepPorts& ports, const SweepSource& source,
                                   const AudioDeviceTypes& types = systemAudioDeviceTypes);
 

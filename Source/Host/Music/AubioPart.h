@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What aubio makes and wants to be given back.
+// Owning pointer for objects of the aubio library, which must be freed by aubio's own functions.
 #pragma once
-#define AUBIO_UNSTABLE 1 // its peak picker is told of only so; the version is the distribution's
+#define AUBIO_UNSTABLE 1 // aubio declares its peak picker only with this; its version is the distribution's
 #include <aubio/aubio.h>
 #include <memory>
 

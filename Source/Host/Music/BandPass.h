@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of music an actuator can render: two slopes of fourth order (Butterworth).
+// Band-pass filter that keeps the band an actuator can render: two Butterworth slopes of fourth order.
 #pragma once
 #include "Core/Actuators/Biquad.h"
 #include "Core/Actuators/Resonator.h"
@@ -9,19 +9,19 @@
 
 namespace physvib {
 
-/// Causal; at 200 Hz it lags by 2 ms with the usual band. One thread at a time.
+/// Causal; its group delay at 200 Hz is 2 ms with the default band. One thread at a time.
 class BandPass {
 public:
     static constexpr FrequencyBand usual{50.0, 500.0};
 
-    /// What of the band is above 45 % of the rate is passed to there.
+    /// The upper cut-off is at most 45 % of the sample rate.
     BandPass(FrequencyBand band, int sampleRateHz) noexcept {
         const double highHz = std::min(band.highHz, 0.45 * sampleRateHz),
                      lowHz = std::min(band.lowHz, 0.5 * highHz);
         for (std::size_t i = 0; i < qs.size(); ++i) {
-            // zeros at half the rate
+            // low-pass: zeros at half the sample rate; high-pass: zeros at 0 Hz
             sections_[2 * i] = section(highHz, qs[i], {2.0, 1.0}, 1.0, sampleRateHz);
-            sections_[2 * i + 1] = section(lowHz, qs[i], {-2.0, 1.0}, -1.0, sampleRateHz); // at 0
+            sections_[2 * i + 1] = section(lowHz, qs[i], {-2.0, 1.0}, -1.0, sampleRateHz);
         }
     }
 
@@ -36,7 +36,7 @@ public:
 private:
     static constexpr std::array qs{0.54119610014619698, 1.3065629648763766};
 
-    /// With these zeros, and a gain of 1 where z is `unity`.
+    /// A biquad with these zeros and a gain of 1 where z is `unity`.
     static Biquad section(double hz, double q, RootPair zeros, double unity, double rateHz) noexcept {
         const RootPair poles = RootPair::bilinear(hz, q, rateHz);
         return {(poles.at(unity) / zeros.at(unity)).real(), zeros, poles};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each hop: a spectrum, its rise since the hop before in each band, and whether that has just been at its
-// highest.
+// For each hop: spectrum, spectral flux in each band, and a peak picker on the flux.
 #include "Host/Music/BeatDetector.h"
 #include <algorithm>
 #include <bit>
@@ -9,18 +8,19 @@
 namespace physvib {
 namespace {
 
-constexpr double longestWindowSeconds = 0.0335; // a power of two of samples, 17 to 33 ms: two periods of a
-                                                // bass drum, short beside a beat
+constexpr double longestWindowSeconds = 0.0335; // rounded down to a power of two samples, 17 to 33 ms: two
+                                                // periods of a bass drum, but short against a beat
 constexpr unsigned hopsPerWindow = 8;
 constexpr int pickedHopsLater = 2; // aubio's picker needs the hop after the peak, and smooths over one more
-constexpr double earlyHops = 0.35; // the flux peaks so much before the onset has reached the middle of the
+constexpr double earlyHops = 0.35; // the flux peaks this long before the onset reaches the middle of the
                                    // window (measured: Docs/music.md)
-constexpr double leastSecondsBetween = 0.05; // of one band: twenty strokes a second
-// after which 37 % is still known
+constexpr double leastSecondsBetween = 0.05; // per band: at most twenty onsets a second
+// Time constants (decay to 37 %) of the mean flux, the maximum and the masking after an onset.
 constexpr double usualSeconds = 1.0, strongestSeconds = 5.0, maskedSeconds = 0.1;
-constexpr double leastRise = 3.0;          // above what is usual
-constexpr double leastFlux = 1e-3;         // a sine of -60 dB or so that begins
-constexpr double leastShareAtOne = 0.0625; // of the strongest onset; to the power of the sensitivity
+constexpr double leastRise = 3.0;          // relative to the mean flux
+constexpr double leastFlux = 1e-3;         // about that of a starting sine at -60 dB
+constexpr double leastShareAtOne = 0.0625; // relative to the strongest onset; raised to the power of the
+                                           // sensitivity
 
 unsigned windowOf(int rateHz) noexcept {
     return std::max(16u, std::bit_floor(static_cast<unsigned>(longestWindowSeconds * rateHz)));
@@ -45,7 +45,7 @@ void BeatDetector::setSensitivity(double sensitivity) noexcept {
 
 void BeatDetector::makeBand(std::size_t index) {
     const double hzPerBin = static_cast<double>(rateHz_) / windowOf(rateHz_);
-    const uint_t end = spectrum_->length - 1; // half the rate
+    const uint_t end = spectrum_->length - 1; // half the sample rate
     const auto binOf = [=](double hz) {
         return std::min(end, static_cast<uint_t>(std::lround(hz / hzPerBin)));
     };
@@ -78,7 +78,7 @@ void BeatDetector::follow(Band& band) noexcept {
     const auto kept = [=](double seconds) { return std::exp(-hopSeconds / seconds); };
     band.strongest *= kept(strongestSeconds);
     band.masked *= kept(maskedSeconds);
-    // at first the plain mean
+    // at first the plain mean of all hops
     band.usual += std::max(1.0 - kept(usualSeconds), 1.0 / static_cast<double>(hops_)) *
                   (band.latest.back() - band.usual);
 }
@@ -93,7 +93,7 @@ bool BeatDetector::isOnset(const Band& band, double height, std::int64_t frame) 
 void BeatDetector::look(std::size_t index) noexcept {
     Band& band = bands_[index];
     measure(band);
-    const double picked = peak_->data[0]; // 0, or where between the hops it was, about 1
+    const double picked = peak_->data[0]; // 0, or the position of the peak in hops, about 1
     if (picked != 0.0) {
         const double height = std::ranges::max(band.latest);
         band.strongest = std::max(band.strongest, height);
@@ -114,8 +114,8 @@ std::int64_t BeatDetector::delayFrames() const noexcept {
     return static_cast<std::int64_t>(hopsPerWindow / 2 + pickedHopsLater + 1) * hop_->length;
 }
 
-// What aubio's parts remember is a window and the picker's few hops; after so many zeros it is what it was at
-// first.
+// aubio's objects remember one window and the few hops of the peak picker. This many zero hops return them to
+// their initial state.
 void BeatDetector::reset() noexcept {
     constexpr unsigned rememberedHops = hopsPerWindow + 12;
     fvec_zeros(hop_.get());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Onsets of music as it comes, by band: aubio's phase vocoder, its spectral flux of each band, its peak
+// Real-time onset detection in music, per frequency band, with aubio: phase vocoder, spectral flux, peak
 // picker.
 #pragma once
 #include "Host/Music/AubioPart.h"
@@ -11,22 +11,22 @@
 
 namespace physvib {
 
-/// What is told does not depend on the pieces in which the sound comes. Made and freed on any thread but R;
-/// all else on any thread, one at a time, R too: it takes no memory and waits for nothing.
+/// The result does not depend on how the input is divided into blocks. Created and destroyed on any thread
+/// but R; all else on any thread, one at a time. R may call it: it neither allocates nor waits.
 class BeatDetector {
 public:
     static constexpr double usualSensitivity = 0.5;
-    static constexpr double mostDelaySeconds = 0.0295; ///< of delayFrames(), at any rate
+    static constexpr double mostDelaySeconds = 0.0295; ///< upper bound of delayFrames() at any sample rate
 
     explicit BeatDetector(int sampleRateHz, double sensitivity = usualSensitivity);
 
-    /// From 0 (only the strongest) to 1 (whatever stirs).
+    /// From 0 (the strongest onsets only) to 1 (every onset).
     void setSensitivity(double sensitivity) noexcept;
 
-    /// As new: the next sample is number 0.
+    /// Returns to the initial state: the next sample is number 0.
     void reset() noexcept;
 
-    /// The next samples. Calls `tell(const BandOnset&)` of each onset that they complete.
+    /// Processes the next samples. Calls `tell(const BandOnset&)` for each onset detected.
     template <class Tell>
     void take(std::span<const float> samples, Tell&& tell) noexcept(noexcept(tell(BandOnset{}))) {
         for (const float sample : samples) {
@@ -38,17 +38,17 @@ public:
         }
     }
 
-    /// So many samples after its own an onset is told at the latest.
+    /// Maximum delay from an onset's frame to its report, in samples.
     std::int64_t delayFrames() const noexcept;
 
 private:
     struct Band {
-        cvec_t part{}; // of the spectrum; nothing, if the rate has none of the band
+        cvec_t part{}; // bins of the spectrum; empty if the sample rate has none of the band
         AubioPart<aubio_specdesc_t, del_aubio_specdesc> flux;
         AubioPart<aubio_peakpicker_t, del_aubio_peakpicker> peaks;
-        std::array<double, 4> latest{};      // flux of the last hops: the peak is among them
-        double usual = 0.0, strongest = 0.0; // of the last seconds
-        double masked = 0.0;                 // what rings after the last onset
+        std::array<double, 4> latest{};      // flux of the last hops, among them the peak
+        double usual = 0.0, strongest = 0.0; // running mean and maximum of the flux
+        double masked = 0.0;                 // threshold after the last onset, decaying
         std::int64_t lastFrame = 0;
         bool hasLast = false;
     };
@@ -60,14 +60,14 @@ private:
     void analyse() noexcept;
 
     const int rateHz_;
-    double leastShare_ = 0.0; // of the strongest
+    double leastShare_ = 0.0; // relative to the strongest
     AubioPart<fvec_t, del_fvec> hop_, flux_, peak_;
     AubioPart<cvec_t, del_cvec> spectrum_;
     AubioPart<aubio_pvoc_t, del_aubio_pvoc> vocoder_;
     std::array<Band, beatBands.size()> bands_;
     std::array<BandOnset, beatBands.size()> found_{};
     std::size_t foundCount_ = 0;
-    unsigned filled_ = 0; // of the hop
+    unsigned filled_ = 0; // samples in the current hop
     std::int64_t hops_ = 0;
 };
 

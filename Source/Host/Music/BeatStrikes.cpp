@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which enchanters a band is felt on.
+// Default assignment of beat bands to actuators, and its parser.
 #include "Host/Music/BeatStrikes.h"
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What becomes of an onset: a strike on each enchanter of its band.
+// Turns an onset in music into an event on each actuator of its band.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
@@ -13,25 +13,27 @@ namespace physvib {
 
 using EnchanterSet = std::bitset<limits::maxEnchanters>;
 
-/// How beats are felt.
+/// Vibration of the beats, per band.
 struct BeatVoices {
     static constexpr double usualLevel = 0.5;
 
-    std::array<EnchanterSet, beatBands.size()> enchanters; ///< of each band; none: it is not felt
-    /// the resonance of the thesis' actuator
+    std::array<EnchanterSet, beatBands.size()> enchanters; ///< actuators of each band; none: the band is not
+                                                           ///< felt
+    /// resonance of the thesis' actuator
     std::array<double, beatBands.size()> frequencyHz{205.0, 205.0, 205.0};
-    std::array<double, beatBands.size()> decayPerSecond{15.0, 30.0, 60.0}; ///< long, short, a tick
-    double level = usualLevel; ///< peak of the strongest at gain 1, in shares of full scale
+    std::array<double, beatBands.size()> decayPerSecond{15.0, 30.0, 60.0}; ///< long, short, tick
+    double level = usualLevel; ///< peak of the strongest onset at gain 1, 1 = full scale
 };
 
-/// Low on the first, high on the last, mid on those between (or, of two, on the last). Any thread, R too.
+/// Low band on the first actuator, high on the last, mid on those between (with two: on the last). Any
+/// thread, R too.
 std::array<EnchanterSet, beatBands.size()> usualBeatEnchanters(int count) noexcept;
 
-/// "AC"; false if one is no enchanter of `count`, or named twice. Any thread.
+/// Parses letters such as "AC"; false if one is not among `count` actuators or occurs twice. Any thread.
 bool parseEnchanters(std::string_view letters, int count, EnchanterSet& enchanters);
 
-/// Calls `strike(const CollisionEvent&)` for each enchanter of the onset's band, at `timeNs`, where it sits
-/// on a field of that size. Any thread, R too.
+/// Calls `strike(const CollisionEvent&)` for each actuator of the onset's band, at `timeNs` and at the
+/// actuator's place in a field of that size. Any thread, R too.
 template <class Strike>
 void strikeBeat(const BandOnset& onset, std::int64_t timeNs, const BeatVoices& voices,
                 const EnchanterLayout& layout, double fieldWidthMetres, double fieldHeightMetres,

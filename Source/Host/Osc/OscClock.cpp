@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Seconds since 1900, and the moment at which the session began.
+// Converts OSC time tags, and estimates the system time at which the session started.
 #include "Host/Osc/OscClock.h"
 #include <algorithm>
 #include <chrono>
@@ -35,7 +35,7 @@ OscTag tagOf(std::int64_t unixNs) noexcept {
 
 std::int64_t unixAheadNs() noexcept {
     std::int64_t best = INT64_MAX, ahead = 0;
-    for (int k = 0; k < 3; ++k) { // whoever reads two clocks may be interrupted between
+    for (int k = 0; k < 3; ++k) { // the thread may be interrupted between two clock reads
         const std::int64_t before = nowOf<std::chrono::steady_clock>(),
                            unix = nowOf<std::chrono::system_clock>(),
                            after = nowOf<std::chrono::steady_clock>();
@@ -51,7 +51,7 @@ void OscClock::follow(const FeltMoment& moment, std::int64_t unixAheadNs) noexce
     clock_.add({moment.sessionNs + moment.behindNs, moment.steadyNs});
     behindNs_ = moment.behindNs;
     const std::int64_t seen = clock_.steadyAt(0) + unixAheadNs, away = seen - beganNs_;
-    if (std::abs(away) > jumpNs) { // the first, another device, or a clock that was set
+    if (std::abs(away) > jumpNs) { // first estimate, another device, or the system clock was set
         beganNs_ = seen;
         settledNs_ = moment.steadyNs + settleNs;
     } else if (moment.steadyNs < settledNs_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which of the kinds an address is; what they mean stands in the rooms where lines are taken.
+// Dispatches an OSC message by its address: silence, message, input or control, or phone sensor.
 #include "Host/Osc/OscDoor.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
@@ -7,14 +7,14 @@
 namespace physvib {
 namespace {
 
-/// What such a program as this sends by itself.
+/// Whether a program such as this one sends that address by itself.
 bool isReply(std::string_view address) {
     return address.starts_with(oscAnswerPrefix) || address == oscErrorAddress || address == oscHitAddress;
 }
 
 std::string_view textOf(std::span<const char> bytes) { return {bytes.data(), bytes.size()}; }
 
-/// Of a packet that is none of OSC's, as far as it looks like one.
+/// The address of a packet that is not valid OSC, as far as it resembles one.
 std::string_view addressIn(std::span<const char> bytes) {
     const std::string_view text = textOf(bytes);
     return text.starts_with('/') ? text.substr(0, text.find('\0')) : std::string_view{};
@@ -24,8 +24,8 @@ bool isForSilence(std::string_view address) {
     return address.starts_with(oscPrefix) && namesSilence(address) && !isReply(address);
 }
 
-/// What a message to such an address asks for. What is not in its right form has a fault, and is on. A
-/// control needs no scene.
+/// What a message to such an address requests. A malformed message has an error and still requests silence.
+/// The control needs no scene.
 Result<SilenceControl> silenceOf(const OscMessage& message) {
     if (message.address != oscSilenceAddress) return Failure{"expected " + std::string(oscSilenceAddress)};
     const auto plain = plainOf(oscSilenceAddress.substr(oscPrefix.size()), message.values);
@@ -84,7 +84,7 @@ std::string OscDoor::act(const OscMessage& message, const OscClock& clock,
     if (isForSilence(message.address)) return silence(silenceOf(message), answers);
     if (hooks_.closed)
         if (auto why = hooks_.closed(); !why.empty()) return why;
-    // no phone is called so: /physvib/gravity is an input
+    // phone sensors have no address with our prefix: /physvib/gravity is an input
     const bool isOurs = message.address.starts_with(oscPrefix);
     if (const auto* format = isOurs ? nullptr : sensorFormat(message.address)) return turn(*format, message);
     if (!isOurs)
@@ -119,7 +119,7 @@ std::string OscDoor::turn(const SensorFormat& format, const OscMessage& message)
 std::string OscDoor::route(const PlainMessage& plain, OscTag tag, const OscClock& clock,
                            std::vector<std::vector<char>>& answers) {
     MessageTag at;
-    const bool isTagged = tag != oscNow && clock.isReady(); // before the first block all is now
+    const bool isTagged = tag != oscNow && clock.isReady(); // before the first block, every message acts now
     if (isTagged) at.sessionNs = clock.sessionNs(unixNsOf(tag));
     auto answer = messages_.take(plain, isTagged ? &at : nullptr, hooks_.clips);
     if (at.isLate && answer) ++counts_.late;

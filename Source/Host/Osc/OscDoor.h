@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The door by which packets come in: from addresses and values to messages, inputs and controls, each
-// counted.
+// Executes received OSC packets: turns addresses and values into messages, inputs and controls, and counts
+// them.
 #pragma once
 #include "Host/Osc/OscClock.h"
 #include "Host/Osc/OscSocket.h"
@@ -14,68 +14,69 @@
 
 namespace physvib {
 
-/// Addresses are `/physvib/` and a name of the table of messages, of an input or of a control, and those of
-/// sensor programs.
+/// Valid addresses are `/physvib/` followed by the name of a message, an input or a control, and the
+/// addresses of phone sensor programs.
 inline constexpr std::string_view oscPrefix = "/physvib/", oscAnswerPrefix = "/physvib/answer/",
                                   oscHitAddress = "/physvib/hit", oscSilenceAddress = "/physvib/silence",
                                   oscErrorAddress = "/physvib/error";
 
-/// Of a message: to whom a refusal goes.
+/// Sender of a message, to which a refusal is sent.
 struct OscOrigin {
     OscSender from;
     std::string address; ///< of the message
 };
 
-/// What the program does itself with what comes in; called on the port's thread.
+/// Callbacks into the program that owns the port; called on the port's thread.
 struct OscHooks {
-    /// inputs and controls; empty, or what is wrong
+    /// applies inputs and controls; returns empty, or the reason of a refusal
     std::function<std::string(const LineInput&, const OscOrigin&)> act;
-    std::function<std::string()> closed; ///< why nothing but silence is taken now; empty: it is; may be left
-                                         ///< out
-    ClipSource clips{};                  ///< left out: none are taken
+    std::function<std::string()> closed; ///< returns why only silence is accepted now; empty: all is;
+                                         ///< optional
+    ClipSource clips{};                  ///< source of clip files; empty: clips are refused
 };
 
-/// A message of which nothing was done.
+/// A message that was not executed.
 struct OscRefusal {
-    std::string address; ///< as it came, as far as it can be printed; empty: it could not be read
+    std::string address; ///< as received, printable part only; empty: unreadable
     std::string reason;  ///< one line
 };
 
 /// Any thread.
 OscRefusal refusalOf(std::string_view address, std::string_view reason);
 
+/// Counts since the port was opened.
 struct OscCounts {
     std::uint64_t packets = 0;
-    std::uint64_t bad = 0;  ///< of these: not OSC, and nothing in it was done
-    std::uint64_t lost = 0; ///< that the system had no room for, beside these
+    std::uint64_t bad = 0;  ///< of these: not OSC; nothing in the packet was executed
+    std::uint64_t lost = 0; ///< dropped by the system for lack of buffer space, not counted above
     std::uint64_t messages = 0;
-    std::uint64_t refused = 0; ///< of these: and nothing of it was done
-    std::uint64_t late = 0;    ///< of these: done at once, since the time of their tag was over
-    std::uint64_t held = 0;    ///< replies that were too many to be sent
-    std::string fault;         ///< the last that was wrong; empty: none
+    std::uint64_t refused = 0; ///< of these: not executed
+    std::uint64_t late = 0;    ///< of these: executed at once, because the time of the tag had passed
+    std::uint64_t held = 0;    ///< replies held back by OscReplies
+    std::string fault;         ///< the last error; empty: none
 
     std::uint64_t wrong() const noexcept { return bad + refused; }
 };
 
-/// One thread at a time.
+/// Executes packets of one port. One thread at a time.
 class OscDoor {
 public:
-    /// Both outlive it. `turnRadians`: see PhoneSensors.
+    /// Session and messages outlive this object. `turnRadians`: see PhoneSensors.
     OscDoor(Session& session, MessageRouter& messages, OscHooks hooks, double turnRadians = 0.0);
 
-    /// Does what is in a packet; answers of queries and of silence, each a packet, go to the end of
-    /// `answers`. `silences`: how many messages before this packet have asked for silence.
+    /// Executes a packet. Replies to queries and to silence, one packet each, are appended to `answers`.
+    /// `silences`: number of silence requests before this packet.
     void take(std::span<const char> bytes, const OscClock& clock, std::vector<std::vector<char>>& answers,
               std::uint64_t silences = 0, const OscSender& from = {});
 
-    /// What was refused of the last packet, but for what only answers: two programs that refuse each other's
-    /// refusals never end.
+    /// Messages of the last packet that were refused, except replies: two programs that refuse each other's
+    /// refusals would never stop.
     const std::vector<OscRefusal>& refusals() const noexcept { return refusals_; }
     void holdBack(std::uint64_t replies) noexcept { counts_.held = replies; }
     void lose(std::uint64_t packets) noexcept { counts_.lost += packets; }
     const OscCounts& counts() const noexcept { return counts_; }
 
-    /// The answer of the query `status`, with the counts.
+    /// The reply to the query `status`, with the counts.
     PlainMessage status();
 
 private:
@@ -94,13 +95,13 @@ private:
     OscHooks hooks_;
     PhoneSensors sensors_;
     OscCounts counts_;
-    std::uint64_t silences_ = 0; // asked for so far
-    OscOrigin origin_;           // of what is done now
+    std::uint64_t silences_ = 0; // requests so far
+    OscOrigin origin_;           // of the message being executed
     std::vector<OscRefusal> refusals_;
 };
 
-/// How many of a packet's messages silence: an address of ours with silence in it, and not off in its right
-/// form. A packet that cannot be read is one if the word stands in it. Any thread but R.
+/// Number of messages in a packet that request silence: an address with our prefix that names silence, unless
+/// it is a well-formed `off`. An unreadable packet that contains the word counts as one. Any thread but R.
 std::uint64_t silencesIn(std::span<const char> bytes);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bundles, messages, and values with names.
+// Parses and writes OSC bundles and messages, and converts values with names.
 #include "Host/Osc/OscPacket.h"
 #include "Io/Text/NumberText.h"
 #include <cmath>
@@ -19,7 +19,7 @@ struct FreeBundle {
 using MessagePointer = std::unique_ptr<std::remove_pointer_t<lo_message>, FreeMessage>;
 using BundlePointer = std::unique_ptr<std::remove_pointer_t<lo_bundle>, FreeBundle>;
 
-/// What is wrong with a packet; never leaves this file.
+/// A parse error; thrown and caught within this file.
 struct OscError {
     std::string what;
 };
@@ -32,7 +32,7 @@ std::uint64_t bigEndian(std::span<const char> bytes) {
     return value;
 }
 
-// liblo gives no promise of alignment.
+// liblo does not guarantee alignment.
 template <class T>
 T plain(const void* at) {
     T value;
@@ -60,7 +60,7 @@ OscValue valueOf(char type, const lo_arg* value) {
 }
 
 OscMessage messageOf(std::span<const char> bytes, OscTag tag) {
-    std::vector<char> own(bytes.begin(), bytes.end()); // liblo asks for bytes that it might change
+    std::vector<char> own(bytes.begin(), bytes.end()); // liblo needs a mutable buffer
     int fault = 0;
     const MessagePointer message{lo_message_deserialise(own.data(), own.size(), &fault)};
     if (!message) throw OscError{"expected an OSC message (liblo: " + std::to_string(fault) + ")"};

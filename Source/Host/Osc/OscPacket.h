@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Packets of Open Sound Control 1.0: read and written by liblo; bundles are taken apart here, since liblo
-// does that only for sockets of its own.
+// Reads and writes packets of Open Sound Control 1.0 through liblo. Bundles are split here, because liblo
+// does that only for its own sockets.
 #pragma once
 #include "Io/Result.h"
 #include "Live/Documents/PlainMessage.h"
@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-/// Seconds since 1900 in the upper half, their fraction in the lower.
+/// NTP time: seconds since 1900 in the upper 32 bits, their fraction in the lower 32.
 using OscTag = std::uint64_t;
 constexpr OscTag oscNow = 1; ///< "immediately"
 
@@ -22,25 +22,26 @@ using OscValue = std::variant<double, std::string>;
 
 struct OscMessage {
     std::string address;
-    std::vector<OscValue> values; ///< numbers (also true and false, as 1 and 0) and words
-    OscTag tag = oscNow;          ///< of the innermost bundle around it
+    std::vector<OscValue> values; ///< numbers (true and false as 1 and 0) and strings
+    OscTag tag = oscNow;          ///< of the innermost enclosing bundle
 };
 
-/// All messages of a packet, in its order; of bundles at most `deepestBundle` in each other. Or what is
-/// wrong, and nothing of it. Any thread but R.
+/// All messages of a packet in order, from bundles nested at most `deepestBundle` deep. Or the error, and no
+/// message. Any thread but R.
 Result<std::vector<OscMessage>> readOscPacket(std::span<const char> bytes);
 constexpr int deepestBundle = 16;
 
-/// Names and values by turns, as they stand in `message`: the opposite of plainOf. Numbers in single
-/// precision, which every program understands (Pd no other): exact times are tags. Any thread but R.
+/// Alternating names and values, in the order of `message`; the inverse of plainOf. Numbers are single
+/// precision, the only type that every program reads (Pd reads no other); exact times are tags. Any thread
+/// but R.
 std::vector<char> oscPacket(const std::string& address, const PlainMessage& message);
 /// The same in a bundle.
 std::vector<char> oscBundle(const std::string& address, const PlainMessage& message, OscTag tag);
-/// A message of words alone. Any thread but R.
+/// A message that has strings only. Any thread but R.
 std::vector<char> oscWords(const std::string& address, std::initializer_list<std::string> words);
 
-/// `level 0.5 place 1 0.5 law energy`: a name, then a word or one or more numbers, and so on. Or what is
-/// wrong. Any thread but R.
+/// Parses `level 0.5 place 1 0.5 law energy`: a name, then a string or one or more numbers, and so on. Or the
+/// error. Any thread but R.
 Result<PlainMessage> plainOf(std::string_view name, const std::vector<OscValue>& values);
 
 } // namespace physvib

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Waits for packets, follows the device's clock, tells once a second how the session is.
+// Receives packets, follows the device's clock, and sends the session's status once a second.
 #include "Host/Osc/OscPort.h"
 #include <chrono>
 
 namespace physvib {
 namespace {
 
-constexpr int pollMilliseconds = 10;           // the device's blocks are looked at so often
-constexpr std::size_t mostAtOnce = 1000;       // packets, before they are; refusals that come later
-constexpr std::int64_t clockSlackNs = 100'000; // two clocks are not read at once
+constexpr int pollMilliseconds = 10;           // polling period of the device's blocks
+constexpr std::size_t mostAtOnce = 1000;       // packets per round; pending late refusals
+constexpr std::int64_t clockSlackNs = 100'000; // tolerance, because two clocks cannot be read at the same
+                                               // moment
 
 std::int64_t steadyNs() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -48,7 +49,7 @@ void OscPort::read() {
         if (in_.wait(pollMilliseconds)) readAll();
 }
 
-// A packet that has no room has silenced all the same; who asked gets no answer and may ask again.
+// A packet that finds the queue full still silences. Its sender gets no reply and may repeat it.
 void OscPort::readAll() {
     SilenceHolders& silence = device_.silence();
     while (!stop_) {
@@ -94,7 +95,7 @@ void OscPort::receive() {
     counts_.fault = fault_;
 }
 
-// Answers first: who asks gets no less because something else was wrong.
+// Replies go first, so that refusals do not use up their byte limit.
 void OscPort::reply(std::size_t packetBytes, const OscSender& to) {
     if (answers_.empty() && door_.refusals().empty()) return;
     replies_.begin(to.text(), packetBytes, steadyNs());
@@ -136,7 +137,7 @@ void OscPort::refuseLate() {
 
 void OscPort::count(bool left) noexcept { (left ? sent_ : unsent_).fetch_add(1, std::memory_order_relaxed); }
 
-// Its tag is that session time, on the system's clock.
+// The bundle's tag is that session time on the system's clock.
 void OscPort::tellStatus() {
     const std::int64_t now = steadyNs();
     if (now < nextStatusNs_ || !clock_.isReady()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Open Sound Control in and out of a live session, on a thread of its own.
+// Open Sound Control input and output of a live session, on threads of its own.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Host/Osc/OscDoor.h"
@@ -17,54 +17,54 @@ namespace physvib {
 
 inline constexpr const char* oscThisComputer = "127.0.0.1";
 inline constexpr const char* oscAnyComputer = "0.0.0.0";
-constexpr int oscUsualPort = 9000; ///< where sensor programs send unless told otherwise
+constexpr int oscUsualPort = 9000; ///< default port of phone sensor programs
 
 struct OscSettings {
-    std::string address = oscThisComputer; ///< of this computer, that packets are taken at
-    std::optional<int> port;               ///< or the next free one; 0: any; nullopt: nothing is taken
-    std::string receiver;                  ///< HOST:PORT of hits and status; empty: none
-    double turnRadians = 0.0;              ///< by which a phone is held counter-clockwise of upright
+    std::string address = oscThisComputer; ///< local address to receive on
+    std::optional<int> port;  ///< if taken, the next free port is used; 0: any; nullopt: no input
+    std::string receiver;     ///< HOST:PORT that gets hits and status; empty: none
+    double turnRadians = 0.0; ///< angle at which the phone is held, counter-clockwise from upright
 };
 
 struct OscStatus {
-    std::string address; ///< ADDRESS:PORT; empty: nothing is taken
+    std::string address; ///< ADDRESS:PORT; empty: no input
     OscCounts counts;
-    std::uint64_t sent = 0, unsent = 0; ///< hits and status
+    std::uint64_t sent = 0, unsent = 0; ///< packets with hits and status
 };
 
-/// One thread reads packets, and silences at once if one of them says so; another does what they say, in
-/// their order.
+/// One thread reads packets and silences at once if a packet requests it; a second thread executes the
+/// packets in order.
 class OscPort final : public Sink {
 public:
     static constexpr std::int64_t statusEveryNs = 1'000'000'000;
 
-    /// All outlive it. See error(). M.
+    /// All arguments outlive the port. Check error() afterwards. M.
     OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device,
             OscHooks hooks);
     ~OscPort() override;
 
-    /// Empty, or why it is not open: one line. Any thread.
+    /// Empty, or one line why the port is not open. Any thread.
     const std::string& error() const noexcept { return error_; }
 
-    /// The number of the port; 0: nothing is taken. Any thread.
+    /// Number of the port; 0: no input. Any thread.
     int port() const noexcept { return in_.port(); }
     int bufferBytes() const { return in_.bufferBytes(); }
 
-    /// To the receiver. M.
+    /// Sends the hit to the receiver. M.
     void played(const PlayedEvent& played, int sampleRateHz) override;
 
-    /// What a hook has taken could not be done after all: its sender is told. Any thread but R.
+    /// Sends a refusal of an action that a hook had accepted but that failed later. Any thread but R.
     void refuse(const OscOrigin& origin, const std::string& reason);
 
     /// Any thread but R.
     OscStatus status() const;
 
 private:
-    /// What was read and is still to be done.
+    /// A packet that was read but not yet executed.
     struct Packet {
         std::vector<char> bytes;
         OscSender from;
-        std::uint64_t silences = 0; // asked for before it
+        std::uint64_t silences = 0; // requests before this packet
     };
     void read();
     void readAll();
@@ -86,15 +86,15 @@ private:
     std::vector<std::vector<char>> answers_;
     OscReplies replies_;
     std::int64_t unixAheadNs_ = 0, nextStatusNs_ = 0;
-    mutable std::mutex mutex_; // guards what follows; the clock is changed by the port's thread alone
+    mutable std::mutex mutex_; // guards the members below; only the port's thread changes the clock
     OscClock clock_;
     OscCounts counts_;
-    std::vector<std::pair<OscRefusal, OscSender>> late_; // to be sent by the port's thread
-    std::uint64_t lateHeld_ = 0;                         // that found no room there
+    std::vector<std::pair<OscRefusal, OscSender>> late_; // the port's thread sends them
+    std::uint64_t lateHeld_ = 0;                         // refusals that found `late_` full
     std::atomic<std::uint64_t> sent_{0}, unsent_{0};
     std::atomic<bool> stop_{false};
     InputQueue<Packet> packets_;
-    std::atomic<std::uint64_t> lost_{0}; // that had no room, here or in the system, and are not counted yet
+    std::atomic<std::uint64_t> lost_{0}; // packets dropped here or by the system, not yet counted
     std::thread thread_, reader_;
 };
 

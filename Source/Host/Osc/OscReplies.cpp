@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bytes of the last second, by sender.
+// Counts the reply bytes of the last second for each sender.
 #include "Host/Osc/OscReplies.h"
 #include <algorithm>
 #include <numeric>
@@ -22,7 +22,7 @@ void OscReplies::begin(std::string_view sender, std::size_t bytes, std::int64_t 
     std::erase_if(current_->spent, [nowNs](const Spent& one) { return one.atNs <= nowNs - secondNs; });
 }
 
-// Who has been quiet for a second has nothing spent, and gives its place away.
+// A sender that was quiet for a second has spent nothing, so its place is reused.
 OscReplies::Sender* OscReplies::find(std::string_view name) {
     const auto known = std::ranges::find(senders_, name, &Sender::name);
     if (known != senders_.end()) return &*known;

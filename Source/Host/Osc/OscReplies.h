@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What may be sent back to a sender. Its address may be somebody else's: nobody is to get a flood from here
-// that he did not send.
+// Limits the replies to each sender. A sender's address can be forged, so PhysVib must not amplify traffic
+// towards it.
 #pragma once
 #include "Live/Messages/ComplaintLimit.h"
 #include <cstddef>
@@ -11,25 +11,25 @@
 
 namespace physvib {
 
-/// A packet is answered with as many bytes as it has; beyond that an address gets at most `freeBytes` in any
-/// second, and a refusal of one cause once in `refusalEveryNs`. An address is another computer, or a port of
-/// this one. The clock is the caller's. One thread at a time.
+/// A reply may be as long as the packet that it answers. Beyond that, an address gets at most `freeBytes` in
+/// any second, and a refusal for one reason once per `refusalEveryNs`. An address is another computer, or a
+/// port of this one. The caller provides the clock. One thread at a time.
 class OscReplies {
 public:
     static constexpr std::size_t freeBytes = 2000;
     static constexpr std::int64_t secondNs = 1'000'000'000, refusalEveryNs = 100'000'000;
-    static constexpr std::size_t mostSenders = 64; ///< addresses in a second; more get no replies
+    static constexpr std::size_t mostSenders = 64; ///< addresses per second; further ones get no replies
 
-    /// A packet of so many bytes has come from HOST:PORT; what is asked next is about replies to it.
+    /// A packet of that size has come from HOST:PORT; the next calls are about replies to it.
     void begin(std::string_view sender, std::size_t bytes, std::int64_t nowNs);
 
-    /// Whether a reply of so many bytes may be sent; if so, it counts as sent.
+    /// Whether a reply of that size may be sent; if so, it counts as sent.
     bool mayReply(std::size_t bytes);
 
-    /// Whether a refusal of that reason may be.
+    /// Whether a refusal for that reason may be sent.
     bool mayRefuse(std::string_view reason);
 
-    /// What was not sent so far.
+    /// Number of replies not sent so far.
     std::uint64_t heldBack() const noexcept { return heldBack_; }
 
 private:
@@ -46,8 +46,8 @@ private:
     Sender* find(std::string_view name);
 
     std::vector<Sender> senders_;
-    Sender* current_ = nullptr; // null: there are too many
-    std::size_t bytesLeft_ = 0; // of the packet
+    Sender* current_ = nullptr; // null: too many senders
+    std::size_t bytesLeft_ = 0; // free reply bytes for this packet
     std::int64_t nowNs_ = 0;
     std::uint64_t heldBack_ = 0;
 };

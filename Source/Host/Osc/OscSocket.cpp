@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names, ports and datagrams.
+// UDP socket on POSIX and Windows: name resolution, ports and datagrams.
 #include "Host/Osc/OscSocket.h"
 #include "Io/Text/NumberText.h"
 #include <chrono>
@@ -46,7 +46,7 @@ std::intptr_t openedFor(const addrinfo& address) noexcept {
     return static_cast<std::intptr_t>(sockets::open(address.ai_family));
 }
 
-// Sizes and options are of other types on each system.
+// Types of sizes and options differ between systems.
 sockets::Size sizeOf(std::span<const char> bytes) noexcept {
     return static_cast<sockets::Size>(bytes.size());
 }

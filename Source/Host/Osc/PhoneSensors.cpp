@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gravity and motion, added up, turned as the phone is held.
+// Adds up gravity and motion readings of a phone, and rotates them by the angle at which it is held.
 #include "Host/Osc/PhoneSensors.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/SceneLimits.h"
@@ -11,7 +11,7 @@ namespace {
 
 bool isOf(std::string_view address, std::string_view format) {
     if (!format.starts_with('*')) return address == format;
-    const auto rest = address.substr(std::min<std::size_t>(1, address.size())).find('/'); // behind one name
+    const auto rest = address.substr(std::min<std::size_t>(1, address.size())).find('/'); // skips the name
     return rest != std::string_view::npos && address.substr(rest + 1) == format.substr(1);
 }
 

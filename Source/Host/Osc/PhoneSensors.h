@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From what sensor programs of phones send to the gravity of a world that is held in a hand. Their formats
-// and where they are told: Docs/osc.md.
+// Turns the readings of phone sensor programs into gravity in the world, so that tilting the phone tilts the
+// world. Formats and their sources: Docs/osc.md.
 #pragma once
 #include "Core/StandardGravity.h"
 #include "Host/Osc/OscPacket.h"
@@ -11,16 +11,16 @@
 
 namespace physvib {
 
-/// A message of a program: three numbers, or one of an axis.
+/// A message of a sensor program: three axes, or one axis.
 struct SensorFormat {
     enum class Part { pull, gravity, motion, x, y, unused };
-    std::string_view address; ///< `*` at the beginning stands for the phone's own name
+    std::string_view address; ///< a leading `*` stands for the phone's name
     Part part;
-    double toPull; ///< what it says, times this, is the pull on a thing in the phone, in m/s^2: + x to the
-                   ///< right of its screen, + y up
+    double toPull; ///< factor from reading to acceleration on an object in the phone, in m/s^2; x to the
+                   ///< right of its screen, y up
 };
 
-// An accelerometer at rest says what holds it up; iPhones turn that round.
+// An accelerometer at rest reads the supporting force, upwards; iPhones report the opposite sign, in g.
 inline constexpr double androids = -1.0, iPhones = standardGravity;
 inline constexpr std::array sensorFormats{
     SensorFormat{"/accelerometer", SensorFormat::Part::pull, androids},
@@ -33,21 +33,21 @@ inline constexpr std::array sensorFormats{
     SensorFormat{"*/gravity", SensorFormat::Part::gravity, iPhones},
     SensorFormat{"*/accel", SensorFormat::Part::motion, iPhones}};
 
-/// The format of that address; null: none. Any thread.
+/// The format of that address; null: unknown. Any thread.
 const SensorFormat* sensorFormat(std::string_view address) noexcept;
 
 /// One thread at a time.
 class PhoneSensors {
 public:
-    /// A hand that rests shakes by less: a reading that is nearer to the last one that was used says nothing
-    /// new.
+    /// Changes below this are tremor of a resting hand: a reading closer than that to the last one used is
+    /// ignored.
     static constexpr double leastChange = 0.05; // m/s^2; 0.3 degrees
 
-    /// The phone is held so much counter-clockwise of upright.
+    /// `turnRadians`: angle at which the phone is held, counter-clockwise from upright.
     explicit PhoneSensors(double turnRadians = 0.0) noexcept
         : turnRadians_{turnRadians} {}
 
-    /// Gravity as it is from now on, if that is news; none is. Or what is wrong.
+    /// The new gravity, if it has changed; otherwise none. Or the error.
     Result<std::optional<GravityAction>> take(const SensorFormat& format, const OscMessage& message);
 
 private:

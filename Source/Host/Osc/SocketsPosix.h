@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// POSIX: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsWindows.h is the other
-// one.
+// Datagram sockets on POSIX, behind the interface that SocketsWindows.h has too. For OscSocket.cpp only.
 #pragma once
 #include <cerrno>
 #include <cstddef>
@@ -26,15 +25,15 @@ inline Handle open(int family) noexcept {
 }
 inline void close(Handle socket) noexcept { ::close(socket); }
 
-/// That port for this socket alone, or false. Without SO_REUSEADDR: of two programs that have it, one would
-/// get nothing, and nobody would be told.
+/// Binds that port exclusively, or returns false. SO_REUSEADDR is not set: of two programs with that option,
+/// one would get no packets, without any error.
 inline bool takePort(Handle socket, const sockaddr* address, socklen_t size) noexcept {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
     return bind(socket, address, size) == 0;
 }
 
-/// Of the last call: in words, and whether another program has that port.
+/// Error text of the last call, and whether another program has the port.
 inline std::string fault() { return std::strerror(errno); }
 inline bool isTaken() noexcept { return errno == EADDRINUSE || errno == EACCES; }
 
@@ -43,7 +42,8 @@ inline bool wait(Handle socket, int milliseconds) noexcept {
     return poll(&in, 1, milliseconds) > 0;
 }
 
-/// A packet's size, or less than 0; who sent it; and how many have found no room so far, if that is told.
+/// Size of the packet, or less than 0; its sender; and the number of packets dropped so far, if the system
+/// reports it.
 inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_storage& sender,
                               socklen_t& senderSize, std::uint32_t& lost) noexcept {
     alignas(cmsghdr) char told[64];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsPosix.h is the other
-// one.
+// Datagram sockets on Windows, behind the interface that SocketsPosix.h has too. For OscSocket.cpp only.
 #pragma once
 #include "Io/Disk/SystemWindows.h"
 #include <cstddef>
@@ -35,14 +34,14 @@ inline Handle open(int family) noexcept {
     return INVALID_SOCKET;
 }
 
-/// That port for this socket alone, or false: any other program could take it too, unless told.
+/// Binds that port exclusively, or returns false. By default, Windows lets another program bind it too.
 inline bool takePort(Handle socket, const sockaddr* address, socklen_t size) noexcept {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_EXCLUSIVEADDRUSE, reinterpret_cast<const char*>(&on), sizeof on);
     return bind(socket, address, size) == 0;
 }
 
-/// Of the last call: in words, and whether another program has that port.
+/// Error text of the last call, and whether another program has the port.
 inline std::string fault() { return std::system_category().message(WSAGetLastError()); }
 inline bool isTaken() noexcept {
     return WSAGetLastError() == WSAEADDRINUSE || WSAGetLastError() == WSAEACCES;
@@ -53,7 +52,7 @@ inline bool wait(Handle socket, int milliseconds) noexcept {
     return WSAPoll(&in, 1, milliseconds) > 0;
 }
 
-/// A packet's size, or less than 0; and who sent it. How many found no room, this system does not tell.
+/// Size of the packet, or less than 0; and its sender. Windows does not report dropped packets.
 inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_storage& sender,
                               socklen_t& senderSize, std::uint32_t&) noexcept {
     senderSize = sizeof sender;

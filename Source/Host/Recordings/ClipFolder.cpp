@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A name is looked up, read, and known by its hash.
+// Finds a clip by name, reads it and computes its hash.
 #include "Host/Recordings/ClipFolder.h"
 #include "Formats/ClipFile.h"
 #include "Formats/ClipLimits.h"
@@ -20,7 +20,7 @@ struct Content {
     std::vector<EnchanterPlace> shares{};
 };
 
-/// Where all channels have a place.
+/// Positions of the channels as fractions of the extent; empty unless every channel has one.
 std::vector<EnchanterPlace> sharesOf(const Clip& clip) {
     std::vector<EnchanterPlace> shares;
     for (const ClipChannel& channel : clip.channels)
@@ -30,7 +30,7 @@ std::vector<EnchanterPlace> sharesOf(const Clip& clip) {
     return shares.size() == clip.channels.size() ? shares : std::vector<EnchanterPlace>{};
 }
 
-/// All of the same bytes.
+/// Reads a haptic file once: samples and hash come from the same bytes.
 Result<Content> readDrawn(const std::filesystem::path& path, ClipFormat format) {
     if (const auto regular = openRegular(path, limits::maxRecordingFileBytes); !regular)
         return Failure{regular.error};
@@ -43,7 +43,7 @@ Result<Content> readDrawn(const std::filesystem::path& path, ClipFormat format) 
     return Content{std::move(sound.value), contentHash(bytes.value), sharesOf(clip.value)};
 }
 
-/// Its decoders read from the disk, so the hash reads it again.
+/// The decoders read from the disk, so computing the hash reads the file again.
 Result<Content> readSampled(const std::filesystem::path& path) {
     auto sound = readRecording(path);
     if (!sound) return Failure{sound.error};
@@ -85,7 +85,7 @@ Result<LoadedClip> ClipFolder::operator()(const std::string& name) const {
 
 Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>& clips) {
     std::vector<ContactRecording> kept;
-    LoadedClip last; // channels of one file follow one another
+    LoadedClip last; // channels of one file are adjacent
     std::size_t samples = 0;
     for (const ClipFile& clip : clips) {
         const std::string& path = clip.file.path;

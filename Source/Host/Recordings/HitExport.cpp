@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hits are panned as they were played; what a channel was made for comes from its actuator's profile.
+// Converts hits to clip channels, panned as they were played; each channel's device data come from its
+// actuator's profile.
 #include "Host/Recordings/HitExport.h"
 #include "Core/Modes/ModeIncrements.h"
 #include "Formats/ClipLimits.h"
@@ -17,9 +18,10 @@
 namespace physvib {
 namespace {
 
-constexpr double maxWavBytes = 500e6; // written while somebody waits, as a drag begins
+constexpr double maxWavBytes = 500e6; // the file is written while the user waits for a drag to start
 
-/// Other formats do not move what sounds: its steps, as the board's.
+/// Replaces each moving event by a series of stationary ones, as the board does, because other formats have
+/// no moving events.
 std::vector<CollisionEvent> stillStrikes(std::span<const CollisionEvent> events) {
     std::vector<CollisionEvent> still;
     for (const CollisionEvent& event : events) {
@@ -32,7 +34,7 @@ std::vector<CollisionEvent> stillStrikes(std::span<const CollisionEvent> events)
     return still;
 }
 
-/// What is known of an enchanter's actuator; nothing, if it has none.
+/// Data of an actuator's profile; without one ("none"), only its full scale.
 Result<ClipDevice> deviceOf(const HitExport& hits, const EnchanterDescription& enchanter) {
     const ClipDevice device{0.0, 0.0, 0.0, enchanter.fullScaleG};
     const std::string& name = hits.actuator.empty() ? enchanter.actuator : hits.actuator;
@@ -43,7 +45,7 @@ Result<ClipDevice> deviceOf(const HitExport& hits, const EnchanterDescription& e
     return ClipDevice{band.lowHz, band.highHz, profile.value.resonanceHz.value_or(0.0), enchanter.fullScaleG};
 }
 
-/// By what the channel's actuator plays, if that is known.
+/// The band of the channel's actuator, if known.
 FrequencyScale scaleOf(const Clip& clip, const FrequencyScale& usual) {
     const ClipDevice& device = clip.channels.front().device;
     return device.highHz > device.lowHz ? FrequencyScale{device.lowHz, device.highHz} : usual;
@@ -55,7 +57,7 @@ std::string summary(const ClipPart& part, std::size_t bytes) {
            fixedNumber(static_cast<double>(bytes) * 1e-3, 1) + " kB\n";
 }
 
-/// Until the last has decayed.
+/// Time until the last event has decayed.
 double secondsOf(std::span<const CollisionEvent> events, int rate) {
     double end = 0.0;
     for (const CollisionEvent& event : events) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Read, cut, normalised.
+// Reads a recorded contact, trims it to its strongest hit and normalises its level.
 #include "Host/Recordings/LoadContact.h"
 #include "Core/SamplePeak.h"
 #include "Host/Recordings/ReadRecording.h"
@@ -22,10 +22,10 @@ void normalise(std::vector<float>& samples) {
     for (float& x : samples) x /= peak;
 }
 
-/// A contact that nobody recorded, to rehearse what needs recordings: six partials above `frequencyHz`,
-/// inharmonic as those of a struck bar (assumed: about the square roots of 1, 2, 4, 6, 9, 13; the seed moves
-/// them), higher ones weaker and shorter, and 3 ms of noise. At most a second; the same for the same
-/// arguments. Any thread.
+/// A synthetic contact, for trying out what needs recordings: six partials from `frequencyHz` up and 3 ms of
+/// noise. The partials are inharmonic like those of a struck bar (assumed: ratios near the square roots of 1,
+/// 2, 4, 6, 9, 13, varied by the seed); higher ones are weaker and shorter. One second at most. The same
+/// arguments give the same samples. Any thread.
 std::vector<float> syntheticContact(double frequencyHz, double decayPerSecond, std::uint32_t seed,
                                     int sampleRateHz) {
     constexpr double ratios[] = {1.0, 1.41, 2.0, 2.45, 3.0, 3.61}, noiseSeconds = 0.003;
@@ -52,7 +52,7 @@ std::vector<float> syntheticContact(double frequencyHz, double decayPerSecond, s
 }
 
 constexpr int syntheticRateHz = 48000;
-constexpr double assumedDecayPerSecond = 40.0; // of what is synthetic, where no material says
+constexpr double assumedDecayPerSecond = 40.0; // of synthetic contacts of an unknown material
 
 Result<ContactRecording> readContact(const RecordingFile& file) {
     constexpr double shortestSeconds = 0.001;
@@ -86,7 +86,7 @@ Result<ContactRecording> readContact(const RecordingFile& file) {
     return contact;
 }
 
-/// Empty, or that the file is not what it was.
+/// Checks and sets the hash; empty, or the error that the file has changed.
 std::string takeHash(RecordingFile& file) {
     if (syntheticSeed(file.path)) return {};
     const auto bytes = readFile(file.path, limits::maxRecordingFileBytes);
@@ -107,7 +107,7 @@ double energyOf(const std::vector<float>& samples, int rateHz) {
     return sum / rateHz;
 }
 
-/// Of the mode whose envelope begins at 1.
+/// Energy of the mode whose envelope starts at 1.
 double energyOfMode(double frequencyHz, double decayPerSecond, int rateHz) {
     std::vector<float> mode(static_cast<std::size_t>(matchedSeconds * rateHz));
     for (std::size_t n = 0; n < mode.size(); ++n) {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recorded contacts from files: one channel, from the hit on, at a level that is known.
+// Loads a recorded contact from a file: one channel, trimmed to the hit, at a defined level.
 #pragma once
 #include "Io/Result.h"
 #include "Live/Session/ContactSounds.h"
 
 namespace physvib {
 
-/// From the onset on, the strength of a contact is measured for so long: most of a hit, little of a tail
-/// (assumed).
+/// Time from the onset over which the strength of a contact is measured: long enough for most of a hit,
+/// with little of its tail (assumed).
 constexpr double matchedSeconds = 0.25;
 
-/// The loudest channel of a WAV file from its strongest hit's onset on; or one line naming the file. Its peak
-/// is 1, as that of a mode's envelope, or, if `file.isMatched`, its root mean square over matchedSeconds is
-/// that of the mode. A file that does not have the wanted hash has changed and is refused. M only.
+/// The loudest channel of a recording from the onset of its strongest hit; or one line naming the file. The
+/// peak is 1, like that of a mode's envelope; if `file.isMatched`, the RMS over matchedSeconds equals that of
+/// the mode instead. A file whose hash differs from the expected one has changed and is refused. M only.
 Result<ContactRecording> loadContact(const RecordingFile& file);
 
 } // namespace physvib

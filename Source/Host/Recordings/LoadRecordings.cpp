@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each file once, within the limits.
+// Loads each recording of a saved session once, and checks the limits on samples.
 #include "Host/Recordings/LoadRecordings.h"
 #include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/LoadContact.h"
@@ -10,7 +10,7 @@
 namespace physvib {
 namespace {
 
-/// A set of recordings that a session plays, loaded where no other has the same file.
+/// Loads one set of recordings, reusing files that other sets have loaded.
 Result<std::vector<ContactRecording>> loadSet(const std::vector<RecordingFile>& files,
                                               const LoadedRecordings& before) {
     std::vector<ContactRecording> set;
@@ -41,7 +41,7 @@ std::size_t samplesOf(const std::vector<ContactRecording>& set) {
 
 Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
     LoadedRecordings all;
-    std::vector<const std::vector<RecordingFile>*> files; // of each set
+    std::vector<const std::vector<RecordingFile>*> files; // one entry per set
     std::size_t samples = 0;
     for (const RecordingsChange& change : log.recordings) {
         const auto same =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The recordings and clips of a saved session, loaded again.
+// Loads the recordings and clips that a saved session refers to.
 #pragma once
 #include "Io/Result.h"
 #include "Live/Session/SessionRecordings.h"
@@ -8,10 +8,11 @@
 
 namespace physvib {
 
-/// Those of `log`; or one line: a file is missing, has changed, or is no hit, or they are too many. M only.
+/// Those of `log`; or one line if a file is missing, has changed or has no hit, or if there are too many. M
+/// only.
 Result<LoadedRecordings> loadRecordings(const SessionLog& log);
 
-/// Where they are. Any thread.
+/// Paths of these files. Any thread.
 std::vector<std::string> recordingPaths(const SessionLog& log);
 
 } // namespace physvib

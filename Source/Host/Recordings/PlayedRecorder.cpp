@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ring in, file out.
+// Thread that writes the ring buffer of a live recording to disk.
 #include "Host/Recordings/PlayedRecorder.h"
 #include "Io/Text/NumberText.h"
 #include <chrono>
@@ -8,7 +8,8 @@ namespace physvib {
 
 namespace {
 
-constexpr std::chrono::milliseconds period{200}; // with the disk's own time, less than what a kill may cost
+constexpr std::chrono::milliseconds period{200}; // with the disk's own delay, shorter than the audio that may
+                                                 // be lost when the process is killed
 
 } // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a live session plays, to a WAV file: the render role fills a ring, a thread empties it to disk.
+// Records the output of a live session to a WAV file: the render thread fills a ring buffer, another thread
+// writes it to disk.
 #pragma once
 #include "Host/Devices/SignalTap.h"
 #include "Io/Wav/WavSink.h"
@@ -13,13 +14,13 @@
 
 namespace physvib {
 
-/// Every channel of the session, or the first ones, in their own level (before the output's master gain). A
-/// file has one rate, so it ends where another comes. From its first samples on it is in its place, a whole
-/// WAV of all but the last half second, whatever ends the program or fills the disk; nobody waits for the
-/// disk but finish().
+/// Records all channels of the session, or the first ones, before the output's master gain. A file has one
+/// sample rate, so the recording ends when the rate changes. The file is a valid WAV from its first samples
+/// on: if the program is killed or the disk fills up, only the half second before that is missing. Only
+/// finish() waits for the disk.
 class PlayedRecorder final : public Sink {
 public:
-    /// Room for `seconds` that the disk is late. M.
+    /// `seconds`: capacity of the buffer, for delays of the disk. M.
     PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds = 4.0);
     ~PlayedRecorder() override { end(); }
 
@@ -28,7 +29,7 @@ public:
 
     int sampleRateHz() const noexcept { return sampleRateHz_; }
 
-    /// R, wait-free. Frames that find no room are lost and counted.
+    /// Frames that find the buffer full are lost and counted. R, wait-free.
     void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
         if (block.sampleRateHz != sampleRateHz_) isWhole_.store(false, std::memory_order_relaxed);
         if (!isWhole()) return;
@@ -36,25 +37,25 @@ public:
             firstFrame_.store(block.sessionFrame, std::memory_order_relaxed);
         tap_.take(block.channels, block.frames);
     }
-    /// no other rate has come. Any thread
+    /// The sample rate has not changed. Any thread.
     bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); }
 
-    /// Says in the file at which session time it begins, by the session's play-out delay L; before the first
-    /// frame. M.
+    /// Sets the output latency that the file's start time is computed with; before the first frame. M.
     void tellBeginning(std::int64_t playOutFrames) noexcept { playOutFrames_ = playOutFrames; }
 
-    /// The last samples and the header; empty or one line with the reason. M, after R stopped.
+    /// Writes the last samples and the header. Returns empty, or one line with the reason. M, after R
+    /// stopped.
     std::string finish();
 
-    /// of the session; -1: nothing yet
+    /// In session time; -1: no frame yet.
     std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); }
-    /// What happens at session time t is felt t less this behind the file's first frame; none before
-    /// tellBeginning() and that frame.
+    /// Session time at which the file begins, in seconds: an event at session time t is at t minus this in
+    /// the file. Empty before tellBeginning() and the first frame.
     std::optional<double> beginsSeconds() const noexcept {
         if (playOutFrames_ < 0 || firstFrame() < 0) return {};
         return static_cast<double>(firstFrame() - playOutFrames_) / sampleRateHz_;
     }
-    std::int64_t frames() const noexcept { return written_; } ///< that the file has got. M
+    std::int64_t frames() const noexcept { return written_; } ///< written to the file. M
     std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
 
 private:
@@ -67,14 +68,14 @@ private:
     std::atomic<std::int64_t> firstFrame_{-1}, playOutFrames_{-1}, written_{0};
     std::atomic<bool> isWhole_{true};
 
-    WavSink wav_; // the thread's; M's once that has ended
+    WavSink wav_; // used by the thread; by M once the thread has ended
 
-    mutable std::mutex mutex_; // guards what follows
+    mutable std::mutex mutex_; // guards the members below
     std::condition_variable ends_;
     bool isEnding_ = false;
     std::string error_;
 
-    std::thread thread_; // last: it uses the others
+    std::thread thread_; // last: it uses the other members
 };
 
 } // namespace physvib

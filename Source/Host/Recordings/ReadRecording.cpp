@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// WAV by our own reader, FLAC and Ogg Vorbis by JUCE's, which believe what a file says of itself: so it is
-// looked at first.
+// Reads WAV with a parser of this project, FLAC and Ogg Vorbis with JUCE's. JUCE trusts the header, so the
+// header is checked first.
 #include "Host/Recordings/ReadRecording.h"
 #include "Formats/ClipFile.h"
 #include "Formats/ClipSound.h"
@@ -18,14 +18,14 @@ namespace physvib {
 namespace {
 
 constexpr int blockFrames = 1 << 16;
-constexpr int vorbisReadsAhead = 4096; // JUCE's reader does, also where no samples are
+constexpr int vorbisReadsAhead = 4096; // JUCE's reader reads ahead, even past the end
 
 constexpr const char* notASound = "expected a WAV, FLAC or Ogg Vorbis file";
 
-/// Empty, or why JUCE's reader must not see the file: it takes what the last of several descriptions says,
-/// scans all for a length that is not told, and cuts its highest bits off.
+/// Empty, or why JUCE's reader must not read the file: it uses the last of several stream descriptions, scans
+/// the whole file if the length is missing, and truncates the length to 32 bits.
 std::string flacFault(std::FILE& file) {
-    std::array<unsigned char, 42> head{}; // "fLaC", a block's header, its description of the stream
+    std::array<unsigned char, 42> head{}; // "fLaC", a block header, the stream description
     if (std::fread(head.data(), 1, head.size(), &file) != head.size() || (head[4] & 0x7f) != 0)
         return notASound;
     const auto at = [&](std::size_t i) { return static_cast<std::int64_t>(head[i]); };
@@ -45,7 +45,8 @@ std::string flacFault(std::FILE& file) {
     return streamFault(shape);
 }
 
-/// Empty, or that several streams follow one another: JUCE's reader takes all for as wide as the last.
+/// Empty, or the error that several streams are chained: JUCE's reader assumes the channel count of the last
+/// for all.
 std::string oggFault(std::FILE& file) {
     constexpr std::string_view page{"OggS\0", 5};
     constexpr char begins = 2;
@@ -53,7 +54,7 @@ std::string oggFault(std::FILE& file) {
     int streams = 0;
     for (std::array<char, 65536> bytes;
          const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), &file);) {
-        // a page may begin in one block and go on in the next
+        // the mark of a page may be split over two blocks
         block.erase(0, block.size() - page.size()).append(bytes.data(), count);
         for (std::size_t i = block.find(page); i != std::string::npos && i + page.size() < block.size();
              i = block.find(page, i + 1))
@@ -62,8 +63,7 @@ std::string oggFault(std::FILE& file) {
     return streams == 1 ? "" : streams == 0 ? notASound : "expected one stream of sound, found several";
 }
 
-/// A file as JUCE's decoders read it: they cannot read more of it than it is worth, and it tells whether they
-/// wanted to.
+/// File stream for JUCE's decoders. It limits the bytes read, and records whether a decoder asked for more.
 class RecordingStream final : public juce::InputStream {
 public:
     RecordingStream(std::FILE& file, std::int64_t bytes)
@@ -71,7 +71,7 @@ public:
         , size_{bytes}
         , left_{mostRounds * bytes + (1 << 20)} {}
 
-    /// Whether a decoder has asked for more than there is (or too often for the same), since forget().
+    /// Whether a decoder asked for more than the file has (or too often for the same bytes) since forget().
     bool isAskedTooMuch() const noexcept { return isAskedTooMuch_; }
     void forget() noexcept { isAskedTooMuch_ = false; }
 
@@ -92,7 +92,7 @@ public:
     }
 
 private:
-    static constexpr std::int64_t mostRounds = 4; // a decoder looks for the end, goes back, and reads once
+    static constexpr std::int64_t mostRounds = 4; // a decoder seeks the end, goes back, and reads once
 
     bool noteIf(bool isTooMuch) noexcept {
         isAskedTooMuch_ = isAskedTooMuch_ || isTooMuch;
@@ -144,7 +144,7 @@ std::string streamSound(std::FILE& file, std::size_t fileBytes, SoundTaker& take
     return decode(file, fileBytes, isOgg, taker);
 }
 
-constexpr int clipRateHz = 48000; // of what is drawn, not sampled
+constexpr int clipRateHz = 48000; // sample rate of clips, which are curves
 
 } // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings in: the one door through which sounds come from files.
+// Reads audio files and haptic clips; all sounds from files enter the program here.
 #pragma once
 #include "Formats/Clip.h"
 #include "Io/Result.h"
@@ -9,20 +9,21 @@
 
 namespace physvib {
 
-/// A recording (WAV, FLAC, Ogg Vorbis, by what is in it) as it is: its rate and channels; or a clip (by its
-/// ending: Formats/ClipFile.h) at 48 kHz; or one line naming the file. Only a regular file, within the limits
-/// of recordings, and only if it holds what its header says. Any thread but R.
+/// Reads a recording (WAV, FLAC or Ogg Vorbis, recognised by content) with its own rate and channels, or a
+/// clip (recognised by file extension: Formats/ClipFile.h) at 48 kHz. Or one line naming the file. Only
+/// regular files within the limits of recordings, whose content is as long as the header says. Any thread but
+/// R.
 Result<SampledSound> readRecording(const std::filesystem::path& path);
 
-/// The same of a clip that has been read from that file. Any thread.
+/// Samples of a clip that was read from that file. Any thread.
 Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path);
 
-/// Takes what lies below 5 Hz out of a recording that is to be felt (Measure/SlowPart.h): what is to be said
-/// of it, naming the file, or nothing. `fullScale` is what is played as such. Any thread but R.
+/// Removes content below 5 Hz from a recording for an actuator (Measure/SlowPart.h). Returns a note that
+/// names the file, or empty. `fullScale`: the sample value that is played as full scale. Any thread but R.
 std::string takeSlowPart(SampledSound& sound, const std::filesystem::path& path, double fullScale = 1.0);
 
-/// The same of a recording of up to a day, block by block, so that memory does not grow with it: empty, or
-/// one line naming the file: what is wrong with it, or what `taker` says. No clips. Any thread but R.
+/// Reads a recording of up to a day block by block, with constant memory. Returns empty, or one line naming
+/// the file, with the file's error or that of `taker`. No clips. Any thread but R.
 std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker);
 
 } // namespace physvib

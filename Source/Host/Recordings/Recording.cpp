@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the session's time to that of the file.
+// Writes the events of a recording, shifted from session time to the time of the WAV file.
 #include "Host/Recordings/Recording.h"
 #include "Io/Disk/AtomicFile.h"
 #include <algorithm>

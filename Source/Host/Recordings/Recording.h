@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A recording of a live session: what its channels play as WAV, and every event of it beside it, in the WAV's
-// time.
+// Records a live session: the channels as a WAV file, and the events as CSV in the WAV's time.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Host/Recordings/PlayedRecorder.h"
@@ -10,10 +9,10 @@
 
 namespace physvib {
 
-/// M only; recorder() is what the output fills.
+/// M only; the audio output feeds recorder().
 class Recording {
 public:
-    /// `path` (.wav); the events stand beside it as .csv.
+    /// `path` ends in .wav; the events go to the same name with .csv.
     Recording(const std::filesystem::path& path, int channels, int sampleRateHz);
 
     std::string error() const { return recorder_.error(); }
@@ -24,8 +23,9 @@ public:
 
     void take(const PlayedEvent& played) { played_.push_back(played.event); }
 
-    /// Both files in their places, after R has stopped; `playOutFrames` is L; `field` is what places are in;
-    /// `names`: of the scene's materials. Empty, or one line with the reason.
+    /// Completes both files, after R has stopped. `playOutFrames` is the output latency; `field` is the field
+    /// that places refer to; `names` are those of the scene's materials. Returns empty, or one line with the
+    /// reason.
     std::string finish(std::int64_t playOutFrames, FieldSize field, const Provenance& provenance,
                        const SoundNames& names);
 

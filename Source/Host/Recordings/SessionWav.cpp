@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Its recordings in, its samples out.
+// Loads the recordings of a saved session and writes its rendered samples.
 #include "Host/Recordings/SessionWav.h"
 #include "Host/Recordings/LoadRecordings.h"
 #include "Io/Disk/FileClash.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The order in which all of it begins and ends.
+// Opens and closes the parts of a live rig in the order that their threads require.
 #include "Host/Rig/Rig.h"
 #include "Host/Devices/InputTap.h"
 #include <utility>
@@ -104,7 +104,7 @@ std::string Rig::summary(std::string& trouble) const {
     return lines;
 }
 
-// Rows that wait come first, then what may take long or hang.
+// The journal's pending lines come first, because the rest may take long or hang.
 void Rig::endFiles() {
     if (journal_) journal_->end(session_.status().sessionNs);
     if (recording_) recorded_ = recording_->finish();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A live session with all that it takes: a device, what plays beside it, who steps the world, what is kept of
-// it. Every program that plays has one.
+// A live rig: session, audio device, sinks, simulation driver, recording and journal, in one object that the
+// command line, the live library and the mixer share.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SimulationDriver.h"
@@ -17,30 +17,30 @@ namespace physvib {
 struct RigSettings {
     SessionSetup setup;
     AudioOutputSettings output{};
-    std::vector<SinkName> sinks{}; ///< to be felt together with the device
-    bool awaitsSinks = true;       ///< open() waits for them; else each comes when it comes
-    bool ownThread = true;         ///< steps the world; else the message thread's timer
-    std::string recordPath{};      ///< WAV; empty: none
-    std::string savePath{};        ///< session as JSON, its events beside it; empty: none
-    Provenance provenance{};       ///< of that list of events
+    std::vector<SinkName> sinks{}; ///< sinks that play in sync with the device
+    bool awaitsSinks = true;  ///< open() waits until the sinks are ready; otherwise each joins when it is
+    bool ownThread = true;    ///< a thread of its own steps the world; otherwise the message thread's timer
+    std::string recordPath{}; ///< WAV file; empty: none
+    std::string savePath{};   ///< session as JSON, with its event list beside it; empty: none
+    Provenance provenance{};  ///< of the event list
 };
 
-/// All methods M only, session() and what any thread may call of it apart.
+/// All methods M only, except session() and those methods of it that any thread may call.
 class Rig {
 public:
-    /// `isEnded`, which outlives the rig: what waits waits no more, and the world stands still.
+    /// When `isEnded` (may be null; outlives the rig) becomes true, waits end and the world stops.
     Rig(RigSettings settings, AudioDeviceTypes types, const std::atomic<bool>* isEnded = nullptr);
     ~Rig();
     Rig(const Rig&) = delete;
     Rig& operator=(const Rig&) = delete;
 
-    /// Sinks, device, recording and journal, in this order; empty, or one line with the reason.
+    /// Opens sinks, device, recording and journal, in this order. Returns empty, or one line with the reason.
     std::string open();
-    /// The first part alone, for whoever opens devices as a user chooses them.
+    /// Only the first step, for programs that open devices when a user chooses them.
     std::string connectSinks();
     std::string openDevice(const AudioOutputSettings& wanted);
 
-    /// From now on the world moves, and what is beside the device follows it.
+    /// Starts to step the world; the sinks follow the device from now on.
     void start();
 
     Session& session() noexcept { return session_; }
@@ -48,10 +48,10 @@ public:
     AudioOutput& output() noexcept { return output_; }
     const AudioOutput& output() const noexcept { return output_; }
     const RigSettings& settings() const noexcept { return settings_; }
-    InputTap* inputs() noexcept { return inputs_.get(); } ///< what the device hears; null: nothing is wanted
+    InputTap* inputs() noexcept { return inputs_.get(); } ///< the device's audio input; null: not open
     const PlayedRecorder* recording() const noexcept { return recording_ ? &*recording_ : nullptr; }
 
-    /// What was played since the last call goes to all that wants it, and each to `take`.
+    /// Passes the events played since the last call to the sinks, and each to `take`.
     template <class Take>
     void takePlayed(Take take) {
         for (PlayedEvent played; session_.played().pop(played);) {
@@ -60,32 +60,33 @@ public:
         }
     }
 
-    /// Looks after the device, about once a second.
+    /// Supervises the device; call about once a second.
     void maintain() { deviceTrouble_ = output_.maintain(); }
-    /// What is wrong with the device, as maintain() found it, with what is beside it and with what is kept,
-    /// in one line; empty: all is well.
+    /// Errors of the device (from the last maintain()), the sinks, the journal and the recording, in one
+    /// line; empty: none.
     std::string trouble() const;
-    /// Of what is beside the device.
+    /// State of each sink.
     std::vector<SinkState> sinkStates() const;
-    /// What each of them has done, in lines, once it has stopped; waits a second for it. `trouble`: of the
-    /// first that does not play.
+    /// A report per sink, after stop(); waits up to a second for each. `trouble`: set to the first sink that
+    /// does not play.
     std::string summary(std::string& trouble) const;
 
-    /// Silent within two blocks. Then nothing is played, recorded or listed any more, and `take` has had all.
+    /// Silences the device within two blocks. Then nothing is played, recorded or logged any more, and `take`
+    /// has received every event.
     template <class Take>
     void stop(Take take) {
         output_.stop();
         takePlayed(take);
         endFiles();
     }
-    /// What is kept is whole; empty, or why not. After stop(); what has threads that use the session has
-    /// ended before. `isHurried`: a long session file stays a journal, which is read alike.
+    /// Completes the files, after stop(); threads that use the session must have ended. Returns empty, or the
+    /// reason. `isHurried`: a long session file stays a journal, which is read like a session file.
     std::string finish(bool isHurried);
-    /// The device is closed, or left to a driver that hangs; nothing is beside it.
+    /// Closes the device, or abandons it to a driver that hangs, and detaches the sinks.
     void close();
 
 private:
-    static constexpr std::chrono::seconds patience{3}; // greeting, clock and Bluetooth take a second
+    static constexpr std::chrono::seconds patience{3}; // handshake, clock and Bluetooth take a second
 
     bool goesOn() const noexcept { return isEnded_ == nullptr || !*isEnded_; }
     std::string beginRecording();
@@ -94,7 +95,7 @@ private:
 
     RigSettings settings_;
     const std::atomic<bool>* isEnded_;
-    Sinks sinks_; // outlive the session, as what follows the output
+    Sinks sinks_; // outlive the session, because the sinks follow the output
     Session session_;
     std::unique_ptr<InputTap> inputs_;
     std::optional<PlayedRecorder> recording_;
@@ -102,7 +103,7 @@ private:
     AudioOutput output_;
     std::unique_ptr<SimulationDriver> driver_;
     std::chrono::steady_clock::time_point connectedAt_;
-    std::string deviceTrouble_, recorded_; // the latter: why the recording is not whole
+    std::string deviceTrouble_, recorded_; // the latter: why the recording is incomplete
 };
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One listener for all windows of the process. JUCE gives a key to the component that has the focus, or to
-// the modal one; whoever listens there is asked before the component itself.
+// One key listener for all windows of the process. JUCE gives a key to the focused or the modal component,
+// and asks the listeners of that component before the component itself.
 #include "Host/Views/EmergencyStop.h"
 #include "Host/Views/Look.h"
 #include <algorithm>
@@ -25,9 +25,10 @@ public:
     std::vector<EmergencyStop*> stops;
 
 private:
-    static constexpr int lookMs = 20; // shorter than a finger can press a key
+    static constexpr int lookMs = 20; // shorter than a key press
 
-    // What opened by itself, or by a key, is heard from now on. An Esc that came before is still held.
+    // Listens to components that opened since the last call. An Esc that was pressed before they opened is
+    // still down.
     void timerCallback() override {
         listen();
         const auto* target = targetOf(nullptr);
@@ -48,14 +49,14 @@ private:
     bool keyPressed(const juce::KeyPress& key, juce::Component* at) override {
         if (!key.isKeyCode(juce::KeyPress::escapeKey)) return false;
         const auto* target = targetOf(at);
-        if (at != target && isHeard(target)) return false; // on its way up: heard before
+        if (at != target && isHeard(target)) return false; // a parent's listener: already handled
         silence(*at);
-        return std::exchange(isHeld_, isEscapeDown()); // a key that repeats silences, and does nothing else
+        return std::exchange(isHeld_, isEscapeDown()); // a repeated key silences again and does nothing else
     }
 
     static bool isEscapeDown() { return juce::KeyPress::isKeyCurrentlyDown(juce::KeyPress::escapeKey); }
-    /// Who gets a key now, as juce::ComponentPeer finds it. `at`: a component of the window that has the
-    /// keyboard.
+    /// The component that gets a key now, as juce::ComponentPeer determines it. `at`: a component of the
+    /// window with keyboard focus.
     static juce::Component* targetOf(juce::Component* at) {
         auto* const focused = juce::Component::getCurrentlyFocusedComponent();
         auto* const target = focused != nullptr || at == nullptr ? focused : at->getTopLevelComponent();
@@ -70,13 +71,13 @@ private:
         std::erase_if(heard_, [](const auto& component) { return component == nullptr; });
         const auto& desktop = juce::Desktop::getInstance();
         for (int i = 0; i < desktop.getNumComponents(); ++i)
-            hear(desktop.getComponent(i)); // without a focus: these
+            hear(desktop.getComponent(i)); // without a focus, these get the keys
         hear(targetOf(nullptr));
     }
     void hear(juce::Component* component) {
         if (component == nullptr) return;
         component->removeKeyListener(this);
-        component->addKeyListener(this); // who came last is asked first
+        component->addKeyListener(this); // the newest listener is asked first
         if (!isHeard(component)) heard_.emplace_back(component);
     }
     void silence(const juce::Component& at) {
@@ -89,7 +90,7 @@ private:
     }
 
     std::vector<juce::WeakReference<juce::Component>> heard_;
-    bool isHeld_ = false; // Esc, when it was looked at last
+    bool isHeld_ = false; // state of the Esc key at the last check
 };
 
 EmergencyStop::EmergencyStop(juce::Component& window, std::function<void()> silence)

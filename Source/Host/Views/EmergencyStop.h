@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The emergency stop of a window: Esc and its red button, whatever has the keyboard and whatever lies
-// between.
+// Emergency stop of a window: Esc and the red button silence the output, even while a menu, dialog or text
+// field has the keyboard.
 #pragma once
 #include <functional>
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -9,10 +9,10 @@ namespace physvib {
 
 class StopKeys;
 
-/// While it lives, Esc silences before the menu, list, dialog or text field that has the keyboard gets the
-/// key, and so does a press on a red button of this window (see stopProperty) that something modal blocks.
-/// Key and press then go where they went anyway. An Esc in a window of its own, as a dialog's, is everybody's
-/// in this process: nothing says whose it is. M.
+/// While this object exists, Esc silences before the menu, list, dialog or text field with keyboard focus
+/// gets the key. A click on a red button of this window (see stopProperty) also silences while a modal
+/// component blocks the window. Key and click are then passed on as usual. Esc in a separate window, such as
+/// a dialog, silences all windows of the process, because the owner of that window is unknown. M.
 class EmergencyStop {
 public:
     EmergencyStop(juce::Component& window, std::function<void()> silence);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two grounds, and flat controls on them.
+// Colours of the dark and the light theme, and drawing of flat controls.
 #include "Host/Views/Look.h"
 
 namespace physvib {
@@ -7,7 +7,7 @@ namespace physvib {
 namespace {
 
 using Argb = palette::Argb;
-constexpr int firstShadeId = 0x7068b00; // colour ids of our own
+constexpr int firstShadeId = 0x7068b00; // JUCE colour ids of this project
 constexpr float corner = 5.0f;
 
 int idOf(Shade which) { return firstShadeId + static_cast<int>(which); }
@@ -59,7 +59,7 @@ void drawFader(juce::Graphics& g, juce::Rectangle<float> area, float place, cons
     g.fillRect(cap.withSizeKeepingCentre(18.0f, 1.5f));
 }
 
-/// Its number is written over it.
+/// The slider's value is drawn on top of it.
 void drawBar(juce::Graphics& g, juce::Rectangle<float> area, float place, const juce::Slider& slider) {
     juce::Path bar;
     bar.addRoundedRectangle(area.reduced(0.5f), corner);
@@ -146,7 +146,7 @@ void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const j
     g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.45f));
     g.fillRoundedRectangle(area, corner);
     if (!stops) return;
-    // off it is a red frame: what is filled is pressed
+    // when off, it is a red frame; a filled button is pressed
     g.setColour(shade(button, button.getToggleState() ? Shade::text : Shade::limit));
     g.drawRoundedRectangle(area.reduced(1.0f), corner, 2.0f);
 }

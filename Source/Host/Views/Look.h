@@ -1,43 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The look of windows: shades of a dark and a light ground, three sizes of text, and how controls are drawn.
+// Look and feel of the windows: colours of a dark and a light theme, three text sizes, and drawing of
+// controls.
 #pragma once
 #include "Host/Views/Palette.h"
 #include <juce_gui_basics/juce_gui_basics.h>
 
 namespace physvib {
 
-/// Every colour of a component but those of enchanters and materials: look it up with shade().
+/// Colours of all components, except those of actuators and materials. Read them with shade().
 enum class Shade { ground, panel, raised, well, line, text, muted, now, limit, camera, accent };
 
 enum class Ground { dark, light };
 
-/// Heights of text in pixels; nothing is written in another.
+/// Heights of text in pixels; all text has one of these.
 namespace text {
 constexpr float small = 12.5f, medium = 14.5f, large = 21.0f;
 }
 
-/// That shade where `component` is shown. M.
+/// That colour in the theme of `component`. M.
 juce::Colour shade(const juce::Component& component, Shade which);
 
-/// The colour of an enchanter, dark enough to be read where the ground is light. M.
+/// The colour of an actuator, darkened on a light background so that text in it is readable. M.
 juce::Colour enchanterColour(const juce::Component& component, int index);
 
-/// Red buttons are those that stop: see juce::Component::getProperties.
+/// Property of red stop buttons; see juce::Component::getProperties.
 inline const juce::Identifier stopProperty{"physvib-stop"};
-/// Buttons that look like a word.
+/// Buttons drawn as plain text.
 inline const juce::Identifier quietProperty{"physvib-quiet"};
-/// The name of the program, which opens its menu.
+/// The program's name, a button that opens the menu.
 inline const juce::Identifier titleProperty{"physvib-title"};
-/// Colour (ARGB as int64) of a button that is on.
+/// Colour (ARGB as int64) of a button in its on state.
 inline const juce::Identifier tintProperty{"physvib-tint"};
-/// Sliders that are drawn as a fader of a mixer.
+/// Sliders drawn as mixer faders.
 inline const juce::Identifier faderProperty{"physvib-fader"};
 
 class Look final : public juce::LookAndFeel_V4 {
 public:
     explicit Look(Ground ground = Ground::dark) { setGround(ground); }
 
-    /// M; the components that use it have to be told (sendLookAndFeelChange).
+    /// M; call sendLookAndFeelChange on the components that use it afterwards.
     void setGround(Ground ground);
     Ground ground() const noexcept { return ground_; }
 
@@ -48,7 +49,7 @@ public:
     void drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver,
                               bool isDown) override;
     void drawButtonText(juce::Graphics& g, juce::TextButton& button, bool isOver, bool isDown) override;
-    // Texts of what is disabled are muted, and can be read: JUCE halves their contrast.
+    // Disabled text is muted but readable: JUCE's default halves its contrast.
     void drawLabel(juce::Graphics& g, juce::Label& label) override;
     void drawToggleButton(juce::Graphics& g, juce::ToggleButton& button, bool isOver, bool isDown) override;
     void drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area, bool isSeparator,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small tiles, made once: a fill costs what a plain one does.
+// Small texture tiles, made once, so that a textured fill costs as much as a plain one.
 #include "Host/Views/MaterialTexture.h"
 #include "Host/Views/Palette.h"
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace physvib {
 namespace {
 
 constexpr int tilePixels = 64;
-constexpr float wallShare = 0.8f; // of a hollow body: the thesis' walls are 10 % of the size
+constexpr float wallShare = 0.8f; // of a hollow body's size: the thesis' walls are 10 % of the size
 
 struct LookFacts {
     std::string_view word;
@@ -24,9 +24,9 @@ constexpr std::array<LookFacts, 4> looks{{{"rubber", 0xff8c3f35, 600.0},
 
 const LookFacts& factsOf(MaterialLook look) { return looks[static_cast<std::size_t>(look)]; }
 
-/// Lighter or darker at a pixel, -1 to 1.
+/// Brightness offset of a pixel, -1 to 1.
 float grainOf(MaterialLook look, int x, int y, juce::Random& random) {
-    // whole periods, so that tiles join
+    // whole periods, so that tiles join without a seam
     constexpr float turn = juce::MathConstants<float>::twoPi / tilePixels;
     const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
     switch (look) {
@@ -38,7 +38,7 @@ float grainOf(MaterialLook look, int x, int y, juce::Random& random) {
         return random.nextFloat() < 0.08f ? -0.9f : 0.5f * random.nextFloat() - 0.25f;
     case MaterialLook::wood:
         return 0.7f * std::sin(5.0f * turn * fy + 1.5f * std::sin(turn * fx)); // rings
-    // a shine, brushed
+    // a brushed highlight
     case MaterialLook::steel: return 0.6f * std::sin(turn * (fx + fy)) + ((x + y) % 4 == 0 ? 0.25f : 0.0f);
     }
     return 0.0f;
@@ -64,7 +64,7 @@ const juce::Image& tile(MaterialLook look) {
     return tiles[static_cast<std::size_t>(look)];
 }
 
-/// The edge of a filled body, and the wall of a hollow one.
+/// Draws the edge of a filled body, and the wall of a hollow one.
 void drawEdges(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
                juce::Colour edge, bool isHollow) {
     g.setColour(edge);
@@ -92,7 +92,7 @@ void fillWithPicture(juce::Graphics& g, const juce::Path& path, const juce::Affi
     const auto bounds = path.getBounds();
     const float scale =
         std::max(bounds.getWidth() / static_cast<float>(picture.getWidth()),
-                 bounds.getHeight() / static_cast<float>(picture.getHeight())); // covers, without distortion
+                 bounds.getHeight() / static_cast<float>(picture.getHeight())); // covers without distortion
     const auto onBody = juce::AffineTransform::translation(-0.5f * static_cast<float>(picture.getWidth()),
                                                            -0.5f * static_cast<float>(picture.getHeight()))
                             .scaled(scale)

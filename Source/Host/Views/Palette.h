@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The palette and numbers of our pictures, as JUCE's colours and words.
+// The colours and number formats of Source/Pictures as JUCE types.
 #pragma once
 #include "Io/Text/ReadableNumber.h"
 #include "Pictures/Palette.h"
@@ -31,7 +31,7 @@ inline juce::Colour ramp(int index) { return juceColour(picture::palette::ramp(i
 
 namespace physvib::readable {
 
-/// number() as JUCE's words. Any thread.
+/// number() as a JUCE string. Any thread.
 inline juce::String words(double value, int decimals) {
     return juce::String::fromUTF8(number(value, decimals).c_str());
 }

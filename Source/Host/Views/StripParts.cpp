@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The meter's scale is the ceiling's way.
+// Drawing of meters, faders and ceiling handles, on a common dB scale.
 #include "Host/Views/StripParts.h"
 #include "Host/Views/Palette.h"
 #include "Live/Documents/Mix.h"
@@ -69,8 +69,8 @@ CeilingHandle::CeilingHandle(const juce::String& label) {
 }
 
 void CeilingHandle::placeOver(juce::Rectangle<int> meter) {
-    const int thumb = getLookAndFeel().getSliderThumbRadius(*this); // JUCE keeps so much free at both ends
-    setMouseDragSensitivity(std::max(1, meter.getHeight()));        // the mark stays under the hand
+    const int thumb = getLookAndFeel().getSliderThumbRadius(*this); // JUCE keeps this margin at both ends
+    setMouseDragSensitivity(std::max(1, meter.getHeight()));        // the mark follows the pointer
     setBounds(meter.withLeft(meter.getX() - room).expanded(0, thumb));
 }
 

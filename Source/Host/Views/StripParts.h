@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What channel strips are made of, in the mixer and in the plug-in: meter, fader, and a ceiling that is
-// dragged along the meter.
+// Parts of channel strips in mixer and plug-in: meter, fader, and a ceiling handle that is dragged along the
+// meter.
 #pragma once
 #include "Host/Views/Look.h"
 #include <juce_audio_basics/juce_audio_basics.h>
 
 namespace physvib {
 
-constexpr float meterFloorDb = -60.0f; ///< nobody feels less: full scale is some g
+constexpr float meterFloorDb = -60.0f; ///< weaker vibration is imperceptible: full scale is several g
 
-/// Height of that peak in a meter, 0 to 1.
+/// Height of that peak on a meter, 0 to 1.
 inline float meterHeight(float peak) {
     return juce::jlimit(0.0f, 1.0f, 1.0f - juce::Decibels::gainToDecibels(peak, meterFloorDb) / meterFloorDb);
 }
 
-/// A bar from -60 dB to full scale with the peak of the last moments.
+/// A bar from -60 dB to full scale, with a peak-hold mark.
 class PeakMeter final : public juce::Component {
 public:
     explicit PeakMeter(const juce::String& title);
@@ -25,23 +25,24 @@ public:
     }
 
 private:
-    float peak_ = 0.0f, hold_ = 0.0f; // as heights
+    float peak_ = 0.0f, hold_ = 0.0f; // as heights of the meter
 };
 
-/// A fader in dB; the least is silence. M.
+/// A fader in dB; its lowest position is silence. M.
 void setUpFader(juce::Slider& fader, double leastDb, double mostDb, const juce::String& title);
 
-/// What a strip may drive its actuator with at most, in dB of full scale. It has to be dragged: a click, a
-/// double click or the wheel move nothing, since hands are attached to what it bounds.
+/// Slider for the ceiling of a strip, the highest level of its actuator, in dB of full scale. It only reacts
+/// to dragging: a click, a double click or the wheel could raise the limit by accident while the actuator
+/// touches skin.
 class CeilingHandle final : public juce::Slider {
 public:
     explicit CeilingHandle(const juce::String& label);
-    /// Over a meter of that place. M.
+    /// Places it over a meter with these bounds. M.
     void placeOver(juce::Rectangle<int> meter);
     void paint(juce::Graphics& g) override;
 
 private:
-    static constexpr int room = 10; // left of the meter, for the mark
+    static constexpr int room = 10; // space left of the meter, for the mark
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a hand does in the world: pulls bodies, moves, attaches and detaches enchanters.
+// Mouse input in the world view: pulls bodies; moves, attaches and detaches actuators.
 #include "Host/Views/DisplayScale.h"
 #include "Host/Views/WorldView.h"
 #include "Pictures/ShapeOutline.h"
@@ -9,13 +9,13 @@
 namespace physvib {
 namespace {
 
-/// A long press is none, as it is for JUCE.
+/// Whether the mouse moved; a long press without movement is no drag, as in JUCE.
 bool isDrag(const juce::MouseEvent& e) { return e.source.hasMovedSignificantlySincePressed(); }
 
 } // namespace
 
 bool WorldView::isOn(std::size_t body, juce::Point<float> p) const {
-    constexpr float near = 6.0f; // pixels beside a line
+    constexpr float near = 6.0f; // pixels from a line that still hit it
     const auto at = map();
     const auto pose = poseOf(body);
     if (!pose.isPresent) return false;
@@ -31,7 +31,7 @@ bool WorldView::isOn(std::size_t body, juce::Point<float> p) const {
 }
 
 int WorldView::bodyAt(juce::Point<float> p) const {
-    for (int i = static_cast<int>(cast_.size()) - 1; i >= 0; --i) // the one on top
+    for (int i = static_cast<int>(cast_.size()) - 1; i >= 0; --i) // the topmost
         if (const auto body = static_cast<std::size_t>(i);
             cast_[body].type == BodyType::dynamicBody && isOn(body, p))
             return i;
@@ -102,7 +102,7 @@ void WorldView::mouseUp(const juce::MouseEvent& e) {
     onPull(cast_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, pointOf(grip));
 }
 
-// On the body, turned with it.
+// The point in the body's own, rotated coordinates.
 Vector WorldView::pointOf(const Grip& grip) const {
     const auto at = map();
     const auto pose = poseOf(static_cast<std::size_t>(grip.body));

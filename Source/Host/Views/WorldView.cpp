@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drawing the world within a frame of a software renderer: plain paths and gradients, nothing blurred.
+// Draws the world fast enough for a software renderer: only plain paths and gradients, no blur.
 #include "Host/Views/WorldView.h"
 #include "Host/Views/DisplayScale.h"
 #include "Host/Views/MaterialTexture.h"
@@ -14,10 +14,10 @@ namespace physvib {
 
 namespace {
 
-constexpr double hitMs = 450.0;         // how long the light of a hit is seen
-constexpr std::size_t mostHits = 48;    // at once: more are a glare anyway
-constexpr std::size_t mostTraces = 400; // 30 pairs that rub
-constexpr float wallPixels = 11.0f;     // what stands around the field shows as a frame of this width
+constexpr double hitMs = 450.0;         // how long a hit glows
+constexpr std::size_t mostHits = 48;    // simultaneous; more would only glare
+constexpr std::size_t mostTraces = 400; // for 30 sliding pairs
+constexpr float wallPixels = 11.0f;     // bodies around the field are drawn as a frame of this width
 constexpr float badgePixels = 30.0f;
 
 float levelOf(double amplitude) {
@@ -79,7 +79,7 @@ void WorldView::show(const Scene& scene) {
         ahead_.clear();
         hits_.clear();
         traces_.clear();
-        grip_.body = -1; // its number may be another's
+        grip_.body = -1; // the index may now denote another body
         if (std::ranges::find(cast_, grip_.held, &BodyDescription::name) == cast_.end()) grip_.held.clear();
     }
     repaint();
@@ -112,7 +112,7 @@ void WorldView::showSpot(std::optional<FieldShare> spot) {
 }
 
 void WorldView::update(WorldMoment moment) {
-    if (!ahead_.empty() && moment.sessionNs < ahead_.back().timeNs) ahead_.clear(); // a new take
+    if (!ahead_.empty() && moment.sessionNs < ahead_.back().timeNs) ahead_.clear(); // a new scene run
     const auto before = ahead_.empty() ? std::vector<BodyPose>{} : ahead_.front().poses;
     if (!moment.poses.empty()) ahead_.push_back({moment.sessionNs, std::move(moment.poses)});
     while (ahead_.size() > 1 && ahead_[1].timeNs + moment.aheadNs <= moment.sessionNs) ahead_.pop_front();
@@ -159,7 +159,7 @@ WorldView::Map WorldView::map() const {
     return {room.withSizeKeepingCentre(width * scale, height * scale), scale};
 }
 
-// What the script spawns may come again.
+// Inputs that remove or replace bodies; bodies that the script spawns may appear again.
 void WorldView::followInputs() {
     fates_.assign(cast_.size(), {});
     std::size_t next = scripted_;
@@ -180,7 +180,7 @@ void WorldView::followInputs() {
     }
 }
 
-// As it is in the world; or, if it has not come yet, where it will.
+// The pose in the world, or the start pose of a body that has not appeared yet.
 BodyPose WorldView::poseBefore(std::size_t body) const {
     if (!ahead_.empty() && body < ahead_.front().poses.size()) return ahead_.front().poses[body];
     if (const int before = fates_[body].before; before >= 0)
@@ -271,7 +271,7 @@ void WorldView::drawGround(juce::Graphics& g, const Map& at) {
     g.fillRect(at.field);
     if (shownGains_ < 0 || shownGains_ >= layout_.geometry.count || panner_.channels() == 0) return;
     const auto field = at.field.toNearestInt();
-    if (gains_.isNull()) // smooth enough, and fast enough to follow a badge that is moved
+    if (gains_.isNull()) // smooth enough, and fast enough while an actuator is dragged
         gains_ = gainImage(panner_, shownGains_, enchanterColour(*this, shownGains_), 96, 54)
                      .rescaled(field.getWidth(), field.getHeight(), juce::Graphics::mediumResamplingQuality);
     g.drawImageAt(gains_, field.getX(), field.getY());
@@ -320,7 +320,7 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
     }
 }
 
-// All grains of a look are one piece of a pair's way; it begins where the one before ended.
+// All grains of one update form one segment of a contact's path, which starts where the last one ended.
 void WorldView::take(const CollisionEvent& event, double nowMs) {
     if (event.source.kind == ContactKind::hit) return hits_.push_back({event, colourOf(event), nowMs});
     const auto isSamePair = [&](const Trace& t) {
@@ -331,13 +331,12 @@ void WorldView::take(const CollisionEvent& event, double nowMs) {
     if (last == traces_.rend() || last->shownAtMs != nowMs)
         return traces_.push_back({event.source, last == traces_.rend() ? here : last->toMetres, here,
                                   event.amplitude, colourOf(event), nowMs});
-    // between the points of what has two
+    // the middle between the points of a two-point contact
     last->toMetres = {0.5 * (last->toMetres.x + here.x), 0.5 * (last->toMetres.y + here.y)};
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
 }
 
-// On top of the outlines that they follow, so their core is white as that of a hit. However weak, they are
-// seen.
+// Drawn over the outlines that they follow, with a white core like hits. Even the weakest are visible.
 void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
     for (const auto& trace : traces_) {
         const float level = levelOf(trace.amplitude),
@@ -371,7 +370,7 @@ void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
     }
 }
 
-// Lines from the hit that is strongest now to each enchanter, as wide and bright as its share of it.
+// Lines from the strongest current hit to each actuator; width and brightness show the actuator's gain.
 void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
     const auto light = [](const Hit& hit) {
         return levelOf(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs));
@@ -404,7 +403,7 @@ void WorldView::drawEnchanters(juce::Graphics& g, const Map& at) const {
         const auto colour = enchanterColour(*this, j);
         const auto badge = badgeOf(j, at);
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
-        // over the field, too
+        // may extend over the field
         if (share > 0.03f) glow(g, badge.getCentre(), 18.0f + 34.0f * share, colour.withAlpha(0.5f * share));
         g.setColour(shade(*this, Shade::well));
         g.fillRoundedRectangle(badge, 7.0f);
@@ -426,7 +425,7 @@ void WorldView::drawSpot(juce::Graphics& g) const {
         g.drawLine({centre + way * 5.0f, centre + way * 13.0f}, 1.5f);
 }
 
-// The badge, or the place, where it would be felt; in words on the side where the field is.
+// Highlights the actuator or the place that would play the dropped files, with a label on the field's side.
 void WorldView::drawFiles(juce::Graphics& g) const {
     if (!filesAt_) return;
     const auto at = map();
@@ -457,7 +456,7 @@ void WorldView::drawFiles(juce::Graphics& g) const {
     g.drawText(words, plate, juce::Justification::centred, false);
 }
 
-// A string from the body to the hand.
+// A line from the body to the mouse.
 void WorldView::drawHold(juce::Graphics& g) const {
     if (grip_.body < 0) return;
     const auto at = map();

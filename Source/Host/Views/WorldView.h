@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world as it is felt now: bodies, hits as light, enchanters with what they play. Where a hand may act,
-// bodies can be pulled and enchanters moved.
+// View of the world as it is currently felt: bodies, hits as flashes, actuators with their levels. The user
+// can pull bodies and move actuators where that is enabled.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -16,13 +16,13 @@
 
 namespace physvib {
 
-/// What is new since the last call of WorldView::update.
+/// News since the last call of WorldView::update.
 struct WorldMoment {
-    std::vector<BodyPose> poses; ///< of the cast, as at `sessionNs`
+    std::vector<BodyPose> poses; ///< of the bodies, at `sessionNs`
     std::int64_t sessionNs = 0;
-    std::int64_t aheadNs = 0;             ///< they are felt so much later
+    std::int64_t aheadNs = 0;             ///< output latency of these poses
     std::span<const CollisionEvent> hits; ///< that have been played
-    std::span<const float> peaks;         ///< per enchanter, 1 = full scale
+    std::span<const float> peaks;         ///< per actuator, 1 = full scale
 };
 
 /// A place in the field, each coordinate 0 to 1 from its lower left corner.
@@ -35,55 +35,55 @@ class WorldView final : public juce::Component,
                         public juce::DragAndDropTarget,
                         public juce::FileDragAndDropTarget {
 public:
-    /// What modules say of themselves while they are dragged here.
+    /// Drag description of a new actuator.
     static constexpr const char* newEnchanter = "physvib-new-enchanter";
 
     WorldView();
 
-    /// Another scene, or one with more bodies. M.
+    /// Shows another scene, or the same with more bodies. M.
     void show(const Scene& scene);
-    /// Enchanters, and how hits are spread over them. M.
+    /// Sets the actuators and their panning law. M.
     void show(const LayoutDescription& layout, const PhantomPanner& panner);
-    /// M, a few times a second; repaints what is not as before.
+    /// M, several times a second; repaints if something has changed.
     void update(WorldMoment moment);
-    /// Bodies have the textures of their materials, where these have any; else one colour per material. M.
+    /// Draws bodies with the textures of their materials where there are any; otherwise one colour per
+    /// material. M.
     void showMaterials(bool areShown) { showsMaterials_ = areShown, repaint(); }
-    /// Instead of the textures of these materials. M.
+    /// Pictures that replace the textures of these materials. M.
     void showPictures(std::vector<MaterialPicture> pictures) { pictures_ = std::move(pictures), repaint(); }
-    /// So many metres of the world are one on the display, see setDisplayWidth(); 0: the field is as large as
-    /// fits. M.
+    /// Metres of the world per metre of the display, see setDisplayWidth(); 0: the field fills the view. M.
     void setWorldScale(double metresPerMetre) { worldScale_ = metresPerMetre, repaint(); }
-    /// Whether all of the field is seen at that scale. M.
+    /// Whether the whole field is visible at that scale. M.
     bool fits() const { return worldScale_ <= 0.0 || map().pixelsPerMetre <= fittingPixelsPerMetre(); }
-    /// Behind the bodies: what that enchanter plays of a hit at each place; -1: nothing. M.
+    /// Shows the gain of that actuator at each place, behind the bodies; -1: off. M.
     void showGainsOf(int enchanter);
-    /// How wide the display is that this is seen on, see screenPixelsPerMetre(). M.
+    /// Width of the display, see screenPixelsPerMetre(). M.
     void setDisplayWidth(double metres) { displayWidthMetres_ = metres; }
-    /// Room below the field for what is written over the view. M.
+    /// Height kept free below the field, for text over the view. M.
     void setFootRoom(int pixels) { footRoom_ = pixels; }
-    /// Around the field: badges sit on its edge, where there are any. M.
+    /// Width kept free around the field, for the actuators on its edge. M.
     void setMargin(int pixels) { margin_ = pixels; }
-    void select(int enchanter); ///< drawn with a ring; -1: none
-    /// A cross in the field where something is to be felt; none: no cross. M.
+    void select(int enchanter); ///< draws a ring around it; -1: none
+    /// Draws a cross at a place in the field; none: no cross. M.
     void showSpot(std::optional<FieldShare> spot);
 
-    // What a hand does; what is not set cannot be done. M.
-    /// in the field's axes; the point on the body, in the field's metres
+    // Callbacks for mouse input; without a callback the action is disabled. M.
+    /// In the field's axes; the point on the body in metres of the field.
     std::function<void(const std::string& body, Vector screenMetres, Vector pointMetres)> onPull;
-    /// with Shift, while it is held: which point, as for onPull, and where in the field the hand is
+    /// With Shift, while the body is held: its point, as for onPull, and the mouse in the field.
     std::function<void(const std::string& body, Vector pointMetres, Vector toMetres)> onHold;
-    std::function<void(const std::string& body)> onLetGo;      ///< of what was held
-    std::function<juce::String(double screenMetres)> pullText; ///< beside the line while it is pulled
-    /// while it is moved
+    std::function<void(const std::string& body)> onLetGo;      ///< of the body that was held
+    std::function<juce::String(double screenMetres)> pullText; ///< text beside the line while pulling
+    /// During the drag.
     std::function<void(int enchanter, FieldShare to)> onMove;
     std::function<void(int enchanter)> onDetach; ///< dropped outside
     std::function<void(FieldShare at)> onAttach;
     std::function<void(int enchanter)> onSelect;
     std::function<void(const std::string& body, FieldShare at)> onMenu; ///< right click; body may be empty
-    std::function<void(FieldShare at)> onSpot;                          ///< a click that drags nothing
-    /// whether those that are dragged here may be dropped
+    std::function<void(FieldShare at)> onSpot;                          ///< a click without a drag
+    /// Whether the dragged files may be dropped.
     std::function<bool(const juce::StringArray& files)> takesFiles;
-    /// dropped on that enchanter; -1: in the field
+    /// Files dropped on that actuator; -1: in the field.
     std::function<void(const juce::StringArray& files, int enchanter, FieldShare at)> onFiles;
 
     void paint(juce::Graphics& g) override;
@@ -103,18 +103,18 @@ public:
     void fileDragExit(const juce::StringArray& files) override;
     void filesDropped(const juce::StringArray& files, int x, int y) override;
 
-    /// Where things are, in pixels of this component. M.
+    /// Positions in pixels of this component. M.
     juce::Point<float> placeOfShare(FieldShare at) const;
     juce::Point<float> placeOfEnchanter(int enchanter) const;
-    juce::Point<float> placeOfBody(const std::string& name) const; ///< outside the view if it is not there
+    juce::Point<float> placeOfBody(const std::string& name) const; ///< outside the view if the body is absent
     bool isHolding() const noexcept { return !grip_.held.empty(); }
 
-    /// For who draws over this view. Places in metres of the field, also beyond its edges. M.
+    /// For components that draw over this view. Places in metres of the field; they may lie outside it. M.
     juce::Point<float> placeOfMetres(Vector at) const { return map().at(at.x, at.y); }
     Vector metresAt(juce::Point<float> place) const;
     float pixelsPerMetre() const { return map().pixelsPerMetre; }
-    std::optional<BodyPose> poseOfBody(const std::string& name) const; ///< as it is drawn; none: not there
-    std::vector<std::string> bodiesAt(juce::Point<float> place) const; ///< of any type, the one on top first
+    std::optional<BodyPose> poseOfBody(const std::string& name) const; ///< as drawn; none: absent
+    std::vector<std::string> bodiesAt(juce::Point<float> place) const; ///< of any type, topmost first
 
 private:
     struct Snapshot {
@@ -126,7 +126,7 @@ private:
         juce::Colour colour;
         double shownAtMs;
     };
-    struct Trace { // what rolled or slid between two looks
+    struct Trace { // path of a rolling or sliding contact between two updates
         CollisionSource source;
         Vector fromMetres, toMetres;
         double amplitude;
@@ -146,15 +146,15 @@ private:
                 juce::jlimit(0.0, 1.0, static_cast<double>((field.getBottom() - p.y) / field.getHeight()))};
         }
     };
-    struct Grip { // what the mouse holds
+    struct Grip { // what the mouse drags
         int enchanter = -1, body = -1;
         juce::Point<float> from, to;
         bool isOutside = false;
-        std::string held{}; // the body's name
-        Vector point{};     // where on it
+        std::string held{}; // name of the body
+        Vector point{};     // point on the body
     };
     juce::Rectangle<float> roomOfField() const;
-    float fittingPixelsPerMetre() const; ///< with which the field is as large as fits
+    float fittingPixelsPerMetre() const; ///< scale at which the field just fits
     Map map() const;
     Vector pointOf(const Grip& grip) const;
     void hold();
@@ -185,17 +185,16 @@ private:
     void drawFiles(juce::Graphics& g) const;
 
     Scene scene_;
-    struct Fate { // what inputs do to a body of the cast: it may not have happened yet where the world stands
-                  // still
-        bool isGone = false; // removed, or changed, in which case another has its name
-        int before = -1;     // whose place it takes
+    struct Fate {            // effect of inputs on a body; the input may lie ahead while the world is paused
+        bool isGone = false; // removed, or replaced by a body of the same name
+        int before = -1;     // index of the body it replaces
     };
     std::vector<BodyDescription> cast_;
-    std::vector<Fate> fates_;  // of them
-    std::size_t scripted_ = 0; // below stands scriptedCast()
+    std::vector<Fate> fates_;  // one per body of cast_
+    std::size_t scripted_ = 0; // number of bodies from scriptedCast(), which come first
     LayoutDescription layout_;
     PhantomPanner panner_;
-    std::deque<Snapshot> ahead_; // not felt yet, but for the first
+    std::deque<Snapshot> ahead_; // poses not felt yet, except the first
     std::deque<Hit> hits_;
     std::deque<Trace> traces_;
     std::array<float, limits::maxEnchanters> peaks_{};
@@ -209,7 +208,7 @@ private:
     std::optional<FieldShare> spot_;
 };
 
-/// What `enchanter` plays of a hit at each place of the field, as opacity of `colour`. M.
+/// Gain of `enchanter` at each place of the field, as opacity of `colour`. M.
 juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour colour, int width, int height);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fields of controls and panners, with their ranges.
+// Reads and writes render controls and panners as JSON, with their value ranges.
 #include "Live/Documents/ControlJson.h"
 #include "Live/Documents/Mix.h"
 #include "Scene/LayoutJson.h"
@@ -39,7 +39,7 @@ PhantomPanner readKind(const JsonField& json, const PerChannel<PhantomPanner>& k
                          exponentRange(json["exponent"]),
                          field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres),
                          field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
-    // missing: as all else
+    // without this field, grains are panned like impacts
     if (json.has("grain_law"))
         panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
     return panner;
@@ -78,7 +78,7 @@ OrderedJson writeKind(const PerChannel<PhantomPanner>&, const PhantomPanner& pan
 
 OrderedJson controlJson(const RenderControl& control) {
     using Holds = ControlDescription::Holds;
-    // no other is asked for
+    // every control that is written is in the table
     const auto one = std::ranges::find(controlTable, control.kind, &ControlDescription::kind);
     OrderedJson json{{"control", one->name}};
     if (one->holds == Holds::panner)

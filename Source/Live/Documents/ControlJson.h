@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Render controls and panners as parts of JSON files and lines. For the .cpp files of Files.
+// JSON form of render controls and panners, for session files and input lines. Included by .cpp files of
+// documents only.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Io/Json/FieldTable.h"
@@ -11,9 +12,9 @@
 
 namespace physvib {
 
-/// A control that files and lines know: its name, and its value's field and range.
+/// A control as files and lines have it: its name, and the field and range of its value.
 struct ControlDescription {
-    enum class Holds { panner, number, truth, nothing }; ///< numbers and truths are a channel's
+    enum class Holds { panner, number, truth, nothing }; ///< number and truth belong to a channel
     std::string_view name;
     RenderControl::Kind kind;
     Holds holds;
@@ -32,10 +33,10 @@ inline constexpr auto controlTable = std::to_array<ControlDescription>({
 });
 inline constexpr auto controlNames = namesOf(controlTable);
 
-/// Layout, law, exponent and field; at most `channels` enchanters. Throws JsonError.
+/// Reads layout, law, exponent and field, for at most `channels` actuators. Throws JsonError.
 PhantomPanner readKind(const JsonField& json, const PerChannel<PhantomPanner>& kind);
 
-/// A control without its time; `otherFields` may stand beside it. Throws JsonError.
+/// Reads a control without its time; `otherField` may be present too. Throws JsonError.
 RenderControl readControl(const JsonField& json, int channels, std::string_view otherField = {});
 
 OrderedJson writeKind(const PerChannel<PhantomPanner>& kind, const PhantomPanner& panner);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Number by number the lesser one, and a note of each.
+// Lowers each value of a mixer state to its limit, and notes what was lowered.
 #include "Live/Documents/DeskLimits.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/MixJson.h"
@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t mostTextBytes = 100'000; // 64 strips fill 8 kB
+constexpr std::size_t mostTextBytes = 100'000; // 64 strips need 8 kB
 
 class Notes {
 public:
@@ -19,7 +19,7 @@ public:
         value = most;
     }
     void add(const std::string& note) {
-        constexpr int mostNotes = 8; // more are not read
+        constexpr int mostNotes = 8; // users do not read more
         if (++count_ <= mostNotes) words_ += (words_.empty() ? "" : "; ") + note;
     }
     std::string words() const { return words_; }
@@ -29,8 +29,7 @@ private:
     int count_ = 0;
 };
 
-/// How high the fader of a strip may be for it to be as loud as that, with its group and at the top of its
-/// lanes.
+/// The highest fader position at which the strip's loudest gain, with group and lanes, is `mostDb`.
 double mostFaderDb(const Mix& mix, std::size_t strip, double mostDb) {
     if (loudestDb(mix, strip) <= mostDb) return mostStripDb;
     return mostDb <= leastStripDb ? leastStripDb

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a machine's own desk allows: a mix that comes from a file is taken only up to that.
+// Limits that a mixer state loaded from a file must not exceed: the levels that the user of this computer has
+// set.
 #pragma once
 #include "Live/Documents/Mix.h"
 #include <optional>
@@ -9,10 +10,10 @@
 
 namespace physvib {
 
-/// As the desk was left by the person at it.
+/// The limits, taken from the mixer state as the user left it.
 struct DeskLimits {
     double levelDb = 0.0;
-    std::vector<Strip> strips; ///< what leaves by each output that is in use
+    std::vector<Strip> strips; ///< one per output in use, with the gain that reaches it
 
     static DeskLimits of(const Mix& mix);
 };
@@ -22,12 +23,12 @@ void visitFields(auto& v, FieldsOf<DeskLimits>) {
     v.field("strips", &DeskLimits::strips, kinds::Objects<Strip>{});
 }
 
-/// Lowers `mix` to `most`: its master level, and on each output the gain and the ceiling; what is silent
-/// there stays so. An enchanter on an output that is not in use there gets none. What was lowered, in words
-/// for people; empty: nothing. Any thread.
+/// Lowers `mix` to `most`: its master level, and gain and ceiling of each output. An output that is muted in
+/// `most` is muted. An actuator on an output that `most` does not use gets no output. Returns a text for the
+/// user that lists the changes; empty: none. Any thread.
 std::string lowerTo(const DeskLimits& most, Mix& mix);
 
-/// As text for a program's settings, and back; nullopt if it is none. Any thread.
+/// Conversion to text for a program's settings, and back; nullopt if the text is invalid. Any thread.
 std::string deskLimitsText(const DeskLimits& limits);
 std::optional<DeskLimits> readDeskLimits(std::string_view text);
 

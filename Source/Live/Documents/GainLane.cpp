@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines, sums, and points that can be spared.
+// Interpolates, adds and simplifies gain lanes.
 #include "Live/Documents/GainLane.h"
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,8 @@ double lineAt(const GainPoint& from, const GainPoint& to, double seconds) noexce
     return length > 0.0 ? from.db + (to.db - from.db) * (seconds - from.seconds) / length : to.db;
 }
 
-/// The point that is farthest from the line between the ends of lane[from..to], if that is too far.
+/// The point farthest from the line between the ends of lane[from..to]; `from` if none is beyond the
+/// tolerance.
 std::size_t farthest(const GainLane& lane, std::size_t from, std::size_t to, double toleranceDb) {
     std::size_t found = from;
     for (std::size_t i = from + 1; i < to; ++i) {
@@ -24,11 +25,11 @@ std::size_t farthest(const GainLane& lane, std::size_t from, std::size_t to, dou
     return found;
 }
 
-/// Ramer 1972, Douglas and Peucker 1973: the ends stay, and whatever is too far from the line between them.
+/// Ramer 1972, Douglas and Peucker 1973: keeps the ends, and points too far from the line between them.
 GainLane withinTolerance(const GainLane& lane, double toleranceDb) {
     if (lane.size() < 3) return lane;
     GainLane kept{lane.front()};
-    std::vector<std::size_t> ends{lane.size() - 1}; // of the stretches that wait, the next one last
+    std::vector<std::size_t> ends{lane.size() - 1}; // ends of the segments still to check, the next one last
     for (std::size_t from = 0; !ends.empty();) {
         const std::size_t middle = farthest(lane, from, ends.back(), toleranceDb);
         if (middle != from) {
@@ -70,7 +71,7 @@ GainLane sumOf(const GainLane& a, const GainLane& b) {
     for (const GainLane* lane : {&a, &b})
         for (const GainPoint& point : *lane) times.push_back(point.seconds);
     std::ranges::sort(times);
-    times.erase(std::unique(times.begin(), times.end()), times.end()); // clang 14 takes no ranges::unique
+    times.erase(std::unique(times.begin(), times.end()), times.end()); // clang 14 lacks ranges::unique
     GainLane sum;
     for (const double seconds : times)
         sum.push_back({seconds, sumDb({laneDbAt(a, seconds), laneDbAt(b, seconds)})});
@@ -78,11 +79,11 @@ GainLane sumOf(const GainLane& a, const GainLane& b) {
 }
 
 GainLane thinned(const GainLane& lane, std::size_t mostPoints) {
-    constexpr double hardlyFeltDb = 0.25; // a quarter of the smallest step that hands tell apart
+    constexpr double hardlyFeltDb = 0.25; // a quarter of the just noticeable difference
     GainLane kept = withinTolerance(lane, hardlyFeltDb);
     for (double toleranceDb = hardlyFeltDb; kept.size() > mostPoints; toleranceDb *= 2.0)
         kept = withinTolerance(lane, toleranceDb);
-    if (kept.size() == 2 && kept[0].db == kept[1].db) kept.pop_back(); // it does not move
+    if (kept.size() == 2 && kept[0].db == kept[1].db) kept.pop_back(); // the gain is constant
     return kept;
 }
 

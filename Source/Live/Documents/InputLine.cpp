@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of the kinds a line is; their fields are read where those of files are.
+// Parses an input line: determines its kind, and reads the fields with the readers of the file formats.
 #include "Live/Documents/InputLine.h"
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/NumberText.h"
@@ -16,7 +16,7 @@ struct ActionLine {
 };
 void visitFields(auto& v, FieldsOf<ActionLine>) { v.variant("input", &ActionLine::action, actionNames); }
 
-constexpr std::size_t mostNumbers = 1024; // of a list
+constexpr std::size_t mostNumbers = 1024; // in a list
 constexpr std::string_view silenceName = "silence", truthName = "on";
 
 void addNumbers(const JsonField& list, std::vector<double>& numbers, bool isPair) {
@@ -60,11 +60,11 @@ LineInput readLine(const JsonField& json, const std::vector<Material>& materials
 }
 
 constexpr std::string_view idName = "id";
-constexpr double mostId = 9'007'199'254'740'991; // above, not every whole number is one of JSON's
+constexpr double mostId = 9'007'199'254'740'991; // larger integers are not exact in JSON
 
 bool isId(double number) { return std::abs(number) <= mostId && number == std::floor(number); }
 
-/// The number goes out of `root`, which is then as if it had none.
+/// Removes the number from `root`, so that the other readers do not see it.
 std::optional<double> takeId(Json& root) {
     if (!root.is_object() || !root.contains(idName)) return std::nullopt;
     const JsonField field = JsonField(root, {})[idName];
@@ -75,7 +75,7 @@ std::optional<double> takeId(Json& root) {
     return id;
 }
 
-/// Of a line that may be anything: the number behind the first "id".
+/// The number after the first "id" of a line that may be malformed.
 std::optional<double> idIn(std::string_view line) {
     constexpr std::string_view key = "\"id\"", blank = " \t";
     const auto at = line.find(key);
@@ -125,7 +125,8 @@ bool namesSilence(std::string_view text) noexcept {
     return std::search(text.begin(), end, silenceName.begin(), silenceName.end(), isSame) != end;
 }
 
-// Names may be spelled with escapes. A control needs no scene; whether an input fits one is told in its turn.
+// Names may be written with JSON escapes. The control needs no scene; whether an input fits the scene is
+// checked when it is executed.
 bool asksForSilence(std::string_view line) {
     if (!namesSilence(line) && line.find('\\') == line.npos) return false;
     const auto read = readInputLine(line, {}, 1);

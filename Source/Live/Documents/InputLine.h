@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One line of JSON that does something to a session: an input, a control, or a message.
+// Parses one line of JSON that acts on a session: an input, a control or a message.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Io/Result.h"
@@ -13,41 +13,43 @@
 
 namespace physvib {
 
-/// Everything heard goes, or may be heard again, at once.
+/// Silences the output at once, or ends the silence.
 struct SilenceControl {
     bool isOn = true;
     static constexpr std::uint64_t unnumbered = UINT64_MAX;
-    std::uint64_t number = unnumbered; ///< which of its input's requests it is; off: the last one that it
-                                       ///< lifts. Set by who reads the input
+    std::uint64_t number = unnumbered; ///< request number within its input; for off: the last request that it
+                                       ///< ends. Set by the reader of the input
 };
 
 using LineInput = std::variant<Action, RenderControl, SilenceControl, PlainMessage>;
 
-/// A line and, if it has one, the number by which its answer is known: "id".
+/// A line, and its number "id" if it has one, which the answer repeats.
 struct InputLine : Result<LineInput> {
     using Result<LineInput>::Result;
-    std::optional<double> id{}; ///< whole; also of a line that cannot be read, if the number stands in it
+    std::optional<double> id{}; ///< a whole number; also of an unreadable line, if it contains one
 };
 
+/// Kinds of lines:
 /// `{"input": "impulse", "body": "ball", "impulse_ns": [0, 5]}`: as in a scene's script, without a time.
-/// `{"control": "gain", "channel": 1, "value": 0.5}`: as in a session file, without a time; `{"control":
-/// "silence", "on": true}` as well. `{"message": "path", "places": [[0, 0], [1, 2]], "seconds": 1}`: a
-/// message with values that are numbers, words, or lists of numbers or of pairs of them. Or, of the first
-/// thing that is wrong, one line `body: ...`. Any thread.
+/// `{"control": "gain", "channel": 1, "value": 0.5}`: as in a session file, without a time; also `{"control":
+/// "silence", "on": true}`.
+/// `{"message": "path", "places": [[0, 0], [1, 2]], "seconds": 1}`: values are numbers, strings, or lists of
+/// numbers or of pairs.
+/// Or one line about the first error, such as `body: ...`. Any thread.
 InputLine readInputLine(std::string_view line, const std::vector<Material>& materials, int channels);
 
-/// Whether the word stands in it, in letters of any case. Any thread.
+/// Whether the text contains the word "silence", in upper or lower case. Any thread.
 bool namesSilence(std::string_view text) noexcept;
 
-/// Whether a line silences: its control, input or message is silence, and it is not off in its right form. A
-/// line that cannot be read silences if the word stands in it. Any thread.
+/// Whether a line requests silence: its control, input or message is silence, unless it is a well-formed
+/// `off`. An unreadable line requests silence if it contains the word. Any thread.
 bool asksForSilence(std::string_view line);
 
-/// What is told of an error that silences.
+/// Appended to the error of a line that silenced nevertheless.
 inline constexpr std::string_view silencedAllTheSame = "; silenced all the same";
 
-/// The same of an input or a control that comes as a name and named values (`gain`, with `channel` and
-/// `value`): those without nested fields; a number other than 0 is true. Any thread.
+/// Reads an input or a control given as a name and named values (`gain` with `channel` and `value`). Only
+/// those without nested fields; a number other than 0 is true. Any thread.
 Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials,
                                  int channels);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lists of strips, lanes and equalisers, and what is checked between the fields of a mix.
+// Reads and writes strips, lanes and equalisers as JSON, and checks the fields of a mixer state against each
+// other.
 #include "Live/Documents/MixJson.h"
 #include "Core/Limits.h"
 #include "Scene/SceneFileLimits.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mixer's state and its parts as parts of other files. For the .cpp files of modules with files.
+// JSON form of the mixer state and its parts, for other files that contain them. Included by .cpp files only.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Live/Documents/Mix.h"
@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// Everything but scene and seed. Throws JsonError, as all that reads.
+/// All fields except scene and seed. Throws JsonError, as do all readers here.
 Mix readMix(const JsonField& json);
 
 std::vector<Strip> readKind(const JsonField& list, const PerChannel<std::vector<Strip>>& kind);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A message as any door brings it or takes an answer away: a name, and named values. What it means stands
-// elsewhere.
+// A message or an answer in a form independent of its transport (line, OSC, C): a name and named values.
+// Source/Live/Messages defines what each message does.
 #pragma once
 #include <string>
 #include <variant>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plug-in's state: the kinds of fields that only it has, after the tables in PluginState.h.
+// Reads and writes the plug-in's state as JSON; the tables of its fields are in PluginState.h.
 #include "Live/Documents/PluginState.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/MixJson.h"
@@ -22,14 +22,14 @@ std::size_t sizeUpTo(const JsonField& list, std::size_t most) {
     return size;
 }
 
-/// A part as a file of its own: its message begins with the field's name instead of a file's.
+/// Reads a part with a file reader; its errors then begin with the field's name instead of a file name.
 auto readPart(const JsonField& json, auto read) {
     auto part = read(json.fileText(), json.path());
     if (!part) throw JsonError({}, part.error);
     return std::move(part.value);
 }
 
-// Kinds of a note's fields.
+// JSON kinds of a note's fields.
 struct MaterialOf {
     const Scene* scene;
 };
@@ -42,7 +42,7 @@ struct Radius {
 };
 struct Reach {
     double most;
-}; // of both components
+}; // limit of both components
 
 int readKind(const JsonField& json, const MaterialOf& kind) {
     const std::string wanted = json.text();
@@ -66,13 +66,13 @@ Vector readKind(const JsonField& json, const Reach& kind) {
 }
 OrderedJson writeKind(const Reach&, const Vector& v) { return OrderedJson::array({v.x, v.y}); }
 
-/// A rule and the scene whose materials and bodies it names.
+/// A rule with the scene whose materials and bodies it names.
 struct SceneNote {
     NoteRule rule;
     const Scene* scene = nullptr;
 };
 
-// Which fields a rule has depends on what it does.
+// The fields of a rule depend on what it does.
 void visitFields(auto& v, FieldsOf<SceneNote>) {
     constexpr auto rule = &SceneNote::rule;
     constexpr auto vector = in(rule, &NoteRule::atFullVelocity);
@@ -94,7 +94,7 @@ void visitFields(auto& v, FieldsOf<SceneNote>) {
 NoteRule readNote(const JsonField& json, const Scene& scene) {
     SceneNote note{{}, &scene};
     json.expectObject();
-    note.rule.kind = static_cast<NoteKind>(json["do"].oneOf(noteKindNames)); // which chooses the fields
+    note.rule.kind = static_cast<NoteKind>(json["do"].oneOf(noteKindNames)); // this value selects the fields
     readTable(json, note);
     const auto isThere = std::ranges::find(scene.bodies, note.rule.object, &BodyDescription::name);
     if (note.rule.kind == NoteKind::push && isThere == scene.bodies.end())
@@ -103,7 +103,8 @@ NoteRule readNote(const JsonField& json, const Scene& scene) {
     return note.rule;
 }
 
-// What moves hands does not come unasked: nobody had chosen these.
+// Version 1 gave these to every instance, though no user had chosen them. Left in place, they would let a
+// host's controllers change the vibration unexpectedly.
 const std::vector<ControllerRule> controllersOfVersion1{
     {1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an instance of the plug-in plays, and as versioned JSON in its host's session: whole in itself, so
-// that a session sounds the same when the built-in scenes have changed.
+// State of a plug-in instance, saved as versioned JSON in the host's session. It contains the whole scene, so
+// that a session sounds the same after the built-in scenes change.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Io/Result.h"
@@ -17,72 +17,73 @@
 
 namespace physvib {
 
-/// The version of the format that is written, and the newest that is read. A new field makes a new version.
-/// 2: choices by their words; what version 1 gave every instance as controllers is left out; strips,
-/// equalisers, the editor's size. 3: direct strikes. 4: the parameter `beats`. 5: the voice of notes; without
-/// one they are as they were.
+/// Version of the format that is written, and the newest that is read. A new field makes a new version.
+/// 2: choices by name; the default controllers of version 1 are dropped; strips, equalisers, editor size. 3:
+/// direct mode. 4: parameter `beats`. 5: voice of notes; without one, notes sound as before.
 constexpr int pluginStateVersion = 5;
 
 enum class TransportMode {
     free,         ///< the scene runs whenever the host renders
-    restartOnPlay ///< it starts at its seed whenever the transport starts or jumps, and is silent while that
-                  ///< stands
+    restartOnPlay ///< the scene starts from its seed when the transport starts or jumps, and is silent while
+                  ///< it is stopped
 };
 
-// as TransportMode
+// indexed by TransportMode
 inline constexpr std::array<std::string_view, 2> transportNames{"free", "restart-on-play"};
 
 enum class NoteKind {
-    strike, ///< sounds a material at a place, at once
-    push,   ///< an impulse on a body of the scene
+    strike, ///< plays a material at a place, at once
+    push,   ///< applies an impulse to a body of the scene
     spawn   ///< drops a disc of a material at a place
 };
 
-inline constexpr std::array<std::string_view, 3> noteKindNames{"strike", "push", "spawn"}; // as NoteKind
+// indexed by NoteKind
+inline constexpr std::array<std::string_view, 3> noteKindNames{"strike", "push", "spawn"};
 
-/// A note that does not do what the default map says.
+/// What one MIDI note does, instead of the default mapping.
 struct NoteRule {
     int note = 0; ///< 0 to 127
     NoteKind kind = NoteKind::strike;
     int material = 0; ///< strike, spawn: index into Scene::materials
-    double x = 0.5;   ///< strike, spawn: place in parts of the field, 0 to 1 from the lower left corner
+    double x = 0.5;   ///< strike, spawn: place in the field, 0 to 1 from its lower left corner
     double y = 0.5;
-    std::string object;        ///< push: name of a body that the scene starts with
+    std::string object;        ///< push: name of a body the scene starts with
     Vector atFullVelocity;     ///< push: N s; spawn: m/s
     double radiusMetres = 0.1; ///< spawn
     bool operator==(const NoteRule&) const = default;
 };
 
-/// What a note sounds like that no rule names.
+/// Pitch of a note without a rule.
 enum class NotePitch {
-    material, ///< every octave is one of the scene's materials
-    note      ///< its own frequency, in the octave from which it is felt
+    material, ///< each octave plays one of the scene's materials
+    note      ///< its own frequency, moved by octaves into the range that can be felt
 };
-inline constexpr std::array<std::string_view, 2> notePitchNames{"material", "note"}; // as NotePitch
+inline constexpr std::array<std::string_view, 2> notePitchNames{"material", "note"}; // indexed by NotePitch
 
-/// Where it is felt.
+/// Where a note without a rule is played.
 enum class NotePlaces {
     octave,    ///< from left (C) to right (B), at half height
-    actuators, ///< at one actuator after the other
+    actuators, ///< on one actuator after the other
     middle     ///< in the middle of the field
 };
-// as NotePlaces
+// indexed by NotePlaces
 inline constexpr std::array<std::string_view, 3> notePlaceNames{"octave", "actuators", "middle"};
 
-/// How notes sound: those without a rule in all of it, struck materials in level and velocity.
+/// Sound of the notes: all settings apply to notes without a rule; rules that strike use level and velocity
+/// only.
 struct NoteVoice {
     NotePitch pitch = NotePitch::material;
     NotePlaces places = NotePlaces::octave;
-    bool isHeld = false;    ///< with a pitch of its own: it sounds until the key is let go; else it decays
-    bool isLoudest = false; ///< the loudest actuator gets the strike level; else they share it
-    double decayPerSecond = 12.0;  ///< of a note with a pitch of its own that is not held
-    double releaseSeconds = 0.2;   ///< of a held one, to -60 dB
-    double velocityExponent = 1.0; ///< of velocity / 127
-    double bendSemitones = 0.0;    ///< that a full bend of the wheel moves the pitch; 0: it moves the place
+    bool isHeld = false;    ///< with NotePitch::note: sounds until note-off; otherwise it decays
+    bool isLoudest = false; ///< the loudest actuator gets the strike level; otherwise the actuators share it
+    double decayPerSecond = 12.0;  ///< with NotePitch::note, if not held
+    double releaseSeconds = 0.2;   ///< of a held note, to -60 dB
+    double velocityExponent = 1.0; ///< exponent of velocity / 127
+    double bendSemitones = 0.0;    ///< range of the pitch wheel; 0: the wheel moves the place
     bool operator==(const NoteVoice&) const = default;
 };
 
-/// Limits of the numbers of a voice: 1/s, s, exponent, semitones.
+/// Limits of a voice's numbers: 1/s, s, exponent, semitones.
 struct NoteVoiceLimits {
     static constexpr double leastDecayPerSecond = 0.5, mostDecayPerSecond = 200.0,
                             leastReleaseSeconds = 0.005, mostReleaseSeconds = 10.0;
@@ -102,10 +103,10 @@ void visitFields(auto& v, FieldsOf<NoteVoice>) {
     v.field("bend_semitones", &V::bendSemitones, kinds::within(0.0, L::mostSemitones));
 }
 
-/// A controller that moves a parameter over its whole range.
+/// Maps a MIDI controller to the whole range of a parameter.
 struct ControllerRule {
-    int controller = 0;    ///< 0 to 119: the others are channel modes
-    std::string parameter; ///< its id
+    int controller = 0;    ///< 0 to 119; higher numbers are channel mode messages
+    std::string parameter; ///< parameter id
     bool operator==(const ControllerRule&) const = default;
 };
 
@@ -114,35 +115,36 @@ void visitFields(auto& v, FieldsOf<ControllerRule>) {
     v.field("parameter", &ControllerRule::parameter, kinds::text);
 }
 
-/// A number in the parameter's unit; the word of a choice, of which version 1 wrote the place.
+/// A number in the parameter's unit, or the name of a choice (version 1 wrote its index).
 using ParameterValue = std::variant<double, std::string>;
-using ParameterValues = std::vector<std::pair<std::string, ParameterValue>>; // by their ids
+using ParameterValues = std::vector<std::pair<std::string, ParameterValue>>; // by parameter id
 
 struct PluginState {
     Scene scene;
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
     LayoutDescription layout;
-    std::vector<Strip> strips;      ///< one per enchanter, which leaves by the channel of its number; those
-                                    ///< missing are as new ones
-    EqualisedActuators equalised{}; ///< per enchanter
+    std::vector<Strip> strips; ///< one per actuator, which plays on the channel of the same number; missing
+                               ///< strips are default ones
+    EqualisedActuators equalised{}; ///< per actuator
     bool limiterEnabled = true;
     TransportMode transport = TransportMode::free;
-    bool isDirect = false; ///< strikes by notes are felt the limiter's latency later, not L as collisions are
+    bool isDirect = false; ///< events by notes have the limiter's latency instead of the output latency of
+                           ///< collisions
     NoteVoice voice;
-    std::vector<NoteRule> notes; ///< others as the voice says
+    std::vector<NoteRule> notes; ///< other notes use `voice`
     std::vector<ControllerRule> controllers;
-    int editorWidth = 0, editorHeight = 0; ///< in pixels; 0: as it comes
+    int editorWidth = 0, editorHeight = 0; ///< in pixels; 0: default size
     ParameterValues parameters;
 };
 
 namespace kinds {
-struct LayoutFile {}; ///< a layout whose errors name it as a file
+struct LayoutFile {}; ///< a layout; errors name it as a file
 struct Notes {
     const Scene* scene;
 };
 } // namespace kinds
-struct EditorSize {}; // a kind as well
+struct EditorSize {}; // also a JSON kind
 
 void visitFields(auto& v, FieldsOf<PluginState>) {
     using S = PluginState;
@@ -166,12 +168,11 @@ void visitFields(auto& v, FieldsOf<PluginState>) {
     v.field("parameters", &S::parameters, Own<ParameterValues>{});
 }
 
-/// The state that `text` describes; or, of the first thing that is wrong, one line
-/// `name: notes[3].x: expected a number from 0 to 1, found 2`. Parameters and controllers may bear any ids.
-/// Any thread.
+/// Parses a state; or one line about the first error, such as `name: notes[3].x: expected a number from 0 to
+/// 1, found 2`. Parameter and controller ids are not checked. Any thread.
 Result<PluginState> readPluginState(std::string_view text, std::string_view name);
 
-/// `state` as JSON; readPluginState gives all of it back but the scene's variables, bit for bit. Any thread.
+/// Writes a state. readPluginState restores it bit for bit, except the scene's variables. Any thread.
 std::string pluginStateJson(const PluginState& state);
 
 } // namespace physvib

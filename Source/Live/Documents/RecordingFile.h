@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recorded contacts as sessions and calls name them: where the samples are, and how to know that they are
-// still the same.
+// Reference to a recorded contact, as sessions and commands store it: path of the samples, and a hash to
+// detect changes.
 #pragma once
 #include "Core/SoundNumber.h"
 #include "Io/Disk/ContentHash.h"
@@ -18,10 +18,10 @@ namespace physvib {
 struct RecordingFile {
     double frequencyHz = 0.0;    ///< of the material's mode
     std::string path{};          ///< a WAV file, or "synthetic-SEED"
-    double decayPerSecond = 0.0; ///< of the material; 0: not known
-    bool isMatched = false;      ///< as strong as the material's mode; else as high: its peak is 1
-    std::string hash{};     ///< contentHash of the file when it was read; empty: whatever it holds; always of
-                            ///< what is synthetic
+    double decayPerSecond = 0.0; ///< of the material; 0: unknown
+    bool isMatched = false;      ///< scaled to the energy of the material's mode; otherwise to a peak of 1
+    std::string hash{}; ///< contentHash of the file when it was read; empty: not checked; always empty for
+                        ///< synthetic contacts
     std::string material{}; ///< whose events play it; empty: all events of that frequency
     bool operator==(const RecordingFile&) const = default;
 
@@ -38,7 +38,7 @@ void visitFields(auto& v, FieldsOf<RecordingFile>) {
     v.field("material", &R::material, kinds::text, Need::optional.from(9));
 }
 
-/// The seed of "synthetic-7", a contact that nobody recorded; none: it is a file's path. Any thread.
+/// The seed in "synthetic-7", a synthetic contact; none: `path` is a file. Any thread.
 inline std::optional<std::uint32_t> syntheticSeed(std::string_view path) noexcept {
     constexpr std::string_view prefix = "synthetic-";
     std::uint32_t seed = 0;

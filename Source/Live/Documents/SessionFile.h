@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Live sessions as JSON: scenes, seeds, inputs and controls with their times; rendering them again gives what
-// was felt.
+// Session file: a live session as JSON, with scenes, seeds, inputs and controls with their times. Rendering
+// it again reproduces the played output.
 #pragma once
 #include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"
@@ -18,32 +18,33 @@
 
 namespace physvib {
 
-/// The version of the format that is written, and the newest that is read. 2: desk, strikes, slow motion; 3:
-/// recordings, gain, perceived level; 4: drags by metres of the screen; 5: strikes that move; 6: clips; 7:
+/// Version of the format that is written, and the newest that is read. 2: mixer state, strikes, slow motion;
+/// 3: recordings, gain, perceived level; 4: drags in metres of the screen; 5: moving strikes; 6: clips; 7:
 /// law of grains, scenes of version 2; 8: groups, lanes; 9: sounds by number, recordings by material.
 constexpr int sessionFormatVersion = std::max(9, stripsVersion);
 
-inline constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};     // as ImpactTiming
-inline constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"}; // as ImpactLocation
+// indexed by ImpactTiming and ImpactLocation
+inline constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};
+inline constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"};
 
 using Ceilings = std::array<float, limits::maxEnchanters>;
 
-/// A session as it was played.
+/// A saved session.
 struct SavedSession {
-    SceneRun run;         ///< its seed is not used: each take has its own
+    SceneRun run;         ///< its seed is not used: each scene run has its own
     PhantomPanner panner; ///< at the start
-    int channels = 0;     ///< outputs, at least as many as any layout of the session has enchanters
+    int channels = 0; ///< number of outputs, at least the number of actuators of any layout in the session
     bool limiterEnabled = true;
     /// drive ceiling per channel
     Ceilings ceilings = RendererSettings::fullScale();
     std::int64_t lengthNs = 0;
-    SessionLog log;                 ///< at least one take
-    std::optional<Mix> mix{};       ///< the desk as it was left, if the session was played on one
+    SessionLog log;                 ///< at least one scene run
+    std::optional<Mix> mix{};       ///< the mixer state at the end, if the session was played in the mixer
     EqualisedActuators equalised{}; ///< per channel
-    EventShaping shaping{};         ///< of all collisions
+    EventShaping shaping{};         ///< for all collisions
 };
 
-/// What a session and the first line of its journal have.
+/// Fields that a session file and the first line of its journal share.
 void visitSetup(auto& v) {
     using S = SavedSession;
     constexpr auto run = &S::run;
@@ -99,20 +100,20 @@ void visitFields(auto& v, FieldsOf<EventShaping>) {
     v.field("gamma", &S::truncation, kinds::within(0.0, S::mostTruncation), Need::optional.from(3));
 }
 
-/// The session that `text` describes; or, of the first thing that is wrong, one line `name:
-/// takes[0].scene.bodies[1]...`. Unknown and repeated fields are errors. Any thread.
+/// Parses a session; or one line about the first error, `name: takes[0].scene.bodies[1]...`. Unknown and
+/// repeated fields are errors. Any thread.
 Result<SavedSession> readSession(std::string_view text, std::string_view name);
 
-/// The same of a file, beside which its recordings are looked for. M only.
+/// Reads a file; recordings with relative paths are searched beside it. M only.
 Result<SavedSession> loadSession(const std::filesystem::path& path);
 
-/// The desk as the session left it: its own, or one made of its last scene, layout, gains and mutes. Any
-/// thread.
+/// The mixer state that the session ended with: its own, or one made from its last scene, layout, gains and
+/// mutes. Any thread.
 Mix mixOf(const SavedSession& session);
 
-/// `session` as JSON; a take of the same scene as the one before does not repeat it. readSession gives all of
-/// it back bit for bit, but labels of enchanters. Paths of recordings become relative to `folder`, in which
-/// the file is to stand; empty: they stay as they are. Any thread.
+/// Writes a session as JSON. A scene run with the same scene as the one before does not repeat it.
+/// readSession restores everything bit for bit, except labels of actuators. Paths of recordings become
+/// relative to `folder`, the file's folder; empty: they stay unchanged. Any thread.
 std::string sessionJson(const SavedSession& session, const std::filesystem::path& folder = {});
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines out and in.
+// Writes a session journal line by line, and reads one up to its last complete part.
 #include "Live/Documents/SessionJournalText.h"
 #include "Live/Documents/SessionJson.h"
 #include "Scene/JsonReader.h"
@@ -11,7 +11,7 @@
 namespace physvib {
 namespace {
 
-// a scene takes more in lines for people
+// the indented session file is larger than the journal
 constexpr std::size_t mostBytes = limits::maxSessionFileBytes / 4 * 3;
 
 std::string lineOf(const char* name, OrderedJson item) {
@@ -20,7 +20,7 @@ std::string lineOf(const char* name, OrderedJson item) {
     return jsonLine(json) + "\n";
 }
 
-/// Puts a journal together, line by line.
+/// Builds a session from the lines of a journal.
 class JournalReader {
 public:
     void read(const JsonField& json) {
@@ -74,7 +74,7 @@ private:
     std::size_t lines_ = 0;
 };
 
-/// What is told, without what was cut off.
+/// The text up to the last complete "seconds" line; lines after it were cut off.
 std::string_view toldPart(std::string_view text) {
     constexpr std::string_view told = "\n{ \"seconds\": ";
     for (std::size_t at = text.rfind(told); at != std::string_view::npos && at > 0;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A session while it is played: lines that are only ever added, so that saving costs what is new.
+// Session journal: a file written while a session is played. Lines are only appended, so saving costs as much
+// as there is news.
 //
-// The first line is the head of a session file; each of the others adds one thing: a take, an input, a stall
-// (which takes the place of the one before if it begins where that began), a control, recordings, a clip, a
-// strike; or it says up to which time all of them have been told. What follows the last such line counts for
-// nothing: it was cut off.
+// The first line is the head of a session file. Each further line adds one item: a scene run, an input, a
+// stall, a control, recordings, a clip or a strike. A stall replaces the one before if it starts at the same
+// time. A line with "seconds" says that all items up to that time are complete; lines after the last such
+// line are ignored, because the file was cut off there.
 #pragma once
 #include "Live/Documents/SessionFile.h"
 #include <cstddef>
@@ -14,26 +15,26 @@
 
 namespace physvib {
 
-/// Whether a session file is a journal. Any thread.
+/// Whether the text of a session file is a journal. Any thread.
 bool isJournal(std::string_view text) noexcept;
 
-/// The session up to the last time that is told; or, of the first thing that is wrong, one line. Any thread.
+/// The session up to the last complete time; or one line about the first error. Any thread.
 Result<SavedSession> readJournal(std::string_view text, std::string_view name);
 
-/// Makes the lines of one journal. One thread at a time.
+/// Produces the lines of one journal. One thread at a time.
 class JournalLines {
 public:
-    /// Of `session` its head; paths of recordings become relative to `folder`.
+    /// Writes the head from `session`; paths of recordings become relative to `folder`.
     JournalLines(const SavedSession& session, std::filesystem::path folder);
 
-    /// The first line.
+    /// The first line of the journal.
     const std::string& head() const noexcept { return head_; }
 
-    /// The lines of what Session::readLog has moved to `log` since the last call, which is all up to
-    /// `sessionNs`; `log` keeps what the next call needs. Empty once the journal is full.
+    /// Lines for the items that Session::readLog has moved to `log` since the last call; they are complete up
+    /// to `sessionNs`. `log` keeps what the next call needs. Returns empty once the journal is full.
     std::string take(SessionLog& log, std::int64_t sessionNs);
 
-    /// Empty, or what a file cannot hold more of: the session that was told ends there.
+    /// Empty, or the limit of the file that was reached; the journal ends there.
     const std::string& full() const noexcept { return full_; }
     std::int64_t toldNs() const noexcept { return toldNs_; }
 
@@ -43,11 +44,11 @@ private:
     int channels_;
     std::filesystem::path folder_;
     std::string head_, full_;
-    std::size_t bytes_, inputs_ = 0; // inputs of the last take
+    std::size_t bytes_, inputs_ = 0; // inputs of the current scene run
     std::int64_t toldNs_ = 0;
-    bool isBegun_ = false; // the first take of a log is one that was told
+    bool isBegun_ = false; // the first scene run of the log has been written
     WorldStall lastStall_{-1};
-    SceneTake before_; // the take above the last, for its scene
+    SceneTake before_; // the scene run before the last, to compare scenes
 };
 
 } // namespace physvib

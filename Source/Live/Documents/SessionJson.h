@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts that whole session files and journals have in common. For the .cpp files of this folder.
+// JSON parts that session files and journals share. Included by .cpp files of this folder only.
 #pragma once
 #include "Live/Documents/ControlJson.h"
 #include "Live/Documents/MixJson.h"
@@ -15,8 +15,8 @@ void visitFields(auto& v, FieldsOf<WorldStall>) {
     v.field("steps", &WorldStall::steps, kinds::whole(1, 1'000'000'000), Need::optional.from(2));
 }
 
-/// A run's scene is left out if it is the one of the run before. In a journal its end, inputs and stalls
-/// follow line by line.
+/// The scene is left out if it is that of the scene run before. In a journal, end, inputs and stalls follow
+/// as lines of their own.
 void visitTake(auto& v, bool isJournal) {
     v.field("start_s", &SceneTake::startNs, kinds::Time{});
     if (!isJournal) v.field("world_end_s", &SceneTake::worldEndNs, kinds::Time{});
@@ -28,7 +28,7 @@ struct JournalTake;
 void visitFields(auto& v, FieldsOf<SceneTake>) { visitTake(v, false); }
 void visitFields(auto& v, FieldsOf<JournalTake>) { visitTake(v, true); }
 
-/// A strike apart from the world.
+/// An event that was played without a collision in the world.
 void visitFields(auto& v, FieldsOf<CollisionEvent>) {
     using E = CollisionEvent;
     using C = StrikeCourse;
@@ -59,15 +59,15 @@ OrderedJson writeKind(const Own<RenderingMethod>& kind, const RenderingMethod& m
 
 namespace detail {
 
-// Reading; all throw JsonError.
+// Readers; all throw JsonError.
 SceneTake readTakeStart(const JsonField& json, const SceneTake* before, bool isJournal);
-WorldStall readStall(const JsonField& json, const SceneTake& take); ///< not before the last of the take
+WorldStall readStall(const JsonField& json, const SceneTake& take); ///< not before the run's last
 void readTimedControl(const JsonField& json, SavedSession& session);
 void readRecordingsChange(const JsonField& json, SessionLog& log);
 CollisionEvent readStrike(const JsonField& json);
 void readClipFile(const JsonField& json, SessionLog& log);
 
-// Writing.
+// Writers.
 OrderedJson takeStartJson(const SceneTake& take, const SceneTake* before, bool isJournal);
 OrderedJson inputJson(const LiveInput& input, const Scene& scene);
 OrderedJson timedControlJson(const RenderControl& control);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A strip of the mixer or the plug-in for each actuator, and groups of strips: the structs, and below each
-// the table of its fields in files.
+// Channel strips of mixer and plug-in, one per actuator, and groups of strips. The fields of each struct in
+// files are listed below it.
 #pragma once
 #include "Core/Decibels.h"
 #include "Core/Limits.h"
@@ -15,11 +15,11 @@
 
 namespace physvib {
 
-/// The version of the session format that brought the newest field of a strip or a group.
+/// The session format version that introduced the newest field of a strip or group.
 constexpr int stripsVersion = 8;
 
 namespace kinds {
-/// The plug-in's strips, one per actuator: each leaves by the channel of its number.
+/// The plug-in's strips, one per actuator; each plays on the channel of the same number.
 struct PluginStrips {
     int count;
 };
@@ -31,19 +31,19 @@ struct Strip {
     bool isSolo = false;
     bool isInverted = false; ///< polarity
     double delayMs = 0.0;
-    double ceilingDb = 0.0; ///< of full scale
-    int output = -1;        ///< of the device, from 0; -1: none
-    int group = -1;         ///< of the mix; -1: none
-    GainLane lane{};        ///< on top of the fader
+    double ceilingDb = 0.0; ///< relative to full scale
+    int output = -1;        ///< device output from 0; -1: none
+    int group = -1;         ///< index into the mix's groups; -1: none
+    GainLane lane{};        ///< added to the fader
     bool operator==(const Strip&) const = default;
 };
 
-constexpr double leastCeilingDb = -60.0; // lower is a mute by another name
+constexpr double leastCeilingDb = -60.0; // lower values would amount to a mute
 constexpr int mostStripOutputs = 1024;
 constexpr std::size_t mostGroups = 16;
-inline constexpr auto stripRangeDb = kinds::within(leastStripDb, mostStripDb); // the least is silence
+inline constexpr auto stripRangeDb = kinds::within(leastStripDb, mostStripDb); // leastStripDb is silence
 
-/// What the plug-in's strips have as well. They have no groups and lanes.
+/// The fields that plug-in strips have too. They have no groups and lanes.
 void visitStrip(auto& v) {
     v.field("gain_db", &Strip::gainDb, stripRangeDb);
     v.field("mute", &Strip::isMuted, kinds::truth);
@@ -53,7 +53,7 @@ void visitStrip(auto& v) {
     v.field("ceiling_db", &Strip::ceilingDb, kinds::within(leastCeilingDb, 0.0));
 }
 
-struct PluginStrip; // in its files
+struct PluginStrip; // the plug-in's strip in files
 void visitFields(auto& v, FieldsOf<PluginStrip>) { visitStrip(v); }
 void visitFields(auto& v, FieldsOf<Strip>) {
     visitStrip(v);
@@ -62,10 +62,10 @@ void visitFields(auto& v, FieldsOf<Strip>) {
     v.field("lane", &Strip::lane, Own<GainLane>{}, Need::optional.from(8));
 }
 
-/// Strips that one fader and one mute act on: a hand, a back.
+/// Strips with a common fader and mute, such as those of a hand or the back.
 struct StripGroup {
     std::string name;
-    double gainDb = 0.0; ///< on top of each of them, as a strip's
+    double gainDb = 0.0; ///< added to each strip's gain
     bool isMuted = false;
     GainLane lane{};
     bool operator==(const StripGroup&) const = default;
@@ -78,13 +78,13 @@ void visitFields(auto& v, FieldsOf<StripGroup>) {
     v.field("lane", &StripGroup::lane, Own<GainLane>{}, Need::optional);
 }
 
-/// The first output that no strip has. Any thread.
+/// The lowest output that no strip uses. Any thread.
 inline int freeOutput(std::span<const Strip> strips) noexcept {
     for (int k = 0;; ++k)
         if (std::ranges::find(strips, k, &Strip::output) == strips.end()) return k;
 }
 
-/// For one enchanter more: on the first output that no other has, with the lowest ceiling of the others. Any
+/// A strip for one more actuator: on the lowest free output, with the lowest ceiling of the others. Any
 /// thread.
 inline Strip nextStrip(std::span<const Strip> strips) noexcept {
     Strip next;
@@ -93,37 +93,37 @@ inline Strip nextStrip(std::span<const Strip> strips) noexcept {
     return next;
 }
 
-/// As many strips as there are enchanters. Any thread.
+/// Resizes to one strip per actuator. Any thread.
 inline void resizeStrips(std::vector<Strip>& strips, int enchanters) {
     const auto wanted = static_cast<std::size_t>(enchanters);
     while (strips.size() < wanted) strips.push_back(nextStrip(strips));
     strips.resize(wanted);
 }
 
-/// True if the strip is not to be felt: it is muted, or others are solo. Any thread.
+/// Whether the strip is silent: muted, or another strip is solo and this one is not. Any thread.
 inline bool isSilent(std::span<const Strip> strips, std::size_t strip) noexcept {
     return strips[strip].isMuted || (!strips[strip].isSolo && std::ranges::any_of(strips, &Strip::isSolo));
 }
 
-/// The gain of a channel: its level and polarity. Any thread.
+/// Gain of the channel: level and polarity. Any thread.
 inline float channelGain(const Strip& strip) noexcept {
     const double gain = strip.gainDb <= leastStripDb ? 0.0 : fromDecibels(strip.gainDb);
     return static_cast<float>(strip.isInverted ? -gain : gain);
 }
 
-/// The largest sample that a strip lets pass. Any thread.
+/// Largest sample value that the strip lets pass. Any thread.
 inline float ceilingOf(const Strip& strip) noexcept {
     return static_cast<float>(fromDecibels(strip.ceilingDb));
 }
 
-/// What a session has been told of a channel's strip; at first what it begins with.
+/// The strip values last sent to a session; initially those a session starts with.
 struct ToldStrip {
     float gain = 1.0f, delaySeconds = 0.0f, ceiling = 1.0f, mute = 0.0f;
 };
 
-/// Tells a session, strip by strip, what it does not know yet; `told` has room for all of them.
-/// `tell(control)` is false where it found no room: so is this then, and it is told by the next call. Any
-/// thread.
+/// Sends a session the values of strips that have changed. `told` has one entry per strip. `tell(control)`
+/// returns false if the queue is full; then this function returns false too, and the next call sends the
+/// value again. Any thread.
 template <class Tell>
 bool tellStrips(std::span<ToldStrip> told, std::span<const Strip> strips, Tell tell) {
     using Kind = RenderControl::Kind;

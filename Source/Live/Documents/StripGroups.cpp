@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faders behind faders.
+// Combines strips with the faders, mutes and lanes of their groups.
 #include "Live/Documents/StripGroups.h"
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@ const StripGroup* groupOf(const Mix& mix, const Strip& strip) {
     return strip.group < 0 ? nullptr : &mix.groups[static_cast<std::size_t>(strip.group)];
 }
 
-/// The strip alone, as its group makes it.
+/// The strip with its group's fader, mute and lane applied, in no group.
 Strip ungrouped(const Strip& strip, const StripGroup& group) {
     Strip alone = strip;
     alone.gainDb = sumDb({strip.gainDb, group.gainDb});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SDL's joysticks: a controller without a mapping has motors as well.
+// Game controllers through SDL's joystick API, because controllers without a mapping have motors too.
 #include "Live/Pads/GamePads.h"
 #include "Live/Pads/SdlLibrary.h"
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace {
 constexpr std::uint32_t subsystems = SDL_INIT_JOYSTICK | SDL_INIT_GAMECONTROLLER;
 
 std::mutex openedMutex;
-std::set<std::int64_t> opened; // by this process; under the mutex
+std::set<std::int64_t> opened; // controllers opened by this process; guarded by openedMutex
 
-/// SDL takes its list of devices under this lock; while one is asked for by its index, none comes or goes.
+/// SDL updates its list of devices under this lock, so an index stays valid while it is held.
 class JoystickLock {
 public:
     explicit JoystickLock(const SdlLibrary& sdl)
@@ -37,7 +37,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-// The first two bytes of a GUID say the bus, as Linux numbers them.
+// The first two bytes of a GUID are the bus number, as on Linux.
 PadBus busOf(const SDL_JoystickGUID& guid) {
     const int bus = guid.data[0] | guid.data[1] << 8;
     return bus == 0x03 ? PadBus::usb : bus == 0x05 ? PadBus::bluetooth : PadBus::other;
@@ -80,7 +80,7 @@ public:
         info_.hasAccelerometer = controller_ && sdl.GameControllerHasSensor(controller_, SDL_SENSOR_ACCEL);
     }
     ~SdlPad() override {
-        // who only looked leaves alone what others play
+        // a pad that was only inspected may be playing for another program
         if (hasRumbled_) sdl_.JoystickRumble(joystick_, 0, 0, 0);
         if (controller_) sdl_.GameControllerClose(controller_);
         if (joystick_) sdl_.JoystickClose(joystick_);
@@ -127,7 +127,7 @@ bool take(std::int64_t id) {
     return opened.insert(id).second;
 }
 
-// A host that uses SDL itself keeps what it has asked for.
+// A host that uses SDL itself keeps its own hints.
 void giveHints(const SdlLibrary& sdl, GamePads::Driver driver) {
     if (sdl.WasInit(SDL_INIT_JOYSTICK) != 0) return;
     const auto hint = [&](const char* name, const char* value) {
@@ -137,7 +137,7 @@ void giveHints(const SdlLibrary& sdl, GamePads::Driver driver) {
     hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     hint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
 #ifdef __linux__
-    // the kernel ends what a killed program played
+    // the kernel's driver stops the motors of a killed program
     hint(SDL_HINT_JOYSTICK_HIDAPI, driver == GamePads::Driver::sdl ? "1" : "0");
 #else
     static_cast<void>(driver);
@@ -159,7 +159,7 @@ GamePads::GamePads(Driver driver)
     if (sdl_->InitSubSystem(subsystems) != 0) {
         fault_ = std::string{"game controllers: "} + sdl_->GetError();
         sdl_ = nullptr;
-    } else if (isFirst) { // nobody reads events
+    } else if (isFirst) { // this process does not read SDL events
         sdl_->JoystickEventState(SDL_IGNORE);
         sdl_->GameControllerEventState(SDL_IGNORE);
     }

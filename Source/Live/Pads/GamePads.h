@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Game controllers by SDL: which there are, and one that is open.
+// Lists and opens game controllers through SDL.
 #pragma once
 #include <array>
 #include <chrono>
@@ -11,59 +11,60 @@
 
 namespace physvib {
 
-/// By what it is attached, as far as SDL tells.
+/// Connection of a controller, as far as SDL reports it.
 enum class PadBus { other, usb, bluetooth };
 
 struct GamePadInfo {
-    std::string name;    ///< as it calls itself
-    std::string profile; ///< the built-in one that is closest
+    std::string name;    ///< as the controller reports it
+    std::string profile; ///< the closest built-in profile
     PadBus bus = PadBus::other;
-    std::int64_t id = -1; ///< of this plugging in
+    std::int64_t id = -1; ///< SDL's instance id; new for each connection
     bool hasMotors = false, hasTriggers = false, hasAccelerometer = false, isDualSense = false;
 };
 
 /// "usb", "bluetooth", "other".
 const char* busName(PadBus bus) noexcept;
-/// What that connection takes; closer commands queue up and are felt late (Docs/pads.md).
+/// Maximum rate for that connection; faster commands queue up and are felt late (Docs/pads.md).
 double mostCommandsPerSecond(PadBus bus) noexcept;
 
-/// How often it has to be told again: a command is over after this time, whatever becomes of the program that
-/// sent it.
+/// A command ends after this time and must be repeated before. So motors stop even if the program that sent
+/// it is killed.
 constexpr std::chrono::milliseconds padTimeOut{200};
 
-/// One that is open, which nobody else in the process has. Its methods on any thread, one at a time.
+/// An open controller, exclusive within the process. Methods may be called on any thread, one at a time.
 class GamePad {
 public:
     virtual ~GamePad() = default;
     virtual const GamePadInfo& info() const noexcept = 0;
     virtual bool isAttached() = 0;
-    /// Both from 0 to 1, for padTimeOut at most; false: it did not take it.
+    /// Sets both motors, 0 to 1, for at most padTimeOut; false: the controller refused.
     virtual bool rumble(double low, double high) = 0;
-    /// Metres per second squared; false: it does not tell.
+    /// Reads the acceleration in m/s^2; false: not available.
     virtual bool acceleration(std::array<float, 3>& metresPerSecond2) = 0;
-    /// A report of its own kind, as DualSense.h makes one; false: it did not take it.
+    /// Sends a device-specific report, as made by DualSense.h; false: the controller refused.
     virtual bool sendEffect(const void* bytes, int size) = 0;
 };
 
-/// While it lives, SDL knows of controllers; motors of those that it opened are at rest when they are closed.
+/// Keeps SDL's controller support running while it exists. Motors of opened controllers are stopped when they
+/// are closed.
 class GamePads {
 public:
-    /// Whose driver is asked for reports that only it knows (SDL's own), instead of the system's, which stops
-    /// motors when a program is killed. Counts for the first of a process.
+    /// Driver that handles controllers. SDL's own can send device-specific reports; the system's stops motors
+    /// when a program is killed. The first GamePads of a process decides.
     enum class Driver { system, sdl };
     explicit GamePads(Driver driver = Driver::system);
     ~GamePads();
     GamePads(const GamePads&) = delete;
     GamePads& operator=(const GamePads&) = delete;
 
-    /// Empty, or why there are none to be had, in one line.
+    /// Empty, or one line why controllers are not available.
     const std::string& fault() const noexcept { return fault_; }
-    /// Looks for what was plugged in and out, and ends commands that have timed out. Often.
+    /// Detects connected and disconnected controllers, and ends commands that have timed out. Call often.
     void update();
-    /// All; what one can do is asked by opening it.
+    /// All controllers; capabilities are known only once one is open.
     std::vector<GamePadInfo> list();
-    /// The first with motors that nobody in this process has open and whose name holds `name`, whatever the
-    /// case; anyPad: any. Null: none.
+    /// Opens the first controller that has motors, is not open in this process, and whose name contains
+    /// `name`, ignoring case; anyPad: any. Null: none.
     std::unique_ptr<GamePad> open(const std::string& name);
 
 private:
@@ -71,7 +72,7 @@ private:
     const struct SdlLibrary* sdl_ = nullptr;
 };
 
-/// As a name: the first that is free.
+/// As a name: the first free controller.
 inline constexpr const char* anyPad = "auto";
 
 } // namespace physvib

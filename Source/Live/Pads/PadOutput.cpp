@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A thread that finds a controller, keeps time and sends what is due.
+// Thread that finds a controller, follows the device's clock and sends the motor commands that are due.
 #include "Live/Pads/PadOutput.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
@@ -10,10 +10,10 @@ namespace {
 
 constexpr std::chrono::milliseconds pause{1};
 constexpr std::int64_t msNs = 1'000'000;
-constexpr std::int64_t repeatNs = 100 * msNs;    // half of what a command lasts
-constexpr std::int64_t lookNs = 250 * msNs;      // for one that was plugged in
-constexpr std::int64_t patienceNs = 2000 * msNs; // pads on Bluetooth take a second to come
-constexpr std::int64_t jumpNs = 1000 * msNs;     // session time that goes back by so much has begun anew
+constexpr std::int64_t repeatNs = 100 * msNs;    // half the duration of a command
+constexpr std::int64_t lookNs = 250 * msNs;      // search interval for a newly connected controller
+constexpr std::int64_t patienceNs = 2000 * msNs; // a Bluetooth controller needs a second to connect
+constexpr std::int64_t jumpNs = 1000 * msNs;     // a backward jump of session time that means a restart
 
 std::int64_t steadyNowNs() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -67,7 +67,7 @@ void PadOutput::follow(FeltOutput* device) {
     rest();
     device_ = device;
     for (CollisionEvent event; device && events_.pop(event);) {
-    } // of another time
+    } // events of an earlier session
     for (RenderControl control; device && controls_.pop(control);) {
     }
     grips_ = PadMotors::gripsOf(first_);
@@ -129,7 +129,7 @@ void PadOutput::adopt(std::unique_ptr<GamePad> pad) {
     ++counts_.connections;
     if (!isProfileGiven_)
         if (auto suits = findPad(pad_->info().profile)) profile_ = std::move(suits.value);
-    if (counts_.connections == 1) leadSeconds_ = profile_.law.leadSeconds; // L is set by the first
+    if (counts_.connections == 1) leadSeconds_ = profile_.law.leadSeconds; // output latency: never changes
     begin();
 }
 
@@ -145,7 +145,7 @@ void PadOutput::feed(std::int64_t nowNs) {
     command(sessionNs, nowNs);
 }
 
-// A layout waits for the first event of its time, a stop for the moment at which it is felt.
+// A layout applies from the first event at its time, a stop from the time at which it is felt.
 void PadOutput::takeControls(std::int64_t sessionNs) {
     for (RenderControl control; controls_.pop(control);) {
         if (control.kind == RenderControl::Kind::panner) layouts_.push_back(control);
@@ -166,7 +166,7 @@ void PadOutput::takeEvents() {
 
 void PadOutput::command(std::int64_t sessionNs, std::int64_t nowNs) {
     const double level = device_->isSilent() ? 0.0 : static_cast<double>(device_->level());
-    if (level <= 0.0) rest(); // at once, whatever the pace
+    if (level <= 0.0) rest(); // at once, regardless of the command rate
     PadCommand newest = sent_;
     int due = 0;
     for (; motors_.dueNs() <= sessionNs; ++due) newest = motors_.next(level);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A session on a game controller beside its device: hits are felt at the same moment, as far as motors can.
+// Plays a session on a game controller beside the audio device; hits are felt at the same time, as far as
+// motors can follow.
 //
-// The device's blocks say when a moment of the session is felt (FeltClock). Each command of the motors has a
-// session time, so the commands are those of an offline render, to the last one, while events come in time. A
-// command lasts 200 ms at most and is sent again before; so motors stop soon, whatever becomes of the
-// program.
+// FeltClock estimates from the device's blocks when a session time is felt. Each motor command has a session
+// time, so the commands equal those of an offline render as long as events arrive in time. A command lasts at
+// most 200 ms and is repeated before it ends, so motors stop soon if the program dies.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/Pads/PadMotors.h"
@@ -19,19 +19,19 @@
 
 namespace physvib {
 
-/// What a controller has been sent so far, for people and tests.
+/// Counts of what was sent to a controller, for display and tests.
 struct PadCounts {
-    std::uint64_t events = 0, commands = 0, repeats = 0; ///< repeats: commands again, before they time out
-    std::uint64_t late = 0;    ///< commands that the next one overtook before they were sent
+    std::uint64_t events = 0, commands = 0, repeats = 0; ///< repeats: sent again before the time-out
+    std::uint64_t late = 0;    ///< commands replaced by the next one before they were sent
     std::uint64_t refused = 0; ///< by the controller
     std::uint64_t connections = 0;
 };
 
-/// Its own thread asks the controller; nobody waits for it but M.
+/// Its own thread talks to the controller; only M waits for that thread.
 class PadOutput final : public Sink {
 public:
-    /// `where`: a name or anyPad, then, if it is not the one that suits the controller, "@" and a profile's
-    /// name or file. M.
+    /// `where`: a controller name or anyPad; optionally followed by "@" and the name or file of a profile,
+    /// instead of the one that suits the controller. M.
     PadOutput(const std::string& where, const PhantomPanner& panner);
     ~PadOutput() override;
 
@@ -64,23 +64,23 @@ private:
     EventQueue<RenderControl, 256> controls_;
     std::atomic<double> leadSeconds_{0.0};
 
-    mutable std::mutex mutex_; // all below; its thread and M
+    mutable std::mutex mutex_; // guards the members below, used by the thread and M
     PadProfile profile_;
-    std::string fault_; // nothing can be played, now or later
+    std::string fault_; // a permanent error: nothing can be played
     FeltOutput* device_ = nullptr;
     std::unique_ptr<GamePad> pad_;
-    std::string lastName_; // of the controller that was there
+    std::string lastName_; // of the last controller
     PadMotors motors_{PadLaw{}};
     FeltClock clock_;
-    const PhantomPanner first_; // of the session
+    const PhantomPanner first_; // the session's first panner
     PhantomPanner grips_;
-    std::vector<RenderControl> layouts_, stops_; // that wait for their time
+    std::vector<RenderControl> layouts_, stops_; // waiting for their time
     PadCommand sent_;
-    std::int64_t sentNs_ = 0, looksNs_ = 0, playedNs_ = 0; // steady; steady; session
+    std::int64_t sentNs_ = 0, looksNs_ = 0, playedNs_ = 0; // steady clock; steady clock; session time
     PadCounts counts_;
 
     std::atomic<bool> stop_{false};
-    std::thread thread_; // last: the others outlive it
+    std::thread thread_; // last: it uses the other members
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strength is the standard deviation of the acceleration in short windows, beyond that of rest.
+// Measures motor strength as the standard deviation of the acceleration in short windows, minus that at rest.
 #include "Live/Pads/PadTrial.h"
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@ namespace physvib {
 namespace {
 
 constexpr double onSeconds = 0.75, restSeconds = 0.75, repeatSeconds = 0.1;
-constexpr double steadyFrom = 0.4;     // of a step; motors take 0.2 s
-constexpr double windowSeconds = 0.04; // some turns of the heavy motor
-constexpr double leastShare = 0.08;    // of the strongest: below it a motor does not turn
-constexpr double leastRatio = 4.0;     // of the strongest to rest: else nothing moved
+constexpr double steadyFrom = 0.4;     // of a step, in seconds; motors need 0.2 s
+constexpr double windowSeconds = 0.04; // a few revolutions of the heavy motor
+constexpr double leastShare = 0.08;    // of the strongest; below it the motor is not turning
+constexpr double leastRatio = 4.0;     // strongest to rest; below it nothing moved
 
-/// Variance of all axes together over [from, to); 0 of fewer than three samples.
+/// Variance summed over the axes, within [from, to); 0 for fewer than three samples.
 double variance(const PadStep& step, double from, double to) {
     double sum = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -41,7 +41,7 @@ private:
     double rest_;
 };
 
-/// The command at which a rising row of strengths passes `level`.
+/// The command at which a rising series of strengths crosses `level`, interpolated.
 double commandAt(double level, const std::vector<PadStep>& steps, const std::vector<double>& strengths) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
         if (strengths[i] < level) continue;
@@ -83,7 +83,7 @@ Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTr
         PadTrialTime listening = time;
         listening.tick = [&] {
             time.tick();
-            // a report is told once
+            // each sensor report counts once
             if (pad.acceleration(now) && now != before) step.samples.push_back({time.seconds() - begin, now});
             before = now;
         };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A controller's motors one after the other: felt, or measured by the controller's own accelerometer.
+// Runs the motors of a controller one after the other, to be felt by the user or measured by the controller's
+// accelerometer.
 #pragma once
 #include "Core/Pads/PadLaw.h"
 #include "Io/Result.h"
@@ -9,33 +10,33 @@
 
 namespace physvib {
 
-/// How time goes on in a trial: real, or a test's.
+/// Clock of a trial: real, or simulated by a test.
 struct PadTrialTime {
-    std::function<double()> seconds; ///< since any moment
-    std::function<void()> tick;      ///< a millisecond or so; controllers are looked at
-    std::function<bool()> goesOn;    ///< false: the trial ends, motors at rest
+    std::function<double()> seconds; ///< any starting point
+    std::function<void()> tick;      ///< waits about 1 ms and polls controllers
+    std::function<bool()> goesOn;    ///< false: the trial ends and the motors stop
 };
 
-/// What was told while one motor had one command, and after it.
+/// Acceleration recorded while one motor had one command, and after it.
 struct PadStep {
     struct Sample {
         double seconds; ///< since the command
         std::array<float, 3> metresPerSecond2;
     };
     double command = 0.0;
-    double onSeconds = 0.0; ///< then 0
+    double onSeconds = 0.0; ///< then the command is 0
     std::vector<Sample> samples;
 };
 
-/// Commands from 0.1 to 1 of one motor, with rests between them: 15 s. One line if the controller does not
-/// tell its acceleration, is unplugged, or the trial is ended. The caller's thread.
+/// Steps one motor from 0.1 to 1 with rests between: 15 s. One line if the controller has no accelerometer,
+/// is disconnected, or the trial is ended. The caller's thread.
 Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTrialTime& time);
 
-/// Threshold, half, full, rise and fall of such steps; one line if nothing moved, or not more with more. Any
-/// thread.
+/// Fits threshold, half and full command, rise and fall time to such steps; one line if nothing moved, or
+/// strength does not grow with the command. Any thread.
 Result<PadMotor> fitMotor(const std::vector<PadStep>& steps);
 
-/// Holds both commands for so long, sent again as often as it takes; false: ended before.
+/// Holds both commands for that time, repeated as needed; false: ended early.
 bool holdMotors(GamePad& pad, double low, double high, double seconds, const PadTrialTime& time);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All functions, or none.
+// Loads all SDL functions, or none.
 #include "Live/Pads/SdlLibrary.h"
 #include <initializer_list>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SDL's functions, found when a controller is first asked for: a program that wants none neither loads SDL
-// nor what it brings (fifty libraries, 18 ms of each start), and runs where there is none.
+// Loads SDL at run time, when a controller is first needed. Programs without controllers neither load SDL and
+// its fifty libraries (18 ms per start) nor need it installed.
 #pragma once
 #include <SDL2/SDL.h>
 #include <string>
@@ -25,11 +25,12 @@ struct SdlLibrary {
 #undef PHYSVIB_SDL_MEMBER
 };
 
-/// Loads it at the first call; null: it is not there, or too old, and `fault` says so in one line. It stays.
-/// Any thread.
+/// Loads SDL at the first call, for the life of the process. Null if SDL is missing or too old; `fault` then
+/// has one line. Any thread.
 const SdlLibrary* sdlLibrary(std::string& fault);
 
-/// Of the system: the library of that name, and a function in it; null if there is none. Any thread.
+/// System calls: opens the library of that name, and finds a function in it; null if there is none. Any
+/// thread.
 void* openLibrary(const char* name);
 void* functionIn(void* library, const char* name);
 

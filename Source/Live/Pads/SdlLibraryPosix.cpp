@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The dynamic linker of POSIX systems.
+// Dynamic loading on POSIX systems.
 #ifndef _WIN32
 #include "Live/Pads/SdlLibrary.h"
 #include <dlfcn.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The dynamic linker of Windows.
+// Dynamic loading on Windows.
 #ifdef _WIN32
 #include "Live/Pads/SdlLibrary.h"
 #include <windows.h>

@@ -18,7 +18,7 @@ namespace physvib {
 class CallbackInputs {
 public:
     /// `frame`: frames into the block that is rendered next. The event is felt at an exact frame: the
-    /// play-out latency later, or the renderer's latency later if the session is direct. False, and counted,
+    /// output latency later, or the renderer's latency later if the session is direct. False, and counted,
     /// if the queue is full. Render thread (R), wait-free.
     bool strike(CollisionEvent event, int frame) noexcept { return strike(event, frame, 0); }
     /// `afterNs` after that frame, which may be past
@@ -26,7 +26,7 @@ public:
     bool control(RenderControl control, int frame) noexcept;
     bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step
 
-    /// Acts at once, without the play-out latency: sounding modes fade, and earlier events are no longer
+    /// Acts at once, without the output latency: sounding modes fade, and earlier events are no longer
     /// played. R, wait-free.
     bool silence(int frame) noexcept;
 

@@ -12,7 +12,7 @@ namespace physvib {
 /// What happened at `sessionNs` is felt at `steadyNs` of the steady clock.
 struct FeltMoment {
     std::int64_t sessionNs = 0, steadyNs = 0;
-    std::int64_t behindNs = 0; ///< lag of the felt time behind the present: play-out latency plus the
+    std::int64_t behindNs = 0; ///< lag of the felt time behind the present: output latency plus the
                                ///< device's own
     int sampleRateHz = 0;      ///< of the block
 };

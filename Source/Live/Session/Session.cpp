@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Start and resumption of a session, and rendering with the play-out latency.
+// Start and resumption of a session, and rendering with the output latency.
 #include "Live/Session/Session.h"
 #include <algorithm>
 #include <array>
@@ -119,7 +119,7 @@ void Session::wait(float* const* unfelt, int frames) noexcept {
     time_.lengthen(-frames);
 }
 
-// The renderer's output lags by the limiter's frames, which are part of the play-out latency, so it starts
+// The renderer's output lags by the limiter's frames, which are part of the output latency, so it starts
 // that much earlier.
 void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     const bool begins = world_.beginBlock(mode);

@@ -44,7 +44,7 @@ public:
     /// Waits until it can play. Empty, or the error. Message thread (M), before the session is prepared.
     virtual std::string awaitReady(const std::function<bool()>&) { return {}; }
 
-    /// Time by which it needs an event before it is felt; the play-out latency covers the maximum over all
+    /// Time by which it needs an event before it is felt; the output latency covers the maximum over all
     /// attached sinks. M.
     virtual double latencySeconds() const noexcept { return 0.0; }
 

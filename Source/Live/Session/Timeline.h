@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Clock of a session: session time in frames and nanoseconds, and the play-out latency by which the output
+// Clock of a session: session time in frames and nanoseconds, and the output latency by which the output
 // lags behind it.
 #pragma once
 #include "Core/ClockLaw.h"
@@ -21,7 +21,7 @@ public:
         return nowNs();
     }
 
-    /// Play-out latency. Any thread but R.
+    /// Output latency. Any thread but R.
     double playOutSeconds() const {
         const std::lock_guard lock{mutex_};
         return static_cast<double>(playOutFrames()) / law_.sampleRateHz;
@@ -34,7 +34,7 @@ public:
     }
 
     /// Low-latency mode: latency of external inputs, and their lead time in session time. Their sum is the
-    /// play-out latency; the lead time is 0 without that mode. Any thread but R.
+    /// output latency; the lead time is 0 without that mode. Any thread but R.
     double directSeconds() const {
         const std::lock_guard lock{mutex_};
         return static_cast<double>(law_.directFrames()) / law_.sampleRateHz;
@@ -44,17 +44,17 @@ public:
         return leadNs();
     }
 
-    /// Play-out latency. Any thread after prepare.
+    /// Output latency. Any thread after prepare.
     std::int64_t playOutFrames() const noexcept { return playOutFrames_.load(std::memory_order_relaxed); }
 
-    /// Latency of events of the render call: the play-out latency, or less in low-latency mode. R, or the
+    /// Latency of events of the render call: the output latency, or less in low-latency mode. R, or the
     /// message thread (M) while no thread renders.
     bool isBornDirect() const noexcept { return isBornDirect_; } ///< as bornLatencyFrames
     std::int64_t bornLatencyFrames() const noexcept {
         return isBornDirect_ ? law_.limiterFrames : playOutFrames();
     }
 
-    /// Change of the play-out latency since prepare. Any thread.
+    /// Change of the output latency since prepare. Any thread.
     std::int64_t framesGrown() const noexcept { return grownFrames_.load(std::memory_order_acquire); }
 
     /// Session time in frames, including the block that is being rendered. Any thread.
@@ -77,7 +77,7 @@ public:
     }
 
     /// Session time of what leaves the renderer at `frame` of the next block; the renderer's latency is part
-    /// of the play-out latency. R.
+    /// of the output latency. R.
     std::int64_t nextRenderedNs(std::int64_t frame) const noexcept {
         return nextNs(frame - playOutFrames() + law_.limiterFrames);
     }
@@ -90,7 +90,7 @@ private:
     friend class Scheduler;
     friend class WorldRunner;
 
-    /// Sets session time to `frames` at the law's rate, and the play-out latency to the law's. M, while no
+    /// Sets session time to `frames` at the law's rate, and the output latency to the law's. M, while no
     /// thread renders.
     void set(const ClockLaw& law, bool isToldDirect, bool isBornDirect, std::int64_t frames) {
         const std::lock_guard lock{mutex_};
@@ -105,7 +105,7 @@ private:
 
     void setFrames(std::int64_t frames) noexcept { sessionFrames_ = frames; } ///< as set()
 
-    /// Changes the play-out latency. R or M, after prepare and before the first block; later R, if the
+    /// Changes the output latency. R or M, after prepare and before the first block; later R, if the
     /// renderer's time changes by as much.
     void lengthen(std::int64_t frames) noexcept {
         playOutFrames_.fetch_add(frames, std::memory_order_relaxed);
@@ -119,7 +119,7 @@ private:
         return done;
     }
 
-    /// A block by which the play-out latency grows. The latency is changed first: the driver (D), which reads
+    /// A block by which the output latency grows. The latency is changed first: the driver (D), which reads
     /// both in the opposite order, must not take the difference for a stall. R, wait-free.
     void waitFrames(int frames) noexcept {
         lengthen(frames);
@@ -160,7 +160,7 @@ private:
     mutable std::mutex mutex_; // locked last; guards the law for threads that hold no other mutex
     ClockLaw law_;
     bool isToldDirect_ = false, isBornDirect_ = false;
-    // play-out latency, and R's additions to the law's
+    // output latency, and R's additions to the law's
     std::atomic<std::int64_t> playOutFrames_{0}, grownFrames_{0};
     std::atomic<std::int64_t> sessionFrames_{0};
 };

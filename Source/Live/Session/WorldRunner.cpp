@@ -64,7 +64,7 @@ void WorldRunner::prepare() {
 }
 
 void WorldRunner::resume(const FrameClock& clock) {
-    catchUp(); // the new play-out latency may allow less lag than the old
+    catchUp(); // the new output latency may allow less lag than the old
     if (restartFrame_ >= 0) restartFrame_ = clock.at(time_.sessionNs(restartFrame_)).frame;
 }
 

@@ -56,7 +56,7 @@ public:
     SessionSize size() const;
 
     /// Poses of the bodies of sceneCast() in the last step; returns their session time, which is felt the
-    /// play-out latency later. Without a log, bodies that inputs spawned are not identified, and removed ones
+    /// output latency later. Without a log, bodies that inputs spawned are not identified, and removed ones
     /// are left out. Does not wait for a long step; then the poses are those before it. Any thread but R.
     std::int64_t readPoses(std::vector<BodyPose>& poses) const;
 
