@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Walks what was parsed, and what can be.
+// Collects the input and output files of parsed calls and of the option tables.
 #include "Calls/CallFiles.h"
 #include "Calls/RenderOptions.h"
 #include "Calls/StimulusOptions.h"
@@ -22,7 +22,7 @@ void collect(const OptionTable& table, CallFiles& files) {
                 files.outputs.push_back(value);
             else
                 files.inputs.insert(files.inputs.end(),
-                                    {value, value.substr(value.find('=') + 1)}); // the latter for HZ=FILE.wav
+                                    {value, value.substr(value.find('=') + 1)}); // for HZ=FILE.wav
         }
     for (const OptionTable* const command : table.calls) collect(*command, files);
 }
@@ -33,7 +33,7 @@ void collectWritten(const OptionTable& table, std::set<std::string, std::less<>>
     for (const OptionTable& command : table.commands) collectWritten(command, words);
 }
 
-/// Every spelling of every option that names a file to be written, of the commands that a call can be.
+/// Every spelling of every output-file option of the commands that a call may use.
 std::set<std::string, std::less<>> writtenWords() {
     OptionTable calls{"physvib", {}};
     RenderJob render;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From words of a call to values of a job, where a word is no number, name or path.
+// Options whose values need their own parser, i.e. are not a number, name or path.
 #pragma once
 #include "Calls/RenderJob.h"
 #include "Options/OptionTable.h"
 
 namespace physvib {
 
-/// --law, by the table of laws. M only, as all here.
+/// --law, from the table of panning laws. M only, as all here.
 Option& addLaw(OptionTable& command, PanningLaw& law);
 
-/// --sound HZ=FILE.wav, which may be repeated; `says` is its meaning.
+/// --sound HZ=FILE.wav, repeatable; `says` is its help text.
 Option& addSounds(OptionTable& command, RecordedSounds& sounds, std::string says);
 
 /// --field W,H, --set NAME=VALUE and --method.
