@@ -7,15 +7,16 @@
 
 namespace physvib {
 
-/// Empty, or an error if the parsed call would write a file that it reads, or write one file twice. M.
+/// Empty, or an error if the parsed call would write a file that it reads, or write one file twice. Message
+/// thread.
 std::string clashOfCall(const OptionTable& app);
 
 /// Empty, or an error if a call "render ..." or "stimulus ..." in a file names an output file, i.e. has an
-/// option marked Option::written anywhere. M.
+/// option marked Option::written anywhere. Message thread.
 std::string writtenWordFault(std::string_view call);
 
 /// Empty, or an error if the parsed call of a file reads through a link that leads out of the file's folder
-/// (see linkFault). M.
+/// (see linkFault). Message thread.
 std::string linkOfCallFault(const OptionTable& app, const std::string& folder);
 
 } // namespace physvib

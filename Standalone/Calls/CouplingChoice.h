@@ -14,7 +14,8 @@ struct CouplingChoice {
     std::string note;      ///< residual error and cost, in one line
 };
 
-/// Loads the coupling at `path`. One error line if it is not for the number of actuators in `layout`. M only.
+/// Loads the coupling at `path`. One error line if it is not for the number of actuators in `layout`. Message
+/// thread only.
 Result<CouplingChoice> chooseCoupling(const std::string& path, const LayoutDescription& layout);
 
 } // namespace physvib

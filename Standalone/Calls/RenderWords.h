@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-/// --law, from the table of panning laws. M only, as all here.
+/// --law, from the table of panning laws. Message thread only, as all here.
 Option& addLaw(OptionTable& command, PanningLaw& law);
 
 /// --sound HZ=FILE.wav, repeatable; `says` is its help text.

@@ -10,7 +10,7 @@ namespace physvib {
 /// Writes an animated WebP of the last `seconds` of the session, with all its scene runs and impacts in order
 /// and the output of the actuators of `layout`. The file appears complete or not at all. `progress` gets
 /// shares of 0 to 1 and cancels by returning false. Returns an empty string or one error line, "cancelled" if
-/// so. Any thread but R.
+/// so. Any thread but the render thread.
 std::string writeSessionMovie(const SavedSession& session, const LayoutDescription& layout, double seconds,
                               const std::string& path, const std::function<bool(double)>& progress);
 

@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// Available devices in the system's order. M; queries the system.
+/// Available devices in the system's order. Message thread; queries the system.
 inline std::vector<AudioDeviceName> devicesOfThisMachine() {
     const juce::ScopedJuceInitialiser_GUI juce;
     return listAudioDevices();

@@ -7,7 +7,7 @@
 namespace physvib {
 
 /// A script for that shell, to be installed under the program's name. Values without a list complete to
-/// files. M.
+/// files. Message thread.
 std::string bashCompletion(const OptionTable& program);
 std::string zshCompletion(const OptionTable& program);
 std::string fishCompletion(const OptionTable& program);

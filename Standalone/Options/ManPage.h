@@ -7,10 +7,10 @@
 namespace physvib {
 
 /// A manual page in roff, with the options of the command and its subcommands. `pages` are listed at the end.
-/// M.
+/// Message thread.
 std::string manPage(const OptionTable& command, const std::vector<std::string>& pages);
 
-/// "physvib render" as "physvib-render", the name of its page. M.
+/// "physvib render" as "physvib-render", the name of its page. Message thread.
 std::string pageName(const OptionTable& command);
 
 } // namespace physvib

@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-/// Markdown with a table of options for each command of a program. M.
+/// Markdown with a table of options for each command of a program. Message thread.
 std::string markdownPage(const OptionTable& program);
 
 } // namespace physvib

@@ -28,7 +28,7 @@ using OptionTarget =
                  std::vector<std::string>*, std::optional<int>*, std::optional<double>*,
                  std::optional<std::string>*, std::function<void(int)>, WordReader, WordsReader>;
 
-/// One option. Setters return the option for chaining. M only.
+/// One option. Setters return the option for chaining. Message thread only.
 struct Option {
     std::vector<std::string> spellings; ///< "-h", "--help"; the name of a positional argument
     OptionTarget target;
@@ -78,7 +78,7 @@ private:
     Option& inRange(double least, double most, std::string words);
 };
 
-/// Options of a program or command, and its subcommands. Entries have stable addresses. M only.
+/// Options of a program or command, and its subcommands. Entries have stable addresses. Message thread only.
 class OptionTable {
 public:
     OptionTable(std::string words, std::string meaning);
@@ -122,7 +122,7 @@ public:
     bool isCalled(std::string_view name) const { return called() != nullptr && called()->name() == name; }
     std::string name() const { return words.substr(words.rfind(' ') + 1); }
 
-    std::string words;   ///< "physvib analyse anova"
+    std::string words;   ///< its words in a call: "physvib analyse anova"
     std::string meaning; ///< one line
     std::string usage;   ///< own usage text; empty: generated from the options
     std::string version; ///< see addVersion
@@ -132,7 +132,7 @@ public:
     std::vector<const OptionTable*> calls; ///< after parsing: called entries of `commands`
 };
 
-/// Adds options from the usage text of a program without a parser. M.
+/// Adds options from the usage text of a program without a parser. Message thread.
 void addUsage(OptionTable& program, std::string_view usage);
 
 } // namespace physvib

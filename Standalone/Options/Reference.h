@@ -11,7 +11,8 @@ namespace physvib {
 /// it.
 inline constexpr const char* referenceWord = "--reference";
 
-/// Writes man1/, md/ (Docs/commands.md), bash/, zsh/ and fish/ into the folder. Empty, or one error line. M.
+/// Writes man1/, md/ (Docs/commands.md), bash/, zsh/ and fish/ into the folder. Empty, or one error line.
+/// Message thread.
 std::string writeReference(const OptionTable& program, const std::filesystem::path& folder);
 
 } // namespace physvib

@@ -28,20 +28,20 @@ struct FeltWorld {
 };
 
 /// A built-in protocol, or the one of a file (see findProtocol) whose calls write no files; or one error
-/// line. M.
+/// line. Message thread.
 Result<Protocol> protocolNamed(const std::string& nameOrPath);
 
 /// Checks layouts, names and calls, which reading the protocol cannot check. Empty, or one line that starts
-/// with `name`. M.
+/// with `name`. Message thread.
 std::string protocolFault(const Protocol& protocol, const std::string& name);
 
 /// The stimulus, or one error line. Files are searched in `folder` first, if it is not empty. Like `physvib
 /// stimulus`, it rejects stimuli that are too strong for the layout at `sampleRateHz`. It also rejects
-/// phantoms with recordings, which are samples and not events. M only.
+/// phantoms with recordings, which are samples and not events. Message thread only.
 Result<FeltStimulus> feltStimulus(const TrialJob& job, int sampleRateHz, const std::string& folder = {});
 
-/// The world of `render SCENE ...`, as `physvib play` plays it, with files as above; or one error line. M
-/// only.
+/// The world of `render SCENE ...`, as `physvib play` plays it, with files as above; or one error line.
+/// Message thread only.
 Result<FeltWorld> feltWorld(const WrittenCall& call, const std::string& folder = {});
 
 } // namespace physvib

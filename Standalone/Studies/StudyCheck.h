@@ -25,7 +25,7 @@ struct CheckedStimulus {
     std::string error;              ///< why it cannot be played, in one line
 };
 
-/// Results of a check. M only.
+/// Results of a check. Message thread only.
 struct StudyCheck {
     std::vector<CheckedStimulus> stimuli;
     std::vector<std::string> errors;     ///< the study may not be run
@@ -41,12 +41,12 @@ std::string textOf(const StudyCheck& check, const Protocol& protocol);
 /// The check as a self-contained HTML page. Any thread (allocates).
 std::string htmlOf(const StudyCheck& check, const Protocol& protocol);
 
-/// Renders every stimulus once. M only.
+/// Renders every stimulus once. Message thread only.
 StudyCheck checkStudy(const Protocol& protocol, int participants);
 
 /// The first stimulus that needs the limiter or exceeds its layout at its maximum level, and the full scale
 /// it would need; empty if there is none. Interactive worlds are skipped, because their levels depend on the
-/// participant. M only.
+/// participant. Message thread only.
 std::string limiterFault(const Protocol& protocol);
 
 } // namespace physvib

@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-/// Any thread but R.
+/// Any thread but the render thread.
 class OutputWriter {
 public:
     static constexpr std::size_t mostBytes = 1 << 18;         ///< maximum of queued bytes per stream

@@ -13,20 +13,21 @@
 namespace physvib {
 
 /// To be called first. Opens closed standard descriptors, lets fatal signals remove incomplete files, and
-/// turns the file-size signal into a write error. M.
+/// turns the file-size signal into a write error. Message thread.
 void beginProcess();
 
 enum class Standard { output, error };
 
 /// Writes some of `bytes` and returns their number; 0 if the stream has no room now; nullopt if writing
-/// failed, with the reason in `errno`. On Windows it may wait for the reader. One thread, not R.
+/// failed, with the reason in `errno`. On Windows it may wait for the reader. One thread, not the render
+/// thread.
 std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept;
 
-/// To be called last: empty if all standard output was written, or one line with the reason. M.
+/// To be called last: empty if all standard output was written, or one line with the reason. Message thread.
 std::string outputFault();
 
 /// Ends the program at once with that exit code. Flushes output but runs no destructors of static objects,
-/// because a thread abandoned in a device driver may still use them. M.
+/// because a thread abandoned in a device driver may still use them. Message thread.
 [[noreturn]] void endAtOnce(int exitCode);
 
 /// Removes incomplete files and ends the program as that signal does. For signal handlers.
@@ -36,30 +37,32 @@ enum class KeepIgnored {
     all,
     hangUp
 }; ///< which ignored signals stay ignored: all, or only SIGHUP, as `nohup` needs
-/// Calls `handler` on signals that ask the program to end (Ctrl-C, `kill`, a closed terminal). M.
+/// Calls `handler` on signals that ask the program to end (Ctrl-C, `kill`, a closed terminal). Message
+/// thread.
 void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept;
 
-/// Keeps the program running when the reader of standard output closes. M.
+/// Keeps the program running when the reader of standard output closes. Message thread.
 void ignoreLostReader() noexcept;
 
-/// True if standard error is a terminal, so that progress text can be overwritten. Any thread but R.
+/// True if standard error is a terminal, so that progress text can be overwritten. Any thread but the render
+/// thread.
 bool isErrorTerminal() noexcept;
 
 /// Reads standard input, waiting up to `milliseconds`: number of bytes, 0 at the end, nullopt if none came.
-/// One thread, not R.
+/// One thread, not the render thread.
 std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept;
 
-/// Process id. Any thread but R.
+/// Process id. Any thread but the render thread.
 int processNumber() noexcept;
 
 /// Runs a program with our standard streams until it ends: true if it exited with 0, or why it could not
-/// start. M.
+/// start. Message thread.
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments);
 
-/// True if a window can be opened. Any thread but R.
+/// True if a window can be opened. Any thread but the render thread.
 bool hasDisplay() noexcept;
 
-/// Path of another program of PhysVib: beside this one, else by the system's search path. M.
+/// Path of another program of PhysVib: beside this one, else by the system's search path. Message thread.
 std::string ownProgram(const std::string& name);
 
 } // namespace physvib

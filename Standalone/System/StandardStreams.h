@@ -9,16 +9,16 @@
 namespace physvib {
 
 /// Redirects std::cout and std::cerr, by complete lines, to an OutputWriter. Text without a newline needs a
-/// flush. M.
+/// flush. Message thread.
 void sayWithoutWaiting();
 
-/// Number of lines dropped since sayWithoutWaiting(). Any thread but R.
+/// Number of lines dropped since sayWithoutWaiting(). Any thread but the render thread.
 std::uint64_t droppedLines(Standard standard);
 
-/// OutputWriter::finish() of standard output; nullopt if sayWithoutWaiting() was not called. M.
+/// OutputWriter::finish() of standard output; nullopt if sayWithoutWaiting() was not called. Message thread.
 std::optional<std::string> finishOutput();
 
-/// Ends the redirection, after writing the remaining lines of standard error. M.
+/// Ends the redirection, after writing the remaining lines of standard error. Message thread.
 void endOutput();
 
 } // namespace physvib

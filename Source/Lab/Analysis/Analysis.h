@@ -19,8 +19,8 @@ namespace physvib {
 /// Input files, options and output files; each analysis uses some of them.
 struct AnalysisJob : StudySources {
     int tolerance = 0;                                 ///< confusion: grid steps that still count as correct
-    double thresholdPercent = defaultPercentThreshold; ///< resolution, percent-counts
-    std::size_t meanings = 8;                          ///< icons
+    double thresholdPercent = defaultPercentThreshold; ///< resolution, percent-counts: threshold of a cell
+    std::size_t meanings = 8;                          ///< icons: number of meanings
     std::string picturePath, exportPath, countsPath;   ///< output files; empty: none
     std::string participantsPath; ///< confusion: output file with one row per participant
     // Tests over participants:
@@ -50,7 +50,7 @@ struct AnalysisReport {
 /// Names of the analyses that fit a table: for a trial file by its tasks, else by its columns. Any thread.
 std::vector<std::string> analysesFor(const CsvTable& table);
 
-/// Runs the analysis with that name, one of allAnalyses(). M only.
+/// Runs the analysis with that name, one of allAnalyses(). Message thread only.
 AnalysisReport analyse(const std::string& name, const AnalysisJob& options);
 
 /// Entry of the list of all analyses.

@@ -90,8 +90,8 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
 
 std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                           const std::string& levelWords) {
-    std::map<std::string, std::map<double, std::vector<double>>> people; // by participant and level: log10 of
-                                                                         // magnitudes
+    // by participant and level: log10 of magnitudes
+    std::map<std::string, std::map<double, std::vector<double>>> people;
     for (const LevelAnswer& trial : trials)
         if (trial.answer > 0.0 && trial.level > 0.0)
             people[trial.participant][trial.level].push_back(std::log10(trial.answer));

@@ -17,7 +17,7 @@ constexpr int couplingFormatVersion = 1;
 /// are errors. Any thread.
 Result<MeasuredCoupling> readCoupling(std::string_view text, std::string_view name);
 
-/// Reads a file with readCoupling(). M only.
+/// Reads a file with readCoupling(). Message thread only.
 Result<MeasuredCoupling> loadCoupling(const std::filesystem::path& path);
 
 /// `coupling` as JSON; readCoupling() restores it except for the last bits of its phases. Any thread.

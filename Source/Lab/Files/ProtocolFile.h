@@ -18,7 +18,7 @@ constexpr int protocolFormatVersion = 1;
 /// Any thread.
 Result<Protocol> readProtocol(std::string_view text, std::string_view name);
 
-/// Reads a file with readProtocol(). M only.
+/// Reads a file with readProtocol(). Message thread only.
 Result<Protocol> loadProtocol(const std::filesystem::path& path);
 
 /// `protocol` as JSON; readProtocol() restores it to the bit. Any thread.
@@ -37,15 +37,16 @@ const std::vector<Protocol>& knownProtocols();
 /// changed. Any thread (allocates).
 std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol);
 
-/// Resolves a path in a protocol: the file in the protocol's folder if it exists, else the path itself. M
-/// only.
+/// Resolves a path in a protocol: the file in the protocol's folder if it exists, else the path itself.
+/// Message thread only.
 std::string besideProtocol(const std::string& folder, const std::string& path);
 
-/// Empty, or an error if the file found by besideProtocol() is behind a link that leads out of the folder. M
-/// only.
+/// Empty, or an error if the file found by besideProtocol() is behind a link that leads out of the folder.
+/// Message thread only.
 std::string linkFault(const std::string& folder, const std::string& path);
 
-/// One of knownProtocols() by name, else the protocol of a file, whose folder becomes `folder`. M only.
+/// One of knownProtocols() by name, else the protocol of a file, whose folder becomes `folder`. Message
+/// thread only.
 Result<Protocol> findProtocol(const std::string& nameOrPath);
 
 } // namespace physvib

@@ -41,7 +41,7 @@ struct TrialLog {
 Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol,
                               const Participant& participant);
 
-/// An open trial file to which rows are appended. M only.
+/// An open trial file to which rows are appended. Message thread only.
 class TrialLogFile {
 public:
     /// Opens the file, or creates it with its header. Removes an incomplete last row. Locks the file, so that

@@ -33,7 +33,7 @@ Result<Words> readWords(std::string_view text, std::string_view name);
 /// Built-in translations, without English. Created on first use; any thread.
 const std::vector<Words>& builtInWords();
 
-/// A built-in translation by name ("en": English), else the one of a file. M only.
+/// A built-in translation by name ("en": English), else the one of a file. Message thread only.
 Result<Words> findWords(const std::string& nameOrPath);
 
 } // namespace physvib

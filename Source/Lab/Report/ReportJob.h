@@ -23,7 +23,7 @@ struct ReportJob {
 };
 
 /// The report's files in memory, or an error line. `protocol`: given by the user; without it, a built-in one
-/// is looked up. M only.
+/// is looked up. Message thread only.
 Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol,
                                const CallCheck& callFault);
 

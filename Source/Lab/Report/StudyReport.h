@@ -16,7 +16,7 @@ struct StudyReport {
     bool isSimulated = false;                 ///< trials are of a simulated observer
 };
 
-/// Equal trials give identical bytes. M only.
+/// Equal trials give identical bytes. Message thread only.
 StudyReport studyReport(const ReportTrials& trials);
 
 } // namespace physvib

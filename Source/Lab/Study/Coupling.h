@@ -37,7 +37,7 @@ constexpr double mostExtraDriveDb = 3.0;
 /// The matrix D of drives D a, so that C D a approximates the wanted amplitudes a. It minimises |C d - a|^2 +
 /// lambda |d|^2 for every a (Tikhonov). D is linear, so drives of simultaneous vibrations add up. Lambda is
 /// the smallest value at which the strongest drive is at most `mostDecibels` above the strongest wanted
-/// amplitude, for any panning gains >= 0. M only.
+/// amplitude, for any panning gains >= 0. Message thread only.
 CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDecibels = mostExtraDriveDb);
 
 /// The strongest drive for gains from 0 to 1, to four digits and rounded up.
@@ -58,7 +58,7 @@ struct MeasuredCoupling {
 };
 
 /// Compensation drives for each measured frequency; owns the data that Core/Actuators/DriveMatrices.h refers
-/// to. Drives between two frequencies are interpolated, so they keep the limit too. M only.
+/// to. Drives between two frequencies are interpolated, so they keep the limit too. Message thread only.
 class CouplingDrives {
 public:
     CouplingDrives() = default;

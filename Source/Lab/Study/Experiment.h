@@ -42,7 +42,7 @@ private:
     std::vector<Part> parts_;
 };
 
-/// M only. `protocol` is valid and outlives the experiment.
+/// Message thread only. `protocol` is valid and outlives the experiment.
 class Experiment {
 public:
     /// `explorersEnd`: the participant ends an exploration by endSession(). Otherwise it ends as soon as it

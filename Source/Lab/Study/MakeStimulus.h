@@ -11,7 +11,7 @@ namespace physvib {
 /// Empty, or one line naming the actuator of the job that the layout lacks. Any thread (allocates).
 std::string layoutFault(const StimulusJob& job, const LayoutDescription& layout);
 
-/// Events of a valid job without a recording, on its layout; or an error in one line. M only.
+/// Events of a valid job without a recording, on its layout; or an error in one line. Message thread only.
 Result<Stimulus> makeStimulus(const StimulusJob& job, const LayoutDescription& layout);
 
 } // namespace physvib

@@ -26,7 +26,7 @@ struct PhantomGrid {
         return {nearestLine(place.y, rows), nearestLine(place.x, columns)};
     }
 
-    /// All cells, row by row. M only (allocates).
+    /// All cells, row by row. Message thread only (allocates).
     std::vector<GridCell> cells() const {
         std::vector<GridCell> all;
         for (int row = 1; row <= rows; ++row)

@@ -41,7 +41,7 @@ inline constexpr std::string_view observerNames =
 std::optional<ObserverSettings> observerNamed(std::string_view name);
 
 /// Answers depend only on the seed, the participant and the trial, so an interrupted study resumes with the
-/// same answers. M only.
+/// same answers. Message thread only.
 class SimulatedObserver {
 public:
     /// `protocol` outlives the observer.

@@ -53,7 +53,7 @@ int trialsOf(const SessionPlan& session, std::size_t stimuli) {
 struct PlannedSession {
     std::size_t session = 0, condition = 0;
     int trials = 0;
-    std::vector<PlannedTrials> felt; ///< every part of every stimulus
+    std::vector<PlannedTrials> felt; ///< every part of every stimulus, with its number of plays
 };
 
 /// In protocol order, as for one participant.

@@ -36,7 +36,7 @@ std::vector<PlannedTrials> plannedTrials(const Protocol& protocol);
 struct PlannedTime {
     int trials = 0;       ///< over all conditions; the maximum where levels follow the answers
     double seconds = 0.0; ///< including breaks, one play of each part, and answerSeconds per answer
-    double longestStretchSeconds = 0.0; ///< without a break
+    double longestStretchSeconds = 0.0; ///< without a break in between
     static constexpr double answerSeconds = 5.0;
 };
 

@@ -27,7 +27,7 @@ bool isStudyCode(const std::string& code) noexcept;
 /// Empty, or one line on what is invalid, before any trial or file. Any thread (allocates).
 std::string faultOf(const StudyRun& run);
 
-/// A run from its first unanswered trial to its last. M only.
+/// A run from its first unanswered trial to its last. Message thread only.
 class StudyInProgress {
 public:
     /// Opens or creates the trial file and replays its answers; error() reports failures.

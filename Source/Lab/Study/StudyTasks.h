@@ -32,7 +32,7 @@ struct TaskText {
     std::string_view usual, onGrid{}, ofPatterns{};
 };
 
-/// One task.
+/// An entry of the table.
 struct StudyTaskDescription {
     StudyTask task;        ///< its number is its index in the table
     std::string_view name; ///< in protocols and trial files; never changes
@@ -42,7 +42,7 @@ struct StudyTaskDescription {
     TaskText instruction; ///< course of a session, after the line on how often a stimulus may be played
 };
 
-/// All of them.
+/// The table of all tasks.
 inline constexpr std::array studyTasks{
     StudyTaskDescription{StudyTask::explore,
                          "explore",

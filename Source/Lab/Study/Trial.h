@@ -25,7 +25,7 @@ struct Trial {
     std::string stimulus;           ///< label; empty while exploring
     std::vector<std::string> parts; ///< parts played separately: alternatives in the order of their buttons,
                                     ///< or objects
-    std::vector<double> partLevelsDb; ///< of alternatives
+    std::vector<double> partLevelsDb; ///< levels of the alternatives
     double levelDb = 0.0;             ///< of the alternative that is moved, or was matched before; else 0
     double restSeconds = 0.0;         ///< break before it
 };
@@ -85,11 +85,12 @@ std::string withSounds(const Protocol& protocol, std::string call);
 /// The job that creates one part of a trial.
 using TrialJob = std::variant<StimulusJob, WrittenCall>;
 
-/// One job per part, or one for a trial without parts. For an unanswered trial, pass the current answer. M
-/// only (allocates).
+/// One job per part, or one for a trial without parts. For an unanswered trial, pass the current answer.
+/// Message thread only (allocates).
 std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record);
 
-/// Texts of the jobs, joined by " ; "; for interactive worlds, the saved sessions. M only (allocates).
+/// Texts of the jobs, joined by " ; "; for interactive worlds, the saved sessions. Message thread only
+/// (allocates).
 std::string callsOf(const Protocol& protocol, const TrialRecord& record);
 
 } // namespace physvib

@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class RecordingList {
 public:
     static constexpr const char* fileName = "conditions.csv";

@@ -12,11 +12,11 @@ namespace physvib {
 inline constexpr const char* dualSenseDeviceName = "dualsense";
 
 /// "type:name" of the first one with four outputs; or one line if there is none, or if its system profile
-/// hides two outputs. M.
+/// hides two outputs. Message thread.
 Result<std::string> dualSenseDevice(const std::vector<AudioDeviceName>& devices);
 
 /// Sends the report that switches the coils to audio; empty, or one error line. Coils are in audio mode from
-/// connection until the first rumble command. M; waits at most half a second for the controller.
+/// connection until the first rumble command. Message thread; waits at most half a second for the controller.
 std::string giveCoilsToSound();
 
 } // namespace physvib

@@ -19,7 +19,7 @@ namespace physvib {
 /// were processed and their events played, the output is silenced permanently.
 class InputListener {
 public:
-    /// All references outlive the listener. M.
+    /// All references outlive the listener. Message thread.
     InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips,
                   bool keepsPlaying);
     ~InputListener();
@@ -56,7 +56,7 @@ private:
     std::thread thread_, reader_;
 };
 
-/// Applies an input or control from that source. Empty, or an error. Any thread but R.
+/// Applies an input or control from that source. Empty, or an error. Any thread but the render thread.
 std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from);
 
 } // namespace physvib

@@ -37,8 +37,8 @@ private:
         isTooLong_ = isTooLong_ || line_.size() > longest;
         if (!isTooLong_) return;
         namesSilence_ = namesSilence_ || namesSilence(line_);
-        line_.erase(0, line_.size() - std::min(line_.size(), word.size() - 1)); // keeps the end, which may be
-                                                                                // the first part of the word
+        // keeps the end, which may be the first part of the word
+        line_.erase(0, line_.size() - std::min(line_.size(), word.size() - 1));
     }
     template <class Take>
     void hand(Take&& take) {

@@ -20,7 +20,7 @@ public:
     /// longest gap and two steps together: the detector's delay, and the thread's maximum delay.
     static constexpr double knownAfterSeconds = BeatDetector::mostDelaySeconds + 0.010;
 
-    /// Both references outlive this object. M.
+    /// Both references outlive this object. Message thread.
     LiveBeats(Session& session, InputTap& inputs, const BeatVoices& voices, double sensitivity);
     ~LiveBeats();
 

@@ -24,7 +24,7 @@ struct LivePlay {
     std::optional<LoadedClip> sound{}; ///< a clip that is played once at the start
 };
 
-/// Empty, or one error line. M.
+/// Empty, or one error line. Message thread.
 std::string playLive(LivePlay wanted);
 
 } // namespace physvib

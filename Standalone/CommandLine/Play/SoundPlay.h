@@ -14,13 +14,13 @@ namespace physvib {
 bool namesSound(std::string_view file);
 
 /// Reads the sound file given as scene. Sets a scene without bodies in `job`; sets the file's duration and a
-/// layout with one actuator per channel in `options`, unless given. Or one error line. M.
+/// layout with one actuator per channel in `options`, unless given. Or one error line. Message thread.
 Result<LoadedClip> takeSound(RenderJob& options, LoadedRender& job);
 
 /// Empty, or an error if the layout has fewer actuators than channels.
 std::string soundFault(const LoadedClip& sound, const LoadedRender& job);
 
-/// Starts the sound and sets the duration of `wanted` to its end. Empty, or one error line. M.
+/// Starts the sound and sets the duration of `wanted` to its end. Empty, or one error line. Message thread.
 std::string beginSound(LivePlay& wanted, const Session& session, MessageRouter& messages);
 
 } // namespace physvib

@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// Redirects std::cerr of this process during its lifetime. M only, one at a time.
+/// Redirects std::cerr of this process during its lifetime. Message thread only, one at a time.
 class HeardWords {
 public:
     HeardWords()

@@ -20,7 +20,7 @@ struct SweepFeature {
     std::optional<double> value; ///< nullopt if it cannot be measured
 };
 
-/// M only.
+/// Message thread only.
 class SweepFeatures : public RenderListener {
 public:
     /// Names of the features of a layout with that number of channels, in order.

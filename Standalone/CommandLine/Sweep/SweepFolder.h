@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// Several programs on several machines may use one folder at the same time. M only.
+/// Several programs on several machines may use one folder at the same time. Message thread only.
 class SweepFolder {
 public:
     SweepFolder(std::filesystem::path folder, bool keepsWavs, bool keepsEvents)

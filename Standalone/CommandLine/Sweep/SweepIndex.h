@@ -13,10 +13,10 @@ struct SweepGap {
     std::string first; ///< the call of the first one
 };
 
-/// The tasks of `plan` that `folder` lacks. M only.
+/// The tasks of `plan` that `folder` lacks. Message thread only.
 SweepGap findGap(const SweepPlan& plan, const SweepFolder& folder);
 
-/// Writes the index of a complete sweep; empty, or one error line. M only.
+/// Writes the index of a complete sweep; empty, or one error line. Message thread only.
 std::string writeIndex(const SweepPlan& plan, const SweepFolder& folder);
 
 } // namespace physvib

@@ -20,13 +20,13 @@ struct PlannedTask {
     std::string hash;  ///< of program version, call, and contents of these files
 };
 
-/// Checked options of a call "render ..."; or one error line. M only.
+/// Checked options of a call "render ..."; or one error line. Message thread only.
 Result<RenderJob> renderOptionsOf(const std::string& call);
 
 class SweepPlan {
 public:
-    /// Checks every word of the design once without rendering, and reads every file; or one error line. M
-    /// only.
+    /// Checks every word of the design once without rendering, and reads every file; or one error line.
+    /// Message thread only.
     static Result<SweepPlan> of(SweepDesign design, const std::string& name);
 
     const SweepDesign& design() const noexcept { return design_; }
@@ -36,7 +36,7 @@ public:
     /// Task `index`, from 0; created at each call. Any thread.
     PlannedTask at(std::uint64_t index) const;
 
-    /// True if the input files of a task are unchanged. M only.
+    /// True if the input files of a task are unchanged. Message thread only.
     bool isUnchanged(const PlannedTask& task) const;
 
 private:

@@ -18,7 +18,7 @@ struct SweepTally {
 };
 
 /// Renders the tasks that `folder` lacks, one after another, and waits for those that other processes are
-/// rendering. M only.
+/// rendering. Message thread only.
 SweepTally runSweepTasks(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& part);
 
 } // namespace physvib

@@ -19,13 +19,13 @@ struct SlurmSweep {
 /// Number of jobs: one per hundred tasks, within Slurm's usual limit. Any thread.
 std::uint64_t slurmJobs(std::uint64_t tasks) noexcept;
 
-/// The script for sbatch. Precondition: fitsSlurm() for its paths. M only.
+/// The script for sbatch. Precondition: fitsSlurm() for its paths. Message thread only.
 std::string slurmScript(const SlurmSweep& sweep);
 
 /// True if a path can be used in the script. Any thread.
 bool fitsSlurm(const std::string& path) noexcept;
 
-/// Submits the script with sbatch; empty, or one error line. Prints sbatch's output. M only.
+/// Submits the script with sbatch; empty, or one error line. Prints sbatch's output. Message thread only.
 std::string submitToSlurm(const std::filesystem::path& script);
 
 } // namespace physvib

@@ -12,10 +12,10 @@
 
 namespace physvib {
 
-/// True if the dragged files may be dropped as clips; the window handles documents. M.
+/// True if the dragged files may be dropped as clips; the window handles documents. Message thread.
 bool isClipDrag(const juce::StringArray& files);
 
-/// M only.
+/// Message thread only.
 class DeskClips final : private juce::AsyncUpdater {
 public:
     /// All references outlive it. `told` is called on the message thread for each clip: with a note or an

@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskDevice {
 public:
     /// Both references outlive it. `onChange` as for DeskListening.

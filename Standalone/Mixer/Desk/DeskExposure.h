@@ -7,8 +7,8 @@
 
 namespace physvib {
 
-/// Actuators are treated like the axes in ISO 5349-1, as if all were in one hand: their squares add up. M
-/// only.
+/// Actuators are treated like the axes in ISO 5349-1, as if all were in one hand: their squares add up.
+/// Message thread only.
 class DeskExposure {
 public:
     explicit DeskExposure(AudioOutput& output)

@@ -10,7 +10,7 @@ namespace physvib {
 
 class Desk;
 
-/// M only.
+/// Message thread only.
 class DeskInputs {
 public:
     /// `desk` outlives it.

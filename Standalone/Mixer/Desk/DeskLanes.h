@@ -9,7 +9,7 @@ namespace physvib {
 
 class Desk;
 
-/// M only.
+/// Message thread only.
 class DeskLanes {
 public:
     /// `desk` outlives it.
@@ -23,7 +23,7 @@ private:
         double startDb = 0.0, nowDb = 0.0;
         GainLane moves{}; ///< its values, in dB
     };
-    std::vector<double> faders() const; ///< of all strips, then of all groups
+    std::vector<double> faders() const; ///< values of all strips, then of all groups
     double sceneSeconds() const;
     void begin();
     void follow();

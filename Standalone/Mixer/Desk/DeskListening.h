@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskListening {
 public:
     /// All references outlive it. Requested settings are stored in `choice`, and `onChange` is called when

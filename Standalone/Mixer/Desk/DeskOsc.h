@@ -24,7 +24,7 @@ struct OscChoice {
 };
 
 /// Receives and sends while it exists. Events go to the session at once; changes of strips and world are
-/// applied by the mixer itself. M only.
+/// applied by the mixer itself. Message thread only.
 class DeskOsc final : private juce::AsyncUpdater, private juce::Timer {
 public:
     static constexpr int tellMilliseconds = 10;

@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// One recording at a time. M only.
+/// One recording at a time. Message thread only.
 class DeskRecording {
 public:
     /// All references outlive it. `onChange` is called when a recording starts, stops and is complete.

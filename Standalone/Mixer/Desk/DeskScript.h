@@ -11,7 +11,7 @@ namespace physvib {
 
 class Desk;
 
-/// M only.
+/// Message thread only.
 class DeskScript {
 public:
     /// `desk` outlives it.

@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskSignals {
 public:
     SignalTap& tap() noexcept { return tap_; } ///< filled by the output

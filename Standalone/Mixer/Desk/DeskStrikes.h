@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskStrikes {
 public:
     /// All references outlive it. `onStrike` is called for each event; `onClip` when a clip was read (as for

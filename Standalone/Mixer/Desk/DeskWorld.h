@@ -13,7 +13,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskWorld {
 public:
     /// All references outlive it. `onInput` is called after each input to the world, with whether it changes

@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class ToldMix {
 public:
     /// Initial state: the session was created with `panner` and default strips.

@@ -25,8 +25,8 @@ struct RecordedHit {
     double amplitude = 0.0; ///< of the fitted mode at the onset, in units of the course
 };
 
-/// Measures the strongest impact of a file, on any thread but R; or one line with the file's name. Takes up
-/// to two seconds.
+/// Measures the strongest impact of a file, on any thread but the render thread; or one line with the file's
+/// name. Takes up to two seconds.
 Result<RecordedHit> measureHit(const std::filesystem::path& path);
 
 /// sin(2 pi f t) exp(-tau t) until a decay of 60 dB, at most one second.

@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// M.
+/// Message thread.
 class TextureRow final : public juce::Component {
 public:
     TextureRow();

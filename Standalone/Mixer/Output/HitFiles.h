@@ -26,12 +26,13 @@ struct WrittenHits {
 };
 
 /// Writes the impacts (in any order) from the first one on, panned over the actuators by the law of `mix`, in
-/// the format of the extension of `path`; or one error line. Several files never replace existing ones. M
-/// only.
+/// the format of the extension of `path`; or one error line. Several files never replace existing ones.
+/// Message thread only.
 Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
                               const juce::File& path);
 
-/// Files dragged to other programs. Some of these copy them late, so they exist until the mixer ends. M only.
+/// Files dragged to other programs. Some of these copy them late, so they exist until the mixer ends. Message
+/// thread only.
 class DraggedFiles {
 public:
     ~DraggedFiles() { folder_.deleteRecursively(); }

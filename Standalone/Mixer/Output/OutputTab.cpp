@@ -12,8 +12,8 @@ constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevels{0, -5, -10, -15, -20, -25, -30, -40, -50};
 constexpr int noneId = 1, levelId = 100; // item ids of the lists of outputs and levels: 1 + output or pair;
                                          // 100 - level in dB
-constexpr int noSinkId = 1, anySinkId = 2, otherSinkId = 3, firstSinkId = 4; // item ids of the list for a
-                                                                             // kind of sink
+// item ids of the list for a kind of sink
+constexpr int noSinkId = 1, anySinkId = 2, otherSinkId = 3, firstSinkId = 4;
 
 struct Cell {
     juce::Label& name;

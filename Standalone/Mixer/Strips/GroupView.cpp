@@ -37,9 +37,8 @@ GroupView::GroupView(Desk& desk, int group)
     remove_ = quietButton("Ungroup", "Ungroup " + label);
     remove_->setTooltip("The strips take over what the group does to them");
     remove_->onClick = [this] {
-        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<GroupView>{this}] { // it is
-                                                                                                 // deleted
-                                                                                                 // too
+        // deferred, because this view is deleted with the group
+        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<GroupView>{this}] {
             if (safe != nullptr) safe->remove();
         });
     };

@@ -31,7 +31,7 @@ private:
     std::unique_ptr<juce::TextButton> remove_;
 };
 
-/// Menu of groups for a strip, including a new one. M.
+/// Menu of groups for a strip, including a new one. Message thread.
 void showGroupMenu(Desk& desk, std::size_t strip, juce::Component& from);
 
 } // namespace physvib

@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class ScopeTrace {
 public:
     static constexpr int columns = 800;

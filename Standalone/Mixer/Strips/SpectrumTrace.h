@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class SpectrumTrace {
 public:
     /// A quarter of a second, which gives a resolution of 8 Hz.

@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// When the columns are full, their duration doubles. M only.
+/// When the columns are full, their duration doubles. Message thread only.
 class TakeTrace {
 public:
     static constexpr std::size_t columns = 1024;

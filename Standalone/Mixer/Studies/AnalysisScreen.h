@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// Fills its parent. M.
+/// Fills its parent. Message thread.
 class AnalysisScreen final : public juce::Component {
 public:
     AnalysisScreen(Desk& desk, const std::vector<juce::File>& files);

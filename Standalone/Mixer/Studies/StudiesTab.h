@@ -93,7 +93,7 @@ private:
     std::vector<juce::Component::SafePointer<juce::Component>> hidden_; // while the screen covers them
 };
 
-/// Shows the tab with these selections; it displays errors in the protocol. M.
+/// Shows the tab with these selections; it displays errors in the protocol. Message thread.
 void chooseStudy(MixerView& view, const StudyCall& call);
 
 } // namespace physvib

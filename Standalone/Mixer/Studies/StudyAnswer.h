@@ -78,7 +78,7 @@ private:
     std::string response_;
 };
 
-/// Creates the answer component of the current trial. All arguments outlive it. M.
+/// Creates the answer component of the current trial. All arguments outlive it. Message thread.
 std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout,
                                              const StudyWords& words);
 

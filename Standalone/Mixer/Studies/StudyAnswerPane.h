@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class StudyAnswerPane final : public juce::Component {
 public:
     explicit StudyAnswerPane(const StudyWords& words);
@@ -38,7 +38,7 @@ private:
     bool standsAlone_ = false;
 };
 
-/// A window for `pane`, full screen on another display if there is one. The pane outlives it. M.
+/// A window for `pane`, full screen on another display if there is one. The pane outlives it. Message thread.
 std::unique_ptr<juce::Component> makeAnswerWindow(StudyAnswerPane& pane, const juce::Component& beside);
 
 } // namespace physvib

@@ -8,15 +8,15 @@
 
 namespace physvib {
 
-/// True if the typeface (empty: the default) has all the letters. M.
+/// True if the typeface (empty: the default) has all the letters. Message thread.
 bool hasLetters(const juce::String& typeface, const juce::String& letters);
 
 /// A typeface for all texts of a translation: the default if possible, else an installed one; nullopt if
-/// there is none. M.
+/// there is none. Message thread.
 std::optional<juce::String> typefaceFor(const Words& words);
 std::optional<juce::String> typefaceFor(const juce::String& letters); ///< the same for given letters
 
-/// Uses that typeface for all text during its lifetime, then restores the previous one. M.
+/// Uses that typeface for all text during its lifetime, then restores the previous one. Message thread.
 class StudyFont {
 public:
     explicit StudyFont(const juce::String& typeface);

@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// That participant's pictures, or an error line. M.
+/// That participant's pictures, or an error line. Message thread.
 Result<std::vector<MaterialPicture>> materialPictures(const Protocol& protocol,
                                                       const std::string& participant);
 

@@ -8,7 +8,8 @@
 
 namespace physvib {
 
-/// One stream: name "physvib-PROTOCOL", type "Markers", one text channel with irregular rate. M only.
+/// One stream: name "physvib-PROTOCOL", type "Markers", one text channel with irregular rate. Message thread
+/// only.
 class StudyMarkers {
 public:
     explicit StudyMarkers(const std::string& protocol);

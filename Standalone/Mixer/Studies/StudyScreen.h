@@ -119,11 +119,11 @@ private:
     juce::Rectangle<int> headArea_, questionArea_, bodyArea_, keysArea_;
 };
 
-/// Settings of the apparatus now. M.
+/// Settings of the apparatus now. Message thread.
 Apparatus apparatusOf(Desk& desk);
 
 /// Empty, or why the study cannot be played in this mixer, checked with the first stimulus of each condition.
-/// M.
+/// Message thread.
 std::string feltFault(const Protocol& protocol, Desk& desk);
 
 } // namespace physvib

@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// M only. The mixer state must not be edited during its lifetime.
+/// Message thread only. The mixer state must not be edited during its lifetime.
 class StudySound {
 public:
     explicit StudySound(Desk& desk);

@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// The texts of the screens and of a protocol in the participant's language. M.
+/// The texts of the screens and of a protocol in the participant's language. Message thread.
 class StudyWords {
 public:
     explicit StudyWords(Words words = {})

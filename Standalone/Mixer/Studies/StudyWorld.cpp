@@ -91,8 +91,7 @@ WorldMoment StudyWorld::look() {
         if (!desk_.isSilent())
             feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
-    } else if (session_->timeline().nextFeltNs() >= stoppedNs_ + fadeNs) { // the output latency may have
-                                                                           // grown meanwhile
+    } else if (session_->timeline().nextFeltNs() >= stoppedNs_ + fadeNs) { // the latency may have grown
         finish();
     }
     seenNs_ = now;

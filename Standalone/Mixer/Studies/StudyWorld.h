@@ -15,7 +15,7 @@
 namespace physvib {
 
 /// One at a time, and the mixer state must not be edited meanwhile. Strips give polarity, delay and ceiling;
-/// the study sets levels. M only.
+/// the study sets levels. Message thread only.
 class StudyWorld {
 public:
     explicit StudyWorld(Desk& desk)

@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class StudyWorldPane final : public juce::Component {
 public:
     explicit StudyWorldPane(Desk& desk);

@@ -25,17 +25,18 @@ struct SinkOffer {
     SinkPlace place;
 };
 
-/// All available sinks that can be detected. M. Slow, as it queries the system.
+/// All available sinks that can be detected. Message thread. Slow, as it queries the system.
 std::vector<SinkOffer> likelySinks();
 
-/// Choices of audio devices, sinks, and no device, the most likely one first. M. As slow as likelySinks().
+/// Choices of audio devices, sinks, and no device, the most likely one first. Message thread. As slow as
+/// likelySinks().
 std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<SinkOffer>& offers);
 
-/// Reduces the layout to a preset with at most that number of actuators. M.
+/// Reduces the layout to a preset with at most that number of actuators. Message thread.
 void keepTo(int outputs, Mix& mix);
 
 /// Card over the window, usable by keys alone: up, down and Return; then Return (felt), L (louder), N (not
-/// felt). M only.
+/// felt). Message thread only.
 class FirstStart final : public juce::Component, private juce::Timer {
 public:
     static constexpr int wide = 600, high = 400;

@@ -70,8 +70,8 @@ MixerFiles::MixerFiles(const juce::File& folder)
     , copies_{folder.getFullPathName().toStdString()}
     , settings_{readableSettings(folder.getChildFile("mixer.settings"), fault_), options()} {
     folder_.createDirectory();
-    for (const auto& key : juce::StringArray{settings_.getAllProperties().getAllKeys()}) // JUCE would parse
-                                                                                         // these as XML
+    // JUCE would parse these as XML
+    for (const auto& key : juce::StringArray{settings_.getAllProperties().getAllKeys()})
         if (settings_.getValue(key).trimStart().startsWithChar('<')) settings_.removeValue(key);
     recent_.setMaxNumberOfItems(8);
     recent_.restoreFromString(settings_.getValue("recent"));

@@ -11,7 +11,7 @@ namespace physvib {
 /// $XDG_CONFIG_HOME/physvib, or ~/.config/physvib.
 juce::File mixerFolder();
 
-/// M only.
+/// Message thread only.
 class MixerFiles {
 public:
     explicit MixerFiles(const juce::File& folder = mixerFolder());

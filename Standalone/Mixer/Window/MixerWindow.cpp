@@ -12,8 +12,8 @@
 namespace physvib {
 namespace {
 
-constexpr std::array<const char*, 3> oscUseNames{"off", "this-computer", "any-computer"}; // in the order of
-                                                                                          // OscUse
+// in the order of OscUse
+constexpr std::array<const char*, 3> oscUseNames{"off", "this-computer", "any-computer"};
 
 OscUse oscUseNamed(const juce::String& name) {
     const auto found = std::ranges::find(oscUseNames, name);
@@ -149,7 +149,7 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
     });
 }
 
-// ---- the first start, and what is there instead of what was used
+// ---- the first start, and messages on devices that replace missing ones
 
 void MixerWindow::showFirstStart() { addFirstStart(feltChoices(types_, likelySinks())); }
 
@@ -185,9 +185,8 @@ void MixerWindow::tellInstead() {
 void MixerWindow::nameWindow() {
     const auto name =
         document_ == juce::File{} ? juce::String{"new session"} : document_.getFileNameWithoutExtension();
-    const auto title = name + (isChanged() ? " *" : "") + " - PhysVib mixer"; // ASCII, since JUCE passes
-                                                                              // other characters to X11
-                                                                              // window managers as Latin-1
+    // ASCII, since JUCE passes other characters to X11 window managers as Latin-1
+    const auto title = name + (isChanged() ? " *" : "") + " - PhysVib mixer";
     if (title != getName()) setName(title);
 }
 

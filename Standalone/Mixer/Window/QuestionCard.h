@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class QuestionCard final : public juce::Component {
 public:
     static constexpr int wide = 520, perRow = 3, rowHigh = 34;

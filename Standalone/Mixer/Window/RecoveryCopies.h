@@ -12,7 +12,7 @@
 namespace physvib {
 
 /// The copies in one folder. A copy is removed only when its replacement is on disk or the user discards it.
-/// M only.
+/// Message thread only.
 class RecoveryCopies {
 public:
     explicit RecoveryCopies(const std::filesystem::path& folder);

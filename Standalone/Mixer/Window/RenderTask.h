@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// Shows the progress and reports the result to `done` in one line. M.
+/// Shows the progress and reports the result to `done` in one line. Message thread.
 class RenderTask final : public juce::ThreadWithProgressWindow {
 public:
     /// Runs on its own thread, reports progress from 0 to 1, and stops when that returns false. Empty, or one

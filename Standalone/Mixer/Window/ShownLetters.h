@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// Uses an installed typeface with all displayed letters, if there is one. M only.
+/// Uses an installed typeface with all displayed letters, if there is one. Message thread only.
 class ShownLetters {
 public:
     /// True if the typeface changed, so that everything must be redrawn. Cheap if there is no new letter.

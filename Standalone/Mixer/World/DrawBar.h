@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// Vertical list of tools. M only.
+/// Vertical list of tools. Message thread only.
 class DrawBar final : public juce::Component {
 public:
     explicit DrawBar(DrawPane& pane);
@@ -24,7 +24,8 @@ private:
     juce::TextButton snap_{"#"};
 };
 
-/// Name and colour of each material: a click selects it for drawing, and hovering plays it once. M only.
+/// Name and colour of each material: a click selects it for drawing, and hovering plays it once. Message
+/// thread only.
 class MaterialPalette final : public juce::Component {
 public:
     MaterialPalette(Desk& desk, DrawPane& pane);
@@ -40,7 +41,8 @@ private:
     std::vector<std::unique_ptr<Swatch>> swatches_;
 };
 
-/// Static or moving, haptic source or not, density and restitution of the selected bodies. M only.
+/// Static or moving, haptic source or not, density and restitution of the selected bodies. Message thread
+/// only.
 class BodyPanel final : public juce::Component {
 public:
     BodyPanel(Desk& desk, DrawPane& pane);

@@ -52,7 +52,7 @@ void DrawPane::join() {
                       : tool_ == DrawTool::motor ? JointKind::motor
                       : tool_ == DrawTool::rope  ? JointKind::rope
                                                  : JointKind::slider;
-    const bool isTurnedRound = tool_ == DrawTool::rope; // the first place is on b
+    const bool isTurnedRound = tool_ == DrawTool::rope; // the stroke begins on b
     auto made =
         joined(trial, kind, place(a), place(b), isTurnedRound ? to_ : from, isTurnedRound ? from : to_);
     if (!made) return desk_.report(utf8(made.error));

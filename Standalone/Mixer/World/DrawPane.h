@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DrawPane final : public juce::Component {
 public:
     /// Both arguments outlive it. It is placed over `view`.

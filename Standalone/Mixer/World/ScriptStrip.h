@@ -7,7 +7,7 @@
 namespace physvib {
 
 /// Visible while input is recorded, and while the scene has the recorded script and the hand tool is active.
-/// M only.
+/// Message thread only.
 class ScriptStrip final : public juce::Component {
 public:
     explicit ScriptStrip(Desk& desk);

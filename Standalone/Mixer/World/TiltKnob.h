@@ -5,7 +5,7 @@
 
 namespace physvib {
 
-/// In degrees, clockwise on the screen. M.
+/// In degrees, clockwise on the screen. Message thread.
 class TiltKnob final : public juce::Slider {
 public:
     static constexpr double keyDegrees = 5.0;
