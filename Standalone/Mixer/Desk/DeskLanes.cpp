@@ -19,8 +19,9 @@ void setPoint(GainLane& lane, double seconds, double db) {
 
 double highestDb(const GainLane& lane) { return std::ranges::max(lane, {}, &GainPoint::db).db; }
 
-/// Chooses lane and fader so that their sum equals the old lane with the moved fader. The fader returns to
-/// its start value. If it was silent, or the lane cannot rise that far, it gets a value below its maximum.
+/// Splits the sum of the moved fader and the old lane into a new lane and a fader value. The fader returns to
+/// its start value. If it was silent, it gets the highest value of the move instead. If the lane cannot rise
+/// that far, the fader is raised by the rest.
 void write(const GainLane& moves, double startDb, double& faderDb, GainLane& lane) {
     const double highest = highestDb(moves);
     faderDb = startDb <= leastStripDb ? highest : std::max(startDb, highest - mostStripDb);
