@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two queues of lines, written in the order in which they were queued.
+// Two bounded queues of lines and one thread that writes them in the order in which they were queued.
+// Problem: writing to a full pipe blocks, and playback must not wait for a reader.
+// Steps: say() only queues, or drops and counts. The thread writes the oldest line of a stream that is not
+// blocked. A blocked stream is tried again after `retryTime`, and does not delay the other one.
 #include "System/OutputWriter.h"
 #include <array>
 #include <cerrno>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Aligned rank transform: per effect, subtract the cell means, add the effect's estimate, and rank all
-// values.
+// Aligned rank transform (Wobbrock and others 2011).
+// Steps for each effect: 1. Subtract the cell means from the values. 2. Add the effect's estimate, an
+// alternating sum of the means over its parts. 3. Rank all values. 4. Analyse the ranks, and keep only the
+// line of this effect.
 #include "Lab/Statistics/DesignEffects.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Statistics/Ranks.h"

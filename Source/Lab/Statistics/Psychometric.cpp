@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Maximum-likelihood fit: a coarse grid search, then Nelder and Mead's simplex (1965).
+// Maximum-likelihood fit of threshold, width and lapse rate.
+// Steps: 1. Evaluate a coarse grid. 2. Start Nelder and Mead's simplex (1965) at its best point. 3. Restart
+// the simplex once, because the first may have collapsed on a slope.
+// Search units: the range of the levels is 1, the width is logarithmic, and the lapse rate is kept in bounds
+// by a cosine.
 #include "Lab/Statistics/Psychometric.h"
 #include "Lab/Statistics/Distributions.h"
 #include <algorithm>
@@ -158,8 +162,7 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
     if (auto fault = faultOfCounts(counts); !fault.empty()) return {fault};
     const Likelihood likelihood{counts, model};
     Point best = climb(likelihood, bestOfGrid(likelihood));
-    best = climb(likelihood, best); // restart with a new simplex, because the first may have collapsed on a
-                                    // slope
+    best = climb(likelihood, best); // step 3
     return {{}, likelihood.function(best), -likelihood(best)};
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Bayesian update on a grid; the next level minimises the expected posterior entropy.
+// Bayesian update on a grid of psychometric functions.
+// Steps: 1. Start with a uniform prior. 2. Present the level with the smallest expected posterior entropy. 3.
+// Multiply each function's probability by that of the answer, and normalise. 4. Repeat from 2.
+// Cost: proportional to levels times functions per trial, since all answer probabilities are precomputed.
 #include "Lab/Statistics/QuestPlus.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Represents each effect by orthonormal contrasts of the cells; its sums of squares are matrix traces.
+// Repeated-measures ANOVA by orthonormal contrasts.
+// Steps: 1. Represent each effect by contrasts of the cells (Kronecker products over the factors). 2. Its
+// error matrix is the scatter of the participants' residuals under these contrasts. 3. F compares the sum of
+// squares of the group means with the trace of the error matrix. 4. The shape of the error matrix gives
+// Mauchly's test and the corrections for sphericity.
 #include "Lab/Statistics/RepeatedMeasures.h"
 #include "Lab/Statistics/DesignEffects.h"
 #include "Lab/Statistics/Distributions.h"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Finds the largest merged grid by trying every division of rows and columns: at most 2^15 times 2^15, pruned
-// by sizes that cannot win.
+// Finds the largest merged grid by exhaustive search with pruning.
+// Steps: 1. For every division of the rows, add up the columns of each row group (a strip). 2. Compute the
+// maximum number of column groups that reach the threshold in every strip. 3. Only if that can equal or
+// exceed the best grid, list the column divisions of that size.
+// Cost: at most 2^15 divisions of rows times 2^15 of columns.
 #include "Lab/Study/PercentCounts.h"
 #include <algorithm>
 #include <cmath>

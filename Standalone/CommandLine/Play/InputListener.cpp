@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads standard input, splits it into lines, applies silence at once, and passes each line to the session.
+// Reads standard input in two threads, so that silence never waits for earlier lines.
+// Reader: splits the input into lines, applies silence at once, and queues each line with the number of
+// silences so far.
+// Worker: processes the lines in order, and prints answers and errors.
 #include "CommandLine/Play/InputListener.h"
 #include "Live/Session/BoardLink.h"
 #include "System/ExitCode.h"

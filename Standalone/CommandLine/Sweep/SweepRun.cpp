@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs tasks. A locked temporary result file claims a task for one process; if the process is killed, the
-// claim ends.
+// Runs the tasks of a sweep; several processes can share one folder without a server.
+// Claim: the locked temporary file of a result reserves its task. If the process is killed, the lock ends.
+// Steps: 1. Skip tasks whose result is complete. 2. Claim, check again, render, and rename the temporary
+// file. 3. Put off tasks that other processes have claimed, and visit them again until every result exists.
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Sweep/HeardWords.h"
