@@ -11,7 +11,7 @@ namespace physvib {
 struct ShownHit {
     double frequencyHz = 0.0, decayPerSecond = 0.0; ///< 0 Hz: empty plot
     juce::Colour colour;
-    const RecordedHit* recording = nullptr; ///< valid until the next show()
+    const RecordedHit* recording = nullptr; ///< must stay valid until the next show()
     bool operator==(const ShownHit&) const = default;
 };
 
