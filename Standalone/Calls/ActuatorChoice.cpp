@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Profiles looked up, checked and weighed.
+// Looks up actuator profiles and derives equalisation, voltage scales and the frequency remapping.
 #include "Calls/ActuatorChoice.h"
 #include "Core/Decibels.h"
 #include "Io/Text/NumberText.h"
@@ -12,10 +12,10 @@
 namespace physvib {
 namespace {
 
-/// Share by which two frequencies must differ to be told apart (Pongrac 2008; others found 20 to 30 %).
+/// Just noticeable relative difference of vibration frequency (Pongrac 2008; other studies found 20 to 30 %).
 constexpr double frequencyJnd = 0.18;
 
-/// One per enchanter; empty with --actuator none.
+/// One profile per actuator; empty with --actuator none.
 Result<std::vector<ActuatorProfile>> profilesOf(const RenderJob& o, const LayoutDescription& layout) {
     std::vector<ActuatorProfile> profiles;
     if (o.actuator == "none") return profiles;
@@ -33,11 +33,11 @@ Result<std::vector<ActuatorProfile>> profilesOf(const RenderJob& o, const Layout
 
 std::string hertz(double frequencyHz) { return fixedNumber(frequencyHz, 0) + " Hz"; }
 
-/// Where all can play.
+/// Frequency band that all actuators have in common.
 Result<FrequencyBand> commonBand(const std::vector<ActuatorProfile>& profiles) {
     FrequencyBand common;
     for (const ActuatorProfile& p : profiles) {
-        if (p.name.empty()) continue; // none
+        if (p.name.empty()) continue; // no actuator at this place
         if (!p.band) return Failure{p.name + ": band_hz is not known: nothing to remap into"};
         common = common.isKnown() ? FrequencyBand{std::max(common.lowHz, p.band->lowHz),
                                                   std::min(common.highHz, p.band->highHz)}
@@ -47,8 +47,8 @@ Result<FrequencyBand> commonBand(const std::vector<ActuatorProfile>& profiles) {
     return common;
 }
 
-/// A sample of 1 is to become the actuator's drive limit, on an interface that gives `interfaceVolts` at its
-/// full scale.
+/// Scales the output so that a sample of 1 drives the actuator at its voltage limit, on an interface with
+/// `interfaceVolts` at full scale. Returns an error or an empty string.
 std::string scaleVoltages(const std::vector<ActuatorProfile>& profiles, double interfaceVolts,
                           ActuatorChoice& choice) {
     for (std::size_t j = 0; j < profiles.size(); ++j) {
@@ -64,7 +64,7 @@ std::string scaleVoltages(const std::vector<ActuatorProfile>& profiles, double i
     return {};
 }
 
-/// Figures that a file has rounded are one.
+/// True if two values are equal within the rounding of files.
 bool isAlmost(double g, double other) { return std::abs(g - other) <= 0.005 * std::max(g, other); }
 
 } // namespace

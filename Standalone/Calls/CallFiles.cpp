@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Walks what was parsed, and what can be.
+// Collects the input and output files of parsed calls and of the option tables.
 #include "Calls/CallFiles.h"
 #include "Calls/RenderOptions.h"
 #include "Calls/StimulusOptions.h"
@@ -34,7 +34,7 @@ void collectWritten(const OptionTable& table, std::set<std::string, std::less<>>
     for (const OptionTable& command : table.commands) collectWritten(command, words);
 }
 
-/// Every spelling of every option that names a file to be written, of the commands that a call can be.
+/// Every spelling of every output-file option of the commands that a call may use.
 std::set<std::string, std::less<>> writtenWords() {
     OptionTable calls{"physvib", {}};
     RenderJob render;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which words of a call name files that it writes; all others may name files that it reads. And what of it a
-// call in somebody's file may do.
+// Finds the output files and input files in a call, and checks calls that come from untrusted files.
 #pragma once
 #include "Options/OptionTable.h"
 #include <string>
@@ -8,16 +7,16 @@
 
 namespace physvib {
 
-/// Empty, or that what was parsed names a file to be written that it reads, or one file to be written twice.
-/// M.
+/// Empty, or an error if the parsed call would write a file that it reads, or write one file twice. Message
+/// thread.
 std::string clashOfCall(const OptionTable& app);
 
-/// Empty, or that a call "render ..." or "stimulus ..." of a file names a file to be written: it has an
-/// option that the table knows as one (Option::written), wherever it stands. M.
+/// Empty, or an error if a call "render ..." or "stimulus ..." in a file names an output file, i.e. has an
+/// option marked Option::written anywhere. Message thread.
 std::string writtenWordFault(std::string_view call);
 
-/// Empty, or that what was parsed of a file's call reads a file through a link that leads out of its folder
-/// (see linkFault). M.
+/// Empty, or an error if the parsed call of a file reads through a link that leads out of the file's folder
+/// (see linkFault). Message thread.
 std::string linkOfCallFault(const OptionTable& app, const std::string& folder);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A coupling looked up, checked and weighed.
+// Loads a coupling, checks it against the layout, and describes its residual error.
 #include "Calls/CouplingChoice.h"
 #include "Core/Decibels.h"
 #include "Io/Text/NumberText.h"

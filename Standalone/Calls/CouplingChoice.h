@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What --coupling means for a layout.
+// Evaluates --coupling for a layout.
 #pragma once
 #include "Io/Result.h"
 #include "Lab/Study/Coupling.h"
@@ -8,13 +8,14 @@
 
 namespace physvib {
 
-/// Drives that make up for a measured coupling.
+/// Drives that compensate a measured coupling.
 struct CouplingChoice {
-    CouplingDrives drives; ///< none: nothing is made up for
-    std::string note;      ///< a line for people: what is left, and what it costs
+    CouplingDrives drives; ///< empty: no compensation
+    std::string note;      ///< residual error and cost, in one line
 };
 
-/// Of the file at `path`; one line if it is not the coupling of as many enchanters as `layout` has. M only.
+/// Loads the coupling at `path`. One error line if it is not for the number of actuators in `layout`. Message
+/// thread only.
 Result<CouplingChoice> chooseCoupling(const std::string& path, const LayoutDescription& layout);
 
 } // namespace physvib

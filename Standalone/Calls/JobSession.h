@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A job that is played live instead: the session that it becomes.
+// Converts a render job to the setup of a live session.
 #pragma once
 #include "Calls/LoadedRender.h"
 #include "Live/Session/SessionSetup.h"
@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// What the scene's materials sound like: which of them meet, nobody knows yet.
+/// One event per material with a frequency. In a live session any material may collide, so all of them count.
 inline std::vector<CollisionEvent> soundsOf(const Scene& scene) {
     std::vector<CollisionEvent> sounds;
     for (const Material& m : scene.materials) {
@@ -20,7 +20,7 @@ inline std::vector<CollisionEvent> soundsOf(const Scene& scene) {
     return sounds;
 }
 
-/// A job with a scene, as a session plays it.
+/// Session setup of a job with a scene.
 inline SessionSetup sessionSetup(const LoadedRender& job) {
     SessionSetup setup;
     setup.scene = *job.scene;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures in their order, and who encodes them.
+// Draws the pictures of a movie in order, and encodes them with libwebp or ffmpeg.
 #include "Calls/MovieOutput.h"
 #include "Pictures/WebpMovie.h"
 #include "System/Process.h"
@@ -53,8 +53,8 @@ std::string MovieOutput::drawWebp(const RenderMovie& movie, const Pictures& all)
     return movie_.write(webp.bytes(RenderMovie::timeNs(movie.count()) / 1'000'000));
 }
 
-// ffmpeg reads files that are there, one PNG behind the other and 32-bit samples, and writes into ours, which
-// is renamed at the end.
+// ffmpeg reads finished files (concatenated PNGs, 32-bit samples) and writes a temporary file, which commit()
+// renames.
 std::string MovieOutput::drawByFfmpeg(const Pictures& all) {
     all([&](std::int64_t, const picture::Image& image) {
         const std::string png = image.png();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is wrong with a render before any file is read.
+// Validates a render job before any file is read.
 #include "Calls/RenderJob.h"
 #include "Io/Disk/NameEnding.h"
 #include "Io/Text/NumberText.h"
@@ -19,9 +19,9 @@ std::string RenderJob::methodName() const {
 
 namespace {
 
-/// What is wrong with the movie's file or its length.
+/// Checks the movie's file name and length.
 std::string movieFault(const RenderJob& o) {
-    constexpr double longestMovieSeconds = 600.0; // its pictures wait in memory, or beside it on the disk
+    constexpr double longestMovieSeconds = 600.0; // limits memory and disk space for pictures
     if (auto fault = endingFault(o.moviePath, {".webp", ".gif", ".mp4"}); !fault.empty())
         return "--movie: " + fault;
     return o.seconds <= longestMovieSeconds ? std::string{} : "--movie: expected --seconds of at most 600";

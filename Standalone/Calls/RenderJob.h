@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A render as a value: what is rendered, how it is spread and which files it writes. A call, a design of a
-// sweep or a button makes one.
+// A render job as a value: input, rendering options and output files. Calls, sweep designs and buttons create
+// such jobs.
 #pragma once
 #include "Core/Modes/InstructionSet.h"
 #include "Core/PanningLaws.h"
@@ -31,55 +31,57 @@ struct RecordedSound {
 };
 using RecordedSounds = std::vector<RecordedSound>;
 
-constexpr double usualContactDb = -20.0; ///< of the contact sound of a hit at full scale
+constexpr double usualContactDb = -20.0; ///< level of the contact sound for a full-scale impact
 
-/// The defaults are those that --help shows.
+/// The defaults are shown by --help.
 struct RenderJob {
     std::string scene;      ///< a built-in scene's name or the path of a scene file; empty with fromEvents
     SceneSettings settings; ///< the scene's variables
     std::string fromEvents; ///< path of an event list
-    std::string wavPath, eventsPath, picturePath, moviePath, patternPath; ///< empty: not wanted
-    std::string pad; ///< profile of a game controller, whose motors' commands `wavPath` then holds; empty:
-                     ///< samples
-    double threshold = 0.1;      ///< of the pattern, in full scale
-    double interfaceVolts = 0.0; ///< what a sample of 1 in the WAV becomes; 0: no matter
+    std::string wavPath, eventsPath, picturePath, moviePath, patternPath; ///< empty: not written
+    std::string pad;        ///< game controller profile; `wavPath` then holds motor commands; empty: samples
+    double threshold = 0.1; ///< of the pattern, as a share of full scale
+    double interfaceVolts = 0.0; ///< interface voltage for a sample of 1 in the WAV; 0: not scaled
     double seconds = 10.0;
     int sampleRateHz = 48000;
     int blockFrames = 256;
     InstructionSet instructions = InstructionSet::best;
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
-    double patienceSeconds = Patience::usualSeconds; ///< with a world that is simulated slower than it lasts
+    double patienceSeconds = Patience::usualSeconds; ///< time limit for a world that is simulated slower than
+                                                     ///< real time
     std::string layout = "phone4";                   ///< preset or path of a layout file
-    FieldSize field; ///< none: the scene's, the list's, or the layout's extent
+    FieldSize field; ///< unset: the field of the scene or list, or the layout's extent
     PanningLaw law = PanningLaw::linear;
     double exponent = 1.0;
     bool isLimited = true;
     ImpactLocation location = ImpactLocation::contact;
     ImpactTiming timing = ImpactTiming::onset;
     RenderingMethod method;       ///< its amplitude needs the layout
-    bool playsRecordings = false; ///< SV: of `sounds`, instead of the method's modes
-    double levelDb = 0.0;         ///< of all hits
-    double gamma = 0.0;           ///< Eq. 5.5, the share at which a decay is cut; 0: it rings out
-    bool isWeighted = false;      ///< hits of one amplitude feel more alike at all frequencies
-    bool matchesStrength = false; ///< recordings are as strong as the mode; else as high
+    bool playsRecordings = false; ///< SV: play `sounds` instead of the method's modes
+    double levelDb = 0.0;         ///< of all impacts
+    double gamma = 0.0;           ///< Eq. 5.5: share of the amplitude at which a decay is cut; 0: not cut
+    bool isWeighted = false;      ///< weight levels so that impacts of one amplitude feel more equal across
+                                  ///< frequencies
+    bool matchesStrength = false; ///< recordings get the mode's root mean square; else its peak
     RecordedSounds sounds;        ///< for SV and the contact sound
-    std::string contactSound; ///< where it is heard: a WAV of `render`, outputs of `play`; empty: not wanted
-    double contactSoundDb = usualContactDb; ///< of a hit at full scale
-    std::string marker; ///< where onsets are marked: a WAV of `render`, outputs of `play`; empty: not wanted
+    std::string contactSound; ///< output of the contact sound: a WAV of `render`, outputs of `play`; empty:
+                              ///< none
+    double contactSoundDb = usualContactDb; ///< of a full-scale impact
+    std::string marker; ///< output of onset markers: a WAV of `render`, outputs of `play`; empty: none
     MarkedOnsets marked = MarkedOnsets::all;
     std::string actuator = "none";               ///< or "layout", a profile's name, a profile's path
-    bool isEqualised = true, isRemapped = false; ///< with an actuator
-    bool explains = false;                       ///< says what became of the scene's contacts
-    std::string coupling; ///< path of a measured coupling that drives shall make up for; empty: none
+    bool isEqualised = true, isRemapped = false; ///< effective with an actuator
+    bool explains = false; ///< print which contacts of the scene became events, and why others did not
+    std::string coupling;  ///< path of a measured coupling to compensate; empty: none
 
-    std::set<std::string> given; ///< names of the options that were chosen, with their dashes: a session
-                                 ///< keeps its own where they are not
-    /// of `render`
+    std::set<std::string> given; ///< options in the call, with their dashes; a saved session keeps its own
+                                 ///< values for all others
+    /// Output files of `render`.
     std::vector<std::string> writtenPaths() const {
         return {wavPath, eventsPath, picturePath, moviePath, patternPath, contactSound, marker};
     }
-    /// nullopt: not wanted
+    /// nullopt: no markers.
     std::optional<MarkedOnsets> marks() const {
         return marker.empty() ? std::nullopt : std::optional{marked};
     }
@@ -92,14 +94,14 @@ inline constexpr std::string_view recordingsHaveNoFrequency =
     "--remap: recordings have no frequency to be moved";
 inline constexpr std::string_view recordingsHaveNoWeight =
     "--perceived-level: recordings have no one frequency to be weighted by";
-/// What does not fit together of how a scene is felt: empty, or the usage error in one line. Any thread
-/// (allocates), as the others.
+/// Empty, or a usage error in one line for conflicting options on how a scene is rendered. Any thread
+/// (allocates), as the next two.
 std::string sceneFault(const RenderJob& job);
 
-/// The same of all that says what is rendered.
+/// Also checks the options on what is rendered.
 std::string renderInputFault(const RenderJob& job);
 
-/// The same, and of what says where to.
+/// Also checks the output options.
 std::string renderFault(const RenderJob& job);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names, ranges and help texts of the options of `physvib render`.
+// Declares the options of `physvib render`: names, ranges and help texts.
 #include "Calls/RenderOptions.h"
 #include "Calls/RenderWords.h"
 #include "Core/EventShaping.h"

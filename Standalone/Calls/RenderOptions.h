@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of `physvib render`, from words to checked values.
+// The options of `physvib render`, parsed to checked values.
 #pragma once
 #include "Calls/RenderJob.h"
 
@@ -7,14 +7,13 @@ namespace physvib {
 
 class OptionTable;
 
-/// Declares what says which scene is spread how (shared with `play`); `command` fills `options` while it
-/// parses.
+/// Declares the options on scene and rendering, which `play` shares. Parsing `command` then fills `options`.
 void declareSceneOptions(OptionTable& command, RenderJob& options);
 
 /// Declares all options of `render`.
 void declareRenderOptions(OptionTable& command, RenderJob& options);
 
-/// Notes which options the call had. After parsing.
+/// Records which options the call had. To be called after parsing.
 void noteGiven(const OptionTable& command, RenderJob& options);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each reader says what it expected; the parser says of which option.
+// Parses option values; each reader returns what it expected, and the parser adds the option's name.
 #include "Calls/RenderWords.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From words of a call to values of a job, where a word is no number, name or path.
+// Options whose values need their own parser, i.e. are not a number, name or path.
 #pragma once
 #include "Calls/RenderJob.h"
 #include "Options/OptionTable.h"
 
 namespace physvib {
 
-/// --law, by the table of laws. M only, as all here.
+/// --law, from the table of panning laws. Message thread only, as all here.
 Option& addLaw(OptionTable& command, PanningLaw& law);
 
 /// --sound MATERIAL=FILE.wav or HZ=FILE.wav, which may be repeated; `says` is its meaning.

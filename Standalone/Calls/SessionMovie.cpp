@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Impacts, samples, then pictures.
+// Creates a movie of a session: first its events, then its samples, then the pictures.
 #include "Calls/SessionMovie.h"
 #include "Calls/MovieOutput.h"
 #include "Host/Recordings/LoadRecordings.h"
@@ -12,10 +12,10 @@
 namespace physvib {
 namespace {
 
-constexpr int movieRateHz = 8'000;                      // a column of its picture is 40 ms
-constexpr double eventsShare = 0.1, samplesShare = 0.3; // of the time it takes
+constexpr int movieRateHz = 8'000;                      // a column of the waveform picture is 40 ms
+constexpr double eventsShare = 0.1, samplesShare = 0.3; // shares of the total time, for the progress report
 
-/// Its first frame is session time `fromNs`.
+/// Part of a session; its first frame is at session time `fromNs`.
 struct MoviePart {
     std::int64_t fromNs, endNs;
     double seconds() const { return 1e-9 * static_cast<double>(endNs - fromNs); }
@@ -47,7 +47,7 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
 
     bool goesOn = true;
     const auto events = eventsOf(session, part, [&](std::int64_t timeNs) {
-        const std::int64_t done = std::min(timeNs, part.endNs); // the last step may go beyond
+        const std::int64_t done = std::min(timeNs, part.endNs); // the last step may exceed the end
         return goesOn = progress(eventsShare * static_cast<double>(done) /
                                  static_cast<double>(std::max<std::int64_t>(1, part.endNs)));
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of `physvib stimulus`, from words to a value.
+// Declares and parses the options of `physvib stimulus`.
 #include "Calls/StimulusOptions.h"
 #include "Calls/RenderWords.h"
 #include "Io/Text/NameList.h"
@@ -23,7 +23,7 @@ bool splitPair(const std::string& text, char separator, double& first, double& s
     return a && b;
 }
 
-/// What cannot be read is no place.
+/// Unreadable text gives an invalid place.
 FieldPlace placeAt(const std::string& text) {
     FieldPlace place;
     return splitPair(text, ',', place.x, place.y) ? place : FieldPlace{-1.0, -1.0};
@@ -41,7 +41,7 @@ GridPlace gridPlace(const StimulusOptions& o) {
             parseGridCell(o.cell).value_or(GridCell{})};
 }
 
-/// What was said of the word.
+/// The text given for an option.
 const std::string& saidOf(const StimulusOptions& o, std::string_view word) {
     return word == words::at          ? o.at
            : word == words::grid      ? o.grid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A command of the program: its options, and what it does. Main.cpp has the table of all.
+// A command of the program: its options and its function. Main.cpp lists all commands.
 #pragma once
 #include "Options/OptionTable.h"
 #include "System/ExitCode.h"
@@ -11,12 +11,12 @@ namespace physvib {
 
 struct Command {
     const char *name, *meaning;
-    /// what it adds to the table; what runs, after parsing, for an exit code
+    /// Adds options to the table; returns the function to run after parsing, which returns an exit code.
     std::function<std::function<int()>(OptionTable&)> declare;
 };
 
-/// Of a structure of options that `declare` adds and `run` is given, with the parsed table before it if it
-/// asks for one.
+/// Creates a command from a structure of options: `declare` adds them, and `run` receives them, after the
+/// parsed table if it has that parameter.
 template <class Options, class Run>
 Command commandOf(const char* name, const char* meaning, void (*declare)(OptionTable&, Options&), Run run) {
     return {name, meaning, [=](OptionTable& table) -> std::function<int()> {

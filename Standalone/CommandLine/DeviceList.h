@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The audio devices of this machine, as `devices` lists them and `play` proposes them.
+// Audio devices of this machine, for the list of `devices` and the suggestion of `play`.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include <juce_events/juce_events.h>
@@ -9,20 +9,20 @@
 
 namespace physvib {
 
-/// What is there now, in the systems' order. M; asks the system.
+/// Available devices in the system's order. Message thread; queries the system.
 inline std::vector<AudioDeviceName> devicesOfThisMachine() {
     const juce::ScopedJuceInitialiser_GUI juce;
     return listAudioDevices();
 }
 
-/// A line each: the name that --device takes, and its outputs.
+/// One line per device: the name for --device, and its number of outputs.
 inline void printDevices(std::ostream& out, const std::vector<AudioDeviceName>& devices) {
     for (const auto& device : devices)
         out << device.type << ':' << device.name << "  " << device.channels << " outputs\n";
 }
 
-/// A call of `play` that can be typed: the first device with four outputs, else the one with most of them,
-/// with a layout that it has room for.
+/// A call of `play` with the first device that has four outputs, else with the device with most outputs, and
+/// a layout that fits it.
 inline std::string proposedCall(const std::string& scene, const std::vector<AudioDeviceName>& devices) {
     const AudioDeviceName* best = nullptr;
     for (const auto& device : devices)

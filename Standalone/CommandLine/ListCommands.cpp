@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib scenes`, `actuators` and `devices`: what there is, a line each.
+// The commands `physvib scenes`, `actuators` and `devices`, which print one line per entry.
 #include "CommandLine/Command.h"
 #include "CommandLine/DeviceList.h"
 #include "Io/Text/NumberText.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The `physvib` program: its commands, and how a wrong call is told.
+// Main program of `physvib`: list of commands, and error messages for invalid calls.
 #include "Calls/CallFiles.h"
 #include "CommandLine/Command.h"
 #include "Host/Devices/DeviceThread.h"
@@ -20,7 +20,7 @@ Command scenesCommand(), renderCommand(), sweepCommand(), exportCommand(), beats
 
 namespace {
 
-/// In the order of --help; each is in a file of its own.
+/// In the order of --help; each is in its own file.
 constexpr Command (*commands[])() = {
     scenesCommand,      renderCommand,   sweepCommand,     exportCommand,  beatsCommand, playCommand,
     analyseCommand,     reportCommand,   stimulusCommand,  boardCommand,   studyCommand, materialCommand,
@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
     int code = exitFailed;
     try {
         code = run(argc, argv);
-    } catch (const std::exception& error) { // out of memory, a full disk inside a library: still one line
+    } catch (const std::exception& error) { // out of memory, or a full disk reported by a library: print one
+                                            // line
         leave(exitFailed, error.what());
     }
     const std::string fault = outputFault();

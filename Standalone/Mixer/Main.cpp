@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The application `physvib-mixer`.
+// Main program of the application `physvib-mixer`.
 #include "Host/Devices/DeviceThread.h"
 #include "Host/Devices/NoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
@@ -22,7 +22,7 @@ physvib-mixer --study PROTOCOL [--participant CODE] [--number N] [--out FOLDER]
 physvib-mixer --help | --version
 )";
 
-/// The word after `option`; empty if there is none.
+/// The argument after `option`; empty if there is none.
 juce::String valueOf(const juce::ArgumentList& arguments, juce::StringRef option) {
     const int at = arguments.indexOfOption(option);
     return at < 0 ? juce::String{} : arguments[at + 1].text;
@@ -33,7 +33,7 @@ StudyCall studyCallOf(const juce::ArgumentList& arguments) {
             valueOf(arguments, "--number").getIntValue(), valueOf(arguments, "--out")};
 }
 
-/// The word that is neither an option nor an option's value.
+/// The argument that is neither an option nor an option's value.
 juce::File fileOf(const juce::ArgumentList& arguments) {
     static const juce::StringArray valued{"--device", "--study", "--participant", "--number", "--out"};
     juce::File file;
@@ -43,7 +43,7 @@ juce::File fileOf(const juce::ArgumentList& arguments) {
     return file;
 }
 
-/// What the command line wants, apart from a window; an exit code, or none.
+/// Handles options that need no window. Returns an exit code, or nullopt to open the window.
 std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     if (arguments.containsOption("--help|-h")) return std::cout << usage, 0;
     if (arguments.containsOption("--version")) return std::cout << "physvib-mixer " PHYSVIB_VERSION "\n", 0;
@@ -67,8 +67,8 @@ void summarise(Desk& desk) {
               << std::endl;
 }
 
-// A signal ends it in order, without a question: a recording gets its place, and the copy of the session
-// stays.
+// Application object. On a signal it quits in order without asking: a recording is completed, and the
+// session's recovery copy stays.
 class MixerApplication final : public juce::JUCEApplication, private juce::Timer {
 public:
     const juce::String getApplicationName() override { return "PhysVib mixer"; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Completions for bash, zsh and fish. The first two find out which command is meant by going over the words
-// that stand already.
+// Writes completion scripts for bash, zsh and fish. The bash and zsh scripts determine the command from the
+// words typed so far.
 #include "Options/Completions.h"
 #include <functional>
 #include <sstream>
@@ -44,14 +44,14 @@ std::vector<std::string> namesWithin(const OptionTable& command) {
     return names;
 }
 
-/// A function's name may hold no hyphen everywhere.
+/// A function name without hyphens, which not all shells allow.
 std::string functionOf(const OptionTable& program) {
     std::string name(1, '_');
     for (const char c : program.words) name += c == '-' ? '_' : c;
     return name;
 }
 
-/// "physvib render"|"physvib play": all that a command may be called beyond the program's own name.
+/// "physvib render"|"physvib play": a pattern of all calls of commands.
 std::string allCalls(const OptionTable& program) {
     std::string calls;
     each(program, [&](const OptionTable& command) {
@@ -64,7 +64,7 @@ void heading(std::ostream& out, const OptionTable& program) {
     out << "# SPDX-License-Identifier: GPL-3.0-or-later\n# Completions of " << program.words << ".\n";
 }
 
-/// Of one option of zsh: '--law[panning law]:TEXT:(linear log)'.
+/// Text of one zsh option: '--law[panning law]:TEXT:(linear log)'.
 std::string zshOption(const Option& option, const std::string& spelling) {
     std::string text = spelling;
     text += '[';
@@ -170,8 +170,8 @@ std::string zshCompletion(const OptionTable& program) {
     return out.str();
 }
 
-// Fish asks for each proposal whether it holds here: a command's hold after its words, until one of a command
-// within it follows.
+// Fish evaluates a condition for each proposal: those of a command apply after its words, until a subcommand
+// follows.
 std::string fishCompletion(const OptionTable& program) {
     std::ostringstream out;
     heading(out, program);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a shell proposes while a call is typed, from the table of calls.
+// Shell completion scripts, generated from the option table.
 #pragma once
 #include "Options/OptionTable.h"
 #include <string>
 
 namespace physvib {
 
-/// A script for that shell, which is put where the shell looks for the program's name. Where nothing is
-/// listed, files are proposed. M.
+/// A script for that shell, to be installed under the program's name. Values without a list complete to
+/// files. Message thread.
 std::string bashCompletion(const OptionTable& program);
 std::string zshCompletion(const OptionTable& program);
 std::string fishCompletion(const OptionTable& program);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A manual page: name, call, options, commands, exit codes.
+// Writes a manual page: name, synopsis, options, commands, exit codes.
 #include "Options/ManPage.h"
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 namespace physvib {
 namespace {
 
-/// As man shows it: a hyphen is one that can be copied, and no line is taken for a request.
+/// Escapes text for man: hyphens can be copied, and no line is read as a request.
 std::string shown(std::string_view text) {
     std::string out;
     for (const char c : text) {
@@ -68,7 +68,7 @@ void writeOptions(std::ostream& out, const OptionTable& command) {
         if (!option.meaning.empty()) writeOption(out, option);
 }
 
-/// A program's commands have pages of their own; those of a command are on its page.
+/// Commands of a program have pages of their own; subcommands are on the page of their command.
 void writeCommands(std::ostream& out, const OptionTable& command) {
     if (command.commands.empty()) return;
     const bool isProgram = command.words.find(' ') == std::string::npos;
@@ -84,7 +84,7 @@ void writeCommands(std::ostream& out, const OptionTable& command) {
     }
 }
 
-/// What the program or command is for, beyond its line.
+/// Introduction to a program or command, in addition to its one-line meaning.
 struct Description {
     std::string_view page, text;
 };

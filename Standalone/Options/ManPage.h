@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Manual pages, from the table of calls.
+// Manual pages, generated from the option table.
 #pragma once
 #include "Options/OptionTable.h"
 #include <string>
 
 namespace physvib {
 
-/// Its page in man's own language: its options, and those of the commands within it. `pages` are named at the
-/// end. M.
+/// A manual page in roff, with the options of the command and its subcommands. `pages` are listed at the end.
+/// Message thread.
 std::string manPage(const OptionTable& command, const std::vector<std::string>& pages);
 
-/// "physvib render" as "physvib-render", which is its page's name. M.
+/// "physvib render" as "physvib-render", the name of its page. Message thread.
 std::string pageName(const OptionTable& command);
 
 } // namespace physvib

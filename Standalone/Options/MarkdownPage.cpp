@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One page for all commands: a heading, the call, and a table of options each.
+// Writes one page for all commands: a heading, the call, and a table of options each.
 #include "Options/MarkdownPage.h"
 #include <algorithm>
 #include <cctype>
@@ -8,7 +8,7 @@
 namespace physvib {
 namespace {
 
-/// A cell of a table: a bar would end it.
+/// Escapes the text of a table cell.
 std::string tableCell(std::string_view text) {
     std::string out;
     for (const char c : text)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page Docs/commands.md, from the table of calls.
+// The page Docs/commands.md, generated from the option table.
 #pragma once
 #include "Options/OptionTable.h"
 #include <string>
 
 namespace physvib {
 
-/// Every command of a program with its options, a table each, as Markdown. M.
+/// Markdown with a table of options for each command of a program. Message thread.
 std::string markdownPage(const OptionTable& program);
 
 } // namespace physvib

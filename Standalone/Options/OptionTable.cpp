@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a row is before anything is said of it; and rows from a usage text.
+// Creates option entries with defaults from the type of their target, or from a usage text.
 #include "Options/OptionTable.h"
 #include "Scene/SceneCatalogue.h"
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a program can be told, as a table: a row per option says its name, its words, what it takes and where
-// the value goes. The parser,
-// --help, manual pages and completions are made from it.
+// Table of a program's options: each entry has the option's name, help text, valid values and target. The
+// parser, --help, manual pages and completions are generated from it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -17,53 +16,54 @@
 
 namespace physvib {
 
-/// Reads a word, or all that were said, into a value; what it expected instead, or empty.
+/// Converts one argument, or all arguments of an option, to a value. Returns what was expected instead, or an
+/// empty string.
 using WordReader = std::function<std::string(const std::string&)>;
 using WordsReader = std::function<std::string(const std::vector<std::string>&)>;
 
-/// Where a value goes. A bool: the option takes none. A function of a number: of one of several words, each
-/// with a number.
+/// Destination of an option's value. bool: the option has no value. A function of a number: the option has
+/// one of several words, each with a number.
 using OptionTarget =
     std::variant<std::monostate, bool*, int*, std::uint32_t*, std::size_t*, double*, std::string*,
                  std::vector<std::string>*, std::optional<int>*, std::optional<double>*,
                  std::optional<std::string>*, std::function<void(int)>, WordReader, WordsReader>;
 
-/// One row. What is said of it returns the row. M only.
+/// One option. Setters return the option for chaining. Message thread only.
 struct Option {
-    std::vector<std::string> spellings; ///< "-h", "--help"; of a word that has only a place: its name
+    std::vector<std::string> spellings; ///< "-h", "--help"; the name of a positional argument
     OptionTarget target;
     std::string meaning;
-    std::string type;                 ///< what follows it: "FLOAT"; empty: nothing does
-    std::string initial;              ///< what it is if nobody says it; empty: nothing that is shown
-    std::string group;                ///< its heading in --help; empty: the usual one
-    std::string range;                ///< what its values have to be: "0 to 1", "{on,off}"; empty: anything
-    std::vector<std::string> choices; ///< all that it may be, or some that are built in
-    std::vector<std::pair<std::string, int>> numbers; ///< of a function: its words
+    std::string type;                                 ///< type of its value: "FLOAT"; empty: none
+    std::string initial;                              ///< default; empty: not shown
+    std::string group;                                ///< its heading in --help; empty: the default one
+    std::string range;                                ///< valid values: "0 to 1", "{on,off}"; empty: any
+    std::vector<std::string> choices;                 ///< all valid values, or some built-in ones
+    std::vector<std::pair<std::string, int>> numbers; ///< words and numbers of a function target
     double low = 0.0, high = 0.0;
     enum class Check { none, range, positive, choice, number, folder, ending } check = Check::none;
     bool isPlace = false, isRequired = false, isWritten = false, isSingle = false;
-    int mostListed = 0; ///< values that one word may hold, with commas between them; 0: a word is a value
+    int mostListed = 0; ///< maximum number of comma-separated values in one argument; 0: not separated
 
-    std::vector<std::string> said; ///< after parsing: the words of the call
+    std::vector<std::string> said; ///< after parsing: the arguments in the call
 
     Option& as(std::string words) { return type = std::move(words), *this; }
-    /// It names a file that is written; all others may name files that are read.
+    /// Marks an output file; all other arguments may name input files.
     Option& written(std::string words) { return isWritten = true, as(std::move(words)); }
-    /// The same; the name has to end as that of `file`, "FILE.png": programs tell from it what a file is.
+    /// The same, for a name that must have the extension of `file`, "FILE.png", because programs derive the
+    /// format from it.
     Option& writtenAs(std::string file) { return check = Check::ending, written(std::move(file)); }
     Option& required() { return isRequired = true, *this; }
     Option& under(std::string heading) { return group = std::move(heading), *this; }
-    Option& unshown() { return initial.clear(), *this; } ///< its words say what it is if nobody says it
-    Option& single() { return isSingle = true, *this; }  ///< it may be repeated, with a value each time
+    Option& unshown() { return initial.clear(), *this; } ///< the help text describes the default
+    Option& single() { return isSingle = true, *this; }  ///< may be repeated, with one value each time
     Option& listed(int most) { return mostListed = most, *this; }
     Option& existingFolder() { return range = "DIR", check = Check::folder, *this; }
-    /// more than 0, and finite
+    /// Finite and greater than 0.
     Option& positive() { return range = "POSITIVE", check = Check::positive, unshown(); }
     Option& oneOf(std::vector<std::string> words);
-    Option& numbered(std::vector<std::pair<std::string, int>> words); ///< of a function
+    Option& numbered(std::vector<std::pair<std::string, int>> words); ///< for a function target
 
-    /// Both inclusive; `unit` with the space before it. A value from outside, which nobody can say, is not
-    /// shown.
+    /// Inclusive range; `unit` starts with a space. A default outside the range is not shown.
     template <class T>
     Option& in(T least, T most, const std::string& unit = {}) {
         std::ostringstream words;
@@ -71,27 +71,27 @@ struct Option {
         return inRange(static_cast<double>(least), static_cast<double>(most), words.str());
     }
 
-    /// What follows it, for people: "FLOAT:0 to 1".
+    /// Type and range of its value for help: "FLOAT:0 to 1".
     std::string value() const { return range.empty() ? type : type + ':' + range; }
 
 private:
     Option& inRange(double least, double most, std::string words);
 };
 
-/// The options of a program or of a command, and the commands within it. Rows stay where they are. M only.
+/// Options of a program or command, and its subcommands. Entries have stable addresses. Message thread only.
 class OptionTable {
 public:
     OptionTable(std::string words, std::string meaning);
     OptionTable(const OptionTable&) = delete;
     OptionTable& operator=(const OptionTable&) = delete;
 
-    /// `names`: "--seed", "--plan,--dry-run", or "scene" for a word that has only a place. `value` outlives
-    /// the table's parsing, and holds what it is if nobody says it.
+    /// `names`: "--seed", "--plan,--dry-run", or "scene" for a positional argument. `value` holds the default
+    /// and must outlive parsing.
     template <class T>
     Option& add(const std::string& names, T& value, std::string says) {
         return addRow(names, &value, std::move(says));
     }
-    /// A value that text has to be read for; `initial` is its word if nobody says one.
+    /// An option whose text is converted by `reader`; `initial` is the default's text.
     Option& addRead(const std::string& names, std::string initial, WordReader reader, std::string says);
     /// One of several values, each with its word.
     template <class T>
@@ -115,24 +115,24 @@ public:
     }
     Option& addRow(const std::string& names, OptionTarget target, std::string says);
     OptionTable& addCommand(const std::string& name, std::string meaning);
-    void addVersion(std::string answer); ///< --version, with what it says
+    void addVersion(std::string answer); ///< adds --version with that output
 
-    /// After parsing: the command that was called; none: this one itself.
+    /// After parsing: the called subcommand; null if there is none.
     const OptionTable* called() const;
     bool isCalled(std::string_view name) const { return called() != nullptr && called()->name() == name; }
     std::string name() const { return words.substr(words.rfind(' ') + 1); }
 
-    std::string words;   ///< "physvib analyse anova"
-    std::string meaning; ///< a line
-    std::string usage;   ///< lines of a program that says them itself; else they are made from the options
+    std::string words;   ///< its words in a call: "physvib analyse anova"
+    std::string meaning; ///< one line
+    std::string usage;   ///< own usage text; empty: generated from the options
     std::string version; ///< see addVersion
-    std::string alias;   ///< another name of the command
+    std::string alias;   ///< alternative name of the command
     std::list<Option> options;
     std::list<OptionTable> commands;
-    std::vector<const OptionTable*> calls; ///< after parsing: of `commands`, those of the call
+    std::vector<const OptionTable*> calls; ///< after parsing: called entries of `commands`
 };
 
-/// Of a program that has words instead of a parser: its options are those that its usage shows. M.
+/// Adds options from the usage text of a program without a parser. Message thread.
 void addUsage(OptionTable& program, std::string_view usage);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A table as CLI11 takes it, and what it found back into the table.
+// Declares a table's options in CLI11 and copies the results back.
 #include "Options/Parser.h"
 #include "Io/Disk/NameEnding.h"
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@
 namespace physvib {
 namespace {
 
-/// CLI11's own checks let "nan" pass, which is not less than the least; these say what they expect.
+/// Range check that rejects "nan", which CLI11's own checks accept, and whose message has the expected range.
 template <class T, class Fits>
 CLI::Validator numberThat(Fits fits, const std::string& expected, const std::string& shown) {
     return {[=](std::string& text) {
@@ -78,7 +78,7 @@ CLI::Option* readBy(CLI::App& app, const Option& row, const Reader& read) {
     return app.add_option_function<Words>(namesOf(row), take, row.meaning);
 }
 
-/// None: CLI11 has it of its own.
+/// Declares the option; null for options that CLI11 provides itself.
 CLI::Option* declare(CLI::App& app, const Option& row) {
     const auto make = [&](const auto& target) -> CLI::Option* {
         using Target = std::decay_t<decltype(target)>;
@@ -106,7 +106,7 @@ CLI::Option* declare(CLI::App& app, const Option& row) {
     return option;
 }
 
-/// A table and what CLI11 made of it.
+/// A table with its CLI11 options.
 class Parser {
 public:
     Parser(CLI::App& app, OptionTable& table)

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the words of a call to the values of a table: the only file that knows CLI11 is Parser.cpp.
+// Parses command-line arguments into the values of an option table. Only Parser.cpp uses CLI11.
 #pragma once
 #include "Options/OptionTable.h"
 #include <string>
 
 namespace physvib {
 
-/// What became of a call; an empty `fault`: its values are where the table's rows say.
+/// Result of parsing; if `fault` is empty, the targets of the table are set.
 struct ParsedWords {
-    std::string fault;   ///< one line
-    std::string unknown; ///< the first word that is no option and has no place
-    std::string help;    ///< what --help or --version answers: then `fault` is no matter of the caller's
+    std::string fault;   ///< error in one line
+    std::string unknown; ///< the first unknown argument
+    std::string help;    ///< output of --help or --version; if set, `fault` is not an error
 
-    /// The fault as the program says it.
+    /// The error as printed.
     std::string reason() const { return unknown.empty() ? fault : "unknown: " + unknown; }
 };
 
-/// Of a program's arguments. M only.
+/// Parses a program's arguments. Message thread only.
 ParsedWords parseArguments(OptionTable& table, int argc, char** argv);
 
-/// Of a call in one text, without the program's name: "render drop --law=log". M only.
+/// Parses a call given as text without the program's name: "render drop --law=log". Message thread only.
 ParsedWords parseText(OptionTable& table, const std::string& call);
 
 } // namespace physvib

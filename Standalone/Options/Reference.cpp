@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which files the reference of a program is.
+// Writes the reference files of a program.
 #include "Options/Reference.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Options/Completions.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Numbers that an option takes. CLI11's own checks let "nan" pass, which is not less than the least; these
-// say what they expect.
+// Range check for numeric options that rejects "nan", which CLI11's own checks accept, and whose message has
+// the expected range.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
 
 namespace physvib {
 
-/// From `low` to `high`, both inclusive. `unit` with the space before it.
+/// Inclusive range; `unit` starts with a space.
 template <class T>
 CLI::Validator inRange(T low, T high, const std::string& unit = "") {
     const std::string range = CLI::detail::to_string(low) + " to " + CLI::detail::to_string(high) + unit;

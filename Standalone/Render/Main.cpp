@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene or an event list to samples, on any system: nothing here but the library.
+// Main program of `physvib-render`: renders a scene or an event list on any system, with the library only.
 #include "Core/CollisionEvent.h"
 #include "InRange.h"
 #include "Io/Disk/FileClash.h"
@@ -30,7 +30,7 @@ using namespace physvib;
 
 namespace {
 
-constexpr int exitFailed = 1, exitUsage = 2; // as of `physvib`
+constexpr int exitFailed = 1, exitUsage = 2; // as for `physvib`
 
 struct Options {
     std::string input, layout = "phone4", instructions = "best", wavPath, eventsPath, picturePath, field;
@@ -43,15 +43,15 @@ struct Options {
     std::int64_t frames() const { return std::max<std::int64_t>(1, std::llround(seconds * sampleRateHz)); }
 };
 
-/// One line on stderr, whatever names are in it.
+/// Prints one line on stderr, with unprintable characters replaced.
 int leave(int code, std::string_view reason) {
     std::cerr << "physvib-render: " + cleanLine(reason) + '\n';
     return code;
 }
 
-/// What is played, and in what field.
+/// Events to render, with their field.
 struct Source {
-    std::optional<Scene> scene; ///< none: a list
+    std::optional<Scene> scene; ///< none for an event list
     std::vector<CollisionEvent> events;
     SoundNames names;        ///< of the materials
     std::uint64_t drops = 0; ///< collisions that the world had no room for
@@ -92,18 +92,18 @@ RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, con
     RendererSettings settings{
         .sampleRateHz = o.sampleRateHz,
         .panner = {layout, PanningLaw::linear, 1.0, field.widthMetres, field.heightMetres}};
-    settings.panner.setGrains(grainSpread); // as physvib does, where no law is asked for
+    settings.panner.setGrains(grainSpread); // default of physvib without --law
     const auto set = std::ranges::find(instructionSetNames, o.instructions);
     settings.instructions = static_cast<InstructionSet>(set - instructionSetNames.begin());
     return settings;
 }
 
-/// What was lost or altered must not go unseen.
+/// Warns if anything was lost or altered.
 void warn(std::uint64_t count, const char* what) {
     if (count > 0) leave(0, "warning: " + std::string{what} + ": " + std::to_string(count));
 }
 
-/// Why nothing is felt, or which hits of a list lie beside its field.
+/// Warns why nothing can be felt, or which events of a list lie outside the field.
 void tellOutside(const Source& source, const PhantomPanner& panner, std::int64_t endNs) {
     const bool isGuessed = !source.field.isKnown();
     const std::string silent = silentWords(source.events, panner, isGuessed, endNs);
@@ -113,7 +113,7 @@ void tellOutside(const Source& source, const PhantomPanner& panner, std::int64_t
 }
 
 #if PHYSVIB_PICTURES
-/// What the picture says and shows beside events and sound.
+/// Texts and settings of the picture, without events and samples.
 PictureInput pictureWords(const Options& o, const Source& source, const LayoutDescription& layout,
                           const RendererSettings& settings) {
     PictureInput picture;
@@ -133,7 +133,7 @@ PictureInput pictureWords(const Options& o, const Source& source, const LayoutDe
 }
 #endif
 
-/// Writes the WAV file and the picture, those that are wanted.
+/// Writes the WAV file and the picture, as requested.
 std::string writeSound(const Options& o, const Source& source, const LayoutDescription& layout) {
     const RendererSettings settings = settingsOf(o, layout.geometry, source);
     std::optional<WavSink> wav;
@@ -171,7 +171,7 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
     return error;
 }
 
-/// Renders and writes: empty, or one line.
+/// Renders and writes; empty, or one error line.
 std::string render(const Options& o) {
     const auto layout = findLayout(o.layout);
     if (!layout) return layout.error;
@@ -237,7 +237,7 @@ extern "C" void endNow(int signal) {
 
 int main(int argc, char** argv) {
     for (const int signal : endingSignals())
-        if (std::signal(signal, endNow) == SIG_IGN) std::signal(signal, SIG_IGN); // as nohup wants
+        if (std::signal(signal, endNow) == SIG_IGN) std::signal(signal, SIG_IGN); // so that nohup works
     Options o;
     CLI::App app{"Collisions one can feel: a scene or an event list to a WAV file. The library without "
                  "windows and devices."};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The whole render and its strongest hit, column by column.
+// Collects the waveform envelopes of the whole render and of its strongest impact.
 #include "RenderedPicture.h"
 
 namespace physvib {

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT
-// The picture of a render: what it needs of the samples while they are made.
+// Draws the picture of a render from samples collected during rendering.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Pictures/RenderPicture.h"
 
 namespace physvib {
 
-/// Takes the samples as they are rendered. M only.
+/// Receives the samples as they are rendered. Message thread only.
 class RenderedPicture {
 public:
-    /// Makes sure that the file can be written; see error(). `events` outlive this object.
+    /// Checks that the file can be written; see error(). `events` outlive this object.
     RenderedPicture(const std::string& path, std::span<const CollisionEvent> events, int channels,
                     int sampleRateHz, std::int64_t frames);
 
-    /// Empty, or one line with the file and the reason.
+    /// Empty, or one line with file and reason.
     const std::string& error() const noexcept { return file_.error(); }
 
-    /// The next frames of each channel.
+    /// Appends frames of each channel.
     void take(const float* const* channels, int frames) {
         whole_.add(channels, frames);
         zoom_.add(channels, frames);
     }
 
-    /// Draws `words`, to which this adds events, sound and its rate. Returns error().
+    /// Draws the picture with the texts of `words`; adds events and samples. Returns error().
     const std::string& draw(PictureInput words);
 
-    /// Puts the file in its place. Returns error().
+    /// Moves the file to its final name. Returns error().
     const std::string& commit() { return file_.commit(); }
 
 private:

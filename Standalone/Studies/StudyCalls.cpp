@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values are made as they are; text goes through the program's own tables first.
+// Renders stimulus jobs directly; calls in text form are parsed with the program's option tables first.
 #include "Studies/StudyCalls.h"
 #include "Calls/CallFiles.h"
 #include "Calls/JobSession.h"
@@ -18,7 +18,7 @@
 namespace physvib {
 namespace {
 
-/// The job of the options gets its scene and its layout, to be felt; empty, or one line.
+/// Loads scene and layout of the job for live playback; empty, or one error line.
 std::string prepareScene(const RenderJob& o, LoadedRender& job) {
     if (o.actuator != "none") return "--actuator is not yet felt here, only rendered";
     if (!o.coupling.empty()) return "--coupling is not yet felt here, only rendered";
@@ -36,7 +36,7 @@ std::string prepareScene(const RenderJob& o, LoadedRender& job) {
 Result<FeltStimulus> ofScene(const RenderJob& o) {
     LoadedRender job{o, {}, {}, {}, {}};
     if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
-    Patience patience{Patience::usualSeconds}; // whatever the call says: it may be a stranger's
+    Patience patience{Patience::usualSeconds}; // fixed, since the call may be untrusted
     job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
     if (auto fault = patience.fault(); !fault.empty()) return Failure{fault};
     std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
@@ -80,7 +80,7 @@ Result<FeltStimulus> felt(StimulusJob job, int sampleRateHz, const std::string& 
     return ofStimulus(job, sampleRateHz);
 }
 
-/// A call in its parts; `error` if its words are none.
+/// A parsed call; `error` is set if it is invalid.
 struct ParsedCall {
     ParsedCall(const std::string& call, const std::string& folder) {
         declareRenderOptions(render, renderOptions);
@@ -90,7 +90,7 @@ struct ParsedCall {
         if (error.empty()) error = linkOfCallFault(words, folder);
         if (error.empty()) findFiles(folder);
     }
-    /// Those in `folder`, where they are there.
+    /// Prefers files in `folder`, if they exist.
     void findFiles(const std::string& folder) {
         for (std::string* path : {&renderOptions.layout, &renderOptions.scene, &stimulusOptions.job.layout})
             *path = besideProtocol(folder, *path);
@@ -112,7 +112,8 @@ Result<FeltStimulus> felt(const WrittenCall& call, int sampleRateHz, const std::
     return job ? ofStimulus(job.value, sampleRateHz) : Failure{job.error};
 }
 
-/// What is shown and reported is the condition's layout, what is felt the call's. Empty, or that they differ.
+/// The condition's layout is displayed and reported, but the call's layout plays. Empty, or an error if they
+/// differ.
 std::string layoutDifference(const ParsedCall& parsed, const ConditionPlan& condition,
                              const std::string& folder) {
     const std::string& felt =
@@ -122,8 +123,8 @@ std::string layoutDifference(const ParsedCall& parsed, const ConditionPlan& cond
            printable(felt);
 }
 
-/// Empty, or what the program would find wrong with a call, that its layout is not the condition's, or that
-/// it renders a fixed level that its layout cannot give without the limiter.
+/// Empty, or an error of a call: invalid options, a layout other than the condition's, or a fixed level that
+/// its layout cannot reach without the limiter.
 std::string studyCallFault(const std::string& call, const ConditionPlan& condition,
                            const std::string& folder) {
     ParsedCall parsed{call, folder};
@@ -146,8 +147,8 @@ std::string studyCallFault(const std::string& call, const ConditionPlan& conditi
     return {};
 }
 
-/// The words of a condition's calls: each value of each factor once, with the first of the others. The reader
-/// has looked at all of them for what no call may do.
+/// Checks a condition's calls: each value of each factor once, combined with the first values of the others.
+/// The reader has already checked all calls for forbidden options.
 std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condition) {
     const CallSet* const calls = callSetOf(condition.stimuli);
     if (calls == nullptr) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a trial's stimuli are for a live session. A protocol's own calls are text, which is parsed here as the
-// program parses it.
+// Converts the stimuli of a trial to events or worlds for a live session. Calls of a protocol are parsed with
+// the program's option tables.
 #pragma once
 #include "Io/Result.h"
 #include "Lab/Study/Trial.h"
@@ -13,35 +13,35 @@
 namespace physvib {
 
 struct FeltStimulus {
-    Stimulus stimulus; ///< times from 0
+    Stimulus stimulus; ///< times start at 0
     LayoutDescription layout;
-    std::vector<float> gains; ///< of each enchanter: from the events' unit (g, or shares of full scale) to
-                              ///< full scale
-    std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
+    std::vector<float> gains; ///< per actuator: from the events' unit (g, or shares of full scale) to full
+                              ///< scale
+    std::vector<ContactRecording> recordings; ///< play instead of modes; empty: modes
 };
 
-/// A scene that can be watched while it is felt.
+/// A scene to be seen and felt.
 struct FeltWorld {
     SessionSetup setup;
     LayoutDescription layout;
-    double seconds = 0.0; ///< of the call
+    double seconds = 0.0; ///< duration in the call
 };
 
-/// A built-in protocol, or that of a file (see findProtocol) of whose calls none names a file to be written;
-/// or one line. M.
+/// A built-in protocol, or the one of a file (see findProtocol) whose calls write no files; or one error
+/// line. Message thread.
 Result<Protocol> protocolNamed(const std::string& nameOrPath);
 
-/// What the protocol asks of layouts, names and calls that reading it could not tell; empty, or one line that
-/// begins with `name`. M.
+/// Checks layouts, names and calls, which reading the protocol cannot check. Empty, or one line that starts
+/// with `name`. Message thread.
 std::string protocolFault(const Protocol& protocol, const std::string& name);
 
-/// What is felt, or one line with what is wrong. Files are looked for in `folder` first, if there is one.
-/// What `physvib stimulus` would refuse as too strong for the layout at `sampleRateHz` is refused here, and
-/// so are recordings, which are samples and no events. M only.
+/// The stimulus, or one error line. Files are searched in `folder` first, if it is not empty. Like `physvib
+/// stimulus`, it rejects stimuli that are too strong for the layout at `sampleRateHz`. It also rejects
+/// phantoms with recordings, which are samples and not events. Message thread only.
 Result<FeltStimulus> feltStimulus(const TrialJob& job, int sampleRateHz, const std::string& folder = {});
 
-/// The world of `render SCENE ...`, as `physvib play` would play it, its files as above; or one line with
-/// what is wrong. M only.
+/// The world of `render SCENE ...`, as `physvib play` plays it, with files as above; or one error line.
+/// Message thread only.
 Result<FeltWorld> feltWorld(const WrittenCall& call, const std::string& folder = {});
 
 } // namespace physvib

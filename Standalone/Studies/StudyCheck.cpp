@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stimuli are rendered as a participant would feel them, without the limiter.
+// Checks a study by rendering its stimuli without the limiter.
 #include "Studies/StudyCheck.h"
 #include "Core/Actuators/HandWeighting.h"
 #include "Core/Actuators/OutputGuard.h"
@@ -27,13 +27,13 @@ namespace {
 
 constexpr int checkRateHz = 48000;
 constexpr double longestWithoutBreakSeconds = 30.0 * 60.0;
-constexpr double weakDb = 6.0; // above the threshold of detection: what most people feel at once
+constexpr double weakDb = 6.0; // above the detection threshold; most people feel this at once
 
-/// The least gain that the guard has for what it is shown.
+/// Minimum gain that the output guard would apply to a stimulus.
 class GuardTrial {
 public:
     explicit GuardTrial(int channels) { guard_->prepare(checkRateHz, channels, GuardPlace::rendered); }
-    /// `blocks` times `gains`, clipped as the device would.
+    /// Processes `blocks` multiplied by `gains`, clipped as by the device.
     void take(const float* const* blocks, const std::vector<float>& gains, int frames) {
         std::array<float*, static_cast<std::size_t>(limits::maxEnchanters)> at{};
         samples_.resize(gains.size() * static_cast<std::size_t>(frames));
@@ -53,7 +53,7 @@ private:
     double least_ = 1.0;
 };
 
-/// One per actuator.
+/// Sums of one actuator.
 struct ChannelSums {
     double peak = 0.0, squares = 0.0, weightedSquares = 0.0;
     HandWeighting weighting{checkRateHz};
@@ -158,7 +158,7 @@ void judge(const Protocol& protocol, const CheckedStimulus& s, StudyCheck& check
 
 using Cells = std::vector<std::string>;
 
-/// The columns of the table, and a row per stimulus.
+/// Table header, and one row per stimulus.
 std::vector<Cells> rowsOf(const Protocol& protocol, const std::vector<CheckedStimulus>& stimuli) {
     std::vector<Cells> rows{{"condition", "stimulus", "part", "level_db", "peak_g", "rms_g",
                              "below_full_scale_db", "above_threshold_db", "seconds"}};
@@ -203,7 +203,7 @@ std::string listOf(const char* what, const std::vector<std::string>& lines) {
 
 std::string minutes(double seconds) { return fixedNumber(seconds / 60.0, 0) + " min"; }
 
-/// Of one participant: what is felt of a stimulus once.
+/// The result for a stimulus of the plan; null if there is none.
 const CheckedStimulus* checkedOf(const std::vector<CheckedStimulus>& all, std::size_t condition,
                                  const std::string& label, const std::string& part) {
     const auto found = std::ranges::find_if(all, [&](const CheckedStimulus& s) {
@@ -213,7 +213,7 @@ const CheckedStimulus* checkedOf(const std::vector<CheckedStimulus>& all, std::s
 }
 
 void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
-    double squareGSeconds = 0.0; // of every trial at one play
+    double squareGSeconds = 0.0; // over all trials of one participant, at one play each
     const PlannedTime time =
         plannedTime(protocol, [&](std::size_t condition, const std::string& label, const std::string& part) {
             const CheckedStimulus* const one = checkedOf(check.stimuli, condition, label, part);
@@ -250,7 +250,7 @@ void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
     if (!balance.isBalanced()) check.warnings.push_back("orders are not balanced: " + words);
 }
 
-/// Breaks that are written down and do not happen.
+/// Warns about breaks that have no effect.
 void judgeBreaks(const Protocol& protocol, StudyCheck& check) {
     for (const SessionPlan& session : protocol.sessions) {
         const std::string at = "breaks of session " + printable(session.name) + ": ";
@@ -263,8 +263,8 @@ void judgeBreaks(const Protocol& protocol, StudyCheck& check) {
     }
 }
 
-/// The largest share of an actuator's full scale that one pulse or phantom asks for, by the layout's gains
-/// alone; 0 if it cannot be made.
+/// Largest share of an actuator's full scale for a pulse or phantom, by the layout's gains only; 0 if it
+/// cannot be created.
 double askedShare(StimulusJob job, const std::string& folder) {
     job.layout = besideProtocol(folder, job.layout);
     const auto layout = layoutNamed(job.layout);
@@ -281,8 +281,8 @@ double askedShare(StimulusJob job, const std::string& folder) {
     return share;
 }
 
-/// Of a stimulus that no call makes: rendered only if it asks for too much, as a study has hundreds of them.
-/// One line, or empty.
+/// Checks a stimulus that is not made by a call. It is rendered only if its gains exceed full scale, because
+/// a study has hundreds of stimuli. One error line, or empty.
 std::string levelFault(const Protocol& protocol, const PlannedStimulus& planned) {
     const TrialJob job = planned.job(protocol);
     const auto* const stimulus = std::get_if<StimulusJob>(&job);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the command line's exit codes mean, and how it says what went wrong.
+// Exit codes of the command line, and error messages on stderr.
 #pragma once
 #include "Io/Text/CleanText.h"
 #include <iostream>
@@ -9,14 +9,14 @@ namespace physvib {
 
 enum ExitCode : int {
     exitDone = 0,
-    exitFailed = 1, ///< a file, a device, a render: one line on stderr says why
-    exitUsage = 2   ///< the call's words are off
+    exitFailed = 1, ///< a file, device or render failed; one line on stderr says why
+    exitUsage = 2   ///< the arguments are invalid
 };
 
-/// One line on stderr, whatever names are in it.
+/// Prints one line on stderr, with unprintable characters replaced.
 inline void tell(std::string_view words) { std::cerr << "physvib: " + cleanLine(words) + '\n'; }
 
-/// The same; the code to leave with.
+/// Prints the line and returns the exit code.
 inline int leave(ExitCode code, std::string_view reason) {
     tell(reason);
     return code;

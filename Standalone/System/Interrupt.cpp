@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a signal sets, and a thread that ends what hangs.
+// Signal handler, and a thread that terminates a program that hangs.
 #include "System/Interrupt.h"
 #include "System/Process.h"
 #include <chrono>
@@ -21,7 +21,7 @@ void interrupt(int signal) {
     firstSignal = signal;
 }
 
-// A thread and not an alarm, so that it is the same on every system.
+// A thread instead of alarm(), because it works on every system.
 void endWhatHangs() {
     while (firstSignal == 0) std::this_thread::sleep_for(pause);
     std::this_thread::sleep_for(patience);
@@ -31,10 +31,11 @@ void endWhatHangs() {
 } // namespace
 
 void heedInterrupts() {
-    catchEnding(interrupt, KeepIgnored::hangUp); // a script's background ignores SIGINT, and yet means it
+    catchEnding(interrupt, KeepIgnored::hangUp); // background jobs of scripts ignore SIGINT by default, so
+                                                 // handle it nevertheless
     ignoreLostReader();
     static std::atomic<bool> isWatched{false};
-    if (!isWatched.exchange(true)) std::thread{endWhatHangs}.detach(); // it lives as long as the program
+    if (!isWatched.exchange(true)) std::thread{endWhatHangs}.detach(); // runs until the program ends
 }
 
 } // namespace physvib

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The user's wish to stop, from Ctrl-C, `kill` or a terminal that is closed: what plays ends in order, and in
-// time.
+// Orderly and timely end of playback on Ctrl-C, `kill` or a closed terminal.
 #pragma once
 #include <atomic>
 
 namespace physvib {
 
-inline std::atomic<bool> interrupted{false}; // what plays on a device reads it in every block: silence comes
-                                             // before all else ends
+inline std::atomic<bool> interrupted{false}; // read in every block by the device callback, so that output
+                                             // becomes silent before anything else ends
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal may set it");
 
-/// From now on these signals set `interrupted` and end nothing by themselves. A program that has not ended
-/// 0.8 s after the first is ended as by that signal: something in it hangs. So is one that gets a second. No
-/// file waits for that: what is recorded or kept while it plays is whole at any moment. A reader of standard
-/// output that goes away ends nothing either: the end of what plays is still to be told. M.
+/// Installs handlers after which these signals only set `interrupted`. A second signal, or 0.8 s without an
+/// end after the first, terminates the program as that signal does. Recorded files do not depend on this,
+/// since they are complete at any moment. A closed reader of standard output does not end the program,
+/// because the end of playback must still be reported. Message thread.
 void heedInterrupts();
 
 } // namespace physvib

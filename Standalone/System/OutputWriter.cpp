@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two queues of lines, written in the order in which they were said.
+// Two bounded queues of lines and one thread that writes them in the order in which they were queued.
+// Problem: writing to a full pipe blocks, and playback must not wait for a reader.
+// Steps: say() only queues, or drops and counts. The thread writes the oldest line of a stream that is not
+// blocked. A blocked stream is tried again after `retryTime`, and does not delay the other one.
 #include "System/OutputWriter.h"
 #include <array>
 #include <cerrno>
@@ -12,7 +15,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::chrono::milliseconds retryTime{20}; // a reader without room is looked at so often
+constexpr std::chrono::milliseconds retryTime{20}; // polling interval for a reader whose pipe is full
 constexpr std::array bothStandards{Standard::output, Standard::error};
 
 std::size_t index(Standard standard) { return static_cast<std::size_t>(standard); }
@@ -22,16 +25,16 @@ std::string lineCount(std::uint64_t lines) {
 }
 
 struct Line {
-    std::uint64_t number; // of both streams together
+    std::uint64_t number; // common to both streams
     std::string text;
 };
 
 struct Stream {
     std::deque<Line> lines;
-    std::size_t bytes = 0, written = 0; // that wait; of the first line, that do not
+    std::size_t bytes = 0, written = 0; // bytes waiting; written bytes of the first line
     std::uint64_t dropped = 0, untold = 0;
     int fault = 0;         // an errno
-    bool isHeldUp = false; // there was no room
+    bool isHeldUp = false; // the pipe was full
 
     void push(std::uint64_t number, std::string text) {
         bytes += text.size();
@@ -64,7 +67,7 @@ struct OutputWriter::State {
 
     Stream& of(Standard standard) { return streams[index(standard)]; }
 
-    /// The one whose first line was said first, of those that can go on.
+    /// The stream with the oldest first line, among those that are not blocked.
     std::optional<Standard> next() const {
         std::optional<Standard> found;
         std::uint64_t first = UINT64_MAX;
@@ -89,7 +92,7 @@ struct OutputWriter::State {
         changed.notify_all();
     }
 
-    // Only this thread takes lines away, so the first one stays where it is.
+    // Only this thread removes lines, so the first line stays valid while unlocked.
     void write(Standard standard, std::unique_lock<std::mutex>& lock) {
         Stream& stream = of(standard);
         const auto text = std::string_view{stream.lines.front().text}.substr(stream.written);
@@ -117,7 +120,7 @@ struct OutputWriter::State {
     }
 
     const Sink sink;
-    std::mutex mutex; // guards what follows
+    std::mutex mutex; // guards the members below
     std::condition_variable woken, changed;
     std::array<Stream, 2> streams;
     std::uint64_t said = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a program says while it plays: one bounded queue for standard output and standard error, and one
-// thread that writes. Nobody else ever waits for a reader.
+// Non-blocking standard output and standard error during playback: a bounded queue for each, and one thread
+// that writes. Only that thread waits for a reader.
 #pragma once
 #include "System/Process.h"
 #include <chrono>
@@ -14,26 +14,26 @@
 
 namespace physvib {
 
-/// Any thread but R.
+/// Any thread but the render thread.
 class OutputWriter {
 public:
-    static constexpr std::size_t mostBytes = 1 << 18;         ///< that wait, on each of the two
-    static constexpr std::chrono::milliseconds patience{250}; ///< at the end, for each of them
-    /// As writeSome.
+    static constexpr std::size_t mostBytes = 1 << 18;         ///< maximum of queued bytes per stream
+    static constexpr std::chrono::milliseconds patience{250}; ///< per stream, at the end
+    /// Same interface as writeSome().
     using Sink = std::function<std::optional<std::size_t>(Standard, std::string_view)>;
 
     explicit OutputWriter(Sink sink = writeSome);
-    /// What waits still is given up. A thread that a reader holds up is left behind.
+    /// Discards queued lines. If a reader blocks the thread, the thread is detached.
     ~OutputWriter();
 
-    /// Puts one line into the queue. If there is no room, it is dropped and counted; standard error says so
+    /// Queues one line. If the queue is full, the line is dropped and counted, and standard error reports it
     /// when there is room again.
     void say(Standard standard, std::string line);
 
-    /// How many lines were dropped so far.
+    /// Number of lines dropped so far.
     std::uint64_t dropped(Standard standard) const;
 
-    /// Waits at most `patience` until all that was said is written. Empty, or why it is not.
+    /// Waits at most `patience` until all lines are written. Empty, or why they are not.
     std::string finish(Standard standard);
 
 private:

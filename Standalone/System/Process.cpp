@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The end of a program: by a signal, or with all that it wrote.
+// Ends the program, by a signal or after all its output was written.
 #include "System/Process.h"
 #include "Io/Disk/SystemFile.h"
 #include "System/StandardStreams.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the programs need of the system: before their first word, after their last, and in between. One file
-// per system does it, ProcessPosix.cpp and ProcessWindows.cpp.
+// System interface of the programs: start, standard streams, signals, child processes and end. Implemented
+// per system in ProcessPosix.cpp and ProcessWindows.cpp.
 #pragma once
 #include "Io/Result.h"
 #include <cstddef>
@@ -12,55 +12,57 @@
 
 namespace physvib {
 
-/// First of all: the standard descriptors are open, a signal that ends the program takes half-written files
-/// along, and a file that may not grow is an error, not a signal. M.
+/// To be called first. Opens closed standard descriptors, lets fatal signals remove incomplete files, and
+/// turns the file-size signal into a write error. Message thread.
 void beginProcess();
 
 enum class Standard { output, error };
 
-/// Writes some of `bytes` there: how many; 0: it has no room now; nothing: it cannot be written, and `errno`
-/// says why. On Windows it may wait for who reads. One thread, not R.
+/// Writes some of `bytes` and returns their number; 0 if the stream has no room now; nullopt if writing
+/// failed, with the reason in `errno`. On Windows it may wait for the reader. One thread, not the render
+/// thread.
 std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept;
 
-/// Last of all: empty if all that was written to standard output arrived, or one line with the reason. M.
+/// To be called last: empty if all standard output was written, or one line with the reason. Message thread.
 std::string outputFault();
 
-/// Ends the program now, with that exit code: what is written goes out, and no destructor of a static object
-/// runs, which a thread that is left to its driver may still use. M.
+/// Ends the program at once with that exit code. Flushes output but runs no destructors of static objects,
+/// because a thread abandoned in a device driver may still use them. Message thread.
 [[noreturn]] void endAtOnce(int exitCode);
 
-/// Ends the program as that signal does, half-written files first. For the handlers of signals.
+/// Removes incomplete files and ends the program as that signal does. For signal handlers.
 void endBySignal(int signal);
 
 enum class KeepIgnored {
     all,
     hangUp
-}; ///< what was ignored before and stays so: every such signal, or the one that `nohup` means
-/// From now on what asks this program to end (Ctrl-C, `kill`, a terminal that is closed) calls `handler` with
-/// the signal. M.
+}; ///< which ignored signals stay ignored: all, or only SIGHUP, as `nohup` needs
+/// Calls `handler` on signals that ask the program to end (Ctrl-C, `kill`, a closed terminal). Message
+/// thread.
 void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept;
 
-/// A reader of standard output that goes away ends nothing. M.
+/// Keeps the program running when the reader of standard output closes. Message thread.
 void ignoreLostReader() noexcept;
 
-/// Whether somebody watches standard error, for words that are rewritten in place. Any thread but R.
+/// True if standard error is a terminal, so that progress text can be overwritten. Any thread but the render
+/// thread.
 bool isErrorTerminal() noexcept;
 
-/// What has come on standard input, waiting up to `milliseconds` for it: how many bytes, 0 at the end,
-/// nothing if none came. One thread, not R.
+/// Reads standard input, waiting up to `milliseconds`: number of bytes, 0 at the end, nullopt if none came.
+/// One thread, not the render thread.
 std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept;
 
-/// By which other processes know this one. Any thread but R.
+/// Process id. Any thread but the render thread.
 int processNumber() noexcept;
 
-/// Runs a program of that name, with what we have for standard streams, to its end: whether it said that all
-/// is well, or why it did not begin. M.
+/// Runs a program with our standard streams until it ends: true if it exited with 0, or why it could not
+/// start. Message thread.
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments);
 
-/// Whether a window can be opened here. Any thread but R.
+/// True if a window can be opened. Any thread but the render thread.
 bool hasDisplay() noexcept;
 
-/// A program of ours: the one that lies beside this one, else the one that the system finds by its name. M.
+/// Path of another program of PhysVib: beside this one, else by the system's search path. Message thread.
 std::string ownProgram(const std::string& name);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// POSIX: descriptors 0 to 2, signals, other processes.
+// POSIX implementation: descriptors 0 to 2, signals, processes.
 #if !defined(_WIN32)
 #include "Io/Disk/SystemFile.h"
 #include "System/Process.h"
@@ -24,8 +24,8 @@ extern char** environ;
 namespace physvib {
 namespace {
 
-// A file that is opened while one of them is closed gets its number, and is taken for it. Opened the wrong
-// way round, reading standard input and writing the others stay the errors that they are.
+// A file opened while a standard descriptor is closed would get its number and be mistaken for it. /dev/null
+// is opened in the wrong direction, so that reading standard input and writing the others still fail.
 void openStandardDescriptors() {
     for (int standard = STDIN_FILENO; standard <= STDERR_FILENO; ++standard)
         if (fcntl(standard, F_GETFD) < 0 &&
@@ -60,7 +60,7 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
     return count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
-// A pipe that is ready takes this many without a wait.
+// A ready pipe accepts this many bytes without blocking.
 std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept {
     pollfd out{standard == Standard::output ? STDOUT_FILENO : STDERR_FILENO, POLLOUT, 0};
     if (poll(&out, 1, 0) <= 0) return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows: handles, the console's signals, other processes.
+// Windows implementation: handles, console signals, processes.
 #if defined(_WIN32)
 #include "Io/Disk/SystemFile.h"
 #include "Io/Disk/SystemWindows.h"
@@ -18,11 +18,11 @@
 namespace physvib {
 namespace {
 
-/// A pipe cannot be waited for: looked at each millisecond.
+/// Windows cannot wait for a pipe, so it is polled every millisecond.
 std::optional<DWORD> waitingInPipe(HANDLE pipe, int milliseconds) noexcept {
     for (int waited = 0;; ++waited) {
         DWORD waiting = 0;
-        // its other end is closed
+        // the other end is closed
         if (PeekNamedPipe(pipe, nullptr, 0, nullptr, &waiting, nullptr) == 0) return 0;
         if (waiting > 0) return waiting;
         if (waited >= milliseconds) return std::nullopt;
@@ -39,11 +39,11 @@ void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept {
         if (std::signal(signal, handler) == SIG_IGN && kept == KeepIgnored::all) std::signal(signal, SIG_IGN);
 }
 
-void ignoreLostReader() noexcept {} // writing to it is an error here, and no signal
+void ignoreLostReader() noexcept {} // on Windows, writing to a closed reader is an error and not a signal
 
 bool isErrorTerminal() noexcept { return _isatty(_fileno(stderr)) != 0; }
 
-// At a console a line that was begun is waited for.
+// At a console, this waits for the end of a started line.
 std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept {
     const HANDLE input = GetStdHandle(STD_INPUT_HANDLE);
     if (GetFileType(input) == FILE_TYPE_PIPE) {
@@ -81,7 +81,7 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
 
 bool hasDisplay() noexcept { return true; }
 
-// The folder of the running program is where Windows looks first.
+// Windows searches the folder of the running program first.
 std::string ownProgram(const std::string& name) { return name; }
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Buffers of both streams that hand over whole lines.
+// Stream buffers for std::cout and std::cerr that pass on complete lines.
 #include "System/StandardStreams.h"
 #include "System/OutputWriter.h"
 #include <array>
@@ -12,7 +12,7 @@
 namespace physvib {
 namespace {
 
-/// What a thread says becomes a line when it is whole.
+/// Collects the text of each thread until its line is complete.
 class LineBuffer final : public std::streambuf {
 public:
     LineBuffer(OutputWriter& writer, Standard standard)
@@ -71,7 +71,7 @@ private:
     std::streambuf *out_ = nullptr, *error_ = nullptr;
 };
 
-std::unique_ptr<ErrorVoice> voice; // changed by M alone, while nobody else speaks
+std::unique_ptr<ErrorVoice> voice; // changed by the message thread only, while no other thread prints
 
 } // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// std::cout and std::cerr while something plays: through an OutputWriter, whoever says something.
+// Redirects std::cout and std::cerr to an OutputWriter during playback.
 #pragma once
 #include "System/Process.h"
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace physvib {
 
-/// From now on std::cout and std::cerr go, by whole lines, to an OutputWriter. What has no newline needs a
-/// flush. M.
+/// Redirects std::cout and std::cerr, by complete lines, to an OutputWriter. Text without a newline needs a
+/// flush. Message thread.
 void sayWithoutWaiting();
 
-/// How many lines the one of sayWithoutWaiting has dropped. Any thread but R.
+/// Number of lines dropped since sayWithoutWaiting(). Any thread but the render thread.
 std::uint64_t droppedLines(Standard standard);
 
-/// Its OutputWriter::finish of standard output; nothing if sayWithoutWaiting was not called. M.
+/// OutputWriter::finish() of standard output; nullopt if sayWithoutWaiting() was not called. Message thread.
 std::optional<std::string> finishOutput();
 
-/// The end of sayWithoutWaiting, with what standard error has still to say. M.
+/// Ends the redirection, after writing the remaining lines of standard error. Message thread.
 void endOutput();
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the page calls, beside the controllers' motors of Source/Api/JavaScript. What fails does not return
-// (js::refuse), and the page throws the instance away.
+// Functions of the WebAssembly module that the page calls, besides the motor controllers in
+// Source/Api/JavaScript. On an error they do not return (js::refuse), and the page discards the instance.
 #include "Api/JavaScript/Exports.h"
 #include "PageWorld.h"
 #include "Scene/SceneCatalogue.h"
@@ -9,7 +9,7 @@
 #include <qrcodegen.h>
 
 #define PHYSVIB_PAGE(name)                                                                                   \
-    __attribute__((export_name(#name))) page_##name // the C library has an open of its own
+    __attribute__((export_name(#name))) page_##name // prefix, because the C library has a function open
 
 using namespace physvib;
 
@@ -33,25 +33,25 @@ std::string_view builtIn(std::string_view name) {
 
 extern "C" {
 
-/// The scenes that come with PhysVib, a name and a sentence in turn, a line each.
+/// Built-in scenes: name and description on alternating lines.
 const char* PHYSVIB_PAGE(sceneList)() {
     std::string lines;
     for (const Scene& scene : builtInScenes()) lines += scene.name + '\n' + scene.description + '\n';
     return tell(std::move(lines));
 }
 
-/// Names of the panning laws, a line each.
+/// Names of the panning laws, one per line.
 const char* PHYSVIB_PAGE(lawList)() {
     std::string lines;
     for (const std::string_view name : panningLawNames) (lines += name) += '\n';
     return tell(std::move(lines));
 }
 
-/// A value of a variable of the scene that is opened next.
+/// Sets a variable of the scene that is opened next.
 void PHYSVIB_PAGE(choose)(const char* name, const char* value) { chosen.emplace_back(name, value); }
 
-/// Begins with a file (PageFile.h), or, if it has less than 0 bytes, with the scene of that name. `byHand`:
-/// without what its script does of what hands do. A list is felt on a field of that size, m.
+/// Opens a file (PageFile.h) or, if `bytes` < 0, the built-in scene `name`. `byHand` disables scripted user
+/// input. An event list without a field gets a field of the given size, m.
 void PHYSVIB_PAGE(open)(const char* name, const char* text, int bytes, bool byHand, unsigned seed,
                         int sampleRateHz, int outputs, double fieldWidth, double fieldHeight) {
     const std::string_view given =
@@ -63,8 +63,7 @@ void PHYSVIB_PAGE(open)(const char* name, const char* text, int bytes, bool byHa
     world = std::make_unique<PageWorld>(std::move(file.value), seed, sampleRateHz, outputs);
 }
 
-/// All that is to be drawn, as a scene: bodies under the numbers of poses(), scripted ones among them; no
-/// script.
+/// The scene to draw, without script: bodies have the indices of poses(), and scripted ones are included.
 const char* PHYSVIB_PAGE(scene)() {
     Scene shown = world->scene();
     shown.bodies = world->cast();
@@ -73,8 +72,8 @@ const char* PHYSVIB_PAGE(scene)() {
     return tell(sceneJson(shown));
 }
 
-/// Of each variable of the scene: its name, the value that was chosen, and all choices, a line each; an empty
-/// line ends it.
+/// For each variable of the scene: its name, its value and all choices, one per line, followed by an empty
+/// line.
 const char* PHYSVIB_PAGE(variables)() {
     std::string lines;
     for (const SceneVariable& variable : world->scene().variables) {
@@ -91,8 +90,8 @@ int PHYSVIB_PAGE(playOutFrames)() { return static_cast<int>(world->playOutFrames
 const float* PHYSVIB_PAGE(poses)() { return world->poses().data(); }
 int PHYSVIB_PAGE(bodyCount)() { return static_cast<int>(world->cast().size()); }
 
-/// The next hit that has been played since: x, y, frequency, decay, amplitude, duration (s; 0: rings out),
-/// the time of its first sample (s), and its kind, as physvib.h has it; null: none.
+/// The next impact played since the last call: x, y, frequency, decay, amplitude, duration (s; 0: not
+/// limited), time of its first sample (s), and kind as in physvib.h; null if there is none.
 const double* PHYSVIB_PAGE(hit)() {
     static std::array<double, 8> told;
     CollisionEvent e;
@@ -103,7 +102,7 @@ const double* PHYSVIB_PAGE(hit)() {
     return told.data();
 }
 
-/// Fingers have numbers below PageWorld::fingers.
+/// `finger` is in 0 to PageWorld::fingers - 1.
 void PHYSVIB_PAGE(grip)(int finger, int body, double xMetres, double yMetres) {
     world->grip(finger, static_cast<std::size_t>(body), {xMetres, yMetres});
 }
@@ -115,17 +114,17 @@ void PHYSVIB_PAGE(sound)(int material, double frequencyHz, double decayPerSecond
     world->act(SoundAction{material, frequencyHz, decayPerSecond});
 }
 
-/// Actuators: first how many, then each one's place in shares of the layout's extent, then placed().
+/// Sets the actuators: first their number, then each place as shares of the layout's extent, then placed().
 void PHYSVIB_PAGE(enchanters)(int count) { world->layout().count = count; }
 void PHYSVIB_PAGE(place)(int enchanter, double x, double y) {
     EnchanterLayout& layout = world->layout();
     layout.places[static_cast<std::size_t>(enchanter)] = {x * layout.extentWidthMetres,
                                                           y * layout.extentHeightMetres};
 }
-/// By that law of lawList(); -1: as `physvib render` does if it is asked for none.
+/// Applies the places with a law of lawList(); -1: default of `physvib render`.
 void PHYSVIB_PAGE(placed)(int law) { world->placed(law); }
 
-/// A QR code of `text`: how many modules a side has, and qrModule() of each; 0: it is too long for one.
+/// Creates a QR code of `text` and returns the modules per side, for qrModule(); 0: the text is too long.
 int PHYSVIB_PAGE(qrSide)(const char* text) {
     js::text().assign(2 * qrcodegen_BUFFER_LEN_MAX, '\0');
     auto* const code = reinterpret_cast<std::uint8_t*>(js::text().data());

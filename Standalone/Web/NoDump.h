@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Included before Box2D's joints: they print themselves to no file here.
+// Included before Box2D's joints to remove their b2Dump output.
 #pragma once
 #include <box2d/b2_common.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instead of the joints of Box2D that no scene has, which its table of kinds would bring along.
+// Stubs for Box2D joint types that no scene uses, so that their code is not linked.
 #include <box2d/box2d.h>
 #include <cstdlib>
 

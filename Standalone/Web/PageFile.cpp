@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// By the ending of the name; MPEG's formats, which a page has no room for, are named.
+// Reads files by the extension of their name. MPEG formats are rejected with a hint, to keep the page small.
 #include "PageFile.h"
 #include "Formats/ClipFile.h"
 #include "Formats/ClipSound.h"
@@ -45,7 +45,7 @@ Result<PageFile> readClipFile(std::string_view name, std::string_view text, Clip
 
 } // namespace
 
-// Instead of MPEG's readers and writers.
+// Stubs that replace the readers and writers of MPEG formats.
 Result<Clip> readHjif(std::string_view, std::string_view) { return noRoom(); }
 Result<Clip> readHmpg(std::string_view, std::string_view) { return noRoom(); }
 std::string hjifText(const Clip&) { return {}; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a page is given: a scene, an event list or a clip, by its name.
+// File that a page opens: a scene, an event list or a clip, selected by its name.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Io/Result.h"
@@ -10,17 +10,17 @@
 
 namespace physvib {
 
-/// A world, and what is played beside it: of a scene nothing, of a list its strikes, of a clip one that
-/// stands for its samples.
+/// A world and the events played in it: none for a scene, its events for a list, and one event that stands
+/// for the samples of a clip.
 struct PageFile {
 
     Scene scene;
-    std::vector<CollisionEvent> strikes; ///< in the order of their times
+    std::vector<CollisionEvent> strikes; ///< sorted by time
     std::vector<float> samples;          ///< at the renderer's rate
 };
 
-/// `name` ends in .csv, .haptic or .ahap, or it is a scene. A list that says no field is felt on one of that
-/// size, m, a clip in the middle of all actuators, as `physvib render` has it.
+/// `name` ends in .csv, .haptic or .ahap; otherwise it is a scene. A list without a field gets one of the
+/// given size, m. A clip plays in the centre of all actuators, as in `physvib render`.
 Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
                               Vector fieldMetres, int sampleRateHz);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stepping, pulling, and rendering behind.
+// Steps the world, applies pulls, and renders with the output latency.
 #include "PageWorld.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace physvib {
 namespace {
 
-constexpr double pullPerSecond = 12.0, fastestPull = 12.0; // of the way that is left; m/s
+constexpr double pullPerSecond = 12.0, fastestPull = 12.0; // share of the remaining distance; m/s
 
 } // namespace
 
@@ -38,7 +38,7 @@ PageWorld::PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int ou
 PhantomPanner PageWorld::panner() const noexcept {
     const PanningLaw law = panningLaw_.value_or(PanningLaw::linear);
     PhantomPanner made{layout_, law, 1.0, fieldMetres_.x, fieldMetres_.y};
-    if (!panningLaw_) made.setGrains(grainSpread); // as physvib render, where no law is asked for
+    if (!panningLaw_) made.setGrains(grainSpread); // default of physvib render without --law
     return made;
 }
 
@@ -60,7 +60,7 @@ void PageWorld::grip(int finger, std::size_t body, Vector toMetres) {
     hands_[static_cast<std::size_t>(finger)] = Hand{body, toMetres};
 }
 
-// What moves as it is told would go on.
+// A kinematic body would keep its velocity.
 void PageWorld::letGo(int finger) {
     if (finger < 0 || finger >= fingers) return;
     const auto held = std::exchange(hands_[static_cast<std::size_t>(finger)], {});
@@ -78,7 +78,7 @@ void PageWorld::pull(const Hand& hand) {
 
 void PageWorld::placed(int law) {
     panningLaw_.reset();
-    const auto index = static_cast<std::size_t>(law); // of -1: beyond them all
+    const auto index = static_cast<std::size_t>(law); // -1 becomes larger than any index
     if (index < panningLaws.size()) panningLaw_ = panningLaws[index].law;
     const std::int64_t timeNs = nsOf(std::max<std::int64_t>(0, done_ - firstFrame()));
     controls_.push_back({.timeNs = timeNs, .kind = RenderControl::Kind::panner, .panner = panner()});

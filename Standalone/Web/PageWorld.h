@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene in motion and what is felt of it, all on the one thread that makes its sound.
+// A running scene and its haptic output, on the thread that renders the audio.
 #pragma once
 #include "Core/ClockLaw.h"
 #include "Core/HapticRenderer.h"
@@ -17,44 +17,44 @@
 
 namespace physvib {
 
-/// The live output is the rendered file, playOutFrames() later: Docs/threads.md, where one thread holds every
-/// role. The world is stepped in the block that needs it.
+/// The output equals the rendered file, delayed by playOutFrames(). One thread has all roles of
+/// Docs/threads.md, and steps the world in the block that needs it.
 class PageWorld {
 public:
     static constexpr int stepsPerSecond = 100;
-    static constexpr int fingers = 10; ///< that hold bodies at once
+    static constexpr int fingers = 10; ///< maximum number of bodies held at once
 
-    /// Throws what Simulation throws, or std::invalid_argument at a rate or number of outputs that cannot be
-    /// rendered.
+    /// Throws the exceptions of Simulation, or std::invalid_argument for a sample rate or number of outputs
+    /// that cannot be rendered.
     PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int outputs);
 
     /// The next frames, channel by channel.
     const float* render(int frames);
     std::int64_t playOutFrames() const noexcept { return law_.playOutFrames(); }
 
-    /// x, y, angle and presence (1 or 0) of each body of cast(), one after the other.
+    /// x, y, angle and presence (1 or 0) of each body of cast(), consecutively.
     const std::vector<float>& poses();
     const std::vector<BodyDescription>& cast() const noexcept { return cast_; }
     const Scene& scene() const noexcept { return simulation_.scene(); }
 
-    /// The next hit that has been played since the last call, and when, in seconds of the output; false:
-    /// none. Of a clip none is told.
+    /// The next impact played since the last call, and its time in seconds of the output; false if there is
+    /// none. Clips are not reported.
     bool takeHit(CollisionEvent& hit, double& atSeconds);
 
-    void act(const Action& action); ///< now; what is wrong with it is told by fault()
+    void act(const Action& action); ///< applies now; fault() has its error
     void steer(int way);
     bool isPlayed() const noexcept { return player_.isThere(); }
     const std::string& fault() const noexcept { return fault_; } ///< of the last input; empty: none
 
-    void grip(int finger, std::size_t body, Vector toMetres); ///< pulled there until it is let go
+    void grip(int finger, std::size_t body, Vector toMetres); ///< pulls the body there until letGo()
     void letGo(int finger);
 
-    /// at most as many as outputs; placed() makes it audible
+    /// At most as many actuators as outputs; placed() applies changes.
     EnchanterLayout& layout() noexcept { return layout_; }
-    /// of panningLaws; another: none was asked for, so linear, and grains by grainSpread
+    /// Index in panningLaws; any other value: linear, with grainSpread for grains.
     void placed(int law);
 
-    bool pop(CollisionEvent& event) noexcept { return take(events_, event); } // these two: for the renderer
+    bool pop(CollisionEvent& event) noexcept { return take(events_, event); } // for the renderer, as the next
     bool pop(RenderControl& change) noexcept { return take(controls_, change); }
 
 private:
@@ -70,7 +70,7 @@ private:
         return true;
     }
     PhantomPanner panner() const noexcept;
-    // the renderer's frame 0
+    // Frame 0 of the renderer.
     std::int64_t firstFrame() const noexcept { return law_.playOutFrames() - law_.limiterFrames; }
     std::int64_t nsOf(std::int64_t frame) const noexcept;
     void pull(const Hand& hand);
@@ -95,7 +95,7 @@ private:
     std::optional<PanningLaw> panningLaw_;
     std::string fault_;
     std::size_t outputs_;
-    std::int64_t done_ = 0; // frames
+    std::int64_t done_ = 0; // in frames
 };
 
 } // namespace physvib

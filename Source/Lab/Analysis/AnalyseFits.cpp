@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A fit per participant, a mean with its interval per condition.
+// Analyses psychometric and power-law: one fit per participant, and means with intervals per condition.
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/FitCharts.h"
@@ -41,18 +41,18 @@ void leaveOut(AnalysisReport& report, const std::string& condition, const std::s
                               " left out: " + fault);
 }
 
-/// One line for all who were left out.
+/// Error line if no participant could be fitted.
 AnalysisReport nobodyFitted(const AnalysisJob& o, const AnalysisReport& report) {
     return {o.files.front() + ": nobody can be fitted; " + report.warnings.back()};
 }
 
-/// Of the first condition; a report has all.
+/// Chart of the first condition; reports have charts of all.
 ChartFrame frameOf(const AnalysisJob& o, const std::string& condition, bool isSimulated) {
     return {"fit", condition.empty() ? std::filesystem::path{o.files.front()}.filename().string() : condition,
             isSimulated};
 }
 
-/// Of a threshold that no level was near; empty if it lies between the participant's levels.
+/// Warning for a threshold outside the participant's levels; empty if it lies between them.
 std::string beyondWords(const std::vector<LevelAnswer>& trials, const std::string& participant,
                         const PsychometricFunction& f) {
     const double threshold = f.threshold;

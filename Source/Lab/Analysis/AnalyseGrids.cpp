@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Perceptual resolutions in words and tables.
+// Analyses of perceptual resolution, as text and tables.
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/StudyCharts.h"
@@ -46,7 +46,7 @@ void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolu
         << fixedNumber(counts.standardDeviation(), 2) << '\n';
 }
 
-/// "21.6 +- 2.2 cells": what the same responses give when they are drawn again.
+/// "21.6 +- 2.2 cells": bootstrap over the responses.
 std::string spreadWords(const CellSpread& spread) {
     return fixedNumber(spread.mean, 1) + " +- " + fixedNumber(spread.deviation, 1) +
            " cells (responses drawn again 200 times): sizes that differ by less are no finding";
@@ -77,7 +77,7 @@ void exportNormals(ExportTable& table, const ConditionResolution& made) {
 }
 
 void warnOfSum(const PercentCounts& counts, std::vector<std::string>& warnings) {
-    const double printed = 0.005 * static_cast<double>(counts.percent.size()); // each rounded to two decimals
+    const double printed = 0.005 * static_cast<double>(counts.percent.size()); // rounding to two decimals
     if (std::abs(counts.sum() - 100.0) > printed + 1e-9)
         warnings.push_back(printable(counts.condition) + ": percent counts sum to " +
                            fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Confusion matrices in words and tables.
+// Analyses of identification: confusion matrices, information transfer and icons, as text and tables.
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/StudyCharts.h"
@@ -90,7 +90,7 @@ void exportTransfer(ExportTable& table, const std::string& condition, const Part
         .endRow();
 }
 
-/// What participants transfer each by themselves: the mean in words, everyone in both tables.
+/// Information transfer by participant: the mean as text, all participants in both tables.
 void tellAndExport(std::ostream& out, const std::string& indent,
                    const StudyCondition<IdentificationTrial>& condition, ExportTable& counts,
                    ExportTable& each) {
@@ -164,7 +164,7 @@ AnalysisReport analyseIcons(const AnalysisJob& o) {
         matrices.emplace_back(condition.name, ConfusionMatrix{condition.trials});
     std::ranges::stable_sort(matrices, {}, [](const auto& m) { return m.second.stimuli(); });
     ExportTable table{"icons", data.value.isSimulated, "condition,stimulus,percent_correct"};
-    std::string chosen; // the condition that the icons are of
+    std::string chosen; // condition from which the icons are selected
     std::vector<std::pair<std::string, ChartValue>> icons;
     for (const auto& [name, matrix] : matrices) {
         const InformationTransfer it = informationTransfer(matrix);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Errors of pointing in words and a table: means over participants of means over targets.
+// Analysis of pointing errors as text and table: means over participants of means over targets.
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Statistics/Moments.h"
 #include <algorithm>
@@ -9,10 +9,10 @@
 namespace physvib {
 namespace {
 
-/// Four significant digits, as units may be metres or pixels.
+/// Four significant digits, because units can be metres or pixels.
 std::string significant(double number) {
     char digits[32];
-    number = number == 0.0 ? 0.0 : number; // no -0
+    number = number == 0.0 ? 0.0 : number; // avoids -0
     return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 4).ptr};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A line per effect, in words and as a tidy table.
+// Statistical tests over participants: one line per effect, as text and as a tidy table.
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/LongTableCsv.h"
@@ -56,7 +56,7 @@ std::string exported(const std::string& name, bool isSimulated, const TestReport
     return table.text();
 }
 
-/// Reads the design, runs `test` on it, and tells its lines.
+/// Reads the design, runs `test` and prints its lines.
 template <class Test>
 AnalysisReport analyseDesign(const AnalysisJob& o, const std::string& name, Test test) {
     const LongTableColumns columns{o.measure, o.within, o.between, o.participant, o.where};

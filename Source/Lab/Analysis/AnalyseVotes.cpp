@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shares and means in words and tables.
+// Analyses of choices, ratings and levels, as text and tables.
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/StudyCharts.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every analysis: a function of its own, in the list of Analysis.cpp.
+// The functions of all analyses, which the list in Analysis.cpp refers to.
 #pragma once
 #include "Lab/Analysis/Analysis.h"
 
@@ -9,17 +9,17 @@ namespace physvib {
 AnalysisReport analyseConfusion(const AnalysisJob& job);
 AnalysisReport analyseIcons(const AnalysisJob& job);
 
-// Places: from pointing responses or percent counts to a perceptual resolution.
+// Places: perceptual resolution from pointing responses or percent counts, and pointing errors.
 AnalysisReport analyseResolution(const AnalysisJob& job);
 AnalysisReport analysePlaces(const AnalysisJob& job);
 AnalysisReport analysePercentCounts(const AnalysisJob& job);
 
-// Opinions and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
+// Judgements and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
 AnalysisReport analyseChoices(const AnalysisJob& job);
 AnalysisReport analyseRatings(const AnalysisJob& job);
 AnalysisReport analyseLevels(const AnalysisJob& job);
 
-// Tests over participants, on any long table.
+// Tests over participants, for any long table.
 AnalysisReport analyseAnova(const AnalysisJob& job);
 AnalysisReport analyseFriedman(const AnalysisJob& job);
 AnalysisReport analyseWilcoxon(const AnalysisJob& job);

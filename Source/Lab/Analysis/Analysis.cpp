@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of all analyses, and which of them fit a table.
+// List of all analyses, and selection of those that fit a table.
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Files/TrialColumns.h"
 #include "Lab/Study/StudyTasks.h"
@@ -46,7 +46,7 @@ static_assert(std::ranges::all_of(studyTasks,
                                   }),
               "every task's analysis is one of these");
 
-/// "trials of the task locate", or "columns of such trials" where a table names no task.
+/// "trials of the task locate", or "columns of such trials" if the table has no task.
 std::string trialWordsOf(const CsvTable& table, const std::string& analysis) {
     const auto task = table.column(trialColumns::task);
     std::set<std::string> tasks;
@@ -77,7 +77,7 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
             const bool isAdapted =
                 did->answer == AnswerKind::choice && correct && !row.cells[*correct].empty();
             if (isAdapted || did->analysis == "levels")
-                found.insert("levels"); // of trainings, too
+                found.insert("levels"); // including training
             else if (!isTraining)
                 found.emplace(did->analysis);
         }
@@ -104,8 +104,8 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
 
 namespace {
 
-/// Of a table that an analysis could not take: which trials it holds, and which call reads them. Empty if no
-/// analysis is known for them, or if it is this one's own kind and something else is wrong.
+/// For a table that an analysis rejected: the kind of its trials and the call that reads them. Empty if no
+/// analysis is known for them, or if the kind was right and the error is another.
 std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     if (asked.kind == Analysis::Kind::test || job.files.empty() || job.made != nullptr) return {};
     const auto text = readFile(job.files.front(), limits::maxTableBytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An analysis of the trials of a study: what is asked, and what is found.
+// Interface of the analyses of study trials: options and results.
 #pragma once
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Statistics/Pairs.h"
@@ -16,13 +16,13 @@
 
 namespace physvib {
 
-/// What is asked of which files, and what is written; each kind of analysis uses some of it.
+/// Input files, options and output files; each analysis uses some of them.
 struct AnalysisJob : StudySources {
     int tolerance = 0;                                 ///< confusion: grid steps that still count as correct
-    double thresholdPercent = defaultPercentThreshold; ///< resolution, percent-counts
-    std::size_t meanings = 8;                          ///< icons
-    std::string picturePath, exportPath, countsPath;   ///< empty: not wanted
-    std::string participantsPath;                      ///< confusion: a row per participant
+    double thresholdPercent = defaultPercentThreshold; ///< resolution, percent-counts: threshold of a cell
+    std::size_t meanings = 8;                          ///< icons: number of meanings
+    std::string picturePath, exportPath, countsPath;   ///< output files; empty: none
+    std::string participantsPath; ///< confusion: output file with one row per participant
     // Tests over participants:
     std::string measure, between, participant;
     std::vector<std::string> within, where;
@@ -36,31 +36,30 @@ struct AnalysisJob : StudySources {
     bool operator==(const AnalysisJob&) const = default;
 };
 
-/// What an analysis has found.
+/// Result of an analysis.
 struct AnalysisReport {
-    std::string error;                             ///< one line; then only `words` may hold something
-    bool isSimulated = false;                      ///< a simulated observer answered, not a person
-    std::vector<std::string> warnings{};           ///< a line each
-    std::string words{};                           ///< its figures, in lines
+    std::string error;                             ///< one line; if set, only `words` may be set too
+    bool isSimulated = false;                      ///< trials are of a simulated observer
+    std::vector<std::string> warnings{};           ///< one line each
+    std::string words{};                           ///< text result, in lines
     std::function<std::string()> picture{};        ///< SVG, watermarked if simulated; empty: none
     std::string table{}, counts{}, participants{}; ///< CSV
-    std::vector<TestLine> lines{};                 ///< of a test
+    std::vector<TestLine> lines{};                 ///< results of a test
 };
 
-/// The analyses that fit a table, by their names: of a trial file by the tasks in it, else by its columns.
-/// Any thread.
+/// Names of the analyses that fit a table: for a trial file by its tasks, else by its columns. Any thread.
 std::vector<std::string> analysesFor(const CsvTable& table);
 
-/// The analysis of that name, one of analysesFor's. M only.
+/// Runs the analysis with that name, one of allAnalyses(). Message thread only.
 AnalysisReport analyse(const std::string& name, const AnalysisJob& options);
 
-/// A row of the list of all analyses.
+/// Entry of the list of all analyses.
 struct Analysis {
     enum class Kind {
         results,
         test,
         fit
-    } kind; ///< of trials, over participants, to each participant's trials
+    } kind; ///< of trials, over participants, or fitted to each participant's trials
     std::string_view name;
     const char* purpose;
     AnalysisReport (*run)(const AnalysisJob&);

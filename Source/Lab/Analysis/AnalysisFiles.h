@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What analyses share: files in, words, and tables out.
+// Helpers of the analyses: reading input files, formatting text, and writing tables.
 #pragma once
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
@@ -19,24 +19,24 @@ inline std::string percent(double share) { return fixedNumber(100.0 * share, 1);
 
 inline std::string chanceWords(double p) { return p < 0.001 ? "p < 0.001" : "p = " + fixedNumber(p, 3); }
 
-/// A label of any length as it may be shown: of stimuli that differ at the end only, too.
+/// A printable label of any length. It is not truncated, so labels that differ only at the end stay distinct.
 inline std::string wholeLabel(std::string_view label) {
-    constexpr std::size_t piece = 40; // as printable() takes without cutting
+    constexpr std::size_t piece = 40; // printable() truncates longer text
     std::string words;
     for (; label.size() > piece; label.remove_prefix(piece)) words += printable(label.substr(0, piece));
     return words + printable(label);
 }
 
-/// What an analysis reads.
+/// Input files of an analysis.
 struct StudySources {
     std::vector<std::string> files;
-    std::vector<ColumnName> columns{}; ///< of another program's tables
-    /// tables by their names that are not on the disk (yet); they have our columns
+    std::vector<ColumnName> columns{}; ///< column mapping for tables of another program
+    /// tables in memory by name, with our columns; used instead of files
     const std::map<std::string, std::string>* made = nullptr;
     bool operator==(const StudySources&) const = default;
 };
 
-/// Reads every file and gives the texts to `reader` at once.
+/// Reads all files, then calls `reader` once with their texts.
 template <class Reader>
 auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t mostBytes = limits::maxTableBytes)
     -> decltype(reader(std::vector<NamedText>{})) {
@@ -57,7 +57,7 @@ auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t most
     return reader(files);
 }
 
-/// A table that grows cell by cell, for statistics packages.
+/// CSV table for statistics packages, written cell by cell.
 class ExportTable {
 public:
     ExportTable(std::string_view kind, bool isSimulated, std::string_view header) {
@@ -81,7 +81,7 @@ public:
         appendNumber(text_, number);
         return *this;
     }
-    /// Empty where there is none.
+    /// An empty cell for nullopt.
     ExportTable& cell(const std::optional<double>& number) {
         return number ? cell(*number) : cell(std::string_view{});
     }

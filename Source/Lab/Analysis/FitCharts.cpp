@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was answered as points, what was fitted as lines.
+// Charts of fits: answers as points, fitted functions as lines.
 #include "Lab/Analysis/FitCharts.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Statistics/Bootstrap.h"
@@ -47,7 +47,7 @@ FitWords fitWords(std::span<const ColumnName> columns, const std::string& level,
 
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                               const PsychometricModel& model, const FitWords& words) {
-    std::map<double, std::pair<double, double>> counts; // hits, trials
+    std::map<double, std::pair<double, double>> counts; // level -> hits, trials
     for (const LevelAnswer& trial : trials) {
         counts[trial.level].first += trial.answer;
         counts[trial.level].second += 1.0;
@@ -90,7 +90,8 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
 
 std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                           const std::string& levelWords) {
-    std::map<std::string, std::map<double, std::vector<double>>> people; // log10 of magnitudes
+    // by participant and level: log10 of magnitudes
+    std::map<std::string, std::map<double, std::vector<double>>> people;
     for (const LevelAnswer& trial : trials)
         if (trial.answer > 0.0 && trial.level > 0.0)
             people[trial.participant][trial.level].push_back(std::log10(trial.answer));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results in, charts out; what is the same in a picture and in a report is drawn here.
+// Draws study results, for the pictures of `analyse` and for reports.
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Statistics/TestReport.h"
@@ -25,7 +25,7 @@ std::vector<std::string> numbersTo(std::size_t most) {
     return numbers;
 }
 
-/// The p of all bars of a chart, corrected by Holm for their number.
+/// p values of all bars of a chart, with Holm's correction for their number.
 TestReport correctedOver(const std::vector<const ChoiceSummary*>& summaries) {
     TestReport report;
     for (const ChoiceSummary* summary : summaries) {
@@ -64,7 +64,8 @@ std::string responsesChart(ChartFrame frame, const ConditionResolution& one,
 }
 
 std::string territoryChart(ChartFrame frame, const ConditionResolution& one) {
-    constexpr std::size_t columns = 164, rows = 85; // fine enough for a page; percent counts use every pixel
+    constexpr std::size_t columns = 164, rows = 85; // sufficient resolution for a page; percent counts use
+                                                    // every pixel
     PlaceChart chart = fieldOf(std::move(frame), one);
     for (const std::uint16_t owner : likelihoodMap(one.normals, columns, rows))
         chart.territory.push_back(owner);
@@ -169,7 +170,7 @@ std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bo
 }
 
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results) {
-    // by axis and layer: gammas of all voltages, by frequency
+    // axis, layer, frequency -> gammas of all voltages
     std::map<std::string, std::map<std::string, std::map<double, std::vector<double>>>> axes;
     std::map<std::string, std::size_t> styles;
     for (const IsolationResult& r : results) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Charts of study results: the pictures of `physvib analyse` and figures of reports.
+// Charts of study results, for pictures of `physvib analyse` and figures of reports.
 #pragma once
 #include "Io/Charts/Charts.h"
 #include "Lab/Study/Attenuation.h"
@@ -13,50 +13,49 @@
 
 namespace physvib {
 
-// SVG, one chart each. Any thread (allocates).
+// Each returns one chart as SVG. Any thread (allocates).
 
-/// Darker: a larger share of the stimulus' trials.
+/// Darker cells have a larger share of the stimulus' trials.
 std::string confusionChart(ChartFrame frame, const ConfusionMatrix& matrix);
 
-/// Every response, and each target's normal as an ellipse of one standard deviation.
+/// All responses, and each target's normal distribution as an ellipse of one standard deviation.
 std::string responsesChart(ChartFrame frame, const ConditionResolution& one,
                            const std::vector<LocationTrial>& trials);
 
-/// The likeliest target of every place.
+/// Map of the most likely target at every place.
 std::string territoryChart(ChartFrame frame, const ConditionResolution& one);
 
-/// Percent counts: darker for more, framed below the threshold of merging.
+/// Percent counts: darker for more, framed if below the merging threshold.
 std::string countsChart(ChartFrame frame, const PercentCounts& counts);
 
-/// The counts of the largest grid that merging makes, and its size behind the title. Some grid must have been
-/// found.
+/// Counts of the largest merged grid, with its size in the title. Precondition: such a grid was found.
 std::string mergedChart(ChartFrame frame, const ConditionResolution& one);
 
-/// A bar per alternative and summary; the first alternative's bar is marked if two differ from one half, by
-/// signed ranks that are corrected by Holm for the chart's bars.
+/// One bar per alternative and summary. With two alternatives, the first one's bar is marked if it differs
+/// from one half by a signed-rank test with Holm's correction for the chart's bars.
 std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
                         const std::vector<std::string>& groups,
                         const std::vector<const ChoiceSummary*>& summaries);
 
-/// Mean scores of conditions, a series per scale.
+/// Mean scores of conditions, one series per scale.
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
                         const std::vector<const RatingSummary*>& summaries);
 ChartValue scoreOf(const RatingSummary& summary, std::size_t scale);
 
-/// Bars of one series, as shares in percent or levels; `valueWords` with its unit.
+/// Bars of one series, shares in percent or levels; `valueWords` includes the unit.
 std::string barsChart(ChartFrame frame, const std::string& groupsWords, const std::string& valueWords,
                       const std::vector<std::pair<std::string, ChartValue>>& bars,
                       std::optional<double> most = {});
 
-/// The name of a picture's chart of that number.
+/// Name of the chart with that number in a picture.
 inline std::string chartName(std::size_t number) { return "chart" + std::to_string(number); }
 
-// Several charts, for a picture:
+// Functions that return several charts for a picture:
 
-/// Thresholds, matched levels and magnitudes: a chart per kind, with standard deviations of what is in dB.
+/// Thresholds, adjusted levels and magnitudes: one chart per kind, with standard deviations for values in dB.
 std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bool isSimulated);
 
-/// Gamma over the frequency: a chart per axis, a curve per layer.
+/// Gamma over frequency: one chart per axis, one curve per layer.
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A row per trial as in the trial file; times under BIDS' own name.
+// Converts trial files to BIDS tables: one row per trial, with times under the column names of BIDS.
 #include "Lab/Files/BidsDataset.h"
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/CleanText.h"
@@ -13,7 +13,7 @@
 namespace physvib {
 namespace {
 
-/// Letters and digits alone, as BIDS wants labels.
+/// Letters and digits only, as BIDS requires for labels.
 std::string labelOf(const std::string& code) {
     std::string label;
     for (const char c : code)
@@ -21,7 +21,7 @@ std::string labelOf(const std::string& code) {
     return label.empty() ? "X" : label;
 }
 
-/// A cell of a TSV: no tabs, no line ends; what is missing is n/a.
+/// A TSV cell: without tabs and line ends; n/a if empty.
 std::string cellOf(const std::string& words) {
     std::string cell = cleanLine(words);
     std::ranges::replace(cell, '\t', ' ');

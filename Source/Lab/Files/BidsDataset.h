@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Trials as a dataset of the Brain Imaging Data Structure (BIDS 1.8, behaviour without imaging), as files in
-// memory.
+// Exports trials as a dataset of the Brain Imaging Data Structure (BIDS 1.8, behaviour without imaging), as
+// files in memory.
 #pragma once
 #include "Io/Text/CsvTable.h"
 #include <map>
@@ -9,17 +9,17 @@
 
 namespace physvib {
 
-/// What a dataset says of itself.
+/// Description of a dataset.
 struct BidsWords {
-    std::string name, task;                      ///< of the study; the task as its protocol is called
+    std::string name, task;                      ///< of the study; the task has the protocol's name
     std::string version;                         ///< of the program
-    std::map<std::string, std::string> source{}; ///< what else is known of it: key and value
+    std::map<std::string, std::string> source{}; ///< further facts, as keys and values
     bool isSimulated = false;
 };
 
-/// Paths within the dataset and their bytes: dataset_description.json, participants.tsv,
-/// sub-CODE/beh/sub-CODE_task-NAME_beh.tsv, and what their columns mean. `trials` has a column `participant`;
-/// codes that are the same without hyphens get a number. Any thread (allocates).
+/// Paths and contents of the dataset's files: dataset_description.json, participants.tsv,
+/// sub-CODE/beh/sub-CODE_task-NAME_beh.tsv, and descriptions of their columns. Precondition: `trials` has a
+/// column `participant`. Codes that differ only in hyphens get a number. Any thread (allocates).
 std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const BidsWords& words);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Columns are found once, then every row is shortened to them.
+// Finds the mapped columns once, then reduces every row to them.
 #include "Lab/Files/ColumnNames.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/TrialColumns.h"
@@ -12,7 +12,7 @@ namespace physvib {
 
 namespace {
 
-/// "touch_x:0:1230" in its parts; a column's name that ends otherwise is all name.
+/// Splits "touch_x:0:1230". A name with another ending is a plain column name.
 ColumnName withRange(std::string ours, std::string words) {
     const std::size_t second = words.rfind(':'), first = second == std::string::npos || second == 0
                                                              ? std::string::npos
@@ -24,7 +24,8 @@ ColumnName withRange(std::string ours, std::string words) {
     return {std::move(ours), words.substr(0, first), std::pair{*from, *to}};
 }
 
-/// Cells of a column as shares of its range; empty, or the first that is no number.
+/// Converts a column to shares of its range. Returns an error for the first cell that is not a number, else
+/// an empty string.
 std::string scale(CsvTable& table, std::size_t column, const std::pair<double, double>& range) {
     for (CsvRow& row : table.rows) {
         const auto number = parseNumber<double>(row.cells[column]);
@@ -34,8 +35,8 @@ std::string scale(CsvTable& table, std::size_t column, const std::pair<double, d
     return {};
 }
 
-/// True places along one axis also become numbers of lines, if they are few enough for a grid; empty, or what
-/// is wrong.
+/// Also numbers the true places along one axis as grid lines, if there are few enough of them. Returns an
+/// error or an empty string.
 std::string numberLines(CsvTable& table, std::string_view places, const char* lines) {
     const auto column = table.column(places);
     if (!column || table.column(lines)) return {};

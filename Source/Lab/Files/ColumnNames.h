@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Other programs' tables under our columns' names: the one place that maps them.
+// Maps column names of other programs' tables to the names used here.
 #pragma once
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
@@ -12,27 +12,27 @@
 
 namespace physvib {
 
-/// A column of ours, and what a table calls it.
+/// A column name used here, and its name in a table.
 struct ColumnName {
     std::string ours, theirs;
-    std::optional<std::pair<double, double>> range{}; ///< the table's numbers that are 0 and 1 here; none:
-                                                      ///< cells stay as they are
+    std::optional<std::pair<double, double>> range{}; ///< table values that map to 0 and 1; none: cells are
+                                                      ///< unchanged
     bool operator==(const ColumnName&) const = default;
 };
 
-/// Of words like `response=key_resp.keys` or, of places, `x=touch_x:0:1230` (0 is the left edge, 1230 the
-/// right one), each of ours once; or one line on the first that is none. Any thread.
+/// Parses words like `response=key_resp.keys` or, for places, `x=touch_x:0:1230` (0 is the left edge, 1230
+/// the right one), with each of our names once. Otherwise one line on the first invalid word. Any thread.
 Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words);
 
-/// Empty, or that of an answered and a true place only one has a range: they are in different units. Any
-/// thread (allocates).
+/// Empty, or an error if only one of an answered and a true place has a range, because their units then
+/// differ. Any thread (allocates).
 std::string unitFault(std::span<const ColumnName> names);
 
-/// Makes `table` one of the named columns alone, under our names; `observer` stays, as it may mark a
-/// simulation. Rows with nothing in one of the columns (instructions, fixations, trials without an answer)
-/// are left out and counted. Of columns target_x and target_y (true places, as numbers) come target_column
-/// and target_row, in their order from 1, if there are at most mostGridLines of them along each axis. What is
-/// wrong: a line; empty names: nothing happens. Any thread.
+/// Reduces `table` to the named columns, under our names. The column `observer` stays, as it may mark
+/// simulated data. Rows with an empty cell in one of the columns (instructions, fixations, trials without an
+/// answer) are dropped and counted. From numeric true places target_x and target_y, columns target_column and
+/// target_row are derived, ascending from 1, if each axis has at most mostGridLines of them. Returns an error
+/// line or an empty string; without `names` it does nothing. Any thread.
 std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every number of a coupling file, checked: what is driven by it is held by hands.
+// Reads and writes coupling files, checking every number, because the file drives actuators that people hold.
 #include "Lab/Files/CouplingFile.h"
 #include "Core/Limits.h"
 #include "Io/Disk/ReadFile.h"
@@ -17,7 +17,7 @@ namespace physvib {
 namespace {
 
 constexpr const char* couplingVersionField = "physvib_coupling";
-constexpr double mostShare = 4.0; // of its own full scale: more is a mistake of units
+constexpr double mostShare = 4.0; // in full scales; larger values indicate a wrong unit
 constexpr std::size_t mostFrequencies = 256;
 
 std::size_t sizeOf(const JsonField& rows, std::size_t least, std::size_t most) {
@@ -30,7 +30,7 @@ std::size_t sizeOf(const JsonField& rows, std::size_t least, std::size_t most) {
     return size;
 }
 
-/// number(i, j) of each entry of a square of `size`.
+/// Calls `take(i, j, number)` for each entry of a square matrix of `size`.
 template <class Take>
 void readSquare(const JsonField& rows, std::size_t size, double least, double most, Take take) {
     sizeOf(rows, size, size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measured coupling between enchanters, as JSON.
+// JSON files of the measured coupling between actuators.
 #pragma once
 #include "Io/Result.h"
 #include "Lab/Study/Coupling.h"
@@ -9,18 +9,18 @@
 
 namespace physvib {
 
-/// The newest version of the format that is read.
+/// Newest readable version of the format.
 constexpr int couplingFormatVersion = 1;
 
-/// The coupling that `text` describes: square matrices of 1 to limits::maxEnchanters rows, magnitudes in
-/// shares of a full scale and phases in degrees; or one line `name: measured[0].phase_deg[1][2]: expected
-/// ...`. Unknown and repeated fields are errors. Any thread.
+/// Parses square matrices of 1 to limits::maxEnchanters rows, with magnitudes in full scales and phases in
+/// degrees. Otherwise one line `name: measured[0].phase_deg[1][2]: expected ...`. Unknown and repeated fields
+/// are errors. Any thread.
 Result<MeasuredCoupling> readCoupling(std::string_view text, std::string_view name);
 
-/// The same of a file. M only.
+/// Reads a file with readCoupling(). Message thread only.
 Result<MeasuredCoupling> loadCoupling(const std::filesystem::path& path);
 
-/// `coupling` as JSON; readCoupling gives it back but for the last bits of its phases. Any thread.
+/// `coupling` as JSON; readCoupling() restores it except for the last bits of its phases. Any thread.
 std::string couplingJson(const MeasuredCoupling& coupling, const std::string& name,
                          const std::string& source);
 

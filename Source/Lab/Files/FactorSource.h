@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a row of a table says the level of a factor. For the .cpp files of Files.
+// Locates the level of an experimental factor in the rows of a table. Private to the .cpp files of Lab/Files.
 #pragma once
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/CsvText.h"
@@ -11,14 +11,14 @@
 
 namespace physvib::detail {
 
-/// A column of that name; or `condition.2`, the second part of what a column `condition` says between
-/// hyphens; or `name=level` among the words of a condition or stimulus, or one letter in the name of one of
-/// the thesis' methods (5.3): of A, F and DR, AV-FF-DRV says V, F and V.
+/// The source is one of: a column of that name; `condition.2`, the second hyphen-separated part of column
+/// `condition`; `name=level` among the words of a condition or stimulus; or a letter in the name of one of
+/// the thesis' methods (5.3), e.g. factors A, F and DR of AV-FF-DRV have levels V, F and V.
 struct FactorSource {
     std::size_t column = 0;
-    std::string mark{}; ///< "pair="; empty: the whole cell of `column`
+    std::string mark{}; ///< "pair="; empty: use the whole cell of `column`
     std::optional<std::size_t> alsoIn{};
-    std::size_t part = 0; ///< from 1; 0: not a part
+    std::size_t part = 0; ///< from 1; 0: no hyphen-separated part
 
     static std::optional<FactorSource> of(const CsvTable& table, const std::string& factor) {
         if (const auto column = table.column(factor)) return FactorSource{*column};
@@ -30,7 +30,7 @@ struct FactorSource {
         if (!condition && !stimulus) return std::nullopt;
         return FactorSource{condition.value_or(stimulus.value_or(0)), factor + "=", stimulus};
     }
-    /// Empty: the row does not say.
+    /// The level; empty if the row has none.
     std::string_view level(const CsvRow& row) const {
         if (part > 0) return partIn(row.cells[column]);
         if (mark.empty()) return row.cells[column];

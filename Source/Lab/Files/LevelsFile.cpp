@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A row per stimulus.
+// Reads and writes the table of stimulus levels, one row per stimulus.
 #include "Lab/Files/LevelsFile.h"
 #include "Core/Limits.h"
 #include "Lab/Files/StudyRows.h"

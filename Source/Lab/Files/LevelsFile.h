@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Levels of stimuli as CSV: what experts set, for the study that uses it.
+// CSV files of stimulus levels that experts adjusted, used by another study.
 #pragma once
 #include "Io/Provenance.h"
 #include "Io/Result.h"
@@ -10,11 +10,11 @@
 
 namespace physvib {
 
-/// The levels that `text` holds: columns condition, stimulus, alternative, level_db; or one line that names
-/// file, line and column. Any thread.
+/// Parses the columns condition, stimulus, alternative, level_db; otherwise one line that names file, line
+/// and column. Any thread.
 Result<std::vector<StimulusLevel>> readStimulusLevels(std::string_view text, std::string_view name);
 
-/// `levels` as CSV, with participants and their standard deviation. Any thread.
+/// `levels` as CSV, with number of participants and standard deviation. Any thread.
 std::string stimulusLevelsCsv(const std::vector<StimulusLevel>& levels, const Provenance& provenance);
 
 } // namespace physvib

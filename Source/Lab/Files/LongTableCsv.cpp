@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Columns by name, rows one by one: of a million rows only numbers and the indices of names are kept.
+// Reads long tables row by row. To keep memory small for a million rows, only numbers and indices of names
+// are stored.
 #include "Lab/Files/LongTableCsv.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
@@ -16,9 +17,9 @@ namespace {
 
 using detail::FactorSource;
 
-constexpr double largestMeasure = 1e100; // squares and their sums stay finite
+constexpr double largestMeasure = 1e100; // keeps squares and their sums finite
 
-/// One file's rows on their way into the table.
+/// Reads the rows of one file into the table.
 class LongTableReader {
 public:
     LongTableReader(LongTableData& data, const LongTableColumns& wanted)
@@ -125,7 +126,7 @@ private:
     LongTableData& data_;
     const LongTableColumns& wanted_;
     const CsvTable* head_ = nullptr;
-    CsvTable known_; // the head, beyond the reading
+    CsvTable known_; // the head, kept after reading
     std::set<std::string> people_;
     SharedParticipants shared_;
     std::size_t measure_ = 0, taken_ = 0;

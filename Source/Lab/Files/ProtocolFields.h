@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every field of a protocol once: its name in files, its place in the structs, its range.
+// Table of all protocol fields: name in files, member of the structs, and valid range.
 #pragma once
 #include "Lab/Study/CallWords.h"
 #include "Lab/Study/Protocol.h"
@@ -14,14 +14,15 @@ inline constexpr std::array<std::string_view, 4> stimulusSetNames{"patterns", "g
 inline constexpr std::array<std::string_view, 2> gridPointNames{"corners", "middles"};
 
 namespace studyBounds {
-/// Of a field that becomes part of a stimulus.
+/// Range of a field that becomes part of a stimulus.
 constexpr Bounds of(const StimulusRange& range) { return {range.least, range.most}; }
 inline constexpr Bounds levelDb = within(limits::maxLevelDb);
 inline constexpr Bounds rest = upTo(86400.0);   // a day
-inline constexpr Bounds count = upTo(100000.0); // trials of a week
-inline constexpr Bounds names{{}, {}, 0, 64};   // alternatives, objects, scales: what fits on a screen
-inline constexpr Bounds call = upTo(static_cast<double>(mostCallBytes)); // of text: bytes
-inline constexpr Bounds lines{1.0, 16.0}; // what merging grids can divide (PercentCounts.h)
+inline constexpr Bounds count = upTo(100000.0); // number of trials in a week
+inline constexpr Bounds names{{}, {}, 0, 64};   // number of alternatives, objects or scales that fit on a
+                                                // screen
+inline constexpr Bounds call = upTo(static_cast<double>(mostCallBytes)); // length of text in bytes
+inline constexpr Bounds lines{1.0, 16.0}; // number of grid lines that merging can divide (PercentCounts.h)
 } // namespace studyBounds
 
 void visitFields(auto& v, FieldsOf<PatternSet>) {

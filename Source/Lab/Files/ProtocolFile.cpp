@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The outer shape of a protocol file; its fields are read and written after the table in ProtocolFields.h.
+// Reads and writes protocol files: version, levels and linked files. The fields follow the table in
+// ProtocolFields.h.
 #include "Lab/Files/ProtocolFile.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/Embedded.h"
@@ -22,7 +23,7 @@
 
 namespace physvib {
 
-// Source/Lab/Protocols/*.json, in the order of their listing
+// Source/Lab/Protocols/*.json, in listing order
 const std::vector<EmbeddedFile>& embeddedProtocols();
 
 namespace {
@@ -47,7 +48,7 @@ Protocol readProtocolRoot(Json& root) {
 
 namespace {
 
-/// Loads what the sessions' levels_file names; empty, or one line.
+/// Loads the sessions' levels_file. Returns an error line or an empty string.
 std::string takeLevels(Protocol& protocol) {
     const auto session =
         std::ranges::find_if(protocol.sessions, [](const SessionPlan& s) { return !s.levelsFile.empty(); });
@@ -125,12 +126,12 @@ std::string linkFault(const std::string& folder, const std::string& path) {
 
 namespace {
 
-/// The same of all that a protocol names but in its calls.
+/// Checks all paths in a protocol with linkFault(), except those in calls.
 std::string namedLinkFault(const Protocol& protocol) {
     std::vector<std::string> paths{protocol.words};
     for (const ConditionPlan& condition : protocol.conditions) paths.push_back(condition.layout);
     for (const StudySoundFile& sound : protocol.sounds)
-        paths.push_back(sound.file); // pictures are a participant's: see the mixer's StudyLooks
+        paths.push_back(sound.file); // a participant's pictures are checked by the mixer's StudyLooks
     for (const SessionPlan& session : protocol.sessions) paths.push_back(session.levelsFile);
     for (const std::string& path : paths)
         if (auto fault = linkFault(protocol.folder, path); !fault.empty()) return fault;

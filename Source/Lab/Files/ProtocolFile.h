@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Protocols of studies as JSON, and those that come with PhysVib.
+// Study protocols as JSON files, and the built-in protocols.
 #pragma once
 #include "Io/Result.h"
 #include "Lab/Study/Protocol.h"
@@ -11,42 +11,42 @@
 
 namespace physvib {
 
-/// The version of the format that is written, and the newest that is read.
+/// Version of the format that is written, and the newest that can be read.
 constexpr int protocolFormatVersion = 1;
 
-/// The valid protocol that `text` describes; or one line `name: sessions[1].repetitions: expected 1 to 1000,
-/// found 0`. Any thread.
+/// Parses a valid protocol; otherwise one line `name: sessions[1].repetitions: expected 1 to 1000, found 0`.
+/// Any thread.
 Result<Protocol> readProtocol(std::string_view text, std::string_view name);
 
-/// The same of a file. M only.
+/// Reads a file with readProtocol(). Message thread only.
 Result<Protocol> loadProtocol(const std::filesystem::path& path);
 
-/// `protocol` as JSON; readProtocol gives it back bit for bit. Any thread.
+/// `protocol` as JSON; readProtocol() restores it to the bit. Any thread.
 std::string protocolJson(const Protocol& protocol);
 
-/// 16 hexadecimal digits that change with any field of the protocol. Any thread.
+/// Hash of all fields as 16 hexadecimal digits. Any thread.
 std::string protocolHash(const Protocol& protocol);
 
-/// Those that come with PhysVib, in the order of their listing. Built on first use; any thread.
+/// Built-in protocols in listing order. Created on first use; any thread.
 const std::vector<Protocol>& builtInProtocols();
 
-/// Those, and behind them their versions as published (ThesisVersions.h). Built on first use; any thread.
+/// Built-in protocols, then their versions as published (ThesisVersions.h). Created on first use; any thread.
 const std::vector<Protocol>& knownProtocols();
 
-/// Where it does not do what the thesis' study did; none if it is not one of knownProtocols(), or a changed
-/// one. Any thread (allocates).
+/// Deviations from the thesis' study; empty if the protocol is not one of knownProtocols() or has been
+/// changed. Any thread (allocates).
 std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol);
 
-/// A file that a protocol names: the one beside the protocol, if it is there, else the one of that path. M
-/// only.
+/// Resolves a path in a protocol: the file in the protocol's folder if it exists, else the path itself.
+/// Message thread only.
 std::string besideProtocol(const std::string& folder, const std::string& path);
 
-/// Empty, or that the file which besideProtocol() finds for such a path stands behind a link that leads out
-/// of the folder. M only.
+/// Empty, or an error if the file found by besideProtocol() is behind a link that leads out of the folder.
+/// Message thread only.
 std::string linkFault(const std::string& folder, const std::string& path);
 
-/// One of knownProtocols() by its name, else that of the file, which then is the folder of what it names. M
-/// only.
+/// One of knownProtocols() by name, else the protocol of a file, whose folder becomes `folder`. Message
+/// thread only.
 Result<Protocol> findProtocol(const std::string& nameOrPath);
 
 } // namespace physvib

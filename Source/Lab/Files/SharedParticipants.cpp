@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Our trial files hold a person each, so a second one is a mistake; other programs write a table per run.
+// Detects participants in several tables. A trial file has one person, so a second file of the same person is
+// an error; other programs write one table per run.
 #include "Lab/Files/SharedParticipants.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/TrialHead.h"
@@ -8,7 +9,8 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t mostNamed = 6; // of participants, and of one's tables
+constexpr std::size_t mostNamed = 6; // limit of the participants, and of the tables of one, that a message
+                                     // lists
 
 std::string tablesOf(const std::vector<std::string>& names) {
     std::string words;

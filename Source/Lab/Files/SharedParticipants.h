@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Participants who are in more than one table: one person with several files, or two people with one number.
+// Finds participants who occur in more than one table: one person with several files, or two people with the
+// same code.
 #pragma once
 #include "Io/Text/CsvTable.h"
 #include <map>
@@ -13,13 +14,13 @@ namespace physvib {
 
 class SharedParticipants {
 public:
-    /// Takes a table by its head and its participants. Empty, or one line: it is a trial file of somebody of
-    /// whom another of the same protocol was added. Any thread (allocates).
+    /// Adds a table by its head and its participants. Returns one line if it is a trial file of a participant
+    /// of whom another file of the same protocol was added, else an empty string. Any thread (allocates).
     std::string add(const CsvTable& head, const std::set<std::string>& participants);
-    /// The same of a whole table, by the column of that name, if it has one.
+    /// Adds a whole table, by its participant column if it has one.
     std::string add(const CsvTable& table, std::string_view column = "participant");
 
-    /// Who is in which tables, and counts as one person; empty if nobody is in several.
+    /// Lists participants in several tables, who count as one person; empty if there are none.
     std::string note() const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One function per kind of study file; the rows come from StudyRows.
+// Readers for each kind of study table; StudyRows provides the rows.
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Files/FactorSource.h"
 #include "Lab/Files/SharedParticipants.h"
@@ -17,7 +17,7 @@ namespace {
 using detail::StudyFault;
 using detail::StudyRows;
 
-/// "c3" of "c" and 3.
+/// "c3" from "c" and 3.
 std::string numbered(std::string prefix, std::size_t number) {
     appendNumber(prefix, number);
     return prefix;
@@ -40,8 +40,7 @@ std::vector<std::string>& warningsOf(StudyData<Trial>& data) {
 }
 std::vector<std::string>& warningsOf(RatingData& ratings) { return ratings.data.warnings; }
 
-/// Runs `take(rows, data)` per file; what it throws becomes a Failure, and so do files without a trial that
-/// counts.
+/// Runs `take(rows, data)` per file. Exceptions become a Failure, and so do files without a usable trial.
 template <class Data, class Take>
 Result<Data> readAll(std::span<const NamedText> files, Take take) {
     Data data;
@@ -66,7 +65,7 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
     return data;
 }
 
-/// A matrix of counts has a row and a column for each.
+/// Limits the number of labels, because a confusion matrix has a row and a column for each.
 void expectFewLabels(const std::string& file, const StudyData<IdentificationTrial>& data) {
     std::set<std::string_view> labels;
     for (const auto& condition : data.conditions)
@@ -122,7 +121,7 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
     return taken;
 }
 
-/// What our own rows have instead of true places: a cell, and in the call the grid that it is of.
+/// Target columns of our own trial files: a grid cell, and the render call that contains the grid.
 struct OwnTargets {
     std::size_t row, column, call;
 
@@ -164,7 +163,7 @@ std::size_t takeOwnPlaces(const StudyRows& rows, const OwnTargets& targets, Stud
 
 std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
     if (const auto own = OwnTargets::of(rows)) return takeOwnPlaces(rows, *own, data);
-    constexpr double farthest = 1e9; // of any unit
+    constexpr double farthest = 1e9; // limit in any unit
     const auto trueX = rows.required("target_x"), x = rows.required("x");
     const auto trueY = rows.optional("target_y"), y = rows.optional("y"),
                stimulus = rows.optional("stimulus"), condition = rows.optional("condition"),
@@ -190,7 +189,7 @@ std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
     return taken;
 }
 
-/// "condition stimulus" of what there is; the stimulus alone if all is one condition, as in a trial file.
+/// "condition stimulus", or the stimulus alone if all trials have one condition, as in a trial file.
 std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus,
                    std::optional<std::size_t> condition) {
     return stimulus ? row.cells[*stimulus] : StudyRows::textIf(row, condition);
@@ -241,7 +240,7 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     return taken;
 }
 
-/// Of a row by QUEST+; else none.
+/// The QUEST+ plan of a row; null for rows of other sessions.
 const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
     const auto column = rows.optional(trialColumns::quest);
     if (!column || row.cells[*column].empty()) return nullptr;
@@ -250,10 +249,10 @@ const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
     return &row.cells[*column];
 }
 
-/// A row of one of the kinds, or none.
+/// A level trial, or nullopt if the row is of another kind.
 std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     const auto tasks = rows.optional(trialColumns::task);
-    // other programs' tables have one kind
+    // tables of other programs have no task column and one kind of trial
     const std::optional<AnswerKind> answer = tasks                    ? answerOf(row.cells[*tasks])
                                              : rows.optional("value") ? AnswerKind::number
                                                                       : AnswerKind::choice;
@@ -287,7 +286,7 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     const auto task = rows.optional(trialColumns::task);
     if (!task && !rows.optional("value")) rows.required("correct");
     for (const CsvRow& row : rows.table().rows) {
-        if (task && answerOf(row.cells[*task]) == AnswerKind::wish) continue; // it has no stimulus of its own
+        if (task && answerOf(row.cells[*task]) == AnswerKind::wish) continue; // explorations have no stimulus
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
             conditionNamed(rows, data, {}).push_back(std::move(*trial));
@@ -320,7 +319,7 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     return taken;
 }
 
-/// Columns c1, c2, ... of the table, at least one.
+/// Columns c1, c2, ... of the table; at least one is required.
 std::vector<std::size_t> countColumns(const StudyRows& rows) {
     std::vector<std::size_t> columns;
     for (std::size_t i = 1; i <= mostGridLines; ++i) {

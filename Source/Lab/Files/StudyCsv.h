@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Trials of studies and percent counts from CSV, checked cell by cell, for the analyses in Study.
+// Reads trials and percent counts from CSV with checks of every cell, as input of the analyses.
 #pragma once
 #include "Io/Provenance.h"
 #include "Io/Result.h"
@@ -22,16 +22,16 @@ namespace physvib {
 /// The trials of one condition, in the order of the file.
 template <class Trial>
 struct StudyCondition {
-    std::string name; ///< empty: the file has no column `condition`
+    std::string name; ///< empty if the file has no column `condition`
     std::vector<Trial> trials;
 };
 
-/// What one or more files of the same kind hold.
+/// Contents of one or more files of the same kind.
 template <class Trial>
 struct StudyData {
-    std::vector<StudyCondition<Trial>> conditions; ///< in the order of their first trial
-    std::vector<std::string> warnings;             ///< a line each: what was left out
-    bool isSimulated = false;                      ///< at least one trial is a simulated observer's
+    std::vector<StudyCondition<Trial>> conditions; ///< in the order of first trials
+    std::vector<std::string> warnings;             ///< one line each on omitted data
+    bool isSimulated = false;                      ///< at least one trial comes from a simulated observer
 };
 
 struct RatingData {
@@ -39,56 +39,56 @@ struct RatingData {
     StudyData<RatingTrial> data;
 };
 
-/// A file's bytes and the name to call it by.
+/// Contents and display name of a file.
 struct NamedText {
     std::string_view text, name;
-    std::span<const ColumnName> columns{}; ///< of another program's table; empty: the columns have our names
+    std::span<const ColumnName> columns{}; ///< column mapping for another program's table; empty: our column
+                                           ///< names
 };
 
-// Common to all: columns that are not asked for are ignored; of a file that `study run` wrote, training
-// trials and trials of other tasks are left out. The first thing that is wrong is told as `name:17: column x:
-// expected what, found "cell"`. Any thread.
+// For all readers: other columns are ignored. Training trials and trials of other tasks in files of `study
+// run` are omitted. The first error is reported as `name:17: column x: expected what, found "cell"`. Any
+// thread.
 
-/// Columns stimulus, response; condition and participant if there. Trials without a response are left out and
-/// told.
+/// Columns stimulus, response; optional condition, participant. Trials without a response are omitted with a
+/// warning.
 Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files);
 
-/// Columns target_column, target_row (1 to mostGridLines), x, y (0 to 1); condition if there.
+/// Columns target_column, target_row (1 to mostGridLines), x, y (0 to 1); optional condition.
 Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files);
 
-/// Columns target_x, x; target_y and y, stimulus (else a target is its place), condition and participant if
-/// there. Any unit, the same of both. Of our own rows, which have target_column, target_row and render
-/// instead of target_x: the true places in shares of the field, as the answers are; a warning says so.
+/// Columns target_x, x; optional target_y and y, stimulus (without it the place identifies the target),
+/// condition, participant. True and answered places have the same unit, which can be any. Our own trial files
+/// have target_column, target_row and render instead; their true places become shares of the field, like the
+/// answers, with a warning.
 Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files);
 
-/// Columns choice (or response); condition (or stimulus) and participant if there. One condition holds them
-/// all.
+/// Columns choice (or response); optional condition (or stimulus), participant. The result has one condition.
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);
 
-/// Columns stimulus (or condition), participant if there; every column that a trial file does not have is a
-/// scale, 0 to 100.
+/// Columns stimulus (or condition), optional participant. Every column that trial files do not have is a
+/// scale from 0 to 100.
 Result<RatingData> readRatings(std::span<const NamedText> files);
 
-/// A trial file's staircases, QUEST+ sessions, adjustments (training, too) and magnitude estimations. One
-/// condition holds them all.
+/// Staircases, QUEST+ sessions, adjustments (also in training) and magnitude estimations of a trial file. The
+/// result has one condition.
 Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files);
 
-/// What a fit is made of, by the names of columns.
+/// Column names for a fit of answers to levels.
 struct LevelAnswerColumns {
-    std::string level;        ///< of numbers; if there is no such column, a word `level=...` of condition or
-                              ///< stimulus
-    std::string measure;      ///< of answers
-    bool isMagnitude = false; ///< else answers are 1 or 0
+    std::string level;        ///< numeric column; if missing, a word `level=...` of condition or stimulus
+    std::string measure;      ///< column of answers
+    bool isMagnitude = false; ///< answers are magnitudes; otherwise 1 or 0
 };
 
-/// Columns as named, condition and participant if there; rows without an answer are left out.
+/// The named columns, optional condition and participant. Rows without an answer are omitted.
 Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files,
                                                 const LevelAnswerColumns& columns);
 
-/// Columns condition, row, c1 to cN; rows 1, 2, 3... of each condition, numbers from 0 to 100.
+/// Columns condition, row, c1 to cN. The rows of each condition are 1, 2, 3...; values are 0 to 100.
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files);
 
-/// readPercentCounts' format, a row per line. Any thread.
+/// The format of readPercentCounts(), one grid row per line. Any thread.
 std::string percentCountsCsv(std::span<const PercentCounts> counts, const Provenance& provenance);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rows that an analysis counts, from one or more tables. For the .cpp files of Files.
+// Rows of a study table with checked access to their cells. Private to the .cpp files of Lab/Files.
 #pragma once
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
@@ -15,12 +15,12 @@
 
 namespace physvib::detail {
 
-/// What is wrong with a study file; never leaves the room Files.
+/// Error in a study file; caught within Lab/Files.
 struct StudyFault {
     std::string message;
 };
 
-/// One table and where its columns are. Every member throws StudyFault.
+/// One table with access by column name. Every member throws StudyFault.
 class StudyRows {
 public:
     StudyRows(std::string_view text, std::string_view name, std::span<const ColumnName> columns = {}) {
@@ -31,7 +31,7 @@ public:
             throw StudyFault{std::move(fault)};
     }
 
-    std::size_t leftOut() const noexcept { return leftOut_; } ///< rows with nothing in one of the columns
+    std::size_t leftOut() const noexcept { return leftOut_; } ///< rows dropped for an empty mapped cell
 
     const CsvTable& table() const { return table_; }
 
@@ -42,8 +42,8 @@ public:
         throw StudyFault{table_.name + ": expected a column " + std::string(column) + ", found none"};
     }
 
-    /// Calls take(row) for each row that counts: no training, and answered so, if the table says so; without
-    /// a kind: of no task.
+    /// Calls take(row) for each row that is not training and, if the table has tasks, has this kind of
+    /// answer. nullopt selects rows without a task.
     template <class Take>
     void each(std::optional<AnswerKind> answer, Take take) const {
         const auto phase = optional(trialColumns::phase), tasks = optional(trialColumns::task);

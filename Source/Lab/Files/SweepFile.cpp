@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lists of words, and numbers of tasks as digits, one per factor.
+// Reads sweep designs: a list of values per factor. A task number is decoded as one digit per factor.
 #include "Lab/Files/SweepFile.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
@@ -42,7 +42,7 @@ std::size_t sizeOfList(const JsonField& json) {
     return size;
 }
 
-/// A word, or a list of different ones.
+/// A single word, or a list of distinct words.
 SweepFactor readFactor(const JsonField& json, const std::string& name, SweepWord kind = SweepWord::option) {
     SweepFactor factor{name, json.path(), {}};
     if (!json.isArray()) {
@@ -111,7 +111,7 @@ std::vector<SweepFactor> readOptions(const JsonField& json) {
     return factors;
 }
 
-/// The product of the sizes, as far as it is of any use.
+/// Product of the list sizes, clamped just above the limit.
 std::uint64_t productOf(const std::vector<SweepFactor>& factors, std::uint64_t product) {
     for (const SweepFactor& factor : factors)
         product = std::min<std::uint64_t>(product * factor.values.size(), limits::maxSweepTasks + 1);
@@ -142,7 +142,7 @@ SweepDesign readSweepRoot(const JsonField& root) {
     return design;
 }
 
-/// Takes the last digits of `index`, one per factor.
+/// Decodes the lowest digits of `index`, one per factor, and removes them.
 std::vector<std::string> takeValues(const std::vector<SweepFactor>& factors, std::uint64_t& index) {
     std::vector<std::string> values(factors.size());
     for (std::size_t f = factors.size(); f-- > 0;) {

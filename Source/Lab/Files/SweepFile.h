@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Designs of sweeps as JSON: many renders as what differs between them, each to be had by its number.
+// JSON designs of parameter sweeps: many renders defined by their varied parameters, each accessible by
+// number.
 #pragma once
 #include "Io/Result.h"
 #include <cstdint>
@@ -9,22 +10,22 @@
 
 namespace physvib {
 
-/// The version of the format that is read.
+/// Version of the format that can be read.
 constexpr int sweepFormatVersion = 1;
 
-/// What is varied: an option of `physvib render` without its dashes, or a variable of a scene.
+/// A varied parameter: an option of `physvib render` without its dashes, or a variable of a scene.
 struct SweepFactor {
     std::string name;
-    std::string place; ///< in the file, for messages
+    std::string place; ///< location in the file, for messages
     std::vector<std::string> values;
 };
 
 struct SweepScene {
-    std::string name; ///< of a built-in scene, or a path
+    std::string name; ///< name of a built-in scene, or a path
     std::vector<SweepFactor> variables;
 };
 
-/// Seeds one by one, or so many from the first on.
+/// Seeds as a list, or as a first seed and a count.
 struct SweepSeeds {
     std::vector<std::uint32_t> list;
     std::uint32_t first = 1, count = 0;
@@ -34,31 +35,31 @@ struct SweepSeeds {
     }
 };
 
-/// One render: the values that are its own, in the order of its design.
+/// One render: its values, in the order of the design.
 struct SweepTask {
     std::string scene;
-    std::vector<std::string> variables, options; ///< of the scene's variables, of the design's factors
+    std::vector<std::string> variables, options; ///< values of the scene's variables and of the design's
+                                                 ///< factors
     std::uint32_t seed = 1;
-    std::string call; ///< "render SCENE ...": the words that make it, without the name of the program
+    std::string call; ///< "render SCENE ...": the arguments without the program name
 };
 
-/// Every combination; what stands later in the file changes first, seeds before all others.
+/// Every combination of values. Later entries of the file vary faster, and seeds fastest.
 struct SweepDesign {
     std::string name;
     std::vector<SweepScene> scenes;
-    std::vector<SweepFactor> factors; ///< of all scenes
-    std::vector<std::string> sounds;  ///< "HZ=FILE.wav", of each task whose method is SV
+    std::vector<SweepFactor> factors; ///< factors common to all scenes
+    std::vector<std::string> sounds;  ///< "HZ=FILE.wav", for each task whose method is SV
     SweepSeeds seeds;
 
-    /// How many tasks it has. Any thread.
+    /// Number of tasks. Any thread.
     std::uint64_t size() const noexcept;
-    /// One of them, from 0 on. Any thread.
+    /// The task with that number, from 0. Any thread.
     SweepTask task(std::uint64_t index) const;
 };
 
-/// The design that `text` describes, of 1 to limits::maxSweepTasks tasks; or, of the first thing that is
-/// wrong, one line `name: laws[1]: expected ...`. Whether `render` knows an option's value is not asked here.
-/// Any thread.
+/// Parses a design of 1 to limits::maxSweepTasks tasks; otherwise one line on the first error, `name:
+/// laws[1]: expected ...`. Option values are not checked against `render` here. Any thread.
 Result<SweepDesign> readSweep(std::string_view text, std::string_view name);
 
 } // namespace physvib

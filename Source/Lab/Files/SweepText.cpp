@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options of `render` that a design may vary, as words.
+// Checks the words of a sweep design, and composes the `render` call of a task.
 #include "Lab/Files/SweepText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/CallWords.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one place where a design of a sweep becomes the words of a call.
+// Converts a task of a sweep design to the text of its `render` call.
 #pragma once
 #include "Lab/Files/SweepFile.h"
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace physvib {
 
-/// What a word of a design is: a scene, a value of a scene's variable, or of an option.
+/// Kind of a word in a design: a scene, or the value of a scene variable or of an option.
 enum class SweepWord { scene, variable, option };
 
-/// Whether a call can set a variable of that name. Any thread.
+/// True if a call can set a variable with that name. Any thread.
 bool isSweepVariable(std::string_view name);
 
-/// Empty, or why a call cannot hold that word. Calls stand in tables for somebody to copy into a shell, and a
-/// design may be a stranger's: as in a protocol. Any thread (allocates).
+/// Empty, or why a call may not contain that word. Users copy calls from tables into a shell, and a design
+/// can be an untrusted file, like a protocol. Any thread (allocates).
 std::string sweepWordFault(SweepWord kind, const std::string& name, const std::string& word);
 
-/// "render SCENE ...": all that makes the task's render. Any thread (allocates).
+/// The complete call of the task's render, "render SCENE ...". Any thread (allocates).
 std::string sweepCall(const SweepTask& task, const SweepScene& scene, const SweepDesign& design);
 
 } // namespace physvib

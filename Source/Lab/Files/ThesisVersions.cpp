@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each deviation knows its edit; what no edit takes away stays a deviation of the version, too.
+// Applies the edit of each deviation; deviations without an edit remain deviations of the edited version.
 #include "Lab/Files/ThesisVersions.h"
 #include "Lab/Files/ProtocolFile.h"
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace physvib {
 namespace {
 
-/// All calls of the protocol get these options as well.
+/// Appends these options to all calls of the protocol.
 void addToCalls(Protocol& protocol, std::string_view options) {
     for (ConditionPlan& condition : protocol.conditions)
         std::visit(

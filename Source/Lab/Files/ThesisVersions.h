@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Built-in protocols with every change of ThesisDeviations.h that a protocol can make, so that they run as
-// published: NAME-thesis.
+// Versions NAME-thesis of the built-in protocols, with all applicable changes of ThesisDeviations.h, so that
+// they run as published.
 #pragma once
 #include "Lab/Study/Protocol.h"
 #include <string_view>
@@ -8,11 +8,11 @@
 
 namespace physvib {
 
-/// What follows a built-in protocol's name in that of its version as published.
+/// Suffix of the names of these versions.
 inline constexpr std::string_view thesisSuffix = "-thesis";
 
-/// Of each built-in protocol that can be changed in this way, in the order of their listing. Built on first
-/// use; any thread.
+/// One version per built-in protocol with an applicable change, in listing order. Created on first use; any
+/// thread.
 const std::vector<Protocol>& thesisVersions();
 
 } // namespace physvib

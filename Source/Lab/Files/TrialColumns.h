@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The names in a trial file: its columns in their order, and the words in them.
+// Column names of trial files in their order, and fixed words in their cells.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -10,26 +10,26 @@ namespace physvib::trialColumns {
 constexpr std::string_view observer = "observer", phase = "phase", task = "task", render = "render";
 constexpr std::string_view training = "training", simulated = "simulated";
 
-/// A study's rating scales follow.
+/// followed by the study's rating scales
 inline constexpr std::array<std::string_view, 21> names{
     "participant", "observer", "condition", "session",       "phase",      "trial",    "task",
     "stimulus",    "parts",    "response",  "target_column", "target_row", "x",        "y",
     "choice",      "value",    "correct",   "replays",       "response_s", "level_db", "render"};
 
-/// Of protocols with a session by QUEST+, behind the scales: what was thought possible before the first
-/// trial.
+/// Only in protocols with a QUEST+ session, after the scales: the prior before the first trial.
 constexpr std::string_view quest = "quest";
 
-/// What was measured where the trial was felt, the last columns: files that were begun without them go on
-/// without them.
+/// Measured values of each trial, after those. Files that older versions began without them stay without
+/// them.
 constexpr std::string_view peakG = "peak_g", rmsG = "rms_g", exposure = "a8_m_per_s2";
 inline constexpr std::array<std::string_view, 3> measured{peakG, rmsG, exposure};
 
-/// With what it was felt, behind those: files that were begun before there were any go on without them.
+/// Settings of the apparatus, the last columns. Files that older versions began without them stay without
+/// them.
 constexpr std::string_view limiterDb = "limiter_db", masterDb = "master_db", noiseDb = "noise_db",
                            device = "device", version = "version";
 inline constexpr std::array<std::string_view, 5> apparatus{limiterDb, masterDb, noiseDb, device, version};
-constexpr std::string_view noNoise = "off"; ///< instead of noise_db
+constexpr std::string_view noNoise = "off"; ///< cell of noise_db without noise
 
 constexpr bool isMeasured(std::string_view name) {
     return std::ranges::find(measured, name) != measured.end();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A trial file's first line, key by key.
+// First line of a trial file as keys and values.
 #pragma once
 #include <map>
 #include <string>
@@ -10,7 +10,7 @@ namespace physvib {
 /// version, protocol, hash, seed, participant ...
 using TrialHead = std::map<std::string, std::string>;
 
-/// Of a table's comments: the first line that names this program; empty if there is none. Any thread.
+/// Parses the first comment line that names this program; empty if there is none. Any thread.
 TrialHead trialHeadOf(const std::vector<std::string>& comments);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows out and in; the columns are in TrialColumns.h.
+// Writes and reads the rows of trial files; the columns are in TrialColumns.h.
 #include "Lab/Files/TrialLog.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/FileLimits.h"
@@ -29,13 +29,13 @@ std::string joined(const std::vector<std::string>& parts) {
     return text;
 }
 
-/// To six digits: more is not measured.
+/// With six digits, the precision of the measurement.
 std::string levelText(double level) {
     char digits[32];
     return {digits, std::to_chars(digits, digits + sizeof digits, level, std::chars_format::general, 6).ptr};
 }
 
-/// Cells by the name of their column; a column without one stays empty.
+/// Cells by column name; a column without a cell stays empty.
 using Cells = std::map<std::string_view, std::string>;
 
 void addPlace(Cells& cells, const FieldPlace& place) {
@@ -98,8 +98,8 @@ std::string headerOf(const std::vector<std::string>& names) {
     return line + "\n";
 }
 
-/// The columns of the header `line`, with its end: all of `names`, or those that older versions had; none:
-/// others.
+/// Columns of the header `line` (with its line end): all of `names`, or those of older versions; empty for
+/// any other header.
 std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
     for (const auto isNewer : {columns::isApparatus, columns::isMeasured}) {
         if (line == headerOf(names)) return names;
@@ -169,13 +169,13 @@ private:
     const Protocol& protocol_;
 };
 
-/// The first line without the version of the program, which may have changed since.
+/// The first line from the protocol on, without the program version, which may have changed.
 std::string_view withoutVersion(std::string_view header) {
     const auto line = header.substr(0, header.find('\n'));
     return line.substr(std::min(line.find(" protocol="), line.size()));
 }
 
-/// The value of `key` in a line of provenance.
+/// The value of `key` in the first line.
 std::string_view valueOf(std::string_view line, std::string_view key) {
     const auto at = line.find(" " + std::string(key) + "=");
     if (at == std::string_view::npos) return {};
@@ -183,7 +183,7 @@ std::string_view valueOf(std::string_view line, std::string_view key) {
     return rest.substr(0, rest.find_first_of(" \n"));
 }
 
-/// What of the head is another, first things first.
+/// The first key whose value differs.
 std::string headFault(std::string_view found, std::string_view expected) {
     found = found.substr(0, found.find('\n'));
     expected = expected.substr(0, expected.find('\n'));
@@ -244,7 +244,7 @@ Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, cons
     const std::string_view whole = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
     constexpr std::string_view ours = "# physvib ";
     const bool isOurs = text.starts_with(ours) || ours.starts_with(text);
-    if (isOurs && std::ranges::count(whole, '\n') < 2) return log; // not even a header: nothing to go on from
+    if (isOurs && std::ranges::count(whole, '\n') < 2) return log; // incomplete header: start a new file
     const std::size_t names = whole.find('\n') + 1, rows = whole.find('\n', names) + 1;
     if (isOurs) log.columns = columnsIn(whole.substr(names, rows - names), log.columns);
     if (!isOurs || withoutVersion(whole) != withoutVersion(header) || log.columns.empty())

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A participant's trials as CSV: a row per trial, written at once, so that a study that was cut off can go
-// on.
+// CSV file of one participant's trials. Each row is written at once, so that an interrupted study can resume.
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include "Io/Provenance.h"
@@ -15,13 +14,13 @@
 
 namespace physvib {
 
-/// First lines of a trial file: where it is from, and the columns. Any thread.
+/// Header of a trial file: a line of provenance, and the column names. Any thread.
 std::string trialHeader(const Protocol& protocol, const Participant& participant, std::string_view version);
 
-/// The columns of a protocol's trial files as they are begun now. Any thread (allocates).
+/// Columns of new trial files of a protocol. Any thread (allocates).
 std::vector<std::string> trialColumnsOf(const Protocol& protocol);
 
-/// A trial's row in these columns, with its line end. Any thread.
+/// A trial's row in these columns, with line end. Any thread.
 std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record,
                      std::span<const std::string> columns);
 inline std::string trialRow(const Protocol& protocol, const Participant& participant,
@@ -29,38 +28,38 @@ inline std::string trialRow(const Protocol& protocol, const Participant& partici
     return trialRow(protocol, participant, record, trialColumnsOf(protocol));
 }
 
-/// What a trial file holds so far.
+/// Contents of a trial file.
 struct TrialLog {
     std::vector<TrialRecord> records;
-    std::vector<std::string> columns; ///< of the file; those of a new one where it has not even a header
-    std::size_t wholeBytes = 0; ///< up to the last whole row: what follows was cut off while it was written
+    std::vector<std::string> columns; ///< of the file; those of a new file if it has no complete header
+    std::size_t wholeBytes = 0; ///< size up to the last complete row; the rest was interrupted while writing
 };
 
-/// The trials of a file of this protocol and participant, up to the last whole row; or, of the first thing
-/// that is wrong, one line. Of a record's trial only condition, session, number, stimulus and level are
-/// filled in: an experiment knows the rest. Any thread.
+/// Reads the complete rows of this protocol's and participant's file, or returns one line on the first error.
+/// Of each trial only condition, session, number, stimulus and level are set; Experiment supplies the rest.
+/// Any thread.
 Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol,
                               const Participant& participant);
 
-/// A trial file that grows. M only.
+/// An open trial file to which rows are appended. Message thread only.
 class TrialLogFile {
 public:
-    /// Opens the file, or makes it with its header. What was cut off at its end is dropped. It is locked: one
-    /// program at a time writes it.
+    /// Opens the file, or creates it with its header. Removes an incomplete last row. Locks the file, so that
+    /// only one program writes it.
     TrialLogFile(std::filesystem::path path, const Protocol& protocol, Participant participant,
                  std::string_view version);
 
-    /// Empty, or one line that says why the file cannot be used.
+    /// Empty, or one line why the file cannot be used.
     const std::string& error() const noexcept { return error_; }
 
-    /// The trials that were there when it was opened.
+    /// Trials in the file when it was opened.
     const std::vector<TrialRecord>& records() const noexcept { return records_; }
 
-    /// Adds a row. A person's is on the disk before this returns; a simulated observer's, who would answer
-    /// the same again, after sync(). False after an error.
+    /// Appends a row. A person's row is on disk before this returns. A simulated observer's row is on disk
+    /// after sync(), since its answers can be reproduced. Returns false after an error.
     bool append(const TrialRecord& record);
 
-    /// All rows are on the disk. False after an error.
+    /// Forces all rows to disk. Returns false after an error.
     bool sync();
 
 private:

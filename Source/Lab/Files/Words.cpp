@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A table of texts; what a text leaves open has to be left open in every language.
+// Reads translations, and checks that each has the same placeholders as its English text.
 #include "Lab/Files/Words.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
@@ -12,7 +12,7 @@
 
 namespace physvib {
 
-const std::vector<EmbeddedFile>& embeddedWords(); // Source/Lab/Words/*.json, in the order of their listing
+const std::vector<EmbeddedFile>& embeddedWords(); // Source/Lab/Words/*.json, in listing order
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a participant reads, in their language: a text for each of the screens' and of the built-in protocols'
-// own, which are English.
+// Translations of the texts for participants: each English text of the screens and built-in protocols, in
+// another language.
 #pragma once
 #include "Io/Result.h"
 #include <filesystem>
@@ -11,29 +11,29 @@
 
 namespace physvib {
 
-/// The version of the format that is read.
+/// Version of the format that can be read.
 constexpr int wordsFormatVersion = 1;
 
 struct Words {
-    std::string name;                                      ///< "ko"; empty: the English ones
-    std::string language;                                  ///< as its speakers call it
+    std::string name;                                      ///< "ko"; empty: English
+    std::string language;                                  ///< its name in that language
     std::map<std::string, std::string, std::less<>> texts; ///< by the English text
 
-    /// The text in this language; one that is not there stays as it is. Any thread.
+    /// The translation of a text; the text itself if there is none. Any thread.
     const std::string& of(const std::string& english) const {
         const auto found = texts.find(english);
         return found == texts.end() ? english : found->second;
     }
 };
 
-/// `{"physvib_words": 1, "name": "ko", "language": "...", "texts": {"Begin": "..."}}`. A {name} of an English
-/// text stands in its translation as well. Or, of the first thing that is wrong, one line. Any thread.
+/// Parses `{"physvib_words": 1, "name": "ko", "language": "...", "texts": {"Begin": "..."}}`; otherwise one
+/// line on the first error. A {name} in an English text must be in its translation too. Any thread.
 Result<Words> readWords(std::string_view text, std::string_view name);
 
-/// Those that come with PhysVib, but for English. Built on first use; any thread.
+/// Built-in translations, without English. Created on first use; any thread.
 const std::vector<Words>& builtInWords();
 
-/// Built-in words by their name ("en": English), else those of the file. M only.
+/// A built-in translation by name ("en": English), else the one of a file. Message thread only.
 Result<Words> findWords(const std::string& nameOrPath);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conditions whose names have two parts, as PHONE-3x3, as series and groups of a chart, and as factors of a
+// Splits two-part condition names such as PHONE-3x3 into series and groups of a chart, and into factors of a
 // test.
 #pragma once
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// That of a condition; none: null.
+/// The summary of a condition; null if there is none.
 template <class Summary>
 const Summary* conditionNamed(const std::vector<Summary>& all, const std::string& name) {
     const auto found = std::ranges::find(all, name, &Summary::condition);
@@ -17,14 +17,14 @@ const Summary* conditionNamed(const std::vector<Summary>& all, const std::string
 }
 
 struct ConditionAxes {
-    std::vector<std::string> series, groups; ///< one empty series: conditions are groups
-    std::vector<std::string> factors;        ///< for --within; empty: one condition
+    std::vector<std::string> series, groups; ///< one empty series if conditions are groups
+    std::vector<std::string> factors;        ///< for --within; empty if there is only one condition
 
     std::string conditionOf(std::size_t s, std::size_t g) const {
         return series[s].empty() ? groups[g] : series[s] + "-" + groups[g];
     }
 
-    /// `names`: each once. Any thread (allocates).
+    /// Precondition: `names` are unique. Any thread (allocates).
     static ConditionAxes of(std::vector<std::string> names) {
         std::ranges::sort(names);
         ConditionAxes axes;

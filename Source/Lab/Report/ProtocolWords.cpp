@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One sentence or clause per field, in the order of Lab/Files/ProtocolFields.h.
+// Writes one sentence or clause per protocol field, in the order of Lab/Files/ProtocolFields.h.
 #include "Lab/Report/ProtocolWords.h"
 #include "Core/RenderingMethod.h"
 #include "Io/Text/NumberText.h"
@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-/// "AF-FV-DRV: amplitude fixed, frequency varied, decay varied"; other names as they are.
+/// "AF-FV-DRV: amplitude fixed, frequency varied, decay varied"; other names unchanged.
 std::string inFull(const std::string& name) {
     RenderingMethod method;
     if (name == "SV") return "SV: the recorded contact";
@@ -19,7 +19,7 @@ std::string inFull(const std::string& name) {
            word(method.fixesFrequency) + ", decay " + word(method.fixesDecay);
 }
 
-/// The items' words, with `between` between them.
+/// Joins the texts of all items with `between`.
 template <class Items, class WordsOf>
 std::string joinedWords(const Items& items, const char* between, WordsOf wordsOf) {
     std::string words;

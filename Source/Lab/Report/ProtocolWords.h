@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A protocol in sentences, for a paper's section on methods: each comes from a field, and a field that says
-// nothing has none. What rows tell better (device, noise, limiter, orders as they were) is not here: see
-// ReportApparatus.cpp and ReportDesign.cpp.
+// Describes a protocol in sentences for the methods section of a paper: one per field that has a value.
+// Device, noise, limiter and actual orders come from the trials: see ReportApparatus.cpp and
+// ReportDesign.cpp.
 #pragma once
 #include "Lab/Study/Protocol.h"
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace physvib {
 
-/// Of the whole protocol. Any thread (allocates).
+/// Sentences on the protocol as a whole. Any thread (allocates).
 std::vector<std::string> protocolSentences(const Protocol& protocol);
 
-/// What is felt in a condition: one line. Any thread (allocates).
+/// One line on the stimuli of a condition. Any thread (allocates).
 std::string conditionWords(const ConditionPlan& condition);
 
-/// What is asked in a session, how often and with which breaks: one line. Any thread (allocates).
+/// One line on the question, repetitions and breaks of a session. Any thread (allocates).
 std::string sessionWords(const SessionPlan& session);
 
-/// The recordings that calls with --method SV play: a line each. Any thread (allocates).
+/// One line per recording that calls with --method SV play. Any thread (allocates).
 std::vector<std::string> soundLines(const Protocol& protocol);
 
 } // namespace physvib

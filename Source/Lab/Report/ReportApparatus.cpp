@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// With what trials were felt, as their rows say: nothing is taken from what a protocol asks for.
+// Report section on the apparatus, from the rows of the trials and not from the protocol.
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/TrialColumns.h"
@@ -12,13 +12,13 @@ namespace {
 
 namespace columns = trialColumns;
 
-/// What was the same for some trials.
+/// Trials that had the same apparatus.
 struct Felt {
     std::size_t trials = 0, limited = 0;
     double mostLimitedDb = 0.0;
 };
 
-/// Device, master level, noise, version: what was the same, and of which trials.
+/// Key: device, master level, noise and version.
 using Kinds = std::map<std::vector<std::string>, Felt>;
 
 bool isNoise(const std::string& cell) { return cell != columns::noNoise && !cell.empty(); }
@@ -40,7 +40,7 @@ std::vector<std::string> sentencesOf(const Kinds& kinds) {
     return sentences;
 }
 
-/// What a measuring microphone says, no row knows.
+/// The noise level at the ear is not in the rows; it comes from a microphone measurement.
 void tellNoise(ReportBuilder& report, const Kinds& kinds) {
     const std::string& noise = report.trials.facts.noise;
     if (!noise.empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every test is a call that a reader can repeat.
+// Runs the analyses and tests of a report and shows each as a repeatable call.
 #include "Lab/Report/ReportBuilder.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
@@ -27,7 +27,7 @@ std::string withCommas(const std::vector<std::string>& words) {
     return all;
 }
 
-/// At most so many lines as fill a page.
+/// Shortens text that is longer than a page.
 std::string shortened(const std::string& words, const std::string& table) {
     constexpr std::size_t mostLines = 48, keptLines = 24;
     const auto lines = static_cast<std::size_t>(std::ranges::count(words, '\n'));

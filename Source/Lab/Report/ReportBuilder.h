@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A report as it grows: the page, the tables beside it, and the tests that both and the script in R repeat.
+// A report under construction: its page, its tables, and the list of tests that the R script repeats.
 #pragma once
 #include "Io/Charts/Charts.h"
 #include "Lab/Analysis/Analysis.h"
@@ -15,15 +15,15 @@ namespace physvib {
 struct ReportTest {
     std::string analysis; ///< "anova" ...
     AnalysisJob options;
-    std::string table; ///< the file of its lines
+    std::string table; ///< name of the file with its results
 
     std::string call() const;
 };
 
-/// `words` as a part of a file's name: letters, digits, ., - and _ stay. Any thread.
+/// `words` as part of a file name: letters, digits, ., - and _ are kept. Any thread.
 std::string fileWord(const std::string& words);
 
-/// The name of the table that has every trial.
+/// Name of the table of all trials.
 inline constexpr const char* trialsTable = "trials.csv";
 
 class ReportBuilder {
@@ -34,23 +34,23 @@ public:
     ReportPage page;
     bool isSimulated() const noexcept { return trials.isSimulated; }
 
-    /// Options of an analysis of these tables, which the report has made.
+    /// Options for an analysis of one of the report's tables.
     AnalysisJob optionsFor(const std::string& table) const;
 
-    /// Adds a table; its name is free.
+    /// Adds a table. Precondition: its name is unused.
     void addTable(const std::string& name, std::string csv) { tables_[name] = std::move(csv); }
     const std::string& tableText(const std::string& name) const { return tables_.at(name); }
 
-    /// Runs an analysis: its warnings and words go onto the page, its table beside it, under `name`.CSV.
-    /// Empty `error` if all is well.
+    /// Runs an analysis. Its warnings and text are added to the page, and its table is stored as `name`.CSV.
+    /// `error` is empty on success.
     AnalysisReport analysis(const std::string& kind, const AnalysisJob& options, const std::string& name);
 
-    /// Runs a test: its call and lines go onto the page, its table beside it. No lines: why not stands on the
-    /// page. Long ones show no lines, only where they are.
+    /// Runs a test. Its call and results are added to the page, and its table is stored. If the test fails,
+    /// the page has the reason and no lines are returned. With `isLong`, the page only names the table.
     std::vector<TestLine> test(const std::string& kind, AnalysisJob options, const std::string& name,
                                bool isLong = false);
 
-    /// Of the next chart, whose name no other has.
+    /// Frame of the next chart, with a unique name.
     ChartFrame frame(std::string title) {
         return {"chart" + std::to_string(++charts_), std::move(title), isSimulated()};
     }
@@ -60,7 +60,8 @@ public:
 
 private:
     void warn(const std::vector<std::string>& warnings);
-    void tellAssumptions(AnalysisJob options, const std::string& name); ///< of an analysis of variance
+    void tellAssumptions(AnalysisJob options, const std::string& name); ///< assumptions of an analysis of
+                                                                        ///< variance
     std::map<std::string, std::string> tables_;                         // by file name
     std::vector<ReportTest> tests_;
     std::vector<std::string> warned_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The design as it was run: orders of conditions, and which differences so many participants can show.
+// Report sections on the design as run: condition orders, and the differences that its number of participants
+// can detect.
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/TrialColumns.h"
@@ -13,11 +14,10 @@
 namespace physvib {
 namespace {
 
-/// The conditions of each participant in the order of their first main trials; participants in the order of
-/// the files.
+/// Conditions of each participant in the order of first main trials; participants in file order.
 using Orders = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// Trials that count, with their cells.
+/// Calls `take` with participant and condition of each main trial.
 template <class Take>
 void eachMainTrial(const CsvTable& all, Take take) {
     const auto phase = all.column(trialColumns::phase), participant = all.column("participant"),
@@ -65,8 +65,7 @@ std::set<std::string> orderedConditions(const Orders& orders) {
     return all;
 }
 
-/// Forced choices between two, at one level: trials per participant, the fewest; none if the study has no
-/// such trials.
+/// Minimum number of two-alternative, fixed-level choice trials per participant; 0 if the study has none.
 std::size_t choiceTrialsOf(const CsvTable& all) {
     const auto task = all.column(trialColumns::task), choice = all.column("choice"),
                correct = all.column("correct");
@@ -91,7 +90,7 @@ std::string orNever(std::optional<double> effect, int decimals) {
 } // namespace
 
 void tellOrders(ReportBuilder& report) {
-    if (!report.trials.knowTasks()) return; // rows of other programs may be sorted
+    if (!report.trials.knowTasks()) return; // rows of other programs may be sorted, so their order is unknown
     const Orders orders = ordersOf(report.trials.all);
     const auto conditions = orderedConditions(orders);
     if (conditions.size() < 2) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Identified labels: information transfer, percent correct, by condition and by stimulus.
+// Report section on identification: information transfer and percent correct, by condition and by stimulus.
 #include "Io/Text/NameList.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
@@ -18,7 +18,7 @@ struct IdentifiedCondition {
     std::string condition;
     ConfusionMatrix matrix;
     InformationTransfer transfer;
-    std::vector<double> shares, bits; ///< of participants, in percent and bits
+    std::vector<double> shares, bits; ///< one value per participant, in percent and bits
 };
 
 std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolerance) {
@@ -46,7 +46,7 @@ ChartValue withInterval(const std::vector<double>& values) {
     return ChartValue::around(moments.mean, moments.halfInterval());
 }
 
-/// A bar per condition; `value` gives it.
+/// One bar per condition, with the value that `value` returns.
 template <class Value>
 std::vector<BarSeries> barsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all,
                               Value value) {
@@ -61,7 +61,7 @@ std::vector<BarSeries> barsOf(const ConditionAxes& axes, const std::vector<Ident
     return series;
 }
 
-/// Brackets of those pairs of groups that differ, and a mark in the legend if the two series do.
+/// Adds brackets for significantly different groups, and a mark in the legend for different series.
 void markPairs(BarChart& chart, const std::vector<TestLine>& lines, const ConditionAxes& axes) {
     for (const TestLine& line : lines) {
         const double p = line.pCorrected.value_or(line.p.value_or(1.0));
@@ -87,7 +87,7 @@ std::vector<double> ceilingsOf(const ConditionAxes& axes, const std::vector<Iden
     return most;
 }
 
-/// Grids by place, other stimuli as a confusion matrix.
+/// Draws grids by place, and other stimuli as a confusion matrix.
 std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& condition,
                           const std::vector<IdentificationTrial>& trials, int tolerance) {
     std::vector<GridCell> cells;
@@ -111,7 +111,7 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
     for (int c = 1; c <= columns; ++c) chart.columns.push_back(std::to_string(c));
     chart.values.resize(static_cast<std::size_t>(rows * columns));
     chart.halfIntervals.resize(chart.values.size());
-    // stimulus, participant: hits, trials
+    // stimulus, participant -> hits, trials
     std::map<std::string, std::map<std::string, std::pair<double, double>>> counts;
     for (const auto& trial : trials) {
         auto& [hits, all] = counts[trial.stimulus][trial.participant];
@@ -135,7 +135,7 @@ bool isGrid(const std::vector<IdentifiedCondition>& all) {
                                [](const auto& c) { return parseGridCell(c.matrix.label(0)).has_value(); });
 }
 
-/// One criterion of what is correct: tables, tests, charts.
+/// Tables, tests and charts for one criterion of a correct answer.
 void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance) {
     const std::string suffix = tolerance ? "-tolerance-" + std::to_string(tolerance) : "",
                       words = tolerance ? ", 1 step of tolerance" : "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texts to trials, trials to a report.
+// Reads the input files of a report job and creates the report.
 #include "Lab/Report/ReportJob.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
@@ -40,8 +40,7 @@ Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protoco
     if (!trials) return Failure{trials.error};
     trials.value.columns = job.columns;
     trials.value.guess = job.guess;
-    if (trials.value.all.column("target_x") && !trials.value.all.column("target_column")) // compared with the
-                                                                                          // answers
+    if (trials.value.all.column("target_x") && !trials.value.all.column("target_column")) // need one unit
         if (std::string fault = unitFault(job.columns); !fault.empty()) return Failure{std::move(fault)};
     StudyFacts facts{{}, job.ethics, job.consent, job.noise};
     if (!job.peoplePath.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A report on trial files: which, and into which folder.
+// Options of a report on trial files: inputs, output folder and additional facts.
 #pragma once
 #include "Lab/Files/ColumnNames.h"
 #include "Lab/Report/StudyReport.h"
@@ -10,19 +10,20 @@
 namespace physvib {
 
 struct ReportJob {
-    std::vector<std::string> files;           ///< of one study
-    std::vector<ColumnName> columns{};        ///< of another program's tables
-    double guess = PsychometricModel{}.guess; ///< of psychometric functions, where no protocol knows it
-    std::string folder;                       ///< all that is written lies in it
-    bool wantsBids = false;                   ///< the trials as a BIDS dataset, too
-    std::string peoplePath{}; ///< who the participants are (see StudyFacts.h); empty: nothing is known
-    std::string ethics{}, consent{}, noise{}; ///< sentences for the page; empty: to be filled in
+    std::vector<std::string> files;           ///< trial files of one study
+    std::vector<ColumnName> columns{};        ///< column mapping for tables of another program
+    double guess = PsychometricModel{}.guess; ///< guess rate of psychometric functions if no protocol
+                                              ///< specifies it
+    std::string folder;                       ///< output folder
+    bool wantsBids = false;                   ///< also export the trials as a BIDS dataset
+    std::string peoplePath{}; ///< table of facts on the participants (see StudyFacts.h); empty: unknown
+    std::string ethics{}, consent{}, noise{}; ///< sentences for the page; if empty, the page has a reminder
 
     bool operator==(const ReportJob&) const = default;
 };
 
-/// The report's files in memory, or one line. `protocol`: given by the user; none: a built-in one is looked
-/// for. M only.
+/// The report's files in memory, or an error line. `protocol`: given by the user; without it, a built-in one
+/// is looked up. Message thread only.
 Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol,
                                const CallCheck& callFault);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Levels: thresholds with the functions behind them, matches, magnitudes.
+// Report section on levels: thresholds with psychometric functions, adjusted levels, and magnitude estimates.
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/FitCharts.h"
@@ -12,7 +12,7 @@
 namespace physvib {
 namespace {
 
-/// The guess rate of a forced choice: 1 / alternatives.
+/// Guess rate of the forced choice: 1 / alternatives.
 double guessOf(const ReportTrials& trials) {
     if (trials.protocol)
         for (const SessionPlan& session : trials.protocol->sessions)
@@ -89,7 +89,7 @@ std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>&
     return bars.size() < 2 ? std::string{} : barsChart(frame, "stimulus", "level (dB)", bars);
 }
 
-/// Matches at the end of their range may lie beyond it.
+/// Warns about adjustments at the end of their range, which may have been limited by it.
 void tellEndsOfRanges(ReportBuilder& report) {
     const CsvTable& all = report.trials.all;
     const auto session = all.column("session"), value = all.column("value");

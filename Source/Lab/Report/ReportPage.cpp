@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Elements, and the style that all of them share.
+// Writes the elements of a report's HTML page and its style sheet.
 #include "Lab/Report/ReportPage.h"
 #include "Io/Charts/Svg.h"
 #include "Io/Text/CsvTable.h"
@@ -37,7 +37,7 @@ std::string shortPower(double number) {
             std::to_chars(digits, digits + sizeof digits, number, std::chars_format::scientific, 1).ptr};
 }
 
-/// Four significant places for a reader; the file beside has all.
+/// Rounds to four significant digits; the table file has full precision.
 std::string cellWords(const std::string& cell) {
     const auto number = parseNumber<double>(cell);
     if (!number || cell.find_first_of(".e") == std::string::npos) return cell;
@@ -46,7 +46,7 @@ std::string cellWords(const std::string& cell) {
     return fixedNumber(*number, size >= 100.0 ? 1 : size >= 1.0 ? 2 : 4);
 }
 
-/// Names of columns may break behind their underscores.
+/// Lets column names break after underscores.
 std::string headHtml(const std::string& column) {
     std::string out = "<th>";
     for (const char c : markup(column)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A page of HTML that needs nothing but itself: no network, no script; A4 when printed. What comes from files
-// is escaped here.
+// A self-contained HTML page, without network access or scripts, for screen and A4 print. Text from files is
+// escaped here.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,26 +10,26 @@ namespace physvib {
 
 class ReportPage {
 public:
-    /// `mark`: stands below the title, if not empty.
+    /// `mark` is shown below the title if it is not empty.
     ReportPage(std::string title, bool isSimulated, std::string mark = {});
 
     void heading(std::string_view words);
     void subheading(std::string_view words);
     void paragraph(std::string_view words);
-    void notes(const std::vector<std::string>& lines); ///< one box
-    /// a warning, or what is not there and why
+    void notes(const std::vector<std::string>& lines); ///< in one box
+    /// A warning, or why something is missing.
     void note(std::string_view words) { notes({std::string(words)}); }
-    void lines(std::string_view words); ///< as `analyse` prints them
-    void call(std::string_view words);  ///< of the program
+    void lines(std::string_view words); ///< preformatted text, as `analyse` prints it
+    void call(std::string_view words);  ///< a call of the program
     void list(const std::vector<std::string>& items);
-    /// CSV text, comments and all; at most so many rows, and where the others are. Folded: shown by a click,
-    /// and never in print.
+    /// A table from CSV text with comments, of at most `mostRows` rows and a link to the rest. A folded table
+    /// opens on a click and is not printed.
     void table(std::string_view csv, std::string_view file, std::size_t mostRows = 60, bool isFolded = false);
-    /// Charts beside each other, one caption.
+    /// Charts side by side with one caption.
     void figure(const std::vector<std::string>& svgs, std::string_view caption);
     void link(std::string_view file, std::string_view words);
 
-    /// The whole file.
+    /// The complete file.
     std::string html() const;
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Places pointed at: responses and normals, perceived rows and columns, territories, percent counts.
+// Report section on pointing: responses with normal distributions, perceived rows and columns, most likely
+// targets, and percent counts.
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ReportSections.h"
@@ -16,7 +17,7 @@ struct PlacesOf {
     ConditionResolution resolution;
 };
 
-/// Mean perceived place against the intended one, over participants. `isRow`: rows, else columns.
+/// Mean perceived against intended place over participants, for rows (`isRow`) or columns.
 std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std::vector<PlacesOf>& places,
                            bool isRow) {
     const auto participant = all.column("participant"), condition = all.column("condition"),
@@ -30,7 +31,7 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
     chart.height = 330.0;
     chart.yRange = {0.0, 1.0};
     for (std::size_t i = 0; i < places.size(); ++i) {
-        std::map<int, std::map<std::string, std::vector<double>>> answers; // target, participant
+        std::map<int, std::map<std::string, std::vector<double>>> answers; // by target and participant
         for (const CsvRow& row : all.rows) {
             if (phase && row.cells[*phase] == "training") continue;
             if (condition && row.cells[*condition] != places[i].condition) continue;
@@ -44,7 +45,7 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
             std::vector<double> means;
             for (const auto& [who, values] : people) means.push_back(Moments(values).mean);
             const Moments moments{means};
-            // so that intervals do not hide each other
+            // so that intervals do not overlap
             const double offset =
                 0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1));
             series.points.push_back(

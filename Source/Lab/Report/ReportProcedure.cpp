@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands in a paper's section on methods, as far as files know it.
+// Report sections on participants and procedure, for the methods section of a paper, from the study's files.
 #include "Io/Text/CsvText.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/ProtocolFile.h"
@@ -17,7 +17,7 @@
 namespace physvib {
 namespace {
 
-/// Cells of a row by the names of columns; empty where there is none.
+/// Cells of a row by column name; an empty string for missing columns.
 class Cells {
 public:
     explicit Cells(const CsvTable& table)
@@ -36,11 +36,11 @@ private:
 struct Attended {
     std::string number, observer;
     std::size_t main = 0, training = 0, unanswered = 0;
-    std::size_t adaptive = 0; ///< of the main ones, in sessions that end by the answers
+    std::size_t adaptive = 0; ///< number of main trials in adaptive sessions
     std::vector<double> seconds;
 };
 
-/// Everyone in the order of the files.
+/// Attendance of all participants, in file order.
 std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& trials) {
     std::vector<std::pair<std::string, Attended>> people;
     for (const TrialFile& file : trials.files) {
@@ -68,7 +68,7 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
     return people;
 }
 
-/// Of a built-in protocol, once and all together.
+/// Lists the deviations of a built-in protocol from the thesis.
 void tellDeviations(ReportPage& page, const Protocol& protocol) {
     std::vector<std::string> lines;
     for (const ThesisDeviation& one : deviationsOf(protocol))
@@ -95,12 +95,12 @@ void tellProtocol(ReportPage& page, const Protocol& protocol) {
     page.list(soundLines(protocol));
 }
 
-/// Every stimulus with the call that made it, and a first example of each condition and session on the page.
+/// Lists every stimulus with its call; the page shows one example per condition and session.
 void tellCalls(ReportBuilder& report) {
     const CsvTable& all = report.trials.all;
     const Cells cell{all};
     if (!cell.has("render")) return;
-    // condition, session, stimulus, call: trials
+    // key: condition, session, stimulus, call; value: number of trials
     std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> calls;
     std::map<std::pair<std::string, std::string>, std::string> examples;
     for (const CsvRow& row : all.rows) {
@@ -130,7 +130,7 @@ void tellCalls(ReportBuilder& report) {
     }
 }
 
-/// "0.5|0.3", of two parts.
+/// Numbers of a cell such as "0.5|0.3", which has two parts.
 std::vector<double> numbersOf(std::string_view cell) {
     std::vector<double> numbers;
     while (!cell.empty())
@@ -138,7 +138,7 @@ std::vector<double> numbersOf(std::string_view cell) {
     return numbers;
 }
 
-/// A sentence on a column of tellDoses' table, and a space.
+/// A sentence on a column of the table of tellDoses(), followed by a space.
 std::string meaningOf(std::string_view column) {
     if (column == "level_db")
         return "level_db: in dB of the condition's own level, or of a call's full scale; where participants "
@@ -152,9 +152,9 @@ std::string meaningOf(std::string_view column) {
     return {};
 }
 
-/// Columns of numbers that say how strong or how much was felt, by condition.
+/// Table of the numeric columns on level and exposure, by condition.
 void tellDoses(ReportBuilder& report) {
-    if (!report.trials.knowTasks()) return; // in units that only their program knows
+    if (!report.trials.knowTasks()) return; // units of other programs are unknown
     const CsvTable& all = report.trials.all;
     const Cells cell{all};
     ExportTable table{"levels-and-exposure", report.isSimulated(),
@@ -175,7 +175,7 @@ void tellDoses(ReportBuilder& report) {
             double sum = 0.0;
             for (const double value : own) sum += value;
             table.cell(key.first).cell(key.second).cell(column).cell(own.size());
-            // levels follow answers, exposure adds up
+            // means of adaptive levels and accumulated exposure have no meaning
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
             table.cell(*std::ranges::min_element(own))
                 .cell(hasMean ? std::optional{sum / static_cast<double>(own.size())} : std::nullopt)
@@ -193,7 +193,8 @@ void tellDoses(ReportBuilder& report) {
         report.page.note("exposure was not measured in these trials");
 }
 
-/// "6 female, 5 male, 1 not known": how often each word occurs; of `strangers` there is no line.
+/// "6 female, 5 male, 1 not known": counts of each word. `strangers` is the number of participants without an
+/// entry.
 std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t strangers,
                      std::string PersonFacts::*field) {
     std::map<std::string, std::size_t> counts;
@@ -207,7 +208,8 @@ std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t 
     return words;
 }
 
-/// What was given beside the trials, of those whose trials count; what was not is to be filled in.
+/// Reports the facts given by the user on participants whose trials count, and lists missing facts as
+/// reminders.
 void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, Attended>>& attended) {
     const StudyFacts& facts = report.trials.facts;
     std::vector<const PersonFacts*> people;
@@ -248,7 +250,7 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
     if (!report.isSimulated() || !facts.people.empty()) report.page.notes(notes);
 }
 
-/// Which trainings count: adjustments and staircases are levels, wherever they were set.
+/// Explains which training trials count: adjustments and staircases count in every session.
 std::string trainingWords(const CsvTable& all) {
     const Cells cell{all};
     bool isAny = false, isLevel = false;

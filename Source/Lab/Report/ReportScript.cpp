@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Functions in R that read columns as `physvib analyse` does, then a line per test.
+// Writes the R script: functions that read columns as `physvib analyse` does, then one line per test.
 #include "Lab/Report/ReportScript.h"
 #include "Io/Text/CleanText.h"
 
@@ -114,7 +114,7 @@ choices <- function(ours, file) {
 
 )R";
 
-/// A string in R, whatever it holds.
+/// A quoted and escaped R string.
 std::string inR(const std::string& words) {
     std::string out = "\"";
     for (const char c : cleanLine(words)) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// report.R: a report's tests again, by R itself, from the tables beside it.
+// Creates report.R, which repeats the report's tests in R from the tables of the report.
 #pragma once
 #include "Lab/Report/ReportBuilder.h"
 #include <string>
 
 namespace physvib {
 
-/// Run in the report's folder, it prints each p beside R's and fails if one differs by more than a millionth.
-/// Any thread (allocates).
+/// Run in the report's folder, the script prints each p beside R's and fails if one differs by more than a
+/// millionth. Any thread (allocates).
 std::string reportScript(const ReportBuilder& report);
 
 } // namespace physvib

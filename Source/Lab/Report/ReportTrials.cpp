@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files to one table; what their first lines say.
+// Combines trial files into one table and checks their first lines.
 #include "Lab/Report/ReportTrials.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
@@ -36,7 +36,7 @@ std::vector<std::string> asked(const CsvTable& table) {
     return columns;
 }
 
-/// All files' rows under all their columns; what a file does not have is empty.
+/// All rows with the union of all columns; missing cells are empty.
 CsvTable joined(const std::vector<TrialFile>& files) {
     CsvTable all{"the trials", {}, asked(files.front().table), {}};
     for (const TrialFile& file : files)
@@ -76,7 +76,7 @@ void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) 
                               ") is no built-in one: give it by --protocol, and its own words stand here";
 }
 
-/// Whether rows say how they were felt, and all of them without noise.
+/// True if all rows record their apparatus and none had noise.
 bool wasWithoutNoise(const CsvTable& all) {
     const auto version = all.column(trialColumns::version), noise = all.column(trialColumns::noiseDb);
     if (!version || !noise) return false;
@@ -86,7 +86,8 @@ bool wasWithoutNoise(const CsvTable& all) {
            });
 }
 
-/// The page shows calls of a trial file for somebody to repeat: empty, or the first that would write a file.
+/// Returns an error for the first call that would write a file, since the page shows the calls to be
+/// repeated; else an empty string.
 std::string callsFault(const CsvTable& table, const CallCheck& callFault) {
     const auto column = table.column("render");
     for (const CsvRow& row : table.rows)

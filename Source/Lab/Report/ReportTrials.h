@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The trial files of a report, as one study.
+// The trial files of a report, combined into one study.
 #pragma once
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
@@ -19,45 +19,45 @@
 namespace physvib {
 
 struct TrialFile {
-    std::string name; ///< without its folder
+    std::string name; ///< without folder
     TrialHead head;
     CsvTable table;
 };
 
 struct ReportTrials {
     std::vector<TrialFile> files;
-    CsvTable all; ///< every row of every file; file by file
+    CsvTable all; ///< rows of all files, file by file
     bool isSimulated = false;
-    std::size_t rowsLeftOut = 0;       ///< with nothing in one of the columns that were asked for
-    std::string sharedNote{};          ///< who is in several files (see SharedParticipants.h); empty: nobody
-    std::vector<ColumnName> columns{}; ///< of another program's tables
-    double guess = PsychometricModel{}.guess; ///< of psychometric functions, where no protocol knows it
-    std::optional<Protocol> protocol{};       ///< that of the files, if it is known
-    std::string protocolNote{};               ///< why it is not
-    StudyFacts facts{};                       ///< what the user has given beside the trials
+    std::size_t rowsLeftOut = 0; ///< rows dropped for an empty cell in a mapped column
+    std::string sharedNote{};    ///< participants in several files (see SharedParticipants.h); empty: none
+    std::vector<ColumnName> columns{};        ///< column mapping for tables of another program
+    double guess = PsychometricModel{}.guess; ///< guess rate of psychometric functions if no protocol
+                                              ///< specifies it
+    std::optional<Protocol> protocol{};       ///< protocol of the files, if known
+    std::string protocolNote{};               ///< why the protocol is unknown
+    StudyFacts facts{};                       ///< facts given by the user in addition to the trials
 
-    /// Whether rows say what was asked, as ours do; of other programs' tables less is known.
+    /// True if rows have a task, as in our own files; tables of other programs have less information.
     bool knowTasks() const;
-    /// A value of the files' first lines if all say the same; else empty.
+    /// The value of a key if the first lines of all files agree; else empty.
     std::string common(const std::string& key) const;
 };
 
-/// Empty, or why a call in a file is none that it may hold.
+/// Returns an empty string, or why a call in a file is not allowed.
 using CallCheck = std::function<std::string(std::string_view call)>;
 
-/// Of texts by their names. Files of different studies, or with different columns, are refused by name.
-/// `protocol`: given by the user; none: a built-in one is looked for. Any thread.
+/// Reads named texts. Files of different studies or with different columns give an error that names them.
+/// `protocol`: given by the user; without it, a built-in one is looked up. Any thread.
 Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, std::string>>& texts,
                                       const std::vector<ColumnName>& columns,
                                       const std::optional<Protocol>& protocol,
                                       const CallCheck& callFault = {});
 
-/// Takes the facts, and the rows of those who are excluded out of `all` (the files keep theirs); empty, or
-/// one line if nobody is left. Any thread.
+/// Stores the facts and removes the rows of excluded participants from `all` (`files` keeps them). Returns a
+/// line if no participant remains, else an empty string. Any thread.
 std::string takeFacts(ReportTrials& trials, StudyFacts facts);
 
-/// All rows as one table, with that first line. Touches of a training without an answer are left out. Any
-/// thread.
+/// All rows as one table with that first line, without unanswered training touches. Any thread.
 std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine);
 
 } // namespace physvib

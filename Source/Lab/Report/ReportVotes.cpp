@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opinions: shares of forced choices, ratings on scales.
+// Report sections on forced choices and ratings.
 #include "Io/Text/CsvText.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
@@ -12,8 +12,8 @@
 namespace physvib {
 namespace {
 
-/// Factors of conditions like "pair=wood size=small", each with its values in the order of the table; none if
-/// one has no such name.
+/// Factors in condition names like "pair=wood size=small", with their values in table order; empty if a
+/// condition has another kind of name.
 std::vector<std::pair<std::string, std::vector<std::string>>>
 factorsOf(const std::vector<ChoiceTrial>& trials) {
     std::vector<std::pair<std::string, std::vector<std::string>>> factors;
@@ -32,7 +32,7 @@ factorsOf(const std::vector<ChoiceTrial>& trials) {
     return factors;
 }
 
-/// Whether a condition says `factor=value`.
+/// True if the condition contains `factor=value`.
 bool hasWord(std::string_view condition, const std::string& factor, const std::string& value) {
     while (!condition.empty())
         if (takeUntil(' ', condition) == factor + "=" + value) return true;
@@ -54,7 +54,7 @@ void tellChoiceTests(ReportBuilder& report,
     report.test("pairs", test, "pairs-choices.csv");
 }
 
-/// Of two factors' combinations, over the levels of all others: mean share of the first alternative.
+/// Mean share of the first alternative for each combination of two factors, over the levels of the others.
 std::string combinationChart(ReportBuilder& report, const std::vector<ChoiceTrial>& trials,
                              const std::pair<std::string, std::vector<std::string>>& first,
                              const std::pair<std::string, std::vector<std::string>>& second,
@@ -96,7 +96,8 @@ struct RatedFactor {
 constexpr RatedFactor ratedFactors[] = {
     {"A", "amplitude", "AV", "AF"}, {"F", "frequency", "FV", "FF"}, {"DR", "decay rate", "DRV", "DRF"}};
 
-/// The three factors of the thesis' methods, a panel per scale, marked by the scale's analysis of variance.
+/// One panel per scale with the three factors of the thesis' methods, marked with significances of the
+/// scale's analysis of variance.
 std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<std::string>& scales,
                                       const std::vector<RatingSummary>& summaries,
                                       const std::vector<std::vector<TestLine>>& tests) {
@@ -207,7 +208,8 @@ void tellRatings(ReportBuilder& report) {
             "effect in the analysis of variance of that scale (two levels each, so no pairs are to be "
             "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05.");
     std::vector<const RatingSummary*> shown;
-    for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) // AV-FV-DRV first
+    for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) // reverse order, so that AV-FV-DRV comes
+                                                                     // first
         if (conditions.contains(at->condition)) shown.push_back(&*at);
     report.page.figure({scoresChart(report.frame("Mean scores"), scales, shown)},
                        "Mean scores by condition (as thesis Fig. 5.14), 95 % intervals over participants.");

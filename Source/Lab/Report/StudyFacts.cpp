@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Read strictly: a column that nobody reads would be a fact that nobody misses.
+// Reads the table of participants. Unknown columns are errors, so that no fact is silently ignored.
 #include "Lab/Report/StudyFacts.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a paper says of a study and trial files do not know: who the participants are, who is excluded and
-// why, ethics and consent, and how loud the noise was at the ear.
+// Facts of a study that trial files do not contain: participants, exclusions with reasons, ethics, consent,
+// and the noise level at the ear.
 #pragma once
 #include "Io/Result.h"
 #include <optional>
@@ -10,23 +10,23 @@
 
 namespace physvib {
 
-/// One participant; what is not known is empty.
+/// One participant; unknown fields are empty.
 struct PersonFacts {
     std::string participant; ///< code, as in the trial files
     std::optional<double> ageYears;
     std::string sex, handedness;
-    std::string excluded; ///< why all trials are left out; empty: they count
+    std::string excluded; ///< why all trials are excluded; empty: they count
     bool operator==(const PersonFacts&) const = default;
 };
 
-/// Given by the user, beside the trials.
+/// Facts given by the user.
 struct StudyFacts {
     std::vector<PersonFacts> people;
-    std::string ethics, consent; ///< sentences for the report; empty: to be filled in
-    std::string noise;           ///< the same of the noise's level at the ear
+    std::string ethics, consent; ///< sentences for the report; if empty, the report has a reminder
+    std::string noise;           ///< sentence on the noise level at the ear, likewise
     bool operator==(const StudyFacts&) const = default;
 
-    /// Null if nothing is known of that participant. Any thread.
+    /// Null if the table has no such participant. Any thread.
     const PersonFacts* person(std::string_view participant) const noexcept;
     bool isExcluded(std::string_view participant) const noexcept;
 };

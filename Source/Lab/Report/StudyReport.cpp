@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sections by what the trials are.
+// Composes a report from the sections that fit its trials.
 #include "Lab/Report/StudyReport.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Report/ReportScript.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report of one study, as files in memory.
+// The report of a study, as files in memory.
 #pragma once
 #include "Lab/Report/ReportTrials.h"
 #include <map>
@@ -9,14 +9,14 @@
 namespace physvib {
 
 struct StudyReport {
-    std::map<std::string, std::string> files; ///< names within the report's folder, and their bytes:
+    std::map<std::string, std::string> files; ///< file names within the report's folder, and contents:
                                               ///< index.html, tables, report.R
-    std::vector<std::string> notes;           ///< a line each: what no analysis is known for
-    std::vector<std::string> tests;           ///< the calls of all tests
-    bool isSimulated = false;                 ///< a simulated observer answered, not a person
+    std::vector<std::string> notes;           ///< one line each on trials without a known analysis
+    std::vector<std::string> tests;           ///< calls of all tests
+    bool isSimulated = false;                 ///< trials are of a simulated observer
 };
 
-/// The same trials give the same bytes. M only.
+/// Equal trials give identical bytes. Message thread only.
 StudyReport studyReport(const ReportTrials& trials);
 
 } // namespace physvib

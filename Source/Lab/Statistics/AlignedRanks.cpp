@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What is left of each cell's mean, and one effect's part of that mean, ranked over all values.
+// Aligned rank transform (Wobbrock and others 2011).
+// Steps for each effect: 1. Subtract the cell means from the values. 2. Add the effect's estimate, an
+// alternating sum of the means over its parts. 3. Rank all values. 4. Analyse the ranks, and keep only the
+// line of this effect.
 #include "Lab/Statistics/DesignEffects.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Statistics/Ranks.h"
@@ -11,8 +14,7 @@
 namespace physvib {
 namespace {
 
-/// Whether the levels of the effect's factors are the same in both cells of the whole table: a number for
-/// them.
+/// Index of the combination of levels of the effect's factors that a value has.
 std::size_t levelsOf(const Design& design, const DesignEffect& effect, std::size_t value) {
     std::size_t cell = value % design.cells(),
                 index = effect.isBetween ? design.groups[value / design.cells()] : 0;
@@ -56,8 +58,7 @@ std::vector<double> aligned(const Design& design, const DesignEffect& effect) {
     return values;
 }
 
-/// Sums that are equal on paper differ by rounding: steps of a ten-thousand-millionth of the largest value
-/// make them equal again.
+/// Rounds to 1e-10 of the largest value, so that sums that differ only by rounding error become ties.
 void makeTiesEqual(std::vector<double>& values) {
     const double largest = largestMagnitude(values);
     if (largest == 0.0) return;
@@ -67,7 +68,7 @@ void makeTiesEqual(std::vector<double>& values) {
 } // namespace
 
 TestReport alignedRanks(const Design& design) {
-    TestReport report = repeatedMeasures(design); // its faults and names
+    TestReport report = repeatedMeasures(design); // for its error message and names
     if (!report.fault.empty()) return report;
     std::vector<TestLine> lines;
     for (const DesignEffect& effect : effectsOf(design)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws with replacement, in a fixed stream of random numbers.
+// Resamples with replacement, with a fixed stream of random numbers.
 #include "Lab/Statistics/Bootstrap.h"
 #include "Lab/Statistics/Moments.h"
 #include "Stimuli/SeededRandom.h"

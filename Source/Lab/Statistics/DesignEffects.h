@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The main effects and interactions of a design.
+// Main effects and interactions of an experimental design.
 #pragma once
 #include "Lab/Statistics/LongTable.h"
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace physvib {
 
 struct DesignEffect {
-    unsigned within = 0; ///< a bit per within-factor
+    unsigned within = 0; ///< bit mask of within-factors
     bool isBetween = false;
 
     /// "group:a:b". Any thread (allocates).
@@ -22,7 +22,7 @@ struct DesignEffect {
     }
 };
 
-/// All of them, the grand mean first, then by the number of within-factors. Any thread (allocates).
+/// All effects: the grand mean first, then by the number of within-factors. Any thread (allocates).
 inline std::vector<DesignEffect> effectsOf(const Design& design) {
     std::vector<DesignEffect> effects;
     for (unsigned within = 0; within < 1u << design.within.size(); ++within) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boost.Math for what is continuous; counting, by sums of positive numbers only, for ranks.
+// Continuous distributions from Boost.Math; exact rank distributions by counting, with positive terms only.
 #include "Lab/Statistics/Distributions.h"
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
@@ -13,10 +13,10 @@
 namespace physvib {
 namespace {
 
-/// Twice the smaller tail of whole-numbered probabilities, `at` included.
+/// Two-sided probability of a discrete symmetric distribution: twice the smaller tail, `at` included.
 double twiceTheTail(const std::vector<double>& probabilities, double at) {
     const auto middle = 0.5 * static_cast<double>(probabilities.size() - 1);
-    // they are symmetric
+    // by symmetry, sum the tail from 0
     const auto fromEnd = static_cast<std::size_t>(std::lround(at > middle ? 2.0 * middle - at : at));
     double tail = 0.0;
     for (std::size_t i = 0; i <= fromEnd; ++i) tail += probabilities[i];
@@ -57,7 +57,8 @@ double signedRankTwoSided(double v, std::size_t n) {
 }
 
 double rankSumTwoSided(double w, std::size_t m, std::size_t n) {
-    // The largest of all values is one of the m with probability m / (m + n), and then beats all n.
+    // Recursion: the largest of all values is one of the m with probability m / (m + n), and then exceeds all
+    // n.
     std::vector<std::vector<double>> row(n + 1, std::vector<double>{1.0});
     for (std::size_t i = 1; i <= m; ++i) {
         row[0] = {1.0};

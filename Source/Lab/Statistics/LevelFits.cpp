@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Trials sorted by whose they are.
+// Groups trials by participant and fits each group.
 #include "Lab/Statistics/LevelFits.h"
 #include "Lab/Statistics/LongTable.h"
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Functions fitted to the trials of each participant by themselves.
+// Psychometric functions and power laws, fitted to each participant's trials separately.
 #pragma once
 #include "Lab/Statistics/PowerLaw.h"
 #include "Lab/Statistics/Psychometric.h"
@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// What a participant answered at a level: 1 or 0, or a magnitude.
+/// A participant's answer at a level: 1 or 0, or a magnitude.
 struct LevelAnswer {
     std::string participant;
     double level = 0.0, answer = 0.0;
@@ -26,7 +26,7 @@ struct ParticipantPowerLaw {
     PowerLaw law;
 };
 
-// In the order of their first trial. Any thread (allocates).
+// One result per participant, in the order of first trials. Any thread (allocates).
 std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
                                                                const PsychometricModel& model);
 std::vector<ParticipantPowerLaw> powerLawByParticipant(const std::vector<LevelAnswer>& trials);

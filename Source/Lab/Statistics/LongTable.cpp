@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows into cells: averages, and what is missing.
+// Converts rows of trials to a complete design: averages cells and reports missing data.
 #include "Lab/Statistics/LongTable.h"
 #include <algorithm>
 #include <utility>
@@ -31,8 +31,8 @@ void LongTable::add(std::string_view participant, const std::vector<std::string_
 
 namespace {
 
-/// Means of the rows of each cell. Summed twice, the second time what the first mean has left: the last bit
-/// decides about ties.
+/// Means of the rows of each cell. A second pass adds the mean of the residuals, because a difference in the
+/// last bit decides about ties.
 class CellMeans {
 public:
     explicit CellMeans(std::size_t cells)
@@ -73,7 +73,7 @@ std::string namedList(const std::vector<std::string>& names) {
 
 } // namespace
 
-/// A design on its way: each step refuses, or leaves something for the next.
+/// Builds a design step by step; each step either reports an error or prepares the next.
 class DesignMaker {
 public:
     explicit DesignMaker(const LongTable& table)
@@ -188,7 +188,7 @@ private:
     Design design_;
     std::size_t cells_ = 1;
     CellMeans means_{0};
-    std::vector<std::uint32_t> groups_; ///< of each participant
+    std::vector<std::uint32_t> groups_; ///< group index of each participant
 };
 
 std::size_t Design::cells() const noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A table with a row per trial, or per participant and condition, and the complete design that tests over
-// participants want.
+// Long table (a row per trial or per participant and condition), and the complete design for tests over
+// participants.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -13,10 +13,10 @@
 
 namespace physvib {
 
-/// Different words in the order of their first appearance.
+/// Distinct words in the order of first appearance, with their indices.
 class WordList {
 public:
-    std::size_t indexOf(std::string_view word); ///< appends what is new
+    std::size_t indexOf(std::string_view word); ///< appends unknown words
     std::size_t size() const noexcept { return words_.size(); }
     const std::string& operator[](std::size_t index) const { return words_[index]; }
     const std::vector<std::string>& words() const noexcept { return words_; }
@@ -33,18 +33,19 @@ private:
 };
 
 constexpr std::size_t mostWithinFactors = 3;
-constexpr std::size_t mostDesignCells = 1024;        // an effect's matrix has its square
-constexpr std::size_t mostDesignValues = 10'000'000; // of all participants and cells: a million rows leave
-                                                     // most of them empty
+constexpr std::size_t mostDesignCells = 1024;        // limited, because the matrix of an effect has the
+                                                     // square of this size
+constexpr std::size_t mostDesignValues = 10'000'000; // participants times cells; a table with a million rows
+                                                     // leaves most of these empty
 
-/// Rows of one measure. Any thread, one at a time (allocates).
+/// Rows of one measure. Any thread, but only one at a time (allocates).
 class LongTable {
 public:
     LongTable() = default;
-    /// `within`: at most mostWithinFactors; `between` may be empty: no groups.
+    /// `within`: at most mostWithinFactors; `between` is empty if there are no groups.
     LongTable(std::string measure, std::vector<std::string> within, std::string between);
 
-    /// `levels`: one per within-factor, in their order. A group is given with every row, or never.
+    /// `levels`: one per within-factor, in their order. Either all rows or none have a group.
     void add(std::string_view participant, const std::vector<std::string_view>& levels,
              std::string_view group, double value);
 
@@ -69,32 +70,31 @@ struct DesignFactor {
     std::vector<std::string> levels; ///< in the order of the rows
 };
 
-/// One value per participant and cell, none missing: what every test here starts from.
+/// Complete design: one value per participant and cell. All tests here take it as input.
 struct Design {
     std::string measure;
     std::vector<DesignFactor> within;
     std::optional<DesignFactor> between;
     std::vector<std::string> participants;
-    std::vector<std::size_t> groups; ///< of each participant; all 0 without `between`
-    std::vector<double> values; ///< participant by participant; in it cell by cell, the last factor's levels
-                                ///< next to each other
+    std::vector<std::size_t> groups; ///< group index of each participant; all 0 without `between`
+    std::vector<double> values;      ///< by participant, then by cell; the last factor varies fastest
     std::vector<std::string> warnings;
-    std::string fault; ///< one line; then nothing else holds
+    std::string fault; ///< error in one line; if set, the rest is invalid
 
     std::size_t cells() const noexcept;
     std::size_t groupCount() const noexcept { return between ? between->levels.size() : 1; }
     double value(std::size_t participant, std::size_t cell) const {
         return values[participant * cells() + cell];
     }
-    std::string cellName(std::size_t cell) const; ///< "law=linear:device=phone"; the measure's name without a
-                                                  ///< factor
+    std::string cellName(std::size_t cell) const; ///< "law=linear:device=phone"; the measure's name if there
+                                                  ///< is no factor
 
-    /// Several rows of a participant's cell are averaged, participants with an empty cell are left out: both
-    /// are told. Faults: fewer than two levels or groups, a combination that nobody has, a participant in two
-    /// groups, nobody with a whole row of cells.
+    /// Averages several rows of a participant's cell and drops participants with an empty cell; both give a
+    /// warning. Errors: fewer than two levels or groups, a combination without data, a participant in two
+    /// groups, no participant with all cells.
     static Design of(const LongTable& table);
 
-    /// One factor's levels alone: means over the cells of all others.
+    /// Design with one factor only: means over the cells of all others.
     Design alone(std::size_t factor) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums in two passes, for values that are far from 0 and near each other.
+// Two-pass mean and variance, accurate for values far from 0 with a small spread.
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Statistics/Distributions.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mean, spread and interval of values over participants.
+// Mean, standard deviation and confidence interval of values over participants.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -7,20 +7,20 @@
 
 namespace physvib {
 
-/// Of values, whatever their signs; 0 of none. Any thread.
+/// Largest absolute value; 0 for an empty span. Any thread.
 double largestMagnitude(std::span<const double> values) noexcept;
 
-/// The middle value, or the mean of the two in the middle; 0 of none. Any thread.
+/// Median (mean of the two middle values if the count is even); 0 if empty. Any thread.
 double median(std::vector<double> values);
 
 struct Moments {
     std::size_t n = 0;
     double mean = 0.0;
-    double deviation = 0.0; ///< sample standard deviation; 0 of fewer than two
+    double deviation = 0.0; ///< sample standard deviation; 0 for fewer than two values
     /// Any thread.
     explicit Moments(std::span<const double> values) noexcept;
-    double standardError() const noexcept; ///< of the mean; 0 of fewer than two
-    double halfInterval() const;           ///< 95 %, by Student's t; 0 of fewer than two
+    double standardError() const noexcept; ///< of the mean; 0 for fewer than two values
+    double halfInterval() const; ///< half of the 95 % interval by Student's t; 0 for fewer than two values
 };
 
 } // namespace physvib

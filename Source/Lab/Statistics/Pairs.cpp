@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paired and Welch's t as in R's t.test; ranks as in RankTests.
+// Pairwise comparisons: paired and Welch's t as in R's t.test; rank tests as in RankTests.
 #include "Lab/Statistics/Pairs.h"
 #include "Lab/Statistics/Distributions.h"
 #include "Lab/Statistics/Moments.h"
@@ -19,7 +19,7 @@ struct Sample {
         , mean{std::accumulate(values.begin(), values.end(), 0.0) / n} {
         for (const double v : values) variance += (v - mean) * (v - mean) / (n - 1.0);
     }
-    /// Rounding apart, whether values differ at all.
+    /// True if the variance exceeds rounding error.
     bool varies(double size) const { return variance > std::max(1e-200, 1e-28 * size * size); }
 };
 
@@ -61,7 +61,7 @@ TestLine pairedRanks(const std::vector<double>& first, const std::vector<double>
 
 using Test = TestLine (*)(const std::vector<double>&, const std::vector<double>&);
 
-/// Adds a line for every two of `factor`'s levels; a fault if two cannot be compared.
+/// Adds a line for each pair of `factor`'s levels. Returns an error if a pair cannot be compared.
 std::string addPairs(TestReport& report, const DesignFactor& factor,
                      const std::vector<std::vector<double>>& values, Test test) {
     for (std::size_t i = 0; i < values.size(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A line through logarithms.
+// Linear regression of logarithms.
 #include "Lab/Statistics/PowerLaw.h"
 #include <cmath>
 

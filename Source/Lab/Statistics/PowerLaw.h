@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stevens' power law: magnitude = factor * level^exponent, by least squares of logarithms.
+// Stevens' power law, magnitude = factor * level^exponent, fitted by least squares of logarithms.
 #pragma once
 #include <span>
 #include <string>
@@ -7,17 +7,17 @@
 namespace physvib {
 
 struct MagnitudeTrial {
-    double level = 0.0, magnitude = 0.0; ///< both > 0; the level linear (g, not dB)
+    double level = 0.0, magnitude = 0.0; ///< both > 0; the level is linear (g, not dB)
 };
 
 struct PowerLaw {
-    std::string fault; ///< one line; then nothing else holds
+    std::string fault; ///< error in one line; if set, the rest is invalid
     double exponent = 0.0, factor = 1.0;
-    double determination = 0.0; ///< r squared of the logarithms
+    double determination = 0.0; ///< r squared of the regression of logarithms
 };
 
-/// Of one participant's trials; exponents are averaged over participants, whose factors are their own choice.
-/// Any thread.
+/// Fits one participant's trials. Average exponents over participants, but not factors, since each
+/// participant chooses the scale. Any thread.
 PowerLaw fitPowerLaw(std::span<const MagnitudeTrial> trials);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same draws for every effect, so that a larger one is never found less often.
+// Reuses the same random samples for every effect, so that power never decreases with the effect.
 #include "Lab/Statistics/PowerSimulation.h"
 #include "Lab/Statistics/Distributions.h"
 #include "Lab/Statistics/Moments.h"
@@ -54,7 +54,7 @@ double SharePower::at(double share) const {
 }
 
 std::optional<double> SharePower::smallestShare(double power) const {
-    int low = 50, high = 95; // it grows with the share
+    int low = 50, high = 95; // power increases with the share
     if (at(0.01 * high) < power) return std::nullopt;
     while (high - low > 1) {
         const int middle = (low + high) / 2;

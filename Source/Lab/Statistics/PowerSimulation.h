@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How often a study of so many participants finds a difference that is there, by simulated studies.
+// Statistical power by simulation: how often a study with a given number of participants detects a true
+// difference.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -7,7 +8,8 @@
 
 namespace physvib {
 
-/// Two conditions, each participant in both, normal differences. Seed 1: the same numbers on every machine.
+/// Within-participant comparison of two conditions with normal differences. Seed 1: identical results on
+/// every machine.
 class PairedPower {
 public:
     static constexpr int studies = 2000;
@@ -19,19 +21,19 @@ public:
     /// deviations of the differences. Any thread.
     double at(double effect, double alpha) const;
 
-    /// The smallest such effect, in steps of 0.01 up to 5; none if even that is found less often than
-    /// `power`. Any thread.
+    /// The smallest detectable effect in steps of 0.01 up to 5; nullopt if the power at 5 is below `power`.
+    /// Any thread.
     std::optional<double> smallestEffect(double power, double alpha) const;
 
 private:
     struct Sample {
-        double mean, error; ///< of the differences around 0; standard error of the mean
+        double mean, error; ///< mean of the differences without an effect, and its standard error
     };
     std::size_t participants_;
     std::vector<Sample> samples_;
 };
 
-/// Forced choices between two: every participant has the same true share of one alternative.
+/// Forced choices between two alternatives: every participant has the same true share of one.
 class SharePower {
 public:
     static constexpr int studies = 500;
@@ -40,12 +42,12 @@ public:
         : participants_{participants}
         , trials_{trials} {}
 
-    /// Share of studies in which signed ranks of the participants' shares against one half have p < 0.05. Any
-    /// thread (allocates).
+    /// Share of studies in which a signed-rank test of the participants' shares against one half has p <
+    /// 0.05. Any thread (allocates).
     double at(double share) const;
 
-    /// The smallest share above one half, in steps of 1 % up to 95 %; none if even that is found less often.
-    /// Any thread (allocates).
+    /// The smallest detectable share above one half in steps of 1 % up to 95 %; nullopt if even that has less
+    /// power. Any thread (allocates).
     std::optional<double> smallestShare(double power) const;
 
 private:

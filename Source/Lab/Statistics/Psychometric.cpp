@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A coarse grid finds the hill, Nelder and Mead's simplex (1965) climbs it.
+// Maximum-likelihood fit of threshold, width and lapse rate.
+// Steps: 1. Evaluate a coarse grid. 2. Start Nelder and Mead's simplex (1965) at its best point. 3. Restart
+// the simplex once, because the first may have collapsed on a slope.
+// Search units: the range of the levels is 1, the width is logarithmic, and the lapse rate is kept in bounds
+// by a cosine.
 #include "Lab/Statistics/Psychometric.h"
 #include "Lab/Statistics/Distributions.h"
 #include <algorithm>
@@ -11,11 +15,11 @@
 namespace physvib {
 namespace {
 
-const double logisticSpan = 2.0 * std::log(19.0); // of its argument, from F = 0.05 to 0.95
+const double logisticSpan = 2.0 * std::log(19.0); // width of its argument from F = 0.05 to 0.95
 constexpr double normalSpan = 3.289707253902943;  // 2 x 1.644853626951472
 const double weibullSpan = std::log(-std::log(0.05)) - std::log(-std::log(0.95));
 
-/// F, 0.5 at `x` = 0 and 0.9 higher over a width of 1.
+/// F: 0.5 at `x` = 0; rises from 0.05 to 0.95 over a width of 1.
 double risen(PsychometricShape shape, double x) noexcept {
     if (shape == PsychometricShape::logistic) return 1.0 / (1.0 + std::exp(-logisticSpan * x));
     if (shape == PsychometricShape::normal) return 0.5 * std::erfc(-normalSpan * x / std::numbers::sqrt2);
@@ -28,9 +32,10 @@ double whereRisen(PsychometricShape shape, double share) {
     return std::log(-std::log1p(-share) / std::numbers::ln2) / weibullSpan;
 }
 
-using Point = std::array<double, 3>; // threshold, log of the width, lapse: all in units of the search
+using Point = std::array<double, 3>; // threshold, log of the width, lapse, each in search units
 
-/// What is searched: the function that a point stands for, and how likely the trials are under it.
+/// Objective function of the fit: maps a point to a psychometric function and to the likelihood of the
+/// trials.
 class Likelihood {
 public:
     Likelihood(std::span<const LevelCount> counts, const PsychometricModel& model)
@@ -41,11 +46,11 @@ public:
         range_ = most.level - least.level;
     }
     PsychometricFunction function(const Point& at) const {
-        // Any number is a lapse rate within its bounds.
+        // The cosine maps any real number to a lapse rate within its bounds.
         const double lapse = model_.lapseUpTo * 0.5 * (1.0 - std::cos(at[2]));
         return {model_.shape, least_ + range_ * at[0], range_ * std::exp(at[1]), model_.guess, lapse};
     }
-    /// Minus the logarithm.
+    /// Negative log-likelihood.
     double operator()(const Point& at) const {
         if (at[0] < -3.0 || at[0] > 4.0 || at[1] < std::log(1e-3) || at[1] > std::log(20.0))
             return std::numeric_limits<double>::max();
@@ -83,7 +88,7 @@ Point between(const Point& a, const Point& b, double share) {
     return point;
 }
 
-/// The simplex' best corner once all are alike.
+/// Runs the simplex until its corners are equal, and returns the best.
 Point climb(const Likelihood& likelihood, const Point& start) {
     struct Corner {
         Point at{};
@@ -157,7 +162,7 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
     if (auto fault = faultOfCounts(counts); !fault.empty()) return {fault};
     const Likelihood likelihood{counts, model};
     Point best = climb(likelihood, bestOfGrid(likelihood));
-    best = climb(likelihood, best); // a simplex of its own: the first may have collapsed on a slope
+    best = climb(likelihood, best); // step 3
     return {{}, likelihood.function(best), -likelihood(best)};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Psychometric functions: how likely an answer is at a level, fitted to trials by maximum likelihood.
+// Psychometric functions: probability of an answer as a function of level, fitted to trials by maximum
+// likelihood.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -13,23 +14,23 @@ namespace physvib {
 
 enum class PsychometricShape {
     logistic,
-    normal, ///< cumulative
-    weibull ///< of levels in dB or another logarithm (Gumbel's in the level itself)
+    normal, ///< cumulative normal
+    weibull ///< for levels in dB or another logarithm (Gumbel's function of the level)
 };
 
 inline constexpr std::array<std::string_view, 3> psychometricShapeNames{"logistic", "normal", "weibull"};
 
-constexpr double mostLapse = 0.1; // more than that is another task than the one that was asked for
+constexpr double mostLapse = 0.1; // maximum plausible lapse rate
 
-/// What is fitted, before any trial is known.
+/// Model choices, made before the fit.
 struct PsychometricModel {
     PsychometricShape shape = PsychometricShape::logistic;
     double guess = 0.5;           ///< 1 / alternatives of a forced choice; 0: answers yes and no
-    double lapseUpTo = mostLapse; ///< the lapse rate is fitted from 0 to here
+    double lapseUpTo = mostLapse; ///< upper bound of the fitted lapse rate
     bool operator==(const PsychometricModel&) const = default;
 };
 
-/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and goes from 0.05 to 0.95 within
+/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and rises from 0.05 to 0.95 within
 /// the width.
 struct PsychometricFunction {
     PsychometricShape shape = PsychometricShape::logistic;
@@ -38,8 +39,9 @@ struct PsychometricFunction {
 
     /// Any thread.
     double probability(double level) const noexcept;
-    double levelOf(double probability) const; ///< of a probability between guess and 1 - lapse
-    /// Just noticeable difference: half of what lies between F = 0.25 and F = 0.75.
+    double levelOf(double probability) const; ///< inverse function, for a probability between guess and 1 -
+                                              ///< lapse
+    /// Just noticeable difference: half the distance from F = 0.25 to F = 0.75.
     double jnd() const noexcept;
 };
 
@@ -50,12 +52,12 @@ struct LevelCount {
 };
 
 struct PsychometricFit {
-    std::string fault; ///< one line; then nothing else holds
+    std::string fault; ///< error in one line; if set, the rest is invalid
     PsychometricFunction function{};
     double logLikelihood = 0.0;
 };
 
-/// The likeliest function. Faults: fewer than two levels, answers that do not change with the level. Any
+/// Maximum-likelihood fit. Errors: fewer than two levels, or answers that do not change with the level. Any
 /// thread (allocates).
 PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model);
 

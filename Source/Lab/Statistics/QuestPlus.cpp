@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Bayes' rule on a grid; the next level is the one with the least entropy to be expected.
+// Bayesian update on a grid of psychometric functions.
+// Steps: 1. Start with a uniform prior. 2. Present the level with the smallest expected posterior entropy. 3.
+// Multiply each function's probability by that of the answer, and normalise. 4. Repeat from 2.
+// Cost: proportional to levels times functions per trial, since all answer probabilities are precomputed.
 #include "Lab/Statistics/QuestPlus.h"
 #include <algorithm>
 #include <cmath>
@@ -13,8 +16,7 @@ double answerEntropy(double p) {
     return p > 0.0 && p < 1.0 ? -p * std::log(p) - (1.0 - p) * std::log1p(-p) : 0.0;
 }
 
-/// A threshold of the plan stands for all from midway to its neighbours; at the ends for as much on either
-/// side.
+/// Bin edges of the thresholds: midway between neighbours, and symmetric for the first and last.
 std::vector<double> edgesOf(const std::vector<double>& places) {
     std::vector<double> edges{places.front()};
     for (std::size_t i = 1; i < places.size(); ++i) edges.push_back(std::midpoint(places[i - 1], places[i]));
@@ -54,8 +56,8 @@ PsychometricFunction QuestPlus::possible(std::size_t index) const {
 }
 
 void QuestPlus::chooseNext() {
-    // The belief's entropy that is left is, but for what no level changes, that of the answer under each
-    // function minus that of the answer.
+    // Minimising the expected posterior entropy means maximising the entropy of the answer minus its mean
+    // entropy given each function. The remaining terms do not depend on the level.
     double most = -std::numeric_limits<double>::max();
     for (std::size_t level = 0; level < plan_.levels.size(); ++level) {
         double expected = 0.0, known = 0.0;

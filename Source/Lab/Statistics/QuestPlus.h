@@ -1,34 +1,35 @@
 // SPDX-License-Identifier: MIT
-// QUEST+ (Watson 2017): each trial is at the level from which most is to be learnt about the psychometric
-// function.
+// Adaptive method QUEST+ (Watson 2017): presents each trial at the level with the largest expected
+// information about the psychometric function.
 #pragma once
 #include "Lab/Statistics/Psychometric.h"
 #include <vector>
 
 namespace physvib {
 
-/// What is thought possible before the first trial, all alike likely.
+/// Grid of the uniform prior.
 struct QuestPlan {
     PsychometricShape shape = PsychometricShape::weibull;
     double guess = 0.5;
-    std::vector<double> levels;             ///< that can be presented
-    std::vector<double> thresholds, widths; ///< of the function
+    std::vector<double> levels;             ///< levels that can be presented
+    std::vector<double> thresholds, widths; ///< of the psychometric functions in the grid
     std::vector<double> lapses{0.02};
 };
 
-/// One observer's trials of one threshold. One thread at a time (allocates when made).
+/// QUEST+ run for one threshold of one observer. One thread at a time (allocates when constructed).
 class QuestPlus {
 public:
-    /// Every list of `plan` has at least one entry.
+    /// Precondition: every list of `plan` has at least one entry.
     explicit QuestPlus(QuestPlan plan);
 
-    double level() const noexcept { return plan_.levels[next_]; } ///< of the next trial
-    void answer(bool isCorrect) { answerAt(level(), isCorrect); } ///< to a trial at `level`
-    void answerAt(double level, bool isCorrect); ///< to a trial at the nearest of the plan's levels, whoever
-                                                 ///< chose it
-    PsychometricFunction estimate() const;       ///< mean over what is still possible
-    double thresholdDeviation() const;           ///< its standard deviation
-    double thresholdHalfInterval(double share) const; ///< about its mean, that holds this share of the belief
+    double level() const noexcept { return plan_.levels[next_]; } ///< level of the next trial
+    void answer(bool isCorrect) { answerAt(level(), isCorrect); } ///< answer to a trial at `level()`
+    void answerAt(double level, bool isCorrect); ///< answer to a trial at any level; uses the nearest level
+                                                 ///< of the plan
+    PsychometricFunction estimate() const;       ///< posterior mean
+    double thresholdDeviation() const;           ///< posterior standard deviation of the threshold
+    double thresholdHalfInterval(double share) const; ///< half-width of the interval around the mean
+                                                      ///< threshold that has this posterior probability
     int trials() const noexcept { return trials_; }
 
 private:
@@ -40,9 +41,9 @@ private:
     void chooseNext();
 
     QuestPlan plan_;
-    std::vector<double> belief_;  ///< in each possible function; sums to 1
-    std::vector<double> correct_; ///< probability at each level under each function
-    std::vector<double> unsure_;  ///< entropy of an answer there
+    std::vector<double> belief_;  ///< posterior probability of each function of the grid; sums to 1
+    std::vector<double> correct_; ///< probability of a correct answer, by level and function
+    std::vector<double> unsure_;  ///< entropy of that answer
     std::size_t next_ = 0;
     int trials_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Friedman 1937, Wilcoxon 1945, Mann and Whitney 1947, Kruskal and Wallis 1952, as R's stats package reckons
-// them.
+// Friedman 1937, Wilcoxon 1945, Mann and Whitney 1947, and Kruskal and Wallis 1952, computed as in R's stats
+// package.
 #include "Lab/Statistics/RankTests.h"
 #include "Lab/Statistics/Distributions.h"
 #include "Lab/Statistics/Ranks.h"
@@ -11,7 +11,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t exactBelow = 50; // values, as in R
+constexpr std::size_t exactBelow = 50; // sample size below which p is exact, as in R
 
 /// Two-sided normal probability of a sum of ranks, with continuity correction.
 double correctedNormal(double distance, double variance) {
@@ -19,7 +19,7 @@ double correctedNormal(double distance, double variance) {
     return std::min(1.0, 2.0 * normalUpper(std::abs(distance - half) / std::sqrt(variance)));
 }
 
-/// Runs `test` for each within-factor alone; its lines, or the first fault.
+/// Runs `test` for each within-factor separately; returns all lines, or the first error.
 template <class Test>
 TestReport factorByFactor(const Design& design, TestReport report, Test test) {
     if (!design.fault.empty()) return {design.fault};
@@ -75,7 +75,7 @@ std::string wilcoxonLine(const Design& one, TestLine& line) {
     return line.statistic ? "" : "expected levels that differ for some participant, found none";
 }
 
-/// Values by group; a fault if the design is not one of groups alone.
+/// Splits the values by group; returns an error if the design does not consist of groups only.
 std::string groupsOf(const Design& design, std::vector<std::vector<double>>& groups) {
     if (!design.fault.empty()) return design.fault;
     if (!design.between) return "expected a between-factor";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests of ranks over participants, exact where R's defaults are.
+// Rank tests over participants, with exact p values where R's defaults are exact.
 #pragma once
 #include "Lab/Statistics/LongTable.h"
 #include "Lab/Statistics/TestReport.h"
@@ -7,22 +7,22 @@
 
 namespace physvib {
 
-// A design with several within-factors is tested factor by factor, each a line, over the means of the others.
-// Effect sizes in brackets. Any thread (allocates).
+// With several within-factors, each is tested separately on means over the others and gives one line. Effect
+// sizes in brackets. Any thread (allocates).
 
-TestReport friedman(const Design& design); ///< two or more levels [Kendall's W]
-TestReport wilcoxon(const Design& design); ///< signed ranks of two levels, first minus second [matched-pairs
-                                           ///< rank-biserial r]
+TestReport friedman(const Design& design);    ///< two or more levels [Kendall's W]
+TestReport wilcoxon(const Design& design);    ///< signed-rank test of two levels, first minus second
+                                              ///< [matched-pairs rank-biserial r]
 TestReport mannWhitney(const Design& design); ///< two groups, one value per participant [rank-biserial r]
 /// two or more groups [eta squared of H, which may be below 0]
 TestReport kruskalWallis(const Design& design);
 
-/// Signed ranks of `differences`: exact below 50 without ties and zeros, else normal with continuity
-/// correction; zeros are left out. Its statistic is none if all are zero.
+/// Signed-rank test of `differences`, without zeros. Exact below 50 values without ties and zeros, else
+/// normal with continuity correction. Without a statistic if all differences are zero.
 TestLine signedRank(std::span<const double> differences);
 
-/// Rank sum of the first sample: exact below 50 each without ties. Its statistic is none if all values are
-/// equal.
+/// Rank-sum test of the first sample. Exact below 50 values each without ties. Without a statistic if all
+/// values are equal.
 TestLine rankSum(std::span<const double> first, std::span<const double> second);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranks from 1; equal values share the mean of theirs.
+// Ranks of values, from 1; tied values get their mean rank.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace physvib {
 
 struct Ranking {
-    std::vector<double> ranks; ///< of each value
+    std::vector<double> ranks; ///< rank of each value
     double tieTerm = 0.0;      ///< sum of t^3 - t over groups of t equal values
     bool hasTies() const noexcept { return tieTerm > 0.0; }
 };

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Each effect is a set of orthonormal contrasts of the cells; its sums of squares are traces.
+// Repeated-measures ANOVA by orthonormal contrasts.
+// Steps: 1. Represent each effect by contrasts of the cells (Kronecker products over the factors). 2. Its
+// error matrix is the scatter of the participants' residuals under these contrasts. 3. F compares the sum of
+// squares of the group means with the trace of the error matrix. 4. The shape of the error matrix gives
+// Mauchly's test and the corrections for sphericity.
 #include "Lab/Statistics/RepeatedMeasures.h"
 #include "Lab/Statistics/DesignEffects.h"
 #include "Lab/Statistics/Distributions.h"
@@ -15,8 +19,8 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// Columns: every level against the mean of those before it (Helmert), or, for a factor that an effect leaves
-/// out, all alike.
+/// Contrast columns of a factor: each level against the mean of the previous ones (Helmert), or equal weights
+/// if the effect does not include the factor.
 Matrix factorContrasts(std::size_t levels, bool isInEffect) {
     const auto k = static_cast<Eigen::Index>(levels);
     if (!isInEffect) return Matrix::Constant(k, 1, 1.0 / std::sqrt(static_cast<double>(k)));
@@ -44,9 +48,9 @@ Matrix contrastsOf(const Design& design, unsigned within) {
     return contrasts;
 }
 
-/// The values as group means and what is left of each participant.
+/// Decomposes the values into group means and each participant's residuals.
 struct Groups {
-    Matrix means, left; ///< a row per group; a row per participant
+    Matrix means, left; ///< one row per group; one row per participant
     Eigen::VectorXd sizes;
 
     explicit Groups(const Design& design)
@@ -64,7 +68,8 @@ struct Groups {
     }
     double errorDf() const { return static_cast<double>(left.rows() - means.rows()); }
 
-    /// That the groups' mean, each group counting alike, is 0; or that the groups do not differ.
+    /// Sum of squares of the hypothesis that the unweighted mean of the groups is 0, or that the groups do
+    /// not differ.
     double hypothesisSquares(const Matrix& contrasts, bool isBetween) const {
         const Matrix z = means * contrasts;
         const auto count = static_cast<double>(z.rows());
@@ -79,8 +84,8 @@ private:
     }
 };
 
-/// Whether differences between levels are the same for everyone, or follow from others: by the bound of R's
-/// qr, which car asks.
+/// True if differences between levels are constant over participants or linearly dependent, with the
+/// tolerance of R's qr as used by car.
 bool isSingular(const Matrix& error) {
     const Matrix triangle = error.householderQr().matrixQR();
     for (Eigen::Index i = 0; i < error.cols(); ++i)
@@ -88,9 +93,8 @@ bool isSingular(const Matrix& error) {
     return false;
 }
 
-/// Mauchly (1940), p by Box's expansion to the second order. `shape`: the error matrix with a mean diagonal
-/// of 1. `cells` stand where Box has p: so they do in R's mauchly.test and in car, and a p that differs from
-/// everybody's in the fourth digit helps nobody.
+/// Mauchly's test (1940), p by Box's second-order expansion. `shape`: the error matrix with a mean diagonal
+/// of 1. `cells` replaces Box's p, as in R's mauchly.test and car, so that p agrees with them.
 void addMauchly(const Matrix& shape, double df, double cells, Sphericity& sphericity) {
     const auto p = static_cast<double>(shape.rows());
     if (df < p || isSingular(shape)) return;
@@ -116,7 +120,7 @@ void addSphericity(const Matrix& error, double df, double cells, TestLine& line)
     const double epsilon = p / shape.squaredNorm();
     Sphericity sphericity;
     sphericity.epsilonHuynhFeldt = ((df + 1.0) * p * epsilon - 2.0) / (p * (df - p * epsilon));
-    // two participants: the formula divides by 0
+    // with two participants the formula would divide by 0
     if (df - p * epsilon <= 1e-9 * df) sphericity.epsilonHuynhFeldt = 1.0;
     const double used = std::min(1.0, sphericity.epsilonHuynhFeldt);
     sphericity.pHuynhFeldt = fUpper(*line.statistic, used * *line.df1, used * *line.df2);
@@ -126,7 +130,8 @@ void addSphericity(const Matrix& error, double df, double cells, TestLine& line)
     line.sphericity = sphericity;
 }
 
-/// A sum of squares that may be rounding alone; the least of all leaves room for what is divided by it.
+/// Upper bound of a sum of squares that is rounding error only. The lower limit avoids an overflow in later
+/// divisions.
 double roundingOf(const std::vector<double>& values) {
     const double largest = largestMagnitude(values);
     return std::max(1e-200, 1e-28 * static_cast<double>(values.size()) * largest * largest);
@@ -159,7 +164,7 @@ TestReport repeatedMeasures(const Design& design) {
         const Matrix contrasts = contrastsOf(design, effect.within), scores = groups.left * contrasts,
                      error = scores.transpose() * scores;
         if (!effect.isBetween) allErrors += error.trace();     // once per set of contrasts
-        if (effect.within == 0 && !effect.isBetween) continue; // whether the mean is 0 is not asked
+        if (effect.within == 0 && !effect.isBetween) continue; // the grand mean is not tested
         if (!(error.trace() > nothing))
             return {"effect " + effect.name(design) +
                     ": expected participants who differ in it, found none: nothing to compare it with"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Weights from normal scores, p from polynomials in the sample's size: algorithm AS R94.
+// Algorithm AS R94: weights from normal scores, p from polynomials in the sample size.
 #include "Lab/Statistics/ShapiroWilk.h"
 #include "Lab/Statistics/Distributions.h"
 #include <algorithm>
@@ -19,7 +19,7 @@ double polynomial(std::initializer_list<double> coefficients, double x) {
     return sum;
 }
 
-/// Weights of the largest value minus the smallest, the next ones, and so on.
+/// Weights of largest minus smallest value, second largest minus second smallest, and so on.
 std::vector<double> shapiroWeights(std::size_t size) {
     const auto n = static_cast<double>(size);
     std::vector<double> a(size / 2);
@@ -86,7 +86,7 @@ TestLine shapiroWilk(std::span<const double> values) {
 
 namespace {
 
-/// "group=b:law=linear", what there is of it.
+/// "group=b:law=linear", or the parts of it that the design has.
 std::string cellName(const Design& design, std::size_t group, std::size_t cell) {
     if (!design.between) return design.cellName(cell);
     std::string name = design.between->name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Families of tests: Bonferroni's and Holm's (1979) corrections.
+// Correction for multiple comparisons: Bonferroni and Holm (1979).
 #include "Lab/Statistics/TestReport.h"
 #include <algorithm>
 #include <numeric>

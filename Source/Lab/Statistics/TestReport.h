@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a test over participants has found: a line per effect.
+// Result of a statistical test over participants: one line per effect.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -8,33 +8,33 @@
 
 namespace physvib {
 
-/// Of effects of two and more degrees of freedom within participants.
+/// Sphericity of a within-participant effect with two or more degrees of freedom.
 struct Sphericity {
-    std::optional<double> mauchlyW, mauchlyP; ///< none where there are too few participants, or some
-                                              ///< differences follow from others
-    double epsilonHuynhFeldt = 1.0;           ///< may exceed 1; its p takes it for 1 then
+    std::optional<double> mauchlyW, mauchlyP; ///< none if there are too few participants, or differences are
+                                              ///< linearly dependent
+    double epsilonHuynhFeldt = 1.0;           ///< may exceed 1; its p uses at most 1
     double pHuynhFeldt = 1.0;
 };
 
 struct TestLine {
     std::string effect;
     std::optional<double> df1, df2, statistic, p, pCorrected, epsilon, effectSize;
-    std::size_t n = 0; ///< participants
+    std::size_t n = 0; ///< number of participants
     std::optional<Sphericity> sphericity{};
 };
 
 struct TestReport {
-    std::string fault;        ///< one line; then there are no lines
-    std::string statistic{};  ///< its letter
-    std::string effectSize{}; ///< its name; empty: none
-    std::string correction{}; ///< what made pCorrected; empty: nothing
+    std::string fault;        ///< error in one line; then `lines` is empty
+    std::string statistic{};  ///< symbol of the statistic
+    std::string effectSize{}; ///< name of the effect size; empty: none
+    std::string correction{}; ///< name of the correction in pCorrected; empty: none
     std::vector<std::string> notes{};
     std::vector<TestLine> lines{};
 };
 
 enum class Correction { none, holm, bonferroni };
 
-/// Corrects the lines' p for being so many. Any thread.
+/// Sets the corrected p for the number of lines. Any thread.
 void correctForNumber(TestReport& report, Correction correction);
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A level that follows the answers, by the method that the session asks for.
+// Stimulus level controlled by the participant's answers, with a staircase or QUEST+ as the session
+// specifies.
 #pragma once
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Staircase.h"
@@ -7,7 +8,7 @@
 
 namespace physvib {
 
-/// QUEST+ to its end.
+/// A QUEST+ run that ends after its number of trials or at its target precision.
 class QuestTrials {
 public:
     QuestTrials(const QuestMethod& method, double guess)
@@ -29,10 +30,10 @@ private:
     double deviationDb_;
 };
 
-/// One thread at a time.
+/// Not thread-safe: use from one thread at a time.
 class AdaptiveLevel {
 public:
-    /// `session` has a staircase or QUEST+.
+    /// Precondition: `session` has a staircase or QUEST+.
     explicit AdaptiveLevel(const SessionPlan& session)
         : method_{session.staircase ? Method{Staircase{*session.staircase}}
                                     : Method{QuestTrials{*session.quest, session.guessRate()}}} {}
@@ -46,7 +47,7 @@ public:
     void answer(bool isCorrect) {
         std::visit([=](auto& m) { m.answer(isCorrect); }, method_);
     }
-    /// All of them; 0 where the answers decide.
+    /// Number of trials in the run; 0 if the answers decide when it ends.
     int trials() const noexcept {
         const auto* const quest = std::get_if<QuestTrials>(&method_);
         return quest == nullptr ? 0 : quest->trials();

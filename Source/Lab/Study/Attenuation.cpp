@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Repetitions share a condition, layers share their drive's reference.
+// Groups isolation recordings: repetitions share a condition, and layers share the reference of their drive.
 #include "Lab/Study/Attenuation.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/Coupling.h"
@@ -12,11 +12,11 @@ namespace {
 
 using Levels = std::vector<double>;
 
-/// Of the references of a drive.
+/// Mean levels of the reference recordings of one drive.
 struct Sums {
     Levels levels;
     std::size_t count = 0;
-    bool areAlike = true; ///< as many channels in all
+    bool areAlike = true; ///< all have the same number of channels
 };
 using Drive = std::tuple<std::string, std::string, double>;
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// An isolation study (thesis 3.1.1): how much a layer holds back, condition by condition.
+// Isolation study (thesis 3.1.1): the vibration attenuation of damping layers, by condition.
 #pragma once
 #include <string>
 #include <vector>
 
 namespace physvib {
 
-/// What a layer is and how it was shaken. Words but for the frequency: they are compared, not calculated
-/// with.
+/// A layer and its drive signal. All but the frequency are labels that are compared, not computed with.
 struct IsolationCondition {
     std::string material, thickness; ///< of the layer; a reference has none
     std::string voltage, axis;       ///< of the drive
@@ -26,12 +25,12 @@ struct IsolationResult {
     IsolationCondition condition;
     std::vector<double> gammas; ///< Eq. 3.2 of each repetition against the mean of the references of its
                                 ///< drive
-    double mean = 0.0, deviation = 0.0; ///< of them; sample standard deviation, 0 of one
+    double mean = 0.0, deviation = 0.0; ///< of `gammas`; sample standard deviation, 0 for one value
 };
 
 struct IsolationStudy {
-    std::string fault;                    ///< one line; then nothing else holds
-    std::vector<IsolationResult> results; ///< by material, thickness, axis, voltage and frequency
+    std::string fault;                    ///< error in one line; if set, the results are invalid
+    std::vector<IsolationResult> results; ///< sorted by material, thickness, axis, voltage and frequency
 };
 
 /// Any thread (allocates).

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What may stand in the calls of a protocol. A protocol comes from anywhere; its calls are rendered, and
-// stand in every row of the trial file for somebody to copy into a shell: they render, read what is below
-// their folder, and do nothing else. Which options write a file, the program's parser knows
-// (Standalone/Calls/CallFiles.h).
+// Validates the `physvib` calls in a protocol. Protocols are untrusted files. Their calls are run, and also
+// stand in every row of the trial file, where users copy them into a shell. So a call may only render and
+// read files below its folder. The options that write files are listed in Standalone/Calls/CallFiles.h.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -10,10 +9,10 @@
 
 namespace physvib {
 
-constexpr std::size_t mostCallBytes = 2000; // with its recordings: those of all parts of a trial stand in its
-                                            // row
+constexpr std::size_t mostCallBytes = 2000; // including recordings; a row of the trial file holds the calls
+                                            // of all parts of a trial
 
-/// Letters (also those beyond ASCII), digits, and signs that a shell takes as they are.
+/// Letters (including non-ASCII), digits, and characters that a shell does not interpret.
 constexpr bool isPlainCharacter(char c) noexcept {
     const bool isLetter =
         (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
@@ -21,8 +20,8 @@ constexpr bool isPlainCharacter(char c) noexcept {
            std::string_view{"_-+.,:=/%"}.find(c) != std::string_view::npos;
 }
 
-/// A path that stays below the folder it begins in, in plain characters and spaces; also any name that is no
-/// path. Any thread.
+/// True for a relative path that stays below its starting folder and has only plain characters and spaces.
+/// Names that are not paths pass too. Any thread.
 constexpr bool isPlainPath(std::string_view path) noexcept {
     if (path.starts_with('/') ||
         !std::ranges::all_of(path, [](char c) { return c == ' ' || isPlainCharacter(c); }))
@@ -35,8 +34,8 @@ constexpr bool isPlainPath(std::string_view path) noexcept {
     }
 }
 
-/// Empty, or why a call with all its names filled in is none that a protocol may make, by its characters and
-/// paths. Any thread (allocates).
+/// Empty, or the reason why a protocol may not make this call (with all names filled in), from its characters
+/// and paths. Any thread (allocates).
 inline std::string callFault(std::string_view call) {
     if (!call.starts_with("render ") && !call.starts_with("stimulus "))
         return "expected render or stimulus, and what they take";
@@ -48,7 +47,7 @@ inline std::string callFault(std::string_view call) {
     while (!call.empty()) {
         const std::string_view word = call.substr(0, call.find(' '));
         call.remove_prefix(std::min(word.size() + 1, call.size()));
-        for (std::string_view rest = word; !rest.empty();) { // 80=ball.wav
+        for (std::string_view rest = word; !rest.empty();) { // splits words like 80=ball.wav
             const std::string_view piece = rest.substr(0, rest.find_first_of("=,:"));
             rest.remove_prefix(std::min(piece.size() + 1, rest.size()));
             if (!isPlainPath(piece))

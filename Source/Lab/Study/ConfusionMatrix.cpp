@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Labels in a stable order, counts in one block.
+// Builds confusion matrices: labels in a fixed order, counts in one array.
 #include "Lab/Study/ConfusionMatrix.h"
 #include <algorithm>
 #include <charconv>
@@ -11,7 +11,7 @@
 namespace physvib {
 namespace {
 
-/// Cells by row and column, before all other labels by their bytes.
+/// Orders grid cells by row and column, before all other labels by their bytes.
 struct LabelOrder {
     static auto key(const std::string& label) {
         const auto cell = parseGridCell(label);

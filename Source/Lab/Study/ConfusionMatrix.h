@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which response was given to which stimulus, how often (thesis 3.2, 4.1).
+// Confusion matrix of an identification study: how often each response was given to each stimulus (thesis
+// 3.2, 4.1).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,19 +11,19 @@
 
 namespace physvib {
 
-/// One trial of absolute identification: two labels, and by whom (may be empty).
+/// One trial of absolute identification: stimulus, response and participant (which may be empty).
 struct IdentificationTrial {
     std::string stimulus, response, participant{};
     bool operator==(const IdentificationTrial&) const = default;
 };
 
-/// A cell of a grid, both from 1; row 1 is the upper one.
+/// A cell of a grid. Row and column start at 1; row 1 is the top row.
 struct GridCell {
     int row = 0, column = 0;
     bool operator==(const GridCell&) const = default;
 };
 
-/// "2,5" as row 2, column 5; none if it is anything else. Any thread.
+/// Parses "2,5" as row 2, column 5; nullopt for any other text. Any thread.
 std::optional<GridCell> parseGridCell(std::string_view label) noexcept;
 
 /// "row,column". Any thread.
@@ -31,9 +32,8 @@ std::string gridLabel(const GridCell& cell);
 /// |rows apart| + |columns apart|. Any thread.
 int manhattanDistance(const GridCell& a, const GridCell& b) noexcept;
 
-/// Counts of trials. Rows are the stimuli that were presented; columns the same labels in the same order,
-/// then the labels that were only ever responded. Grid labels are ordered by row and column, others by their
-/// bytes.
+/// Counts of trials. Rows are the presented stimuli. Columns are the same labels in the same order, then the
+/// labels that occur only as responses. Grid labels are ordered by row and column, others by their bytes.
 class ConfusionMatrix {
 public:
     explicit ConfusionMatrix(const std::vector<IdentificationTrial>& trials);
@@ -58,9 +58,9 @@ private:
     std::uint64_t trials_ = 0;
 };
 
-/// The trials with every response that lies within `tolerance` of its stimulus (Manhattan distance of the
-/// grid cells) replaced by the stimulus: what tolerance-IT is made of (thesis 4.1). Responses that are no
-/// cells stay. Any thread.
+/// Copies the trials, with each response within `tolerance` of its stimulus (Manhattan distance of the grid
+/// cells) replaced by the stimulus. Tolerance-IT is computed from these trials (thesis 4.1). Responses that
+/// are no cells stay. Any thread.
 std::vector<IdentificationTrial> withTolerance(std::vector<IdentificationTrial> trials, int tolerance);
 
 } // namespace physvib

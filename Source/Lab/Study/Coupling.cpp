@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Regularised least squares over complex amplitudes.
+// Compensation of mechanical coupling by Tikhonov-regularised least squares over complex amplitudes.
+// Steps: 1. Solve (C^H C + lambda) D = C^H. 2. Compute the strongest drive of D over all gains from 0 to 1.
+// 3. If it exceeds the limit, find the smallest lambda within it by bisection of log lambda.
 #include "Lab/Study/Coupling.h"
 #include "Core/Decibels.h"
 #include <algorithm>
@@ -11,8 +13,8 @@ namespace {
 
 using ComplexNumber = std::complex<double>;
 
-constexpr double leastLambda = 1e-9, mostLambda = 1e3; // of full scale squared: nothing, and a drive that is
-                                                       // nearly none
+constexpr double leastLambda = 1e-9, mostLambda = 1e3; // of full scale squared: from no regularisation to
+                                                       // drives near zero
 constexpr double mismatchDb = 2.0, mismatchDegrees = 20.0;
 
 /// (C^H C + lambda)^-1 C^H, by elimination of all right sides at once: the matrix is positive definite for
@@ -64,8 +66,8 @@ CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDec
     return drivesAt(coupling, std::exp(high));
 }
 
-// Seen from any direction, those gains drive most there that are 1 wherever they drive that way at all, and
-// else 0.
+// For a given phase direction, the drive is largest with gain 1 for every positive contribution and gain 0
+// for the rest.
 double strongestDrive(const CouplingMatrix& drives) {
     constexpr int directions = 360;
     double most = 0.0;
@@ -78,7 +80,8 @@ double strongestDrive(const CouplingMatrix& drives) {
             most = std::max(most, sum);
         }
     }
-    return most / std::cos(std::numbers::pi / directions); // the strongest may lie between two directions
+    return most / std::cos(std::numbers::pi / directions); // upper bound: the maximum may lie between two
+                                                           // directions
 }
 
 double strayShare(const CouplingMatrix& coupling, const CouplingMatrix& drives) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What enchanters make of each other's vibration, and drives that make up for it: Eq. 3.1 and 3.2, and
-// beyond.
+// Mechanical coupling between actuators: its measured matrix, drives that compensate it, and attenuation
+// measures (Eq. 3.1, 3.2).
 #pragma once
 #include "Core/Actuators/DriveMatrices.h"
 #include "Stimuli/SeededRandom.h"
@@ -10,11 +10,11 @@
 
 namespace physvib {
 
-using ComplexAmplitudes = std::vector<std::complex<double>>; ///< one per enchanter, at one frequency
+using ComplexAmplitudes = std::vector<std::complex<double>>; ///< one per actuator, at one frequency
 
-/// A square of complex numbers at one frequency. Of a coupling, at(i, j) is the acceleration at enchanter i
-/// for a drive of 1 of enchanter j alone, as measured: 1 on the diagonal if both are in full scales. Of
-/// drives, the drive of i for an amplitude of 1 at j.
+/// A square complex matrix at one frequency. In a coupling matrix, at(i, j) is the measured acceleration at
+/// actuator i for a drive of 1 of actuator j alone; the diagonal is 1 if both are in full scales. In a drive
+/// matrix, at(i, j) is the drive of i for an amplitude of 1 at j.
 struct CouplingMatrix {
     explicit CouplingMatrix(std::size_t enchanters)
         : size(enchanters)
@@ -24,47 +24,46 @@ struct CouplingMatrix {
     std::complex<double>& at(std::size_t i, std::size_t j) { return entries[i * size + j]; }
     std::complex<double> at(std::size_t i, std::size_t j) const { return entries[i * size + j]; }
 
-    /// The matrix times one amplitude per enchanter.
+    /// Product of the matrix and one amplitude per actuator.
     ComplexAmplitudes times(const ComplexAmplitudes& amplitudes) const;
 
     std::size_t size;
     std::vector<std::complex<double>> entries;
 };
 
-/// How much more than the strongest amplitude wanted a compensation may drive.
+/// Maximum drive of a compensation above the strongest wanted amplitude.
 constexpr double mostExtraDriveDb = 3.0;
 
-/// The matrix D of drives D a that make C D a come near the amplitudes a that are wanted: the least |C d -
-/// a|^2 + lambda |d|^2 for every a (Tikhonov), so that drives of vibrations that sound at once add up. Lambda
-/// is the smallest at which the strongest drive is at most `mostDecibels` above the strongest amplitude
-/// wanted, whatever gains, which are not negative, the panner gives a hit. M only.
+/// The matrix D of drives D a, so that C D a approximates the wanted amplitudes a. It minimises |C d - a|^2 +
+/// lambda |d|^2 for every a (Tikhonov). D is linear, so drives of simultaneous vibrations add up. Lambda is
+/// the smallest value at which the strongest drive is at most `mostDecibels` above the strongest wanted
+/// amplitude, for any panning gains >= 0. Message thread only.
 CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDecibels = mostExtraDriveDb);
 
-/// The strongest drive that gains from 0 to 1 can take, to four digits and never less than it is.
+/// The strongest drive for gains from 0 to 1, to four digits and rounded up.
 double strongestDrive(const CouplingMatrix& drives);
 
-/// How far what is felt is from what is wanted: root of the mean power of C D - I per enchanter, in shares of
-/// what is wanted.
+/// Relative error of the felt amplitudes: root of the mean power of C D - I per actuator.
 double strayShare(const CouplingMatrix& coupling, const CouplingMatrix& drives);
 
-/// The same coupling, every entry off by up to +-2 dB and +-20 degrees, the diagonal too: no two enchanters
-/// are alike.
+/// Copy of the coupling with every entry, also on the diagonal, changed at random by up to +-2 dB and +-20
+/// degrees. It models differences between actuators.
 CouplingMatrix mismatched(CouplingMatrix coupling, SeededRandom& random);
 
-/// Coupling as measured at one frequency or several, rising.
+/// Coupling as measured at one or more frequencies, ascending.
 struct MeasuredCoupling {
     std::vector<double> frequenciesHz;
-    std::vector<CouplingMatrix> matrices; ///< of one size
+    std::vector<CouplingMatrix> matrices; ///< all of the same size
     std::size_t enchanters() const noexcept { return matrices.empty() ? 0 : matrices.front().size; }
 };
 
-/// Drives against it, frequency by frequency; owns what Core/Actuators/DriveMatrices.h looks at. Drives
-/// between two frequencies are means of theirs, so they keep the limit too. M only.
+/// Compensation drives for each measured frequency; owns the data that Core/Actuators/DriveMatrices.h refers
+/// to. Drives between two frequencies are interpolated, so they keep the limit too. Message thread only.
 class CouplingDrives {
 public:
     CouplingDrives() = default;
     explicit CouplingDrives(const MeasuredCoupling& measured);
-    /// this object outlives it
+    /// The view is valid while this object exists.
     DriveMatrices view() const noexcept { return {frequenciesHz_, entries_, channels_}; }
 
 private:
@@ -73,19 +72,19 @@ private:
     std::size_t channels_ = 0;
 };
 
-/// What is left of a coupling, each at its worst frequency: strayShare without and with the drives, the same
-/// of a mismatched coupling (root mean square of 20 seeded draws), and the strongest drive.
+/// Residual error of a coupling, each value at its worst frequency: strayShare without and with compensation,
+/// both also for mismatched couplings (root mean square of 20 seeded draws), and the strongest drive.
 struct CouplingResidual {
     double plain = 0.0, compensated = 0.0, mismatchedPlain = 0.0, mismatchedCompensated = 0.0,
            strongestDrive = 0.0;
 };
 CouplingResidual residualOf(const MeasuredCoupling& measured);
 
-/// Eq. 3.1: 1 - A / A_ref, per axis; negative where the isolated side moves more. `reference` > 0.
+/// Eq. 3.1: 1 - A / A_ref per axis; negative where the isolated side vibrates more. `reference` > 0.
 std::vector<double> attenuationRatios(std::span<const double> isolated, std::span<const double> reference);
 
-/// Eq. 3.2: root of the sum of squares. Unbounded: three axes of 0.9 make 1.56, so it is no share of
-/// anything.
+/// Eq. 3.2: root of the sum of squares. It can exceed 1 (three axes of 0.9 give 1.56), so it is not a
+/// proportion.
 double combinedAttenuation(std::span<const double> ratios);
 
 } // namespace physvib

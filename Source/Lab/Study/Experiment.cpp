@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conditions contain sessions, sessions contain trials; every choice of order comes from the seed.
+// Runs conditions, their sessions and their trials in order; all random orders derive from the seed.
 #include "Lab/Study/Experiment.h"
 #include <algorithm>
 #include <cmath>

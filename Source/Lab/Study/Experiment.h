@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A study of one participant as a state machine: it says what to present, takes the answer, and says what is
-// next. A user interface or a simulated observer drives it; what was answered before can be done again, so a
-// study that was cut off goes on where it was.
+// State machine for one participant's study: presents a trial, accepts its answer, and goes on to the next. A
+// user interface or a simulated observer drives it. Recorded answers can be replayed, so an interrupted study
+// resumes where it stopped.
 #pragma once
 #include "Lab/Study/AdaptiveLevel.h"
 #include "Lab/Study/StudyOrder.h"
@@ -16,22 +16,22 @@
 
 namespace physvib {
 
-/// The trial at hand while it is being felt: what unlocks the answer. Times come from the caller: there is no
-/// clock here.
+/// Progress of the current trial: decides when an answer is allowed. The caller measures times; this class
+/// has no clock.
 class TrialProgress {
 public:
     TrialProgress(const SessionPlan& session, const Trial& trial);
 
-    /// True if `part` may be started (once more).
+    /// True if `part` may be played (again).
     bool canPlay(std::size_t part) const noexcept;
     void played(std::size_t part) noexcept;
-    /// Time spent with `part`.
+    /// Adds time spent with `part`.
     void spent(std::size_t part, double seconds) noexcept;
-    /// Every part was felt, each for as long as the protocol asks.
+    /// True if every part was played and had its minimum time from the protocol.
     bool canAnswer() const noexcept;
     int plays() const noexcept;
     int plays(std::size_t part) const noexcept { return parts_[part].plays; }
-    double seconds(std::size_t part) const noexcept { return parts_[part].seconds; } ///< spent with it
+    double seconds(std::size_t part) const noexcept { return parts_[part].seconds; } ///< time with it
 
 private:
     struct Part {
@@ -42,51 +42,50 @@ private:
     std::vector<Part> parts_;
 };
 
-/// M only. `protocol` is valid and outlives the experiment.
+/// Message thread only. `protocol` is valid and outlives the experiment.
 class Experiment {
 public:
-    /// `explorersEnd`: whoever asks for what they feel says when that training ends; else it ends as soon as
-    /// it may.
+    /// `explorersEnd`: the participant ends an exploration by endSession(). Otherwise it ends as soon as it
+    /// may.
     Experiment(const Protocol& protocol, Participant participant, bool explorersEnd = false);
 
     bool isDone() const noexcept { return !trial_; }
 
-    /// The trial at hand; not after the last.
+    /// The current trial. Precondition: !isDone().
     const Trial& trial() const noexcept { return *trial_; }
     const SessionPlan& session() const noexcept { return protocol_.sessions[trial_->session]; }
     const ConditionPlan& condition() const noexcept { return protocol_.conditions[trial_->condition]; }
 
-    /// What the answer lacks to be one of this trial, e.g. `expected a place, found none`; empty if nothing.
+    /// Why the answer does not fit this trial, e.g. `expected a place, found none`; empty if it fits.
     std::string refusal(const Answer& answer) const;
 
-    /// Takes an answer that is not refused, and goes on to the next trial.
+    /// Stores an answer that refusal() accepts, and advances to the next trial.
     TrialRecord take(Answer answer);
 
-    /// take(), if the record is what this experiment would have asked; else what differs, and nothing
-    /// happens.
+    /// Replays a recorded trial with take() if it is the one that this experiment expects. Otherwise returns
+    /// the difference and changes nothing.
     std::string redo(const TrialRecord& record);
 
-    /// Whether the training at hand may end: enough was felt.
+    /// True if the current exploration may end because enough was felt.
     bool mayEnd() const { return trial_ && session().answer() == AnswerKind::wish && hasExplored(); }
-    /// The next session begins; if mayEnd().
+    /// Starts the next session. Precondition: mayEnd().
     void endSession();
 
     int trialsTaken() const noexcept { return taken_; }
 
-    /// Trials of the session at hand; 0 where its length depends on the answers (a staircase, a training that
-    /// goes on for as long as wanted).
+    /// Trials of the current session; 0 if its length depends on the answers (a staircase, an open
+    /// exploration).
     int sessionTrials() const noexcept;
 
-    /// Which of all sessions (those of the first condition, of the second ...) it is, from 1, in this
-    /// participant's order.
+    /// Number of the current session among those of all conditions, from 1, in this participant's order.
     int sessionNumber() const noexcept {
         return static_cast<int>(conditionAt_ * protocol_.sessions.size() + sessionAt_) + 1;
     }
 
-    /// The stimuli that were asked for in the training at hand.
+    /// Stimuli that were requested in the current exploration.
     const std::set<std::string>& explored() const noexcept { return explored_; }
 
-    /// The level that a session's adjustments gave for a stimulus: their mean; none if there was none. dB.
+    /// Mean level in dB that a session's adjustments gave for a stimulus; nullopt if there were none.
     std::optional<double> adjustedDb(std::size_t condition, const std::string& session,
                                      const std::string& stimulus) const;
 
@@ -109,10 +108,10 @@ private:
     std::vector<std::size_t> conditions_; // in this participant's order
     std::size_t conditionAt_ = 0, sessionAt_ = 0;
 
-    std::vector<StimulusItem> items_; // of the condition at hand
-    std::vector<PlannedTrial> order_; // of the session at hand
+    std::vector<StimulusItem> items_; // of the current condition
+    std::vector<PlannedTrial> order_; // of the current session
     std::set<std::string> explored_;
-    bool isEnded_ = false; // by whoever explores
+    bool isEnded_ = false; // the participant ended the exploration
     std::optional<AdaptiveLevel> adaptive_;
     int inSession_ = 0; // trials answered
 

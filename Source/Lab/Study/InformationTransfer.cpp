@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums over the occupied cells only: 0 log 0 is 0.
+// Computes information transfer from the non-empty cells of a confusion matrix, since 0 log 0 is 0.
 #include "Lab/Study/InformationTransfer.h"
 #include "Lab/Statistics/LongTable.h"
 #include <algorithm>
@@ -45,7 +45,7 @@ InformationTransfer informationTransfer(const ConfusionMatrix& matrix) {
                 count / n *
                 std::log2(count * n / (static_cast<double>(rows[i]) * static_cast<double>(columns[j])));
         }
-    it.bits = std::max(0.0, it.bits); // a rounding error below zero
+    it.bits = std::max(0.0, it.bits); // rounding can give values below zero
     const auto parameters = cells - static_cast<std::ptrdiff_t>(occupied(rows) + occupied(columns)) + 1;
     it.biasBits =
         static_cast<double>(std::max<std::ptrdiff_t>(0, parameters)) / (2.0 * n * std::numbers::ln2);

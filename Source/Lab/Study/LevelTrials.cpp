@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reversals from the sequence of levels; means in dB or in logarithms.
+// Summarises level trials: thresholds from reversals or QUEST+, means in dB or in logarithms.
 #include "Lab/Study/LevelTrials.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/QuestMethod.h"
@@ -13,7 +13,7 @@
 namespace physvib {
 namespace {
 
-/// Levels at which a sequence turns round.
+/// Levels at which the sequence changes direction.
 std::vector<double> reversalsOf(const std::vector<double>& levels) {
     std::vector<double> reversals;
     double last = 0.0;
@@ -41,7 +41,7 @@ bool isSame(const LevelSummary& s, const LevelTrial& t) {
            (isThreshold(t.kind) || s.stimulus == t.stimulus);
 }
 
-/// Numbers by their value, before all other labels by their bytes.
+/// Sort key: numbers by value, then all other labels by their bytes.
 auto labelKey(const std::string& label) {
     double number = 0.0;
     const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), number);
@@ -63,7 +63,7 @@ double staircaseThreshold(const Run& run, LevelSummary& summary) {
 double questThreshold(const Run& run, LevelSummary& summary) {
     QuestPlus quest{*questPlan(run.front()->quest)};
     for (const LevelTrial* trial : run) quest.answerAt(trial->levelDb, trial->value > 0.5);
-    // of the sum of thresholds
+    // variances add up: this becomes the half-interval of the sum of thresholds
     summary.halfInterval = std::hypot(summary.halfInterval, quest.thresholdHalfInterval(0.95));
     return quest.estimate().threshold;
 }

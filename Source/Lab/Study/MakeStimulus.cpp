@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A resonance is the layout's; all else stands in the job.
+// Creates the events of a stimulus job; only an actuator resonance comes from the layout.
 #include "Lab/Study/MakeStimulus.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/ActuatorFile.h"
@@ -7,7 +7,7 @@
 namespace physvib {
 namespace {
 
-/// The one resonance of all enchanters: a phantom is one vibration.
+/// Resonance frequency of all actuators. They must agree, because a phantom has one frequency.
 Result<double> resonanceOf(const LayoutDescription& layout) {
     std::optional<double> found;
     for (const auto& enchanter : layout.enchanters) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a StimulusJob becomes on a layout.
+// Creates a stimulus (events) from a StimulusJob and an actuator layout.
 #pragma once
 #include "Io/Result.h"
 #include "Lab/Study/StimulusJob.h"
@@ -8,10 +8,10 @@
 
 namespace physvib {
 
-/// Empty, or which enchanter of the job the layout lacks, in one line. Any thread (allocates).
+/// Empty, or one line naming the actuator of the job that the layout lacks. Any thread (allocates).
 std::string layoutFault(const StimulusJob& job, const LayoutDescription& layout);
 
-/// The events of a job without a fault, and without a recording, whose layout this is; or one line. M only.
+/// Events of a valid job without a recording, on its layout; or an error in one line. Message thread only.
 Result<Stimulus> makeStimulus(const StimulusJob& job, const LayoutDescription& layout);
 
 } // namespace physvib

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Every division of rows and columns is tried: 2^15 times 2^15 at most, cut short by sizes that cannot win.
+// Finds the largest merged grid by exhaustive search with pruning.
+// Steps: 1. For every division of the rows, add up the columns of each row group (a strip). 2. Compute the
+// maximum number of column groups that reach the threshold in every strip. 3. Only if that can equal or
+// exceed the best grid, list the column divisions of that size.
+// Cost: at most 2^15 divisions of rows times 2^15 of columns.
 #include "Lab/Study/PercentCounts.h"
 #include <algorithm>
 #include <cmath>
@@ -8,12 +12,12 @@
 namespace physvib {
 namespace {
 
-// Decimals that were printed add up to the threshold or not; their binary sums miss it by a rounding error.
+// Tolerance for the rounding error of binary sums of decimal percentages.
 constexpr double roundingSlack = 1e-9;
 
 using Sizes = std::vector<std::size_t>;
 
-/// The division of `count` lines whose bit i is set where a group ends after line i.
+/// Group sizes for a division of `count` lines; bit i of `ends` is set if a group ends after line i.
 Sizes groupsOf(std::size_t count, std::uint32_t ends) {
     Sizes sizes{1};
     for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -37,7 +41,7 @@ std::vector<std::vector<double>> mergedRows(const PercentCounts& counts, const S
     return strips;
 }
 
-/// Adds every division of the columns, from `column` on, into groups that all reach `least` in every strip.
+/// Enumerates the divisions of the columns into groups that all reach `least` in every strip.
 class ColumnDivisions {
 public:
     ColumnDivisions(const std::vector<std::vector<double>>& strips, double least)
@@ -58,7 +62,7 @@ public:
     }
 
 private:
-    /// Fewest columns from there on that make a group; 0 if even all do not.
+    /// Smallest number of columns from `from` that reach the threshold; 0 if all of them do not.
     std::size_t fewestFrom(std::size_t from) const {
         for (std::size_t size = 1; from + size <= columns_; ++size)
             if (reaches(from, size)) return size;
@@ -84,7 +88,7 @@ private:
     const std::vector<std::vector<double>>& strips_;
     double least_;
     std::size_t columns_;
-    std::vector<std::size_t> most_; // groups that fit from a column on
+    std::vector<std::size_t> most_; // maximum number of groups from each column on
     Sizes groups_;
     std::vector<Sizes> found_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Percent counts of a grid, and the largest grid that merging neighbouring rows and columns makes of them
-// (thesis 4.2, Fig. 4.9).
+// Percent counts of a grid, and the largest grid obtained by merging neighbouring rows and columns (thesis
+// 4.2, Fig. 4.9).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace physvib {
 
-/// Half of a cell of a uniform 7 x 5 grid, as the thesis prints it; a kept cell is at least this (SPEC 3).
+/// Minimum percentage of a kept cell: half a cell of a uniform 7 x 5 grid, as printed in the thesis (SPEC 3).
 constexpr double defaultPercentThreshold = 1.42;
 
-/// Most rows or columns of a grid, of which merging tries every division.
+/// Maximum number of rows or columns of a grid; merging tries every division of them.
 constexpr std::size_t mostGridLines = 16;
 
-/// The share of the field, in percent, in which each target is the likeliest. Row 0 is the upper one.
+/// Share of the field, in percent, in which each target is the most likely one. Row 0 is the top row.
 struct PercentCounts {
     std::string condition;
     std::size_t rows = 0, columns = 0;
@@ -36,9 +36,10 @@ struct GridMerge {
 
 /// The largest grids whose cells all reach the threshold.
 struct PerceptualResolution {
-    std::size_t columns = 0, rows = 0; ///< of the first of `ties`; both 0 if even the whole field does not
-                                       ///< reach it
-    std::vector<GridMerge> ties; ///< every merge of that many cells, wider grids first; the first counts
+    std::size_t columns = 0, rows = 0; ///< of the first entry of `ties`; both 0 if even the whole field is
+                                       ///< below the threshold
+    std::vector<GridMerge> ties; ///< every merge with that number of cells, wider grids first; the first is
+                                 ///< the result
 };
 
 /// `counts` with 1 to mostGridLines rows and columns, `thresholdPercent` inclusive. Any thread (allocates).

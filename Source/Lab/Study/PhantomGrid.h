@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grids of phantom sensations between enchanters (thesis 4.1, 4.2).
+// Grids of phantom sensations between actuators (thesis 4.1, 4.2).
 #pragma once
 #include "Lab/Study/ConfusionMatrix.h"
 #include "Stimuli/FieldPlace.h"
@@ -10,8 +10,8 @@ namespace physvib {
 
 struct PhantomGrid {
     enum class Points {
-        corners, ///< the outer points lie on the field's edge, so the corners are the enchanters (thesis 4.1)
-        middles  ///< the field is divided into cells, the points are their middles (4.2; an assumption)
+        corners, ///< the outer points lie on the field's edges, so the corners are the actuators (thesis 4.1)
+        middles  ///< the field is divided into cells and the points are their centres (4.2; an assumption)
     };
     int columns = 0, rows = 0; ///< 1 to 16
     Points points = Points::corners;
@@ -21,12 +21,12 @@ struct PhantomGrid {
         return {along(cell.column, columns), along(cell.row, rows)};
     }
 
-    /// The cell whose point is nearest; of equals the first.
+    /// The cell with the nearest point; the first of equal ones.
     GridCell nearest(const FieldPlace& place) const noexcept {
         return {nearestLine(place.y, rows), nearestLine(place.x, columns)};
     }
 
-    /// All cells, row by row. M only (allocates).
+    /// All cells, row by row. Message thread only (allocates).
     std::vector<GridCell> cells() const {
         std::vector<GridCell> all;
         for (int row = 1; row <= rows; ++row)

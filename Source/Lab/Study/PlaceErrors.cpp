@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sums in one pass, means in a second: places may be pixels far from 0.
+// Computes pointing errors in two passes (sums, then deviations), because pixel coordinates can be far from
+// 0.
 #include "Lab/Study/PlaceErrors.h"
 #include "Lab/Statistics/Moments.h"
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace physvib {
 namespace {
 
-/// Trials with the same key, in the order of their first ones.
+/// Groups trials by key, in the order of first occurrence.
 template <class KeyOf>
 std::vector<std::vector<const PlaceTrial*>> groupedBy(const std::vector<PlaceTrial>& trials, KeyOf keyOf) {
     std::map<decltype(keyOf(trials.front())), std::size_t> indices;
@@ -45,7 +46,7 @@ TargetError errorOf(const std::vector<const PlaceTrial*>& trials) {
         momentsOf(trials, [](const PlaceTrial& t) { return std::hypot(t.x - t.trueX, t.y - t.trueY); }).mean};
 }
 
-/// Least squares; none if all true places are the same.
+/// Least-squares slope; nullopt if all true places are equal.
 std::optional<double> slope(const std::vector<const PlaceTrial*>& trials, double PlaceTrial::*truth,
                             double PlaceTrial::*answer) {
     const double meanTrue = momentsOf(trials, [=](const PlaceTrial&t) { return t.*truth; }).mean,

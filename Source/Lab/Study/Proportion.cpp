@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wilson's interval.
+// Wilson's confidence interval of a proportion.
 #include "Lab/Study/Proportion.h"
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace physvib {
 Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept {
     Proportion result{hits, trials};
     if (trials == 0) return result;
-    constexpr double z = 1.959963984540054; // 97.5 % point of the normal distribution
+    constexpr double z = 1.959963984540054; // 97.5 % quantile of the normal distribution
     const auto n = static_cast<double>(trials);
     const double p = static_cast<double>(hits) / n;
     const double middle = p + z * z / (2.0 * n),

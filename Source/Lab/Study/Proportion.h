@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A share of trials with its interval.
+// Proportion of trials with its confidence interval.
 #pragma once
 #include <cstdint>
 
@@ -8,7 +8,7 @@ namespace physvib {
 struct Proportion {
     std::uint64_t hits = 0, trials = 0;
     double share = 0.0;             ///< hits / trials; 0 without a trial
-    double least = 0.0, most = 1.0; ///< 95 % confidence interval (Wilson 1927), trials taken as independent
+    double least = 0.0, most = 1.0; ///< 95 % confidence interval (Wilson 1927), assuming independent trials
 };
 
 /// `hits` <= `trials`. Any thread.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parts of a protocol ask of each other, and the stimuli they name.
+// Validates a protocol as a whole, and lists the stimuli of its conditions.
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/CallWords.h"
 #include "Lab/Study/Trial.h"
@@ -9,8 +9,8 @@
 namespace physvib {
 namespace {
 
-constexpr double mostStimuli = 4096;     // of a condition; a session of them lasts a day
-constexpr double mostTrials = 100'000.0; // of a session in a condition; those of a week
+constexpr double mostStimuli = 4096;     // per condition; a session of this size takes a day
+constexpr double mostTrials = 100'000.0; // per session and condition; this number takes a week
 
 bool sharesNames(const auto& items, auto nameOf) {
     std::set<std::string> names;
@@ -27,10 +27,10 @@ bool isAdjustmentBefore(const Protocol& p, const SessionPlan& session) {
     });
 }
 
-/// Adjustments and staircases start within their range.
+/// True if an adjustment or staircase starts within its range.
 bool startsInside(const auto& plan) { return plan.leastDb <= plan.startDb && plan.startDb <= plan.mostDb; }
 
-/// Of the fields that only some tasks use.
+/// Checks the fields that only some tasks use.
 std::string taskFault(const SessionPlan& s) {
     using Kind = AnswerKind;
     const Kind answer = s.answer();
@@ -83,7 +83,7 @@ void replaceAll(std::string& words, const std::string& from, const std::string& 
         words.replace(at, from.size(), to);
 }
 
-/// Of a name that is put into calls: it must not bring further names.
+/// True if a value for a call contains no further placeholder.
 bool isPlain(const std::string& value) { return value.find_first_of("{}") == std::string::npos; }
 
 std::string valuesFault(const CallSet& calls) {
@@ -93,14 +93,14 @@ std::string valuesFault(const CallSet& calls) {
     return {};
 }
 
-/// What a call's {alternative} and {object} may become.
+/// Possible values of {alternative} and {object} in a call.
 std::set<std::string> namedPartsOf(const Protocol& p, const CallSet& calls) {
     const bool namesParts = calls.call.find("{alternative}") != std::string::npos ||
                             calls.call.find("{object}") != std::string::npos;
     return namesParts ? callPartsOf(p) : std::set<std::string>{""};
 }
 
-/// Empty, or what is wrong with the first call that a condition can make.
+/// Empty, or the error of the first invalid call that a condition can make.
 std::string callsFault(const Protocol& p, const ConditionPlan& c, const CallSet& calls) {
     if (std::string fault = valuesFault(calls); !fault.empty()) return fault;
     if (!std::ranges::all_of(namedPartsOf(p, calls), isPlain))
@@ -151,7 +151,7 @@ std::vector<StimulusItem> itemsOf(const PatternSet& set) {
     std::vector<StimulusItem> items;
     for (const double seconds : set.pulseSeconds)
         for (PulsePattern pattern : allPulsePatterns(set.enchanters)) {
-            // the combinations once per duration of ours
+            // allPulsePatterns() has each combination once per built-in duration; use one of these
             if (pattern.pulseSeconds != pulseDurationsSeconds.front()) continue;
             pattern.pulseSeconds = seconds;
             items.push_back({patternLabel(pattern), {}});
@@ -204,7 +204,8 @@ double countOf(const CallSet& set) noexcept {
 
 namespace {
 
-/// Every stimulus of a session with a file of levels has one there, of an alternative of its.
+/// Checks that every stimulus of a session with a levels file has a level there, of one of the session's
+/// alternatives.
 std::string levelsFault(const Protocol& p, const SessionPlan& s) {
     for (const ConditionPlan& c : p.conditions)
         for (const StimulusItem& item : stimuliOf(c)) {

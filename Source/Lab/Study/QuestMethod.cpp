@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A few numbers become a grid of functions; the words are those numbers.
+// Converts QUEST+ settings to a grid of psychometric functions, and to and from text.
 #include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/NumberWord.h"
 #include <algorithm>
@@ -10,13 +10,14 @@
 namespace physvib {
 namespace {
 
-constexpr double mostLevels = 201.0; // with as many thresholds: 300,000 functions at most levels, a few
-                                     // milliseconds a trial
-constexpr int widths = 7;            // in equal ratios; coarser, the threshold's belief leans on the nearest
+constexpr double mostLevels = 201.0; // with as many thresholds: at most 300,000 functions, a few milliseconds
+                                     // per trial
+constexpr int widths = 7;            // in equal ratios; with fewer, the threshold's posterior is biased to
+                                     // the nearest width
 
 double levelsOf(const QuestMethod& m) { return std::floor((m.mostDb - m.leastDb) / m.stepDb + 1e-6) + 1.0; }
 
-/// Levels print short, however many steps up they are.
+/// Level of a step, rounded so that it prints with few digits.
 double levelAt(const QuestMethod& m, int step) {
     return std::round((m.leastDb + step * m.stepDb) * 1e6) * 1e-6;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// QUEST+ as a session asks for it, and as the words that stand in every row of it.
+// Settings of the adaptive method QUEST+ in a session, and their text in each row of the trial file.
 #pragma once
 #include "Lab/Statistics/QuestPlus.h"
 #include <optional>
@@ -12,26 +12,26 @@ namespace physvib {
 struct QuestMethod {
     std::string alternative;
     PsychometricShape shape = PsychometricShape::weibull;
-    double leastDb = 0.0, mostDb = 20.0, stepDb = 0.5; ///< levels that can be presented, and thresholds that
-                                                       ///< are thought possible
-    double leastWidthDb = 2.0, mostWidthDb = 20.0;     ///< of the function, thought possible
+    double leastDb = 0.0, mostDb = 20.0, stepDb = 0.5; ///< levels that can be presented; also the prior's
+                                                       ///< thresholds
+    double leastWidthDb = 2.0, mostWidthDb = 20.0;     ///< widths of the psychometric function in the prior
     double lapse = 0.02;
     int trials = 40;
-    double deviationDb = 0.0; ///< it ends earlier once the threshold is known that well; 0: it does not
+    double deviationDb = 0.0; ///< target standard deviation of the threshold, at which it ends early; 0: none
     bool operator==(const QuestMethod&) const = default;
 };
 
-/// What makes no sense as a whole, `.step_db: expected ...`; empty if all does. Any thread (allocates).
+/// Empty, or the first inconsistency, e.g. `.step_db: expected ...`. Any thread (allocates).
 std::string questFault(const QuestMethod& method);
 
-/// What is thought possible before the first trial. Any thread (allocates).
+/// The prior before the first trial. Any thread (allocates).
 QuestPlan questPlan(const QuestMethod& method, double guess);
 
-/// All that the plan is made of, `weibull guess 0.5 lapse 0.02 levels_db 0 0.5 20 widths_db 2 20`. Any thread
-/// (allocates).
+/// All settings of the plan as text, `weibull guess 0.5 lapse 0.02 levels_db 0 0.5 20 widths_db 2 20`. Any
+/// thread (allocates).
 std::string questWords(const QuestMethod& method, double guess);
 
-/// The plan of such words; none if they are not. Any thread (allocates).
+/// Parses the text of questWords(); nullopt if it is invalid. Any thread (allocates).
 std::optional<QuestPlan> questPlan(std::string_view words);
 
 } // namespace physvib

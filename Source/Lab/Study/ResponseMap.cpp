@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moments, then one quadratic form per target and pixel.
+// Fits a normal distribution per target, then evaluates one quadratic form per target and pixel.
 #include "Lab/Study/ResponseMap.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace physvib {
 namespace {
 
-// Below this share of the product of the variances a determinant is rounding; below this variance (a
-// thousandth of the field's width, squared) a cloud is finer than a pixel and no measure of anything.
+// A determinant below this share of the product of the variances is rounding error. A variance below this
+// limit (a thousandth of the field's width, squared) is finer than a pixel and cannot be resolved.
 constexpr double leastDeterminantShare = 1e-9, leastVariance = 1e-6;
 
 bool canBeInverted(const PlaceNormal& n) noexcept {
@@ -57,7 +57,7 @@ void findMeans(const std::vector<LocationTrial>& trials, ResponseNormals& made) 
     }
 }
 
-/// Each target's own covariance, and the pooled one of all.
+/// Computes each target's covariance, and returns the covariance pooled over all targets.
 PlaceNormal findCovariances(const std::vector<LocationTrial>& trials, ResponseNormals& made) {
     std::vector<Sums> sums(made.normals.size());
     Sums all;
@@ -106,7 +106,7 @@ void mend(ResponseNormals& made, const PlaceNormal& pooled) {
     }
 }
 
-/// Eq. 4.4 without its constant, with the costly parts done once.
+/// Eq. 4.4 without its constant; everything that does not depend on the place is precomputed.
 struct LogLikelihood {
     explicit LogLikelihood(const PlaceNormal& n) noexcept
         : meanX{n.meanX}
@@ -182,8 +182,8 @@ ConditionResolution resolveCondition(std::string condition, const std::vector<Lo
 
 CellSpread cellSpread(const std::vector<LocationTrial>& trials, double thresholdPercent, int draws,
                       std::uint64_t seed) {
-    constexpr std::size_t shrunk = 10; // a hundredth of the pixels: their number rounds a share of 1.42 % by
-                                       // less than 0.02 %
+    constexpr std::size_t shrunk = 10; // a hundredth of the pixels; this rounds a share of 1.42 % by less
+                                       // than 0.02 %
     std::map<std::pair<int, int>, std::vector<std::size_t>> ofTarget;
     for (std::size_t i = 0; i < trials.size(); ++i)
         ofTarget[{trials[i].targetRow, trials[i].targetColumn}].push_back(i);

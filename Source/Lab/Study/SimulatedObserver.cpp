@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One small model per task.
+// Response models of the simulated observer, one per task.
 #include "Lab/Study/SimulatedObserver.h"
 #include "Core/Decibels.h"
 #include <algorithm>
@@ -9,16 +9,16 @@
 namespace physvib {
 namespace {
 
-/// To a multiple of 1/perUnit, in a way that prints short.
+/// Rounds to a multiple of 1/perUnit, so that the number prints with few digits.
 double roundedTo(double value, double perUnit) { return std::round(value * perUnit) / perUnit; }
 
-/// True if a method's name says that this part varies: "AV" of AV-FF-DRV.
+/// True if the method name contains this varying part, e.g. "AV" in AV-FF-DRV.
 bool varies(const std::string& label, const char* part) {
     return ("-" + label + "-").find(std::string("-") + part + "-") != std::string::npos;
 }
 
-/// Means as printed; spreads between participants such that the printed tests are what so many participants
-/// give (ObserverTest reckons them again).
+/// Means as printed in the thesis. Spreads between participants are chosen so that the printed tests follow
+/// for its number of participants (ObserverTest recomputes them).
 ObserverSettings fittedToTheThesis(ObserverSettings settings) {
     settings.placeBlur = 0.2073;
     settings.ringBlur = 0.1524;
@@ -31,7 +31,7 @@ ObserverSettings fittedToTheThesis(ObserverSettings settings) {
     return settings;
 }
 
-/// Who this participant is, by their number alone.
+/// Individual parameters of a participant, from the seed and the number alone.
 ObserverSettings ofParticipant(ObserverSettings settings, const Protocol& protocol,
                                const Participant& participant) {
     SeededRandom random{static_cast<std::uint64_t>(protocol.seed),
@@ -46,7 +46,7 @@ ObserverSettings ofParticipant(ObserverSettings settings, const Protocol& protoc
     return settings;
 }
 
-/// The level of what an adjustment is compared with.
+/// Level of the alternative that an adjustment is compared with.
 double comparedLevelDb(const SessionPlan& session) {
     for (const Alternative& one : session.alternatives)
         if (one.name != session.adjustment->alternative) return one.levelDb;
@@ -136,7 +136,8 @@ std::string SimulatedObserver::identified(const ConditionPlan& condition, const 
         return gridLabel(
             grid.nearest(feltPlace(grid.place(*targetOf(condition, trial)), blurOf(condition), random)));
     }
-    const auto items = stimuliOf(condition); // of no known kind: taken for another one now and then
+    const auto items = stimuliOf(condition); // unknown kind of stimulus: confused with a random one at a
+                                             // fixed rate
     return random.chance(settings_.pulsePlaceConfusion) ? items[random.below(items.size())].label
                                                         : trial.stimulus;
 }
@@ -173,7 +174,7 @@ FieldPlace SimulatedObserver::feltPlace(const FieldPlace& place, double blur, Se
     return {x, felt(place.y, settings_.offsetY)};
 }
 
-/// The stronger of two levels that differ; else the first of the session's list by preference.
+/// Picks the stronger of two different levels; otherwise the first listed alternative, by its preference.
 std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& trial,
                                       SeededRandom& random) const {
     if (session.adaptedAlternative()) {
@@ -199,10 +200,10 @@ double SimulatedObserver::scored(const Trial& trial, SeededRandom& random) const
     return std::round(std::clamp(score, 0.0, 100.0));
 }
 
-/// A power of the level, blurred by the same noise: Stevens' law with an exponent near one.
+/// Stevens' power law with an exponent near one and the same level noise.
 double SimulatedObserver::magnitude(const ConditionPlan& condition, const Trial& trial,
                                     SeededRandom& random) const {
-    double levelG = condition.levelG; // or what the stimulus is called after
+    double levelG = condition.levelG; // default if the stimulus label is not a level
     std::from_chars(trial.stimulus.data(), trial.stimulus.data() + trial.stimulus.size(), levelG);
     const double db =
         toDecibels(std::max(levelG, 1e-6)) + trial.levelDb + settings_.levelNoiseDb * random.normal();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An observer that answers by a model, to rehearse a study and to test its analysis. Never a person: whatever
-// it answers is marked as simulated.
+// Simulated observer that answers trials by a perceptual model, to rehearse a study and test its analysis.
+// Its answers are always marked as simulated.
 #pragma once
 #include "Lab/Study/Experiment.h"
 #include <string>
@@ -8,44 +8,46 @@
 
 namespace physvib {
 
-/// What goes wrong in perception, and what is preferred. Probabilities from 0 to 1.
+/// Parameters of perception errors and preferences. Probabilities are in 0 to 1.
 struct ObserverSettings {
     std::string name = "simulated";
     double placeBlur = 0.15;   ///< standard deviation, share of the field's width and height
-    double pullToMiddle = 0.0; ///< share of its distance by which a place is felt nearer to the middle
-    double offsetX = 0.0, offsetY = 0.0;        ///< places are felt so far off, shares of the field
-    double pulsePlaceConfusion = 0.01;          ///< a pulse is felt on another enchanter
-    double durationConfusion = 0.03;            ///< a pattern's duration is taken for another of the set
-    double numerosityConfusion = 0.02;          ///< one pulse too few is counted (underestimation is usual)
-    double firstAlternativePreference = 0.59;   ///< of alternatives at equal levels
+    double pullToMiddle = 0.0; ///< compression of places towards the centre, as a share of their distance
+                               ///< from it
+    double offsetX = 0.0, offsetY = 0.0; ///< constant localisation error, as shares of the field
+    double pulsePlaceConfusion = 0.01;   ///< probability that a pulse is felt at another actuator
+    double durationConfusion = 0.03;     ///< probability that a pattern's duration is confused with another
+    double numerosityConfusion = 0.02;   ///< probability that one pulse too few is counted
+                                         ///< (underestimation is usual)
+    double firstAlternativePreference = 0.59;   ///< probability, for alternatives at equal levels
     double levelNoiseDb = 2.0;                  ///< of comparisons and adjustments
     double scoreBase = 38.0, scoreNoise = 14.0; ///< ratings
-    /// more for AV, FV, DRV (thesis 5.3.2)
+    /// added for AV, FV, DRV (thesis 5.3.2)
     double amplitudeScore = 8.0, frequencyScore = 23.2, decayScore = 2.0;
-    double ringBlur = 0.0; ///< placeBlur where the layout's name begins with ring; 0: the same
-    // Standard deviations between participants; 0: all are alike.
-    double blurSpread = 0.0; ///< of the blurs' natural logarithms, each by itself
+    double ringBlur = 0.0; ///< placeBlur for layouts whose name begins with ring; 0: use placeBlur
+    // Standard deviations between participants; 0: no differences.
+    double blurSpread = 0.0; ///< of the natural logarithm of each blur, independently
     double preferenceSpread = 0.0;
     double amplitudeSpread = 0.0, frequencySpread = 0.0, decaySpread = 0.0; ///< of the scores
 };
 
-/// What observerNamed() knows.
+/// Names that observerNamed() accepts.
 inline constexpr std::string_view observerNames =
     "simulated, simulated-PHONE, simulated-RING or simulated-thesis";
 
-/// The observer of that name; none if there is none. The place blurs of simulated-PHONE and simulated-RING
-/// are fitted to the exact percent correct of thesis 4.1.2, simulated-thesis to all that the five studies
-/// print, spreads included (tests fit them again); other values are assumptions. Any thread.
+/// The observer with that name; nullopt if unknown. The place blurs of simulated-PHONE and simulated-RING are
+/// fitted to the percent correct of thesis 4.1.2. simulated-thesis is fitted to all printed results of the
+/// five studies, spreads included (tests repeat the fits). Other values are assumptions. Any thread.
 std::optional<ObserverSettings> observerNamed(std::string_view name);
 
-/// Answers depend on the seed, the participant and the trial alone, so a study that was cut off goes on as if
-/// it had not been. M only.
+/// Answers depend only on the seed, the participant and the trial, so an interrupted study resumes with the
+/// same answers. Message thread only.
 class SimulatedObserver {
 public:
     /// `protocol` outlives the observer.
     SimulatedObserver(ObserverSettings settings, const Protocol& protocol, const Participant& participant);
 
-    /// What it answers to the experiment's trial, which is not done.
+    /// The answer to the experiment's current trial. Precondition: the experiment is not done.
     Answer answer(const Experiment& experiment) const;
 
 private:

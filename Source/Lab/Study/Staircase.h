@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Transformed up-down staircase: the level where so many correct answers in a row are as likely as not
-// (Levitt 1971).
+// Transformed up-down staircase (Levitt 1971): converges to the level at which a run of `down` correct
+// answers has probability one half.
 #pragma once
 #include "Lab/Study/Protocol.h"
 #include <algorithm>

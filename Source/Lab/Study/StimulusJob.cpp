@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranges of a stimulus.
+// Checks a stimulus job against its valid ranges.
 #include "Lab/Study/StimulusJob.h"
 #include "Lab/Study/NumberWord.h"
 #include "Lab/Study/PercentCounts.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A stimulus as a value: what `physvib stimulus`, a protocol and a screen ask for, before anything is made of
-// it.
+// A stimulus specification as a value, used by `physvib stimulus`, protocols and screens before events are
+// created.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/PhantomPanner.h"
@@ -13,7 +13,7 @@
 
 namespace physvib {
 
-/// What numbers of a job may be, ends included; protocols and options have the same ranges.
+/// Valid ranges of a job's numbers, inclusive. Protocols and options share them.
 struct StimulusRange {
     double least, most;
     constexpr bool holds(double number) const noexcept { return number >= least && number <= most; }
@@ -23,7 +23,7 @@ inline constexpr StimulusRange share{0.0, 1.0}, frequencyHz{limits::slowestToneH
     levelG{1e-6, 1000.0}, gapSeconds{0.0, 10.0}, exponent{0.01, 100.0}, seconds{0.001, 600.0};
 } // namespace stimulusRanges
 
-/// Pulses on one enchanter after the other.
+/// Consecutive pulses on single actuators.
 struct PatternJob {
     std::string label; ///< "ABA-250"
     double gapSeconds = pulseGapSeconds;
@@ -37,12 +37,12 @@ struct GridPlace {
     bool operator==(const GridPlace&) const = default;
 };
 
-/// A sensation between the enchanters.
+/// A phantom sensation between the actuators.
 struct PhantomJob {
     std::variant<FieldPlace, GridPlace> at;
     PanningLaw law = PanningLaw::linear;
     double exponent = 1.0, seconds = 1.0;
-    std::string recording{}; ///< a file of one channel instead of a tone, at its own rate and length; empty:
+    std::string recording{}; ///< a mono file that replaces the tone, with its own rate and length; empty:
                              ///< none
     bool operator==(const PhantomJob&) const = default;
 
@@ -52,28 +52,29 @@ struct PhantomJob {
 struct StimulusJob {
     std::variant<PatternJob, PhantomJob> what;
     std::string layout = "phone4";             ///< a preset's name, or a layout file
-    std::optional<double> frequencyHz = 205.0; ///< none: the resonance of the layout's actuators
+    std::optional<double> frequencyHz = 205.0; ///< none: use the resonance of the layout's actuators
     double levelG = 1.0;                       ///< peak acceleration at gain 1
     bool operator==(const StimulusJob&) const = default;
 };
 
-/// The words of a call that makes a job, each before its value. Whoever writes and whoever reads a call takes
-/// them from here.
+/// Option names in the text of a job, each before its value. Writers and readers of such text share this
+/// list.
 namespace stimulusWords {
 inline constexpr char at[] = "--at", grid[] = "--grid", cell[] = "--cell", points[] = "--points",
                       layout[] = "--layout", frequency[] = "--frequency", levelG[] = "--level-g",
                       gap[] = "--gap", law[] = "--law", exponent[] = "--exponent", seconds[] = "--seconds";
-inline constexpr char resonance[] = "resonance"; ///< instead of a frequency
+inline constexpr char resonance[] = "resonance"; ///< in place of a frequency
 } // namespace stimulusWords
 
-/// The arguments of `physvib` that make it again, "stimulus phantom --at 0.5,0.5 ...". Any thread
+/// The `physvib` arguments that recreate the job, "stimulus phantom --at 0.5,0.5 ...". Any thread
 /// (allocates).
 std::string textOf(const StimulusJob& job);
 
-/// The grid of such a call, with its points; none: it names no grid. Any thread.
+/// The grid and its point rule in such text; nullopt if it has no grid. Any thread.
 std::optional<PhantomGrid> gridOf(std::string_view call) noexcept;
 
-/// Which word of a job's text is wrong (a pattern has none), and what was expected of it. No words: nothing.
+/// The invalid option of a job's text (empty for a pattern label) and the expected value. An empty
+/// expectation means no error.
 struct JobFault {
     std::string_view word{};
     std::string expected{};
@@ -83,7 +84,7 @@ struct JobFault {
     }
 };
 
-/// The first that is wrong with the job on any layout. Any thread (allocates).
+/// The first error of the job that does not depend on a layout. Any thread (allocates).
 JobFault faultOf(const StimulusJob& job);
 
 } // namespace physvib

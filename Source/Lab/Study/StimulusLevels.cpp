@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everybody counts once, however often they set it.
+// Averages adjusted levels, with equal weight for each participant regardless of repetitions.
 #include "Lab/Study/StimulusLevels.h"
 #include "Lab/Statistics/Moments.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Jobs become the calls that rows of studies keep.
+// Converts stimulus jobs to the calls that are stored in the rows of trial files.
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/NumberWord.h"
 #include "Lab/Study/PercentCounts.h"
@@ -39,7 +39,7 @@ void addPlace(CallWriter& call, const GridPlace& place) {
     if (place.grid.points == PhantomGrid::Points::middles) call.add(words::points, middles);
 }
 
-/// What follows a word of a call; empty: the call does not have it.
+/// The value of an option in a call; empty if the call does not have it.
 std::string_view valueOf(std::string_view call, std::string_view word) noexcept {
     while (!call.empty()) {
         const std::size_t end = std::min(call.find(' '), call.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Squares and shuffles.
+// Computes balanced Latin squares and shuffled orders.
 #include "Lab/Study/StudyOrder.h"
 #include <algorithm>
 #include <numeric>
@@ -7,8 +7,8 @@
 namespace physvib {
 namespace {
 
-/// Indices of the conditions of each group, groups in the order of their first condition; no group: one of
-/// its own.
+/// Indices of the conditions of each group, groups in the order of their first condition. A condition without
+/// a group forms its own.
 std::vector<std::vector<std::size_t>> groupsOf(const Protocol& protocol) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < protocol.conditions.size(); ++i) {
@@ -33,7 +33,7 @@ std::vector<std::size_t> latinSquareRow(std::size_t count, std::size_t row) {
         const std::size_t zigzag = i % 2 ? (i + 1) / 2 : (count - i / 2) % count;
         order.push_back((zigzag + shift) % count);
     }
-    // an odd square balances with its mirror image
+    // with an odd count, the square and its mirror image are balanced together
     if (count % 2 && row / count % 2) std::ranges::reverse(order);
     return order;
 }
@@ -43,7 +43,7 @@ std::vector<std::size_t> conditionOrder(const Protocol& protocol, int number) {
     const auto row = static_cast<std::size_t>(number - 1);
     std::vector<std::size_t> order;
     if (protocol.conditionOrder == Protocol::ConditionOrder::latinSquare) {
-        // Participants that share an order of groups take turns with the orders inside them.
+        // Participants with the same order of groups rotate through the orders inside the groups.
         for (const std::size_t g : latinSquareRow(groups.size(), row))
             for (const std::size_t c :
                  latinSquareRow(groups[g].size(), groups.size() > 1 ? row / groups.size() : row))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counted from the protocol alone: no participant, no device.
+// Computes trials, levels and times of a study from the protocol alone.
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyOrder.h"
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace physvib {
 namespace {
 
-/// The highest level of one of a session's alternatives, as Experiment adds it up: what is being adjusted is
-/// felt at the level that is set.
+/// Maximum level of an alternative in a session, summed as Experiment does. An adjusted alternative is played
+/// at the adjusted level.
 double highestOf(const Protocol& protocol, const SessionPlan& session, const Alternative& alternative) {
     const auto moves = [&](const auto& plan) { return plan && plan->alternative == alternative.name; };
     if (moves(session.adjustment)) return session.adjustment->mostDb;
@@ -30,8 +30,7 @@ double highestOf(const Protocol& protocol, const SessionPlan& session, const Alt
     return alternative.levelDb + added;
 }
 
-/// The parts that a session's trials have, each with its highest level; one without a name where trials have
-/// none.
+/// Parts of a session's trials, each with its maximum level; one part without a name if trials have none.
 std::map<std::string, double> partsOf(const Protocol& protocol, const SessionPlan& session) {
     std::map<std::string, double> parts;
     for (const Alternative& alternative : session.alternatives)
@@ -54,10 +53,10 @@ int trialsOf(const SessionPlan& session, std::size_t stimuli) {
 struct PlannedSession {
     std::size_t session = 0, condition = 0;
     int trials = 0;
-    std::vector<PlannedTrials> felt; ///< every part of every stimulus
+    std::vector<PlannedTrials> felt; ///< every part of every stimulus, with its number of plays
 };
 
-/// In the order of one participant to whom conditions are given as they are listed.
+/// In protocol order, as for one participant.
 std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
     std::vector<PlannedSession> all;
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c) {
@@ -84,19 +83,19 @@ TrialJob PlannedStimulus::job(const Protocol& protocol) const {
     if (!part.empty()) {
         record.trial.parts = {part};
         record.trial.partLevelsDb = {highestDb};
-        record.answer.value = highestDb; // of an adjustment, what is felt
+        record.answer.value = highestDb; // an adjustment plays its answered level
     }
     return jobsOf(protocol, record).front();
 }
 
 std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
-    // highest level, and the session that sets it
+    // maximum level, and the session that sets it
     std::map<std::string, std::pair<double, std::size_t>> parts;
     for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
         for (const auto& [name, db] : partsOf(protocol, protocol.sessions[s]))
             if (const auto [at, isNew] = parts.try_emplace(name, db, s); !isNew && db > at->second.first)
                 at->second = {db, s};
-    // trainings without alternatives feel what the others feel
+    // sessions without alternatives play the same stimuli
     if (parts.size() > 1) parts.erase(std::string{});
     std::vector<PlannedStimulus> planned;
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
@@ -131,7 +130,7 @@ plannedTime(const Protocol& protocol,
         if (std::exchange(condition, planned.condition) != planned.condition)
             rest(protocol.conditionBreakSeconds);
         rest(session.breakBeforeSeconds);
-        double felt = 0.0; // in all of its trials
+        double felt = 0.0; // sum over all trials of the session
         for (const PlannedTrials& one : planned.felt)
             felt += one.count * std::max(session.leastSeconds, secondsOf(one.condition, one.label, one.part));
         for (int t = 0; t < planned.trials; ++t) {

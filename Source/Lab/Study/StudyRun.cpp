@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Experiment and trial file, step by step together.
+// Runs an experiment and writes each answer to its trial file.
 #include "Lab/Study/StudyRun.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
@@ -10,7 +10,7 @@
 namespace physvib {
 namespace {
 
-/// By this machine's calendar: exposure is counted by the day.
+/// In local time, because exposure is summed per calendar day.
 bool wasWrittenToday(const std::filesystem::path& path) {
     using Clock = std::chrono::system_clock;
     const auto dayOf = [](Clock::time_point moment) {

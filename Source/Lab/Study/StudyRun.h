@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A participant's way through a study, with the file that keeps it: whoever answers, a person or an observer,
-// does it here.
+// One participant's run of a study with its trial file, for a person or a simulated observer.
 #pragma once
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/Experiment.h"
@@ -9,59 +8,59 @@
 
 namespace physvib {
 
-/// Whose way through which study, and where it is kept.
+/// Protocol, participant and output folder of a run.
 struct StudyRun {
     Protocol protocol;
     Participant participant;
     std::filesystem::path folder;
     bool operator==(const StudyRun&) const = default;
 
-    /// The file of its trials. Any thread (allocates).
+    /// Path of the trial file. Any thread (allocates).
     std::filesystem::path trialFile() const {
         return folder / (protocol.name + "-" + participant.code + ".csv");
     }
 };
 
-/// Whether files may be called after it: at most 32 letters, digits, - and _. Any thread.
+/// True if the code can be part of file names: at most 32 letters, digits, - and _. Any thread.
 bool isStudyCode(const std::string& code) noexcept;
 
-/// What is wrong with it before anything is asked or written: empty, or one line. Any thread (allocates).
+/// Empty, or one line on what is invalid, before any trial or file. Any thread (allocates).
 std::string faultOf(const StudyRun& run);
 
-/// From the first trial without an answer to the last. M only.
+/// A run from its first unanswered trial to its last. Message thread only.
 class StudyInProgress {
 public:
-    /// Opens or makes the trial file and does again what was answered before; error() says what went wrong.
+    /// Opens or creates the trial file and replays its answers; error() reports failures.
     explicit StudyInProgress(StudyRun run);
     StudyInProgress(const StudyInProgress&) = delete;
     StudyInProgress& operator=(const StudyInProgress&) = delete;
 
-    /// Empty, or one line; then nothing may be asked of the experiment.
+    /// Empty, or one line; after an error the experiment must not be used.
     const std::string& error() const noexcept { return error_; }
 
     const Protocol& protocol() const noexcept { return run_.protocol; }
     const std::filesystem::path& path() const noexcept { return path_; }
     const Experiment& experiment() const noexcept { return experiment_; }
-    int trialsBefore() const noexcept { return before_; } ///< that were in the file when it was opened
-    /// What of the apparatus is not as it was when the last trial before was felt: empty, or one line that
-    /// says what to set. Its program may be a newer version: rows say which. Any thread (allocates).
+    int trialsBefore() const noexcept { return before_; } ///< trials that the file had when it was opened
+    /// Empty, or one line naming the setting of the apparatus that differs from the last recorded trial. A
+    /// newer program version is allowed, since each row has its version. Any thread (allocates).
     std::string apparatusFault(const Apparatus& now) const;
-    /// A(8) in m/s^2 of those, if the last of them is of today
+    /// A(8) in m/s^2 after these trials, if the last of them is of today.
     double exposureToday() const noexcept { return exposureToday_; }
 
-    /// The answer to the experiment's trial: its row is in the file before this returns. False, and error(),
-    /// if it is not an answer, or cannot be written.
+    /// Accepts the answer to the current trial and writes its row before it returns. Returns false and sets
+    /// error() if the answer is invalid or cannot be written.
     bool take(Answer answer);
 
-    /// The next session begins; if the experiment's mayEnd().
+    /// Starts the next session. Precondition: the experiment's mayEnd().
     void endSession() { experiment_.endSession(); }
 
-    /// Folder of the sessions of worlds that this participant felt, beside the trial file.
+    /// Folder beside the trial file for the sessions of worlds that the participant felt.
     std::filesystem::path feltFolder() const {
         return std::filesystem::path{path_}.replace_extension(".felt");
     }
 
-    /// The participant's own words, beside the trial file as .comment.txt. Empty, or why they cannot be kept.
+    /// Writes the participant's comment beside the trial file as .comment.txt. Empty, or why that failed.
     std::string keepComment(const std::string& words) const;
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every task of a study once: its name, what its answer consists of, what a participant reads, and which
-// analysis takes its trials. Protocols, trial files, simulated observers, screens, analyses and reports read
-// this table; Docs/protocols.md is held against it.
+// Table of all study tasks: name, kind of answer, texts for the participant, and analysis of the trials.
+// Protocols, trial files, simulated observers, screens, analyses and reports read this table; a test compares
+// Docs/protocols.md with it.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -12,38 +12,37 @@
 
 namespace physvib {
 
-/// What a participant does in a trial: the tasks in the order of the table.
+/// The participant's task in a trial, in the order of the table.
 enum class StudyTask { explore, identify, locate, choose, rate, adjust, estimate };
 
-/// What an answer consists of: the fields of Answer, the columns of its row, and what its session and
-/// condition have to have.
+/// Kind of an answer. It decides which fields of Answer and columns of the row are used, and what session and
+/// condition must have.
 enum class AnswerKind {
-    wish,  ///< what shall be felt: a stimulus, or a place where a session counts touches; trainings only, not
-           ///< analysed
-    label, ///< of a stimulus
-    place, ///< on the field of a grid
+    wish,   ///< the requested stimulus, or a place if the session counts touches; training only, not analysed
+    label,  ///< label of a stimulus
+    place,  ///< place on the field of a grid
     choice, ///< one of the session's alternatives
-    scores, ///< one for each of the session's scales
-    level,  ///< of the alternative that the session's adjustment moves, in dB
+    scores, ///< one score per scale of the session
+    level,  ///< level in dB of the alternative that is adjusted
     number  ///< greater than 0
 };
 
-/// In English, to be translated line by line. Where one is empty, `usual` holds.
+/// English text, translated line by line. Where a variant is empty, `usual` applies.
 struct TaskText {
     std::string_view usual, onGrid{}, ofPatterns{};
 };
 
-/// One task.
+/// An entry of the table.
 struct StudyTaskDescription {
-    StudyTask task;        ///< its number, which is its place in the table
-    std::string_view name; ///< in protocols and trial files: never changes
+    StudyTask task;        ///< its number is its index in the table
+    std::string_view name; ///< in protocols and trial files; never changes
     AnswerKind answer;
-    std::string_view analysis; ///< of `physvib analyse` and the report; empty: none
+    std::string_view analysis; ///< name for `physvib analyse` and the report; empty: none
     TaskText question;
-    TaskText instruction; ///< how a session goes, after the line on how often something may be felt
+    TaskText instruction; ///< course of a session, after the line on how often a stimulus may be played
 };
 
-/// All of them.
+/// The table of all tasks.
 inline constexpr std::array studyTasks{
     StudyTaskDescription{StudyTask::explore,
                          "explore",
@@ -91,25 +90,25 @@ inline constexpr std::array studyTasks{
                          {"How much is it?"},
                          {"Then type a number, and go on."}}};
 
-/// The task's row. Any thread.
+/// The task's entry. Any thread.
 constexpr const StudyTaskDescription& describe(StudyTask task) noexcept {
     return studyTasks[static_cast<std::size_t>(task)];
 }
 
-/// The row of that name; null if there is none. Any thread.
+/// The entry with that name; null if there is none. Any thread.
 constexpr const StudyTaskDescription* studyTaskNamed(std::string_view name) noexcept {
     for (const auto& one : studyTasks)
         if (one.name == name) return &one;
     return nullptr;
 }
 
-/// What is answered in the task of that name; none if there is no such task. Any thread.
+/// Kind of answer of the task with that name; nullopt if there is no such task. Any thread.
 constexpr std::optional<AnswerKind> answerOf(std::string_view name) noexcept {
     const StudyTaskDescription* const found = studyTaskNamed(name);
     return found != nullptr ? std::optional{found->answer} : std::nullopt;
 }
 
-/// Names of the tasks, in their order.
+/// Names of the tasks, in table order.
 inline constexpr auto studyTaskNames = [] {
     std::array<std::string_view, studyTasks.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = studyTasks[i].name;
@@ -124,7 +123,7 @@ static_assert(
     }(),
     "each task at the place of its number");
 
-/// "the task rate", "the tasks choose and adjust": those with an answer of one of these kinds. Any thread
+/// "the task rate", "the tasks choose and adjust": tasks whose answer is of one of these kinds. Any thread
 /// (allocates).
 inline std::string tasksThatAnswer(std::initializer_list<AnswerKind> kinds) {
     std::string names;

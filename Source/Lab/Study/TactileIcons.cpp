@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Backward elimination; a stimulus' confusion with those that are left is kept up to date.
+// Backward elimination of confused stimuli; each stimulus' sum of confusions with the remaining ones is
+// updated incrementally.
 #include "Lab/Study/TactileIcons.h"
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which stimuli to give meanings to: those that people confused least (thesis 3.2.3, implications to
-// applications).
+// Selects the stimuli that participants confused least, for use as tactile icons (thesis 3.2.3).
 #pragma once
 #include "Lab/Study/ConfusionMatrix.h"
 #include <cstddef>
@@ -8,16 +7,16 @@
 
 namespace physvib {
 
-/// Bits that so many meanings need: log2. Any thread.
+/// Bits needed for that number of meanings: log2. Any thread.
 double bitsFor(std::size_t meanings) noexcept;
 
-/// Stimuli (indices of the matrix, ascending), `count` of them or all if there are fewer: the most confused
-/// one is dropped until as many are left. Confusion of two stimuli is the share of either one's trials
-/// answered with the other; of equals the one with fewer correct answers goes, then the later one. Any thread
-/// (allocates).
+/// Indices (ascending) of `count` stimuli, or of all if there are fewer. The most confused stimulus is
+/// removed until `count` remain. Confusion of two stimuli is the sum of the shares of trials in which one was
+/// answered with the other. Ties remove the stimulus with fewer correct answers, then the later one. Any
+/// thread (allocates).
 std::vector<std::size_t> leastConfused(const ConfusionMatrix& matrix, std::size_t count);
 
-/// The share of the stimulus' trials that were answered with it. Any thread.
+/// Share of the stimulus' trials that were answered correctly. Any thread.
 double shareCorrect(const ConfusionMatrix& matrix, std::size_t stimulus);
 
 } // namespace physvib

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Where a built-in protocol does not do what the thesis' study did, and what to change for that: once. `study
-// check`, the report and Docs/studies-thesis.md have it from here (Tests/Docs holds the page against it);
-// Files/ThesisVersions.h makes the changes.
+// Table of deviations of the built-in protocols from the thesis' studies, and the change that removes each.
+// `study check`, the report and Docs/studies-thesis.md use it (Tests/Docs compares the page);
+// Files/ThesisVersions.h applies the changes.
 #pragma once
 #include <array>
 #include <string_view>
 
 namespace physvib {
 
-/// A change of a protocol that takes a deviation away.
+/// A change of a protocol that removes a deviation.
 enum class ThesisEdit {
-    none,          ///< there is none that needs nothing of the user's own
-    noBreakBefore, ///< sessions begin without a break
-    noGroups,      ///< no conditions stay together
-    releaseTiming, ///< calls have --timing release
-    cutDecays      ///< calls have --gamma 0.1
+    none,          ///< no automatic change exists
+    noBreakBefore, ///< removes breaks before sessions
+    noGroups,      ///< removes condition groups
+    releaseTiming, ///< adds --timing release to calls
+    cutDecays      ///< adds --gamma 0.1 to calls
 };
 
 /// One deviation of one protocol.
 struct ThesisDeviation {
     std::string_view protocol; ///< its name
     std::string_view section;  ///< of the thesis
-    std::string_view thesis;   ///< what was done there
-    std::string_view here;     ///< what the protocol does
-    std::string_view change;   ///< of the protocol, so that it runs as published; empty: it cannot
+    std::string_view thesis;   ///< procedure in the thesis
+    std::string_view here;     ///< procedure in the protocol
+    std::string_view change;   ///< change that makes it run as published; empty: not possible
     ThesisEdit edit = ThesisEdit::none;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Right or wrong, and how to feel it again.
+// Scores a trial and creates the jobs that reproduce its stimulus.
 #include "Lab/Study/Trial.h"
 #include "Core/Decibels.h"
 #include "Lab/Study/NumberWord.h"
@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-/// Level in g; dB are rounded to a thousandth so that the text is short and exact enough.
+/// Level in g, rounded so that its text is short and exact to a thousandth of a dB.
 double raised(double levelG, double db) {
     return db == 0.0 ? levelG : std::round(levelG * fromDecibels(db) * 1e6) * 1e-6;
 }
@@ -74,7 +74,7 @@ std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record
     };
     for (std::size_t i = 0; i < record.trial.parts.size(); ++i) {
         const std::string& name = record.trial.parts[i];
-        // felt at the level that was answered
+        // an adjusted alternative is played at the answered level
         const bool isAdjusted = session.adjustment && session.adjustment->alternative == name;
         add({name, isAdjusted                             ? record.answer.value
                    : i < record.trial.partLevelsDb.size() ? record.trial.partLevelsDb[i]

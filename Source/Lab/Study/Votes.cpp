@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grouping by name; means, medians and intervals.
+// Summarises forced choices and ratings: groups by name, means, medians and intervals.
 #include "Lab/Study/Votes.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Statistics/RankTests.h"
@@ -13,7 +13,7 @@
 namespace physvib {
 namespace {
 
-/// "size=small" of "pair=wood size=small": the factors of a condition's name.
+/// The factors in a condition's name: "size=small" of "pair=wood size=small".
 std::vector<std::string> factorsOf(const std::string& condition) {
     std::vector<std::string> parts;
     for (std::size_t from = 0; from < condition.size();) {
@@ -47,7 +47,8 @@ ChoiceSummary summarise(const std::string& condition, const std::vector<const Ch
     }
     ChoiceSummary summary{condition, votes.size(), trials.size(), {}, {}};
     for (const auto& alternative : alternatives) {
-        std::vector<double> shares, leads; // leads are as exact one way as the other, so that equal ones tie
+        std::vector<double> shares, leads; // leads, 2 share - 1, are computed so that equal leads in either
+                                           // direction tie exactly
         for (auto& [participant, own] : votes) {
             const auto hits = static_cast<double>(own[alternative]),
                        all = static_cast<double>(trialsOf[participant]);

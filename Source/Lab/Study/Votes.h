@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Forced choices and slider ratings, summed up by condition (thesis 5.2, 5.3).
+// Summaries of forced choices and slider ratings by condition (thesis 5.2, 5.3).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,32 +9,32 @@
 
 namespace physvib {
 
-/// One forced choice: what was chosen, in which condition, by whom (may be empty).
+/// One forced choice: alternative, condition and participant (which may be empty).
 struct ChoiceTrial {
     std::string participant, condition, choice;
 };
 
-/// How often an alternative was chosen: the unit is the participant, whose trials are one share.
+/// How often an alternative was chosen. The unit is the participant, whose trials give one share.
 struct ChoiceShare {
     std::string alternative;
     std::uint64_t hits = 0;
-    double share = 0.0;             ///< mean of the participants' own shares
-    double least = 0.0, most = 1.0; ///< 95 %: t over participants, within 0 and 1; of one (or unknown)
-                                    ///< participants Wilson's, over trials
-    double median = 0.0;            ///< of the participants' own shares
+    double share = 0.0;             ///< mean of the participants' shares
+    double least = 0.0, most = 1.0; ///< 95 %: t interval over participants, within 0 and 1; for one or
+                                    ///< unknown participants Wilson's over trials
+    double median = 0.0;            ///< of the participants' shares
 };
 
 struct ChoiceSummary {
-    std::string condition; ///< "all": every trial
+    std::string condition; ///< "all": all conditions together
     std::size_t participants = 0;
     std::uint64_t trials = 0;
     std::vector<ChoiceShare> shares; ///< by name of the alternative
-    std::optional<double> p; ///< of two alternatives: signed ranks of the participants' shares against one
-                             ///< half; none of one participant, or if all share equally
+    std::optional<double> p; ///< two alternatives: signed-rank test of participants' shares against one half;
+                             ///< none for one participant or identical shares
 };
 
-/// All trials together; then, if there are several conditions, each factor of names like "pair=wood
-/// size=small", and each condition, by name. Any thread (allocates).
+/// First all trials together. With several conditions, then each factor of names like "pair=wood size=small"
+/// and each condition, sorted by name. Any thread (allocates).
 std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials);
 
 /// One rating trial: a score per scale.
@@ -48,12 +48,13 @@ struct RatingSummary {
     std::size_t trials = 0, participants = 0;
     std::vector<double> means, deviations; ///< per scale: over trials; sample standard deviation, 0 for one
                                            ///< trial
-    std::vector<double> halfIntervals; ///< 95 %: t over participants' means; over trials if participants are
-                                       ///< unknown; 0 for one
+    std::vector<double> halfIntervals;     ///< 95 %: t interval over participants' means, or over trials if
+                                           ///< participants are unknown; 0 for one value
 };
 
-/// Each condition by name, then, if every condition's name has the parts AV/AF, FV/FF, DRV/DRF of the thesis'
-/// methods, each of these parts. Every trial has as many scores. Any thread (allocates).
+/// Each condition by name. If every condition's name has the parts AV/AF, FV/FF, DRV/DRF of the thesis'
+/// methods, then also each part. Precondition: every trial has the same number of scores. Any thread
+/// (allocates).
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials);
 
 } // namespace physvib

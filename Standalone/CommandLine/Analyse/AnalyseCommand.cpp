@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options of the analyses, and which of them was asked for.
+// The command `physvib analyse`: options of each analysis, and running it.
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
@@ -22,7 +22,7 @@ namespace {
 
 struct AnalyseOptions {
     AnalysisJob job;
-    std::vector<std::string> columnWords; ///< as NAME=COLUMN, before they are columns
+    std::vector<std::string> columnWords; ///< as NAME=COLUMN, before parsing
 };
 
 void declareOwn(OptionTable& command, AnalysisJob& o) {
@@ -63,7 +63,7 @@ void declareTest(OptionTable& command, AnalysisJob& o) {
         .as("COLUMN");
     if (name == "anova") {
         command.add("--aligned-ranks", o.usesAlignedRanks, "of aligned ranks, for ratings");
-        return; // its correction is of sphericity
+        return; // its correction is for sphericity
     }
     command
         .addRow(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `--columns`, for those who read other programs' tables.
+// The option `--columns`, shared by commands that read tables of other programs.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A board link for the length of a call.
+// The command `physvib board`: connects to a board and plays events or a scene on it.
 #include "CommandLine/Board/BoardCommand.h"
 #include "Calls/LoadedRender.h"
 #include "Calls/RenderWords.h"
@@ -28,7 +28,7 @@ void setLevel(BoardLink& link, double levelDb) {
     link.setGains({level, level, level, level});
 }
 
-/// Each channel alone, a quarter of a second of 205 Hz at a quarter of full scale.
+/// Plays each channel in turn: 205 Hz for a quarter of a second at a quarter of full scale.
 void playScale(BoardLink& link) {
     const std::int64_t start =
         BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 50 * ms;
@@ -61,7 +61,7 @@ int test(BoardLink& link) {
     return isEqual ? exitDone : leave(exitFailed, link.status().port + ": the board computes other bits");
 }
 
-/// Hands the events over as their time comes; the last onset on the link's clock.
+/// Sends the events in real time. Returns the last onset on the link's clock.
 std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events,
                      const PhantomPanner& panner) {
     PhantomPanner::Gains gains{};
@@ -81,10 +81,11 @@ std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events,
     return std::min(end, BoardLink::nowNs() + 5000 * ms);
 }
 
-/// Which hits lie outside the field; false after a line that says why nothing can be felt.
+/// Reports events outside the field. Returns false after an error line if nothing can be felt.
 bool tellWhatIsFelt(const BoardOptions& o, const std::vector<CollisionEvent>& events,
                     const PhantomPanner& panner, bool isGuessed) {
-    const double least = 0.5 / 127.0 / fromDecibels(o.levelDb); // a converter's code moves above it
+    const double least = 0.5 / 127.0 / fromDecibels(o.levelDb); // smallest level that changes the converter's
+                                                                // code
     const std::string silent = silentWords(events, panner, isGuessed, limits::maxTimeNs + 1, least);
     const std::string outside = outsideWords(events, fieldOf(panner), isGuessed);
     if (!silent.empty())
@@ -101,15 +102,15 @@ int finish(const BoardLink& link, const wire::Telemetry& before) {
 }
 
 int play(BoardLink& link, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
-    const auto before = link.status().telemetry; // the board counts on from call to call
+    const auto before = link.status().telemetry; // the board's counters are cumulative over calls
     const std::int64_t end = playAll(link, events, panner);
     waitFor([&] { return BoardLink::nowNs() > end; }, 60'000);
     if (interrupted) link.stopAll();
     return finish(link, before);
 }
 
-/// Steps the world up to this computer's clock; a collision at world time w is felt at w + `delayNs`. The
-/// time given up after stalls.
+/// Steps the world in real time. A collision at world time w is felt at w + `delayNs`. Returns the time
+/// skipped after stalls.
 std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t delayNs,
                          const PhantomPanner& panner, BoardLink& link) {
     constexpr std::int64_t mostBehind = 500 * ms;
@@ -183,14 +184,14 @@ int runSceneOnBoard(const std::string& port, const LoadedRender& job, double lev
     if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
     setLevel(link, levelDb);
     const auto before = link.status().telemetry;
-    // a contact is known two steps later
+    // a contact is reported up to two steps later
     const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms;
     const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + spare;
     const std::int64_t slipped = followClock(world, job.endNs(), delay, job.panner(), link);
     if (interrupted)
         link.stopAll();
     else
-        waitFor([] { return false; }, static_cast<int>(delay / ms) + 500); // what is on its way
+        waitFor([] { return false; }, static_cast<int>(delay / ms) + 500); // plays pending events
     std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(delay) * 1e-6
               << " ms after the contact; " << static_cast<double>(slipped) * 1e-6 << " ms of stalls\n";
     return finish(link, before);

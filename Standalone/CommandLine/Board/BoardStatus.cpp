@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A link's status as text.
+// Formats the status of a board link as text.
 #include "CommandLine/Board/BoardStatus.h"
 #include "Live/Session/BoardWords.h"
 #include <iomanip>

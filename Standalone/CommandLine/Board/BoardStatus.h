@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Waiting for a board, and what it says of itself.
+// Waits for a board, and prints its status.
 #pragma once
 #include "Live/Session/BoardLink.h"
 #include "System/Interrupt.h"
@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// False if it does not come true in time or the user interrupts.
+/// Waits for a condition. False on time-out or interruption by the user.
 template <class Condition>
 bool waitFor(Condition isTrue, int milliseconds) {
     for (const std::int64_t end = BoardLink::nowNs() + milliseconds * std::int64_t{1'000'000}; !isTrue();
@@ -18,12 +18,12 @@ bool waitFor(Condition isTrue, int milliseconds) {
     return true;
 }
 
-/// BoardLink::awaitReady, until the user interrupts.
+/// BoardLink::awaitReady, cancelled by the user's interrupt.
 std::string connectBoard(const BoardLink& link);
 
 void printBoardInfo(const BoardLinkStatus& status);
 
-/// One line on what was sent and played since `before`; empty, or what is wrong with the board now.
+/// Prints one line on what was sent and played since `before`. Empty, or the board's error.
 std::string reportBoard(const BoardLink& link, const wire::Telemetry& before);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Levels of recordings, axis by axis and condition by condition.
+// The command `physvib attenuation`: isolation of layers from levels of recordings, by axis and condition.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
@@ -13,10 +13,10 @@
 namespace physvib {
 namespace {
 
-/// As given on the command line: one channel per axis of the accelerometer.
+/// Command-line options. Recordings have one channel per axis of the accelerometer.
 struct AttenuationOptions {
-    std::string isolatedPath, referencePath; ///< no reference: the former is a folder
-    std::string exportPath, picturePath;     ///< of a folder; empty: not wanted
+    std::string isolatedPath, referencePath; ///< without a reference, isolatedPath is a folder
+    std::string exportPath, picturePath;     ///< for a folder; empty: none
 };
 
 constexpr const char* referenceWord = "reference";
@@ -72,7 +72,7 @@ std::string conditionCells(const IsolationCondition& c) {
 
 constexpr const char* conditionColumns = "material,thickness_mm,frequency_hz,voltage_v,axis,";
 
-/// A row per repetition, as tests over conditions want them.
+/// One row per repetition, as input of statistical tests.
 std::string repetitionTable(const std::vector<IsolationResult>& results) {
     std::string table = std::string(conditionColumns) + "repetition,gamma\n";
     for (const IsolationResult& r : results)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checked channel by channel, then summed.
+// Checks the channels of a recording, and measures their level or tone.
 #include "CommandLine/Measure/AxisRecording.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Measure/RecordingFaults.h"
@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-/// Without what stands still, as gravity does.
+/// Level without the mean, which contains gravity.
 double levelOf(const std::vector<float>& x) {
     double mean = 0.0, power = 0.0;
     for (const float s : x) mean += s / static_cast<double>(x.size());
@@ -17,7 +17,7 @@ double levelOf(const std::vector<float>& x) {
     return std::sqrt(power);
 }
 
-/// Through a Hann window, so that neither gravity nor a broken period counts.
+/// Hann window, which suppresses gravity and the effect of incomplete periods.
 std::complex<double> toneOf(const std::vector<float>& x, double radiansPerSample) {
     std::complex<double> sum = 0.0;
     const double step = 2.0 * std::numbers::pi / static_cast<double>(x.size());
@@ -31,7 +31,7 @@ std::complex<double> toneOf(const std::vector<float>& x, double radiansPerSample
 
 template <class Value, class Measure>
 Result<std::vector<Value>> eachChannel(const std::string& path, Measure measure) {
-    constexpr double shortestSeconds = 0.1; // five periods of 50 Hz, the thesis' lowest
+    constexpr double shortestSeconds = 0.1; // five periods of 50 Hz, the thesis' lowest frequency
     const auto recording = readRecording(path);
     if (!recording) return Failure{recording.error};
     std::vector<Value> values;

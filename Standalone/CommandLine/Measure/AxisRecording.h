@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steady vibrations as accelerometers record them: a channel per axis, or per enchanter.
+// Measures steady vibrations in accelerometer recordings with one channel per axis or actuator.
 #pragma once
 #include "Io/Result.h"
 #include <complex>
@@ -8,11 +8,10 @@
 
 namespace physvib {
 
-/// Root mean square of each channel without what stands still; or one line that names the file and what is
-/// wrong. M.
+/// Root mean square of each channel without its mean; or one error line with the file's name. Message thread.
 Result<std::vector<double>> axisLevels(const std::string& path);
 
-/// Amplitude and phase of each channel at that frequency; or one line. M.
+/// Complex amplitude of each channel at that frequency; or one error line. Message thread.
 Result<std::vector<std::complex<double>>> channelTones(const std::string& path, double frequencyHz);
 
 } // namespace physvib

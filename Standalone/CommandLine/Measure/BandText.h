@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A band as words: "90-1000".
+// Parses frequency bands such as "90-1000".
 #pragma once
 #include "Core/Actuators/Resonator.h"
 #include "Io/Text/NumberText.h"
@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// LO-HI in Hz, rising, above 0.
+/// LO-HI in Hz, LO < HI, above 0.
 inline std::optional<FrequencyBand> parseBand(std::string_view text) {
     const std::size_t dash = text.find('-');
     if (dash == std::string_view::npos) return std::nullopt;

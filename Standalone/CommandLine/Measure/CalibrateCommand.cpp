@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a device or two files to a profile in its place.
+// The command `physvib calibrate`: measures an actuator with a device, or from two files, and writes its
+// profile.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "Core/Decibels.h"
@@ -21,33 +22,33 @@
 namespace physvib {
 namespace {
 
-/// As given on the command line.
+/// Command-line options.
 struct CalibrateOptions {
     std::string device;
     int channel = 1, input = 1;           ///< from 1
-    int sampleRateHz = 0;                 ///< 0: as the device stands
-    std::string playedPath, recordedPath; ///< WAV pair, instead of a device
-    std::string sweepPath;                ///< write the sweep and nothing else
-    std::string profilePath;              ///< to write
-    std::string layout, layoutPath; ///< a layout of such actuators, to write with the profile and its full
-                                    ///< scale; empty: none
-    std::string place;       ///< label of the one actuator of it that was measured; empty: all are alike
-    bool isLoopback = false; ///< a cable instead of an actuator: its latency, no profile
+    int sampleRateHz = 0;                 ///< 0: device default
+    std::string playedPath, recordedPath; ///< WAV files that replace a device
+    std::string sweepPath;                ///< only write the sweep to this file
+    std::string profilePath;              ///< output
+    std::string layout, layoutPath; ///< layout to write with the profile and its measured full scale; empty:
+                                    ///< none
+    std::string place;              ///< label of the measured actuator in the layout; empty: all are equal
+    bool isLoopback = false; ///< measure the latency of a cable instead of an actuator; writes no profile
     std::string name = "calibrated";
-    std::string band; ///< "LO-HI" to declare; empty: within 10 dB of the peak
+    std::string band; ///< declared band "LO-HI"; empty: within 10 dB of the peak
     double levelDb = -12.0, seconds = 5.0;
-    double gPerUnit = 0.0;   ///< acceleration of a recorded sample of 1; 0: not known
-    double driveVolts = 0.0; ///< at a played sample of 1; 0: not known
+    double gPerUnit = 0.0;   ///< acceleration of a recorded sample of 1; 0: unknown
+    double driveVolts = 0.0; ///< voltage of a played sample of 1; 0: unknown
 };
 
-constexpr double bandDecibels = 10.0; // what a profile declares unless told: the equaliser then costs that
-                                      // much level
+constexpr double bandDecibels = 10.0; // default band of a profile; the equaliser reduces the level by this
+                                      // much
 
 SweepSettings sweepSettings(const CalibrateOptions& o) {
     return {.seconds = o.seconds, .level = fromDecibels(o.levelDb)};
 }
 
-/// Channel 1 of each file.
+/// Reads channel 1 of each file.
 Result<RecordedSweep> readPair(const CalibrateOptions& o) {
     auto played = readRecording(o.playedPath);
     if (!played) return Failure{played.error};
@@ -102,8 +103,7 @@ int writeSweep(const CalibrateOptions& o) {
 
 std::string sourceOf(const CalibrateOptions& o) { return o.device.empty() ? o.recordedPath : o.device; }
 
-/// The layout with the profile and its full scale at the place that was measured, or at all; one line if it
-/// cannot have them.
+/// The layout with profile and full scale at the measured place, or at all places; or one error line.
 Result<LayoutDescription> layoutWith(const CalibrateOptions& o, double fullScaleG) {
     auto layout = layoutNamed(o.layout);
     if (!layout) return layout;
@@ -119,12 +119,12 @@ Result<LayoutDescription> layoutWith(const CalibrateOptions& o, double fullScale
     return read ? layout : Failure{read.error};
 }
 
-/// What is wrong with the layout that is asked for, before anything vibrates; empty: nothing.
+/// Checks the requested layout before anything vibrates; empty if it is valid.
 std::string layoutFault(const CalibrateOptions& o) {
     return o.layout.empty() ? std::string{} : layoutWith(o, 1.0).error;
 }
 
-/// How the measured full scale reaches every level in g.
+/// Explains how to use the measured full scale for levels in g.
 void offerLayout(const CalibrateOptions& o, const ActuatorProfile& p) {
     if (!p.fullScaleG)
         return void(std::cout << "full scale in g is not known: give --g-per-unit, the acceleration that a "
@@ -138,7 +138,7 @@ void offerLayout(const CalibrateOptions& o, const ActuatorProfile& p) {
                      "FILE.json\n";
 }
 
-/// What was played and recorded, its faults told.
+/// Measures, and reports device errors.
 Result<RecordedSweep> measureAndTell(const CalibrateOptions& o) {
     auto sweep = measure(o);
     if (sweep && sweep.value.xruns > 0)
@@ -215,7 +215,7 @@ int runCalibrate(const CalibrateOptions& o) {
     const std::vector<std::string> outputs{o.profilePath, o.layoutPath},
         inputs{o.playedPath, o.recordedPath, o.layout};
     if (const std::string clash = fileClash(outputs, inputs); !clash.empty()) return leave(exitUsage, clash);
-    AtomicFile file(o.profilePath); // before anything vibrates
+    AtomicFile file(o.profilePath); // opened before anything vibrates
     std::optional<AtomicFile> layoutFile;
     if (!o.layoutPath.empty()) layoutFile.emplace(o.layoutPath);
     for (const std::string& error :

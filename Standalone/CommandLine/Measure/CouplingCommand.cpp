@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One enchanter is driven at a time, and all are listened to: columns of the matrix, means of repetitions.
+// The command `physvib coupling`: measures the coupling matrix from recordings that drive one actuator at a
+// time. Each gives a column; repetitions are averaged.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
@@ -13,12 +14,12 @@
 namespace physvib {
 namespace {
 
-/// As given on the command line.
+/// Command-line options.
 struct CouplingOptions {
     std::string folder, layout, outPath;
 };
 
-/// Sums of repetitions, and how many they are of each driven enchanter.
+/// Sums over repetitions, and their number per driven actuator.
 struct Measured {
     explicit Measured(std::size_t enchanters)
         : sums(enchanters)
@@ -31,8 +32,7 @@ struct Measured {
 
 using ByFrequency = std::map<double, Measured>;
 
-/// Adds a recording: what every enchanter does, in shares of its own full scale, for a drive of 1 of
-/// enchanter j.
+/// Adds a recording: response of every actuator, in shares of its full scale, to a drive of 1 of actuator j.
 std::string add(Measured& measured, std::size_t j, const std::vector<std::complex<double>>& tones,
                 const LayoutDescription& layout) {
     const auto share = [&](std::size_t i) { return tones[i] / layout.enchanters[i].fullScaleG; };
@@ -107,7 +107,7 @@ int runCoupling(const CouplingOptions& o) {
     if (!coupling) return leave(exitFailed, coupling.error);
     const std::string text = couplingJson(coupling.value, layout.value.name,
                                           "measured: recordings of one driven actuator at a time");
-    // e.g. a neighbour that moves five times as much
+    // rejects implausible values, e.g. a neighbour with five times the amplitude
     if (const auto read = readCoupling(text, o.outPath); !read) return leave(exitFailed, read.error);
     AtomicFile file{o.outPath};
     if (const auto& error = file.write(text); !error.empty()) return leave(exitFailed, error);

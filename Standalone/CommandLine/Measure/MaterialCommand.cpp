@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a file to two numbers, and how far they can be trusted.
+// The command `physvib material`: measures frequency and decay of a recorded contact, and their confidence.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Measure/TextureText.h"
@@ -15,13 +15,13 @@
 namespace physvib {
 namespace {
 
-/// As given on the command line.
+/// Command-line options.
 struct MaterialOptions {
     std::string path;
     std::string band = "20-1000"; ///< "LO-HI" in Hz
     std::string rule = "fit";     ///< or "two-peaks"
-    bool lists = false;           ///< the built-in library, instead
-    std::string texturePath;      ///< a scrape, or a toolkit's models of some, instead
+    bool lists = false;           ///< list the built-in materials
+    std::string texturePath;      ///< a scrape recording or a toolkit's texture models, instead of an impact
     std::optional<double> speedMetresPerSecond;
     double loadNewtons = 1.0, massKg = 1.0;
 };
@@ -74,7 +74,7 @@ int runMaterial(const MaterialOptions& o) {
         return leave(exitUsage, "material: give either FILE.wav or --list or --texture FILE");
     if (o.texturePath.empty() == o.speedMetresPerSecond.has_value())
         return leave(exitUsage, "material: --texture and --speed go together");
-    // nan is in every range
+    // range checks accept nan
     if (std::isnan(o.speedMetresPerSecond.value_or(0.0) + o.loadNewtons + o.massKg))
         return leave(exitUsage, "--speed, --load, --mass: expected numbers");
     if (o.lists) return listMaterials();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns by name.
+// Reads the columns of a table of recordings by name.
 #include "CommandLine/Measure/RecordingList.h"
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"

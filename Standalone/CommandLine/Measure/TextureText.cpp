@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a file to grains, what is certain about them, and what is not.
+// Estimates surface grains from a file, and prints the result with its confidence.
 #include "CommandLine/Measure/TextureText.h"
 #include "Formats/TextureModels.h"
 #include "Host/Recordings/ReadRecording.h"
@@ -14,7 +14,7 @@ namespace {
 
 struct Told {
     ScrapedTexture found;
-    std::string about; ///< a line for people
+    std::string about; ///< description in one line
 };
 
 std::string conditions(const Scrape& scrape) {

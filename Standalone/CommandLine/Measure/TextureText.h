@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib material --texture`: grains of a surface, in the words of a scene's material.
+// `physvib material --texture`: prints the surface grains as fields of a scene's material.
 #pragma once
 #include "Measure/TextureExtractor.h"
 #include <string>
 
 namespace physvib {
 
-/// Of a recording, or of the toolkit's model that is nearest to how it was scraped; the code to leave with.
+/// Uses a recording, or the texture model that is nearest to the scraping conditions. Returns an exit code.
 int tellTexture(const std::string& path, const Scrape& scrape);
 
 } // namespace physvib

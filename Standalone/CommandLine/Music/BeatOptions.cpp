@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Letters and numbers to voices.
+// Converts beat options to the voices of actuators.
 #include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Study/NumberList.h"
 #include "Io/Text/NumberText.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How beats of music are felt, as words of a call: of `beats`, and of `play --beats`.
+// Options for the rendering of beats, shared by `beats` and `play --beats`.
 #pragma once
 #include "Host/Music/BeatDetector.h"
 #include "Host/Music/BeatStrikes.h"
@@ -13,16 +13,16 @@ namespace physvib {
 class OptionTable;
 
 struct BeatOptions {
-    /// letters; not given: the usual ones
+    /// Actuator letters per band; unset: default.
     std::array<std::optional<std::string>, beatBands.size()> enchanters;
     double sensitivity = BeatDetector::usualSensitivity;
     double level = BeatVoices::usualLevel;
-    std::string frequencies = "205"; ///< Hz: one for all bands, or one each
+    std::string frequencies = "205"; ///< Hz: one for all bands, or one per band
 };
 
 void declareBeatOptions(OptionTable& command, BeatOptions& options);
 
-/// On so many enchanters; or the usage error in one line.
+/// Voices for that number of actuators; or a usage error in one line.
 Result<BeatVoices> beatVoicesOf(const BeatOptions& options, int enchanters);
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Block by block from a file of music to strikes, or to what is left of it between two slopes; files appear
-// at the end, or not at all.
+// The command `physvib beats`: processes a music file in blocks, into events or a low-passed signal. Output
+// files are complete or not written.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Music/BeatOptions.h"
@@ -24,10 +24,10 @@ namespace {
 
 struct BeatsOptions {
     std::string music;
-    std::string eventsPath, wavPath; ///< empty: not wanted
-    bool isThrough = false;          ///< the WAV holds the music itself, low-passed
-    std::string band;                ///< of that, in Hz; empty: the usual one
-    std::string enchanters;          ///< of that; empty: all
+    std::string eventsPath, wavPath; ///< empty: not written
+    bool isThrough = false;          ///< write the low-passed music itself to the WAV
+    std::string band;                ///< its band in Hz; empty: default
+    std::string enchanters;          ///< actuators that play it; empty: all
     std::string layout = "phone4";
     BeatOptions beats;
 };
@@ -38,7 +38,7 @@ std::string rateFault(int rateHz) {
            std::to_string(limits::maxSampleRateHz) + " Hz, found " + std::to_string(rateHz) + " Hz";
 }
 
-/// Music of any number of channels as the mean of them.
+/// Averages all channels of the music.
 class MonoTaker : public SoundTaker {
 public:
     int rateHz() const noexcept { return static_cast<int>(shape_.sampleRateHz); }
@@ -78,7 +78,7 @@ public:
         , voices_{voices}
         , layout_{layout} {}
 
-    /// What was struck, in time order.
+    /// Detected beats in time order.
     std::vector<CollisionEvent>& events() {
         std::ranges::stable_sort(events_, {}, &CollisionEvent::timeNs);
         return events_;
@@ -112,7 +112,7 @@ private:
     std::array<std::size_t, beatBands.size()> counts_{};
 };
 
-/// The music itself on some channels.
+/// Plays the filtered music on some channels.
 class ThroughTaker final : public MonoTaker {
 public:
     ThroughTaker(std::string path, int channels, EnchanterSet felt, FrequencyBand band, float level,

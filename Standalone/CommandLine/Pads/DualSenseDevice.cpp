@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names of sound devices, and one report.
+// Finds the DualSense by device names, and sends it one HID report.
 #include "CommandLine/Pads/DualSenseDevice.h"
 #include "Live/Pads/DualSense.h"
 #include "Live/Pads/GamePads.h"

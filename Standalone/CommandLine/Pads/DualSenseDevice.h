@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A DualSense's sound device among those of the system, and its coils given to it.
+// Finds the audio device of a DualSense controller, and switches its coils to audio.
 #pragma once
 #include "Host/Devices/AudioDevices.h"
 #include "Io/Result.h"
@@ -8,16 +8,15 @@
 
 namespace physvib {
 
-/// What --device calls it: whichever driver has it.
+/// Name for --device that selects it with any driver.
 inline constexpr const char* dualSenseDeviceName = "dualsense";
 
-/// "type:name" of the first that has its four outputs; or one line: there is none, or its profile hides two
-/// of them. M.
+/// "type:name" of the first one with four outputs; or one line if there is none, or if its system profile
+/// hides two outputs. Message thread.
 Result<std::string> dualSenseDevice(const std::vector<AudioDeviceName>& devices);
 
-/// Sends the report that gives the coils to sound; empty, or in one line why not. They belong to sound from
-/// the moment at which the controller is plugged in, until something rumbles. M; waits half a second for the
-/// controller at most.
+/// Sends the report that switches the coils to audio; empty, or one error line. Coils are in audio mode from
+/// connection until the first rumble command. Message thread; waits at most half a second for the controller.
 std::string giveCoilsToSound();
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib pads`: controllers, what they can do, their motors felt and measured.
+// The command `physvib pads`: lists game controllers, and tests and calibrates their motors.
 #include "CommandLine/Command.h"
 #include "CommandLine/Pads/DualSenseDevice.h"
 #include "Core/Pads/PadMotors.h"
@@ -24,7 +24,7 @@ struct PadsOptions {
     std::string profilePath, name;
 };
 
-constexpr auto lookFor = std::chrono::milliseconds{1500}; // controllers on Bluetooth take a second
+constexpr auto lookFor = std::chrono::milliseconds{1500}; // Bluetooth controllers need a second
 
 PadTrialTime realTime(GamePads& pads) {
     const auto seconds = [] {
@@ -49,7 +49,7 @@ std::string abilitiesOf(const GamePadInfo& info, const std::vector<AudioDeviceNa
 
 int list() {
     const juce::ScopedJuceInitialiser_GUI juce;
-    GamePads pads{GamePads::Driver::sdl}; // accelerometers are told by its drivers alone
+    GamePads pads{GamePads::Driver::sdl}; // only SDL's drivers report accelerometers
     if (!pads.fault().empty()) return leave(exitFailed, pads.fault());
     for (const auto end = std::chrono::steady_clock::now() + lookFor;
          pads.list().empty() && std::chrono::steady_clock::now() < end;)
@@ -64,7 +64,7 @@ int list() {
     return exitDone;
 }
 
-/// The controller that is wanted, or one line.
+/// The requested controller, or one error line.
 Result<std::unique_ptr<GamePad>> find(GamePads& pads, const std::string& name) {
     if (!pads.fault().empty()) return Failure{pads.fault()};
     for (const auto end = std::chrono::steady_clock::now() + lookFor;
@@ -74,7 +74,7 @@ Result<std::unique_ptr<GamePad>> find(GamePads& pads, const std::string& name) {
                                   : "no game controller with motors is called " + inQuotes(name)};
 }
 
-/// Ten hits of 20 ms, from weak to strong, as `play` would send them.
+/// Plays ten impacts of 20 ms with increasing level, as `play` sends them.
 void playHits(GamePad& pad, const PadLaw& law, const PadTrialTime& time) {
     EnchanterLayout phone;
     layoutPreset("phone2", phone);
@@ -128,7 +128,7 @@ int test(const PadsOptions& o) {
 
 int calibrate(const PadsOptions& o) {
     if (o.profilePath.empty()) return leave(exitUsage, "pads calibrate: expected --out FILE.json");
-    AtomicFile file(o.profilePath); // before anything vibrates
+    AtomicFile file(o.profilePath); // opened before anything vibrates
     if (!file.error().empty()) return leave(exitFailed, file.error());
     heedInterrupts();
     GamePads pads{GamePads::Driver::sdl};

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polls standard input, cuts it into lines, looks for silence in them, and hands each to the session.
+// Reads standard input in two threads, so that silence never waits for earlier lines.
+// Reader: splits the input into lines, applies silence at once, and queues each line with the number of
+// silences so far.
+// Worker: processes the lines in order, and prints answers and errors.
 #include "CommandLine/Play/InputListener.h"
 #include "Live/Session/BoardLink.h"
 #include "System/ExitCode.h"
@@ -12,9 +15,9 @@ namespace physvib {
 
 namespace {
 
-constexpr int pollMilliseconds = 50; // only the end of the program waits for it
-constexpr double ringSeconds = 0.5; // an impact that was struck last rings as long; a board waits so long for
-                                    // its computer
+constexpr int pollMilliseconds = 50; // only delays the end of the program
+constexpr double ringSeconds = 0.5;  // an impact lasts at most this long; a board waits as long for its
+                                     // computer
 
 } // namespace
 
@@ -49,7 +52,7 @@ void InputListener::read() {
     isAllRead_ = true;
 }
 
-// Lines are not lost: while very many wait, who writes them waits as well.
+// Lines are never dropped: when the queue is full, the writer is blocked.
 void InputListener::keep(std::string_view text, bool isWhole) {
     const bool silences = asksForSilence(text);
     if (silences) output_.silence().ask(SilenceHolder::standardInput);
@@ -69,7 +72,8 @@ void InputListener::run() {
     }
 }
 
-// Nobody is left who could lift it: who wrote may have died in the middle of an hour's tone.
+// Silences the output at the end of input, since the sender may have crashed during a long tone and can no
+// longer stop it.
 void InputListener::end() {
     if (keepsPlaying_) return;
     using Clock = std::chrono::steady_clock;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines of standard input that act on a live session as they come; answers go to standard output, a line
-// each.
+// Applies lines of standard input to a live session as they arrive; answers are lines on standard output.
 #pragma once
 #include "CommandLine/Play/LineCutter.h"
 #include "Host/Devices/AudioOutput.h"
@@ -15,32 +14,32 @@
 
 namespace physvib {
 
-/// One thread reads lines, and silences at once if one of them says so; another does what they say, in their
-/// order. Refusals are told on stderr, one of a cause in a second. When standard input ends, all that came
-/// has been done and what it struck had its time, that is silence, for good.
+/// One thread reads lines and applies silence immediately; another processes the lines in order. Rejections
+/// are printed on stderr, at most one per cause and second. After the end of standard input, when all lines
+/// were processed and their events played, the output is silenced permanently.
 class InputListener {
 public:
-    /// All outlive the listener. M.
+    /// All references outlive the listener. Message thread.
     InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips,
                   bool keepsPlaying);
     ~InputListener();
 
-    /// That silence is there. Any thread.
+    /// True after the final silence. Any thread.
     bool hasEnded() const noexcept { return hasEnded_; }
 
 private:
-    /// What was read and is still to be done.
+    /// A line waiting to be processed.
     struct Line {
         std::string text;
         bool isWhole = true, silences = false;
-        std::uint64_t asked = 0; // silences, up to this line
+        std::uint64_t asked = 0; // number of silences up to this line
     };
     void read();
     void keep(std::string_view text, bool isWhole);
     void run();
     void take(const Line& line);
     void end();
-    // the answer of a query; without a name: it is done
+    // Answer of a query; an empty name if the line is not a query.
     Result<PlainMessage> act(LineInput& input, const Line& line);
     void complain(const std::string& reason);
     void tellLeftOut();
@@ -52,13 +51,12 @@ private:
     std::uint64_t lines_ = 0;
     InputQueue<Line> waiting_;
     ComplaintLimit complaints_{1'000'000'000};
-    const bool keepsPlaying_; // whatever ends
+    const bool keepsPlaying_; // true: no silence at the end of input
     std::atomic<bool> stop_{false}, isAllRead_{false}, hasEnded_{false};
     std::thread thread_, reader_;
 };
 
-/// Does what an input or a control says that came from there. Empty, or what is wrong with it. Any thread but
-/// R.
+/// Applies an input or control from that source. Empty, or an error. Any thread but the render thread.
 std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from);
 
 } // namespace physvib

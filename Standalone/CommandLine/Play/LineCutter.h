@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cuts what arrives into lines; of one that is too long nothing is taken for another line, but that it names
-// silence.
+// Splits a byte stream into lines. Overlong lines are discarded, except that "silence" in them is reported.
 #pragma once
 #include "Live/Documents/InputLine.h"
 #include <algorithm>
@@ -10,11 +9,11 @@
 
 namespace physvib {
 
-/// `take(std::string_view line, bool isWhole)` is called for each line, once; of one that is longer than
-/// `longest`, with false and the word "silence" if it stands in it, else nothing. One thread at a time.
+/// `take(std::string_view line, bool isWhole)` is called once per line. For a line longer than `longest`,
+/// isWhole is false and the line is "silence" if it contains that word, else empty. One thread at a time.
 class LineCutter {
 public:
-    static constexpr std::size_t longest = 65'536; // no line of ours comes near
+    static constexpr std::size_t longest = 65'536; // far above any valid line
 
     template <class Take>
     void add(std::string_view bytes, Take&& take) {
@@ -26,7 +25,7 @@ public:
         keep(bytes);
     }
 
-    /// Nothing comes after this: what has no newline is a line as well.
+    /// Ends the stream; text without a final newline is a line too.
     template <class Take>
     void end(Take&& take) {
         if (!line_.empty() || isTooLong_) hand(take);
@@ -38,8 +37,8 @@ private:
         isTooLong_ = isTooLong_ || line_.size() > longest;
         if (!isTooLong_) return;
         namesSilence_ = namesSilence_ || namesSilence(line_);
-        line_.erase(0, line_.size() - std::min(line_.size(), word.size() - 1)); // its last part may be half
-                                                                                // of the word
+        // keeps the end, which may be the first part of the word
+        line_.erase(0, line_.size() - std::min(line_.size(), word.size() - 1));
     }
     template <class Take>
     void hand(Take&& take) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces to a detector, its frames to session time.
+// Feeds audio input to the beat detector, and converts its frames to session time.
 #include "CommandLine/Play/LiveBeats.h"
 #include <chrono>
 #include <cstdlib>
@@ -37,7 +37,7 @@ void LiveBeats::run() {
     }
 }
 
-// Session time that does not go on from where it was: pieces were lost, or the device came back.
+// Restarts the detector if session time jumps, because input was lost or the device returned.
 void LiveBeats::take(const HeardPiece& piece) {
     const std::int64_t expectedNs = beginNs_ + (detector_ ? nsOf(heardFrames_, rateHz_) : 0);
     if (!detector_ || piece.rateHz != rateHz_ ||

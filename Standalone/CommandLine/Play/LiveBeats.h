@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Beats of what a device hears, struck in a live session.
+// Detects beats in a device's audio input and plays them in a live session.
 #pragma once
 #include "Host/Devices/InputTap.h"
 #include "Host/Music/BeatDetector.h"
@@ -12,15 +12,15 @@
 
 namespace physvib {
 
-/// What is struck is struck at the session time at which it was heard, so it is felt L after it: an L that
-/// has no room for the detector is late every time. On a thread of its own.
+/// A beat has the session time at which it was heard, so it is felt one output latency later. If the output
+/// latency is shorter than the detector's delay, every beat is late. Runs on its own thread.
 class LiveBeats {
 public:
-    /// What L has to cover beside a block and the limiter, so ClockLaw's longest gap and its two steps
-    /// together: the detector's delay, and what the thread may be late by.
+    /// Time that the output latency must cover in addition to a block and the limiter, i.e. ClockLaw's
+    /// longest gap and two steps together: the detector's delay, and the thread's maximum delay.
     static constexpr double knownAfterSeconds = BeatDetector::mostDelaySeconds + 0.010;
 
-    /// Both outlive this object. M.
+    /// Both references outlive this object. Message thread.
     LiveBeats(Session& session, InputTap& inputs, const BeatVoices& voices, double sensitivity);
     ~LiveBeats();
 
@@ -38,8 +38,8 @@ private:
     const double sensitivity_;
     std::unique_ptr<BeatDetector> detector_;
     int rateHz_ = 0;
-    std::int64_t beginNs_ = 0, heardFrames_ = 0; // session time of the detector's sample 0; how many it has
-                                                 // had
+    std::int64_t beginNs_ = 0, heardFrames_ = 0; // session time of the detector's first sample; number of
+                                                 // samples so far
     std::atomic<std::uint64_t> beats_{0};
     std::atomic<bool> stop_{false};
     std::thread thread_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rig and its inputs for the length of a call.
+// Creates the rig and its inputs for one call of `physvib play`.
 #include "CommandLine/Play/LivePlay.h"
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/Play/LiveBeats.h"
@@ -26,8 +26,8 @@ namespace physvib {
 
 namespace {
 
-// What the message thread does while the session plays: empties the queues, keeps device and journal, ends
-// the call.
+// Work of the message thread during the session: empties queues, maintains device and journal, and ends the
+// call.
 class Watch final : private juce::Timer {
 public:
     Watch(Rig& rig, OscPort* osc, const InputListener* listener, double seconds)
@@ -39,7 +39,7 @@ public:
     }
     ~Watch() override { stopTimer(); }
 
-    /// Nothing is played any more; how many collisions were.
+    /// Stops playback; returns the number of collisions played.
     std::uint64_t stop() {
         rig_.stop([this](const PlayedEvent&) { ++played_; });
         return played_;
@@ -57,9 +57,10 @@ private:
             juce::MessageManager::getInstance()->stopDispatchLoop();
     }
 
-    /// By the clock the time is over, and session time has stood still for long: no device asks for blocks.
+    /// True if the duration is over by the system clock and session time has not advanced for long, i.e. the
+    /// device requests no blocks.
     bool isLeft() const noexcept {
-        constexpr int longestReturn = 10; // in seconds: of a server that was stopped, seven were measured
+        constexpr int longestReturn = 10; // in seconds; an audio server took seven to restart
         return stillSeconds_ >= longestReturn && std::int64_t{ticks_} * milliseconds * 1'000'000 >= endNs_;
     }
 
@@ -67,7 +68,7 @@ private:
         stillSeconds_ = status.sessionNs == lastNs_ ? stillSeconds_ + 1 : 0;
         lastNs_ = status.sessionNs;
         rig_.maintain();
-        if (!interrupted) report(rig_.trouble()); // else the device was not waited for
+        if (!interrupted) report(rig_.trouble()); // an interrupted wait for the device is not an error
         if (osc_) oscReport_.tellWrong(osc_->status().counts);
         tellUnread();
         static const bool isTerminal = isErrorTerminal();
@@ -175,7 +176,7 @@ std::unique_ptr<OscPort> makeOsc(const LivePlay& wanted, Rig& rig, MessageRouter
 } // namespace
 
 std::string playLive(LivePlay wanted) {
-    const juce::ScopedJuceInitialiser_GUI juce; // the message loop
+    const juce::ScopedJuceInitialiser_GUI juce; // for the message loop
     heedInterrupts();
     sayWithoutWaiting();
     Rig rig{wanted.rig, audioDeviceTypesAndNone, &interrupted};
@@ -202,7 +203,7 @@ std::string playLive(LivePlay wanted) {
         }
         if (osc) told = osc->status();
         if (heard) beats = heard->beats();
-    } // whoever goes on sending does not hold up the end
+    } // a sender that continues does not delay the end
     const std::string unsaved = rig.finish(interrupted);
     if (told) summariseOsc(*told);
     summarise(rig, played);

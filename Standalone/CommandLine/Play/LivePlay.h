@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A session live on a device until its time is over or the user interrupts, with all that goes along.
+// Plays a live session on a device until its duration is over or the user interrupts, with all its inputs and
+// sinks.
 #pragma once
 #include "Host/Music/BeatStrikes.h"
 #include "Host/Osc/OscPort.h"
@@ -14,16 +15,16 @@ namespace physvib {
 struct LivePlay {
     RigSettings rig;
     double seconds = 10.0;
-    bool listens = false;              ///< to standard input, line by line (see readInputLine)
-    std::optional<BeatVoices> beats{}; ///< what is heard at rig.output.inputs is struck so
+    bool listens = false;              ///< reads standard input, line by line (see readInputLine)
+    std::optional<BeatVoices> beats{}; ///< plays beats of the input at rig.output.inputs
     double beatSensitivity = 0.0;
     OscSettings osc;
-    std::string clips = ".";           ///< folder from which messages may have clips read
-    bool keepsPlaying = false;         ///< when standard input has ended
-    std::optional<LoadedClip> sound{}; ///< played once, from the beginning
+    std::string clips = ".";           ///< folder of clips that messages may name
+    bool keepsPlaying = false;         ///< continue after the end of standard input
+    std::optional<LoadedClip> sound{}; ///< a clip that is played once at the start
 };
 
-/// Empty, or one line with the reason. M.
+/// Empty, or one error line. Message thread.
 std::string playLive(LivePlay wanted);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counts, and the last fault.
+// Formats OSC counters and the last error.
 #include "CommandLine/Play/OscReport.h"
 #include "System/ExitCode.h"
 #include <iostream>

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a port of OSC has done, in lines.
+// Prints the activity of an OSC port.
 #pragma once
 #include "Host/Osc/OscPort.h"
 
 namespace physvib {
 
-/// Where it listens, on stderr; that the wanted port is another's, if it is. Any thread.
+/// Prints the listening address on stderr, and if the requested port is in use. Any thread.
 void tellPort(const OscSettings& wanted, const std::string& address);
 
-/// At the end, on stdout. Any thread.
+/// Prints a summary on stdout at the end. Any thread.
 void summariseOsc(const OscStatus& osc);
 
-/// One thread.
+/// One thread at a time.
 class OscReport {
 public:
-    /// On stderr, if something has gone wrong since the last call.
+    /// Prints new errors since the last call on stderr.
     void tellWrong(const OscCounts& counts);
 
 private:

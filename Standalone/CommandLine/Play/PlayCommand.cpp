@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of `physvib play`, from words to a session's setup.
+// The command `physvib play`: its options, and the setup of a live session.
 #include "Calls/JobSession.h"
 #include "Calls/RenderOptions.h"
 #include "CommandLine/Board/BoardCommand.h"
@@ -25,33 +25,34 @@
 namespace physvib {
 namespace {
 
-/// The scene options, and where to play.
+/// Options of the scene, and of the output.
 struct PlayOptions {
     RenderJob scene;
     std::string device;
-    std::string board;             ///< serial port of a four-channel board, alone or beside a device
-    std::vector<std::string> pads; ///< game controllers: auto or a name, with a profile behind @; beside what
-                                   ///< there is, or alone
-    std::string map;               ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
-    std::string onOff;             ///< enchanters from 1 that are motors, on or off; empty: none
-    double threshold = OnOffSteps::thesisThreshold; ///< of these, in full scale
-    std::string noise;                              ///< as map: outputs that play pink noise; empty: none
-    double noiseDb = PinkNoise::safeDb;             ///< its root mean square, of full scale
+    std::string board;             ///< serial port of a four-channel board, alone or in addition to a device
+    std::vector<std::string> pads; ///< game controllers: auto or a name, optionally with @PROFILE; alone or
+                                   ///< in addition to other outputs
+    std::string map;               ///< "1,2,3,4": device outputs from 1, in the order of the actuators
+    std::string onOff;             ///< actuators from 1 that are on/off motors; empty: none
+    double threshold = OnOffSteps::thesisThreshold; ///< of these motors, as a share of full scale
+    std::string noise;                              ///< outputs for pink noise, as in map; empty: none
+    double noiseDb = PinkNoise::safeDb;             ///< root mean square, dB of full scale
     std::string driver = "message";                 ///< or "thread"
-    std::string recordPath;                         ///< WAV of what was played; empty: not wanted
-    std::string savePath;                           ///< the session as JSON; empty: not wanted
-    bool listens = false, keepsPlaying = false, hasHands = false, isDirect = false; ///< to standard input
-    std::string clips = "."; ///< folder of its messages' clips, and of OSC's
-    std::string beatInputs;  ///< as map: of the device, whose beats are struck; empty: none
+    std::string recordPath;                         ///< WAV of the output; empty: none
+    std::string savePath;                           ///< the session as JSON; empty: none
+    bool listens = false, keepsPlaying = false, hasHands = false, isDirect = false; ///< listens: to standard
+                                                                                    ///< input
+    std::string clips = "."; ///< folder of clips in standard input and OSC messages
+    std::string beatInputs;  ///< device inputs whose beats are played, as in map; empty: none
     BeatOptions beats;
     OscSettings osc;
-    double oscTurnDegrees = 0.0;        ///< by which a phone is held counter-clockwise of upright
+    double oscTurnDegrees = 0.0;        ///< counter-clockwise rotation of a phone from upright
     double levelDb = safeStartDecibels; ///< master level
-    std::string ceilings = "0";         ///< dB of full scale: one for all enchanters, or one each
-    int blockFrames = 0;                ///< 0: as the device stands
+    std::string ceilings = "0";         ///< dB of full scale: one for all actuators, or one each
+    int blockFrames = 0;                ///< 0: device default
 };
 
-/// "1,2,3" to {0, 1, 2}; empty means an empty map. False if it is anything else.
+/// "1,2,3" to {0, 1, 2}; an empty text gives an empty map. False for any other text.
 bool parseMap(const std::string& text, std::vector<int>& map) {
     if (text.empty()) return true;
     if (!parseNumbers(text, map) || *std::min_element(map.begin(), map.end()) < 1) return false;
@@ -61,7 +62,7 @@ bool parseMap(const std::string& text, std::vector<int>& map) {
 
 float gainOf(double decibels) { return static_cast<float>(fromDecibels(decibels)); }
 
-/// "-6" for all channels, or "-6,-12,-6,-6", one each; false if it is anything else.
+/// "-6" for all channels, or "-6,-12,-6,-6" for each; false for any other text.
 bool parseCeilings(const std::string& text, int channels,
                    std::array<float, limits::maxEnchanters>& ceilings) {
     std::vector<double> decibels;
@@ -87,8 +88,8 @@ SessionSetup setupOf(const PlayOptions& o, const LoadedRender& job) {
     return setup;
 }
 
-/// The device's real name, its coils' outputs unless others were asked for, and the report that they need. An
-/// exit code.
+/// Resolves the DualSense's device name, selects the outputs of its coils unless others were given, and sends
+/// the report that it needs. Returns an exit code.
 int takeDualSense(AudioOutputSettings& settings, int channels) {
     if (settings.channelMap.empty() && channels != 2)
         return leave(exitUsage, "--device " + settings.device + ": it has two coils, this layout " +
@@ -190,7 +191,7 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
         .as("HOST:PORT");
 }
 
-/// Nobody ends nowhere: what is there to play on, and a call that can be typed.
+/// Without a device: lists the available ones, and prints a complete example call.
 int leaveWithoutDevice(const std::string& scene) {
     const auto devices = devicesOfThisMachine();
     printDevices(std::cout, devices);
@@ -205,7 +206,7 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     o.device = outputs.device;
     if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
     for (const std::string& pad : o.pads) outputs.sinks.push_back({"PAD", pad});
-    // controllers follow a clock then
+    // then the controllers run on a timer
     if (o.device.empty() && !o.pads.empty()) o.device = OutputNames{"PAD:"}.device;
     if (o.device.empty() && o.board.empty()) return leaveWithoutDevice(o.scene.scene);
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();

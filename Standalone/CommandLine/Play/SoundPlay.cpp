@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The message `clip`, which a door could send as well: each channel on its own actuator alone.
+// Plays a sound file as a `clip` message, with each channel on its own actuator.
 #include "CommandLine/Play/SoundPlay.h"
 #include "Host/Devices/LikelyDevices.h"
 #include "Host/Recordings/ClipFolder.h"
@@ -18,7 +18,7 @@ std::string channelsOf(const LoadedClip& sound) {
     return std::to_string(sound.channels.size()) + " channels";
 }
 
-/// Whether channel j belongs to actuator j: else there is one, or the file says where each is.
+/// True if channel j belongs to actuator j; otherwise there is one channel, or the file gives places.
 bool hasOneEach(const LoadedClip& sound) { return sound.channels.size() > 1 && sound.shares.empty(); }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A sound on the actuators: one clip in a session where nothing moves, which guards it as all that is felt.
+// Plays a sound file on the actuators, as a clip in a session without bodies, with the session's safety
+// limits.
 #pragma once
 #include "Calls/LoadedRender.h"
 #include "CommandLine/Play/LivePlay.h"
@@ -9,17 +10,17 @@
 
 namespace physvib {
 
-/// Whether it is called as a recording or a haptic file is.
+/// True if the name has an extension of a recording or a haptic file.
 bool namesSound(std::string_view file);
 
-/// Reads the file that the job's options name as scene: a scene without bodies in `job`; in `options` the
-/// file's length, and a layout of an actuator per channel, unless they were given. Or one line. M.
+/// Reads the sound file given as scene. Sets a scene without bodies in `job`; sets the file's duration and a
+/// layout with one actuator per channel in `options`, unless given. Or one error line. Message thread.
 Result<LoadedClip> takeSound(RenderJob& options, LoadedRender& job);
 
-/// Empty, or that the layout has no actuator for each channel.
+/// Empty, or an error if the layout has fewer actuators than channels.
 std::string soundFault(const LoadedClip& sound, const LoadedRender& job);
 
-/// Begins it now, and has `wanted` last until its last sample has left. Empty, or one line. M.
+/// Starts the sound and sets the duration of `wanted` to its end. Empty, or one error line. Message thread.
 std::string beginSound(LivePlay& wanted, const Session& session, MessageRouter& messages);
 
 } // namespace physvib

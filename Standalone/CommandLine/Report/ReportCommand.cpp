@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files in, a folder out: all of it, or nothing.
+// The command `physvib report`: reads trial files and writes a folder, completely or not at all.
 #include "Calls/CallFiles.h"
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Command.h"
@@ -15,11 +15,11 @@ namespace {
 
 struct ReportOptions {
     ReportJob job;
-    std::vector<std::string> columnWords; ///< as NAME=COLUMN, before they are columns
-    std::string protocol;                 ///< name or path; empty: a built-in one
+    std::vector<std::string> columnWords; ///< as NAME=COLUMN, before parsing
+    std::string protocol;                 ///< name or path; empty: look up a built-in one
 };
 
-/// The folders that were not there before, outermost first; they go again unless they are kept.
+/// Creates missing folders and removes them again unless they are kept. Outermost first.
 class MadeFolders {
 public:
     std::string make(const std::filesystem::path& folder) {
@@ -38,7 +38,7 @@ public:
     MadeFolders& operator=(const MadeFolders&) = delete;
     ~MadeFolders() {
         std::error_code ignored;
-        // only if nothing is in it
+        // only if empty
         for (auto at = made_.rbegin(); at != made_.rend(); ++at) std::filesystem::remove(*at, ignored);
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// "1,2,3" to numbers: what options with one value per enchanter are given as.
+// Parses lists such as "1,2,3", for options with one value per actuator.
 #pragma once
 #include <charconv>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// Appends the numbers of `text`, separated by commas; false if it holds anything else or nothing.
+/// Appends the comma-separated numbers of `text`; false if it is empty or contains anything else.
 template <class Number>
 bool parseNumbers(const std::string& text, std::vector<Number>& numbers) {
     const char* const end = text.data() + text.size();

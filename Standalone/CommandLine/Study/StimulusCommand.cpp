@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a stimulus to a WAV file and a picture.
+// The command `physvib stimulus`: renders a stimulus to a WAV file and a picture.
 #include "CommandLine/Study/StimulusCommand.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
@@ -17,10 +17,10 @@
 namespace physvib {
 namespace {
 
-/// A stimulus on its way to its files.
+/// A rendered stimulus.
 struct MadeStimulus {
     std::string title;
-    std::vector<CollisionEvent> events; ///< none: a recording
+    std::vector<CollisionEvent> events; ///< empty for a recording
     StimulusSound sound;
 };
 
@@ -31,7 +31,7 @@ std::string titleOf(const StimulusJob& job, const StimulusOptions& o) {
     return o.cell.empty() ? "phantom at " + o.at : "phantom " + o.cell + " of " + o.grid;
 }
 
-/// The recording of a phantom, as samples at its own rate.
+/// The recording of a phantom as samples at its own rate.
 Result<StimulusSound> placed(const PhantomJob& phantom, double levelG, const LayoutDescription& layout) {
     auto recording = readRecording(phantom.recording);
     if (!recording) return recording;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib stimulus`: single stimuli of the studies, as files.
+// `physvib stimulus`: renders single stimuli of the studies to files.
 #pragma once
 #include "Calls/StimulusOptions.h"
 
 namespace physvib {
 
-/// Makes what `command` has parsed; the code to leave with.
+/// Runs the parsed `command`. Returns an exit code.
 int runStimulus(const OptionTable& command, const StimulusOptions& options);
 
 } // namespace physvib

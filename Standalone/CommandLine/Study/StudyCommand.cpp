@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every participant, one after the other, answered by the observer.
+// The command `physvib study`: runs studies with simulated observers or in the mixer, and checks them.
 #include "CommandLine/Study/StudyCommand.h"
 #include "Calls/RenderWords.h"
 #include "CommandLine/Command.h"
@@ -37,7 +37,7 @@ void showProgress(const Participant& participant, int trials) {
         std::cerr << '\r' << participant.code << " trial " << trials << "   \r";
 }
 
-/// One participant from the first trial without an answer to the last; the reason if it fails.
+/// Runs one participant from the first unanswered trial to the end. Returns an error or an empty string.
 std::string runParticipant(const StudyRun& run, const ObserverSettings& settings, double paceSeconds) {
     if (auto fault = faultOf(run); !fault.empty()) return fault;
     StudyInProgress study{run};
@@ -56,7 +56,7 @@ std::string runParticipant(const StudyRun& run, const ObserverSettings& settings
     return {};
 }
 
-/// The protocol with the sounds of the call; one line if one of either is no recording.
+/// Applies the recordings of the call to the protocol. One error line if a recording is invalid.
 std::string takeSounds(const RecordedSounds& sounds, Protocol& protocol) {
     for (const RecordedSound& given : sounds) {
         if (!given.material.empty())
@@ -75,7 +75,7 @@ std::string takeSounds(const RecordedSounds& sounds, Protocol& protocol) {
     return {};
 }
 
-/// A person reads and answers in the mixer's window: it opens with all that was given here.
+/// Opens the mixer, in which a person answers, with the options of this call.
 int runForPerson(const StudyOptions& o) {
     if (o.participants > 1)
         return leave(exitUsage, "study run: --participants: expected one at a time where a person answers");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib study`: protocols, and studies run without a window.
+// Options of `physvib study`, which lists, checks and runs studies.
 #pragma once
 #include "Calls/RenderJob.h"
 #include <string>
@@ -9,25 +9,25 @@ namespace physvib {
 
 class OptionTable;
 
-/// As given on the command line.
+/// Command-line options.
 struct StudyOptions {
-    std::string protocol;    ///< a built-in one's name or the path of a protocol file
-    std::string observer;    ///< who answers
+    std::string protocol;    ///< name of a built-in protocol, or path of a protocol file
+    std::string observer;    ///< name of the simulated observer
     std::string participant; ///< code; empty: P and the number
-    int number = 1;          ///< of the first participant: the row of the Latin squares
+    int number = 1;          ///< of the first participant: selects the row of the Latin squares
     int participants = 1;
     std::string folder = ".";
-    RecordedSounds sounds;           ///< instead of the protocol's of that frequency
-    std::vector<std::string> trials; ///< levels: files of those who set them
-    std::string levelsPath;          ///< levels: where they are written
-    std::string pagePath;            ///< check: the page of HTML; empty: none
-    double paceSeconds = 0.0;        ///< per trial, to watch it or to interrupt it
+    RecordedSounds sounds;           ///< replace the protocol's recordings of that frequency
+    std::vector<std::string> trials; ///< levels: trial files of the adjustments
+    std::string levelsPath;          ///< levels: output file
+    std::string pagePath;            ///< check: HTML output; empty: none
+    double paceSeconds = 0.0;        ///< delay per trial, to watch or interrupt it
 };
 
-/// Declares list, show, run and levels as subcommands of `command`.
+/// Declares the subcommands of `command`.
 void declareStudy(OptionTable& command, StudyOptions& options);
 
-/// Does what `command` has parsed; the code to leave with.
+/// Runs the parsed `command`. Returns an exit code.
 int runStudy(const OptionTable& command, const StudyOptions& options);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables and pictures appear together, or not at all.
+// Writes tables and pictures together, all or none.
 #include "CommandLine/Study/StudyOutput.h"
 #include <memory>
 

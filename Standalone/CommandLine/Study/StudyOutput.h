@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the study commands share: warnings, and files out.
+// Helpers of the study commands: warnings and output files.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Lab/Analysis/AnalysisFiles.h"
@@ -13,14 +13,14 @@ namespace physvib {
 
 inline void warn(const std::string& words) { tell("warning: " + words); }
 
-/// Says in which files a result is a simulated observer's; no person's figures may be mistaken for it.
+/// Marks results of a simulated observer, so that they cannot be mistaken for a person's.
 inline void tellIfSimulated(bool isSimulated) {
     if (isSimulated) std::cout << "SIMULATED: a simulated observer answered, not a person\n";
 }
 
-/// A file to write: its bytes are made only if it is wanted.
+/// An output file; its contents are created only if it is requested.
 struct StudyFile {
-    std::string path; ///< empty: not wanted
+    std::string path; ///< empty: not requested
     std::function<std::string()> bytes;
     StudyFile(std::string where, std::function<std::string()> make)
         : path{std::move(where)}
@@ -30,7 +30,7 @@ struct StudyFile {
         , bytes{[text = std::move(text)] { return text; }} {}
 };
 
-/// Writes all of them, or none; the code to leave with.
+/// Writes all files or none. Returns an exit code.
 int writeStudyFiles(const std::vector<StudyFile>& files);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a part of the program tells on standard error, kept for a table instead of said.
+// Captures text on standard error, to store it in a table instead of printing it.
 #pragma once
 #include <iostream>
 #include <sstream>
@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// While it lives, the words of this process go here. M only, one at a time.
+/// Redirects std::cerr of this process during its lifetime. Message thread only, one at a time.
 class HeardWords {
 public:
     HeardWords()
@@ -17,7 +17,7 @@ public:
     HeardWords(const HeardWords&) = delete;
     HeardWords& operator=(const HeardWords&) = delete;
 
-    /// The last line, as a reason.
+    /// The last line, as the reason of a failure.
     std::string reason() const {
         std::string last;
         each([&](std::string_view line) { last = line; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Design, plan, tasks, index.
+// The command `physvib sweep`: reads a design, plans and runs its tasks, and writes the index.
 #include "CommandLine/Command.h"
 #include "CommandLine/Sweep/SweepIndex.h"
 #include "CommandLine/Sweep/SweepRun.h"
@@ -17,7 +17,7 @@ namespace physvib {
 namespace {
 
 struct SweepOptions {
-    std::string design, folder; ///< its path; all that is written lies in the folder
+    std::string design, folder; ///< design: its path; all output is written to folder
     bool keepsWavs = false, keepsEvents = false;
     bool plans = false, gathers = false, submits = false; ///< instead of rendering here
     std::string part;                                     ///< "K/N"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums over events, then over samples. What each column means: Docs/sweep.md.
+// Computes features from events and samples; the columns are described in Docs/sweep.md.
 #include "CommandLine/Sweep/SweepFeatures.h"
 #include "Calls/LoadedRender.h"
 #include <algorithm>
@@ -21,7 +21,7 @@ std::string channelName(const char* what, int channel) {
     return std::string(what) + '_' + std::to_string(channel + 1);
 }
 
-/// Mean of a place, and how far around it, by weights.
+/// Weighted mean and spread of places.
 struct PlaceSum {
     double weight = 0.0, x = 0.0, y = 0.0, squares = 0.0;
     void add(double w, double atX, double atY) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A render in numbers, for those who learn from thousands: what was struck, and what came of it in the
-// samples.
+// Numeric features of a render for data analysis and machine learning, from its events and samples.
 #pragma once
 #include "CommandLine/Render/RenderListener.h"
 #include "Core/Actuators/ExposureMeter.h"
@@ -18,19 +17,19 @@ namespace physvib {
 
 struct SweepFeature {
     std::string name;
-    std::optional<double> value; ///< none: there is nothing to measure
+    std::optional<double> value; ///< nullopt if it cannot be measured
 };
 
-/// M only.
+/// Message thread only.
 class SweepFeatures : public RenderListener {
 public:
-    /// Of the features of a layout of so many channels, in their order.
+    /// Names of the features of a layout with that number of channels, in order.
     static std::vector<std::string> names(int channels);
 
     void begin(const LoadedRender& job) override;
     void take(const float* const* channels, int frames) override;
 
-    /// When the render is over: all features, once.
+    /// All features; to be called once, at the end of the render.
     std::vector<SweepFeature> finish();
 
 private:

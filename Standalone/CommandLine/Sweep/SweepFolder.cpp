@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results are tables of one row: a person can open each.
+// Stores task results as one-row tables that can be opened individually.
 #include "CommandLine/Sweep/SweepFolder.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
@@ -22,8 +22,8 @@ std::string headOf(const PlannedTask& task) {
         {PHYSVIB_VERSION, {{"task", task.hash}, {"call", task.task.call}, {"files", task.files}}});
 }
 
-/// Whether a file is as long as its head says: a machine that loses its power may leave the name, and nothing
-/// or a part behind it.
+/// True if the file has the size in its header. After a power failure, a file may exist but be empty or
+/// truncated.
 bool isWavWhole(const std::string& path) {
     if (path.empty()) return true;
     std::string head(wavSizeBytes, '\0');
@@ -51,7 +51,7 @@ std::string SweepFolder::makeFolderOf(const fs::path& file) const {
 
 std::optional<CsvTable> SweepFolder::table(const PlannedTask& task) const {
     const auto text = readFile(result(task.hash), limits::maxSweepFileBytes);
-    // a disk that was full
+    // truncated by a full disk, or of another task
     if (!text || !text.value.starts_with(headOf(task)) || std::ranges::count(text.value, '\n') != 3 ||
         !text.value.ends_with('\n'))
         return std::nullopt;
@@ -61,12 +61,12 @@ std::optional<CsvTable> SweepFolder::table(const PlannedTask& task) const {
     return std::move(table.value);
 }
 
-// Its rows are at least as many as the events that were measured.
+// True if it has at least as many rows as events were measured.
 bool SweepFolder::isEventListWhole(const PlannedTask& task, const CsvTable& table) const {
     const std::string path = events(task.hash);
     if (path.empty()) return true;
     const auto text = readFile(path, limits::maxEventsFileBytes);
-    double lines = 2.0; // where it is from, and its columns
+    double lines = 2.0; // provenance and header
     for (const char* const counted : {"hits", "grains"}) {
         const auto column = table.column(counted);
         lines += column ? parseNumber<double>(table.rows.front().cells[*column]).value_or(0.0) : 0.0;

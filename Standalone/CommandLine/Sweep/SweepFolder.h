@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder of a sweep: a file for each task that is done, under its hash; a log per worker; at the end the
+// Output folder of a sweep: a file per completed task, named by its hash; a log per worker; and the final
 // index.
 #pragma once
 #include "CommandLine/Sweep/SweepFeatures.h"
@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// Any number of programs, on any number of machines, may work in one folder at once. M only.
+/// Several programs on several machines may use one folder at the same time. Message thread only.
 class SweepFolder {
 public:
     SweepFolder(std::filesystem::path folder, bool keepsWavs, bool keepsEvents)
@@ -18,7 +18,7 @@ public:
         , keepsWavs_{keepsWavs}
         , keepsEvents_{keepsEvents} {}
 
-    /// Makes it where it is missing, and keeps the design in it; empty, or one line.
+    /// Creates the folder if necessary, and stores the design in it; empty, or one error line.
     std::string prepare(const std::string& designText) const;
 
     std::filesystem::path design() const { return folder_ / "design.json"; }
@@ -26,7 +26,7 @@ public:
     std::filesystem::path log(const std::string& worker) const { return folder_ / "log" / (worker + ".txt"); }
     std::filesystem::path slurm() const { return folder_ / "slurm"; }
     std::filesystem::path result(const std::string& hash) const { return ofTask(hash, ".csv"); }
-    /// Empty: not wanted.
+    /// Empty if not requested.
     std::string wav(const std::string& hash) const {
         return keepsWavs_ ? ofTask(hash, ".wav").string() : std::string{};
     }
@@ -34,17 +34,17 @@ public:
         return keepsEvents_ ? ofTask(hash, ".events.csv").string() : std::string{};
     }
 
-    /// Makes the folder of a file in it, where it is missing; empty, or one line, also if a link leads out of
-    /// the sweep's folder.
+    /// Creates the folder of a file within the sweep's folder. Empty, or one error line, also if a link leads
+    /// out of it.
     std::string makeFolderOf(const std::filesystem::path& file) const;
 
-    /// Whether all that is wanted of a task is there and whole.
+    /// True if all requested files of a task exist and are complete.
     bool has(const PlannedTask& task) const { return table(task).has_value(); }
 
-    /// The table of a task, a row; none if it is not done, or what is kept beside it is not whole.
+    /// One-row table of a task; nullopt if it is not done or one of its files is incomplete.
     std::optional<CsvTable> table(const PlannedTask& task) const;
 
-    /// What is kept of a task that is done.
+    /// Contents of the result file of a task.
     static std::string text(const PlannedTask& task, const std::vector<SweepFeature>& features,
                             const std::string& warnings);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Row by row from the tasks' own files, so that a hundred thousand take the memory of one.
+// Writes the index row by row from the task files, so memory does not grow with the number of tasks.
 #include "CommandLine/Sweep/SweepIndex.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ContentHash.h"
@@ -10,7 +10,7 @@
 namespace physvib {
 namespace {
 
-/// Variables of all scenes, each once.
+/// Distinct variables of all scenes.
 std::vector<std::string> variableNames(const SweepDesign& design) {
     std::vector<std::string> names;
     for (const SweepScene& scene : design.scenes)
@@ -24,7 +24,7 @@ std::string columnOf(std::string option) {
     return option;
 }
 
-/// Appends rows, of which the names of the columns are the first.
+/// Formats the header and the rows.
 class IndexRows {
 public:
     IndexRows(const SweepPlan& plan)
@@ -89,7 +89,7 @@ SweepGap findGap(const SweepPlan& plan, const SweepFolder& folder) {
 }
 
 std::string writeIndex(const SweepPlan& plan, const SweepFolder& folder) {
-    constexpr std::size_t enough = 1'000'000; // bytes that are written at once
+    constexpr std::size_t enough = 1'000'000; // buffer size in bytes
     AtomicFile file{folder.index()};
     const IndexRows rows{plan};
     std::string text = rows.head(plan.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One task per word is looked at: a sweep of many seeds is checked as fast as one of few.
+// Checks one task per word of the design, so the check does not depend on the number of seeds.
 #include "CommandLine/Sweep/SweepPlan.h"
 #include "Calls/CallFiles.h"
 #include "CommandLine/Render/RenderInputs.h"

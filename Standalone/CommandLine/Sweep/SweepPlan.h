@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A design whose files are there and whose words the program knows: tasks by their numbers, each with the
-// hash that it is kept under.
+// A validated sweep design: its files exist and `render` accepts its words. Gives tasks by number, each with
+// the hash of its result.
 #pragma once
 #include "Calls/RenderOptions.h"
 #include "Lab/Files/SweepFile.h"
@@ -11,44 +11,44 @@
 
 namespace physvib {
 
-/// The version of what is measured of a render: with another one, tasks are done again.
+/// Version of the measured features; a change invalidates stored results.
 constexpr int sweepResultVersion = 1;
 
 struct PlannedTask {
     SweepTask task;
-    std::string files; ///< "NAME=HASH NAME=HASH": all that it reads
-    std::string hash;  ///< of the program's version, the call, and the bytes of those files
+    std::string files; ///< "NAME=HASH NAME=HASH": all its input files
+    std::string hash;  ///< of program version, call, and contents of these files
 };
 
-/// The options of a call "render ...", checked; or one line. M only.
+/// Checked options of a call "render ..."; or one error line. Message thread only.
 Result<RenderJob> renderOptionsOf(const std::string& call);
 
 class SweepPlan {
 public:
-    /// Tries every word of the design once, without a render, and reads every file; one line if one is not to
-    /// be had. M only.
+    /// Checks every word of the design once without rendering, and reads every file; or one error line.
+    /// Message thread only.
     static Result<SweepPlan> of(SweepDesign design, const std::string& name);
 
     const SweepDesign& design() const noexcept { return design_; }
     std::uint64_t size() const noexcept { return design_.size(); }
     int channels() const noexcept { return channels_; } ///< of the largest layout
 
-    /// From 0 on; made anew each time. Any thread.
+    /// Task `index`, from 0; created at each call. Any thread.
     PlannedTask at(std::uint64_t index) const;
 
-    /// Whether the files of a task are still what they were. M only.
+    /// True if the input files of a task are unchanged. Message thread only.
     bool isUnchanged(const PlannedTask& task) const;
 
 private:
     std::string tryTask(const SweepTask& task);
     std::string tryWords(const std::string& name);
-    std::string placeOfFault(); ///< of the first task: without what it is none
+    std::string placeOfFault(); ///< location in the design that makes the first task invalid
     void noteFile(const std::string& word, const std::string& path);
     std::string filesOf(const SweepTask& task) const;
 
     SweepDesign design_;
     int channels_ = 0;
-    // by the word that names them: their hashes
+    // hashes of files, by the word that names them
     std::map<std::string, std::map<std::string, std::string>> files_;
 };
 

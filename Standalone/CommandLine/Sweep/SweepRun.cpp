@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The temporary file of a result is the claim to its task: who has it renders, who is killed loses it.
+// Runs the tasks of a sweep; several processes can share one folder without a server.
+// Claim: the locked temporary file of a result reserves its task. If the process is killed, the lock ends.
+// Steps: 1. Skip tasks whose result is complete. 2. Claim, check again, render, and rename the temporary
+// file. 3. Put off tasks that other processes have claimed, and visit them again until every result exists.
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Sweep/HeardWords.h"
@@ -19,13 +22,13 @@
 namespace physvib {
 namespace {
 
-/// Who began and ended what, in a file of this process.
+/// Log of started and finished tasks, one file per process.
 class WorkerLog {
 public:
     explicit WorkerLog(const SweepFolder& folder) {
         const auto path = folder.log(juce::SystemStats::getComputerName().toStdString() + '-' +
                                      std::to_string(processNumber()));
-        // without one, the sweep is done all the same
+        // the log is optional
         if (folder.makeFolderOf(path).empty()) file_.open(path);
     }
     void add(const std::string& line) { file_.append(line + '\n'); }
@@ -34,7 +37,7 @@ private:
     GrowingFile file_;
 };
 
-/// Renders a task that nobody else is at; empty and `text`, or one line.
+/// Renders a claimed task; empty with the result in `text`, or one error line.
 std::string renderTask(const SweepPlan& plan, const SweepFolder& folder, const PlannedTask& task,
                        std::string& text) {
     auto options = renderOptionsOf(task.task.call);
@@ -50,25 +53,25 @@ std::string renderTask(const SweepPlan& plan, const SweepFolder& folder, const P
     return {};
 }
 
-/// One call's way through its tasks.
+/// One process' pass through its tasks.
 class SweepWay {
 public:
     SweepWay(const SweepPlan& plan, const SweepFolder& folder)
         : plan_{plan}
         , folder_{folder} {}
 
-    /// Does the task of that number, unless another program is at it: it comes again later.
+    /// Runs a task, or puts it off if another process has claimed it.
     void visit(std::uint64_t number) {
         const PlannedTask task = plan_.at(number);
         std::string fault;
         try {
             fault = faultOf(number, task);
-        } catch (const std::exception& thrown) { // no memory for this one: the others may need less
+        } catch (const std::exception& thrown) { // out of memory for this task; others may need less
             fault = thrown.what();
         }
         if (!fault.empty() && tally.failed++ == 0) tally.fault = task.task.call + ": " + fault;
     }
-    /// Those that others were at.
+    /// Tasks that other processes had claimed.
     std::vector<std::uint64_t> takeElsewhere() { return std::exchange(elsewhere_, {}); }
 
     SweepTally tally;
@@ -84,7 +87,7 @@ private:
             return {};
         }
         if (!claim.error().empty()) return claim.error();
-        if (folder_.has(task)) return {}; // by another, just before the claim
+        if (folder_.has(task)) return {}; // done by another process just before the claim
         return render(task, claim);
     }
     std::string render(const PlannedTask& task, AtomicFile& claim) {
@@ -105,14 +108,14 @@ private:
 
     const SweepPlan& plan_;
     const SweepFolder& folder_;
-    std::optional<WorkerLog> log_; // once there is something to tell
+    std::optional<WorkerLog> log_; // created with the first entry
     std::vector<std::uint64_t> elsewhere_;
 };
 
 } // namespace
 
 SweepTally runSweepTasks(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& part) {
-    constexpr auto pause = std::chrono::milliseconds{200}; // another program's render takes about as long
+    constexpr auto pause = std::chrono::milliseconds{200}; // about the duration of another process' render
     SweepWay way{plan, folder};
     for (std::uint64_t number = part.number - 1; number < plan.size(); number += part.parts)
         way.visit(number);

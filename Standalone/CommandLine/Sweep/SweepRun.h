@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tasks rendered, each by the road of `physvib render`, and kept.
+// Renders the tasks of a sweep as `physvib render` does, and stores their results.
 #pragma once
 #include "CommandLine/Sweep/SweepFolder.h"
 #include "CommandLine/Sweep/SweepPlan.h"
@@ -7,18 +7,18 @@
 
 namespace physvib {
 
-/// Every so many-th task from the `number`-th on, from 1: what one of several calls does.
+/// Every `parts`-th task, starting with task `number` (from 1): the share of one of several processes.
 struct SweepPart {
     std::uint64_t number = 1, parts = 1;
 };
 
 struct SweepTally {
     std::uint64_t rendered = 0, failed = 0;
-    std::string fault; ///< of the first that failed: its call, and why
+    std::string fault; ///< call and error of the first failed task
 };
 
-/// Renders what `folder` does not have yet, one task after the other, and waits for what other programs are
-/// rendering in it. M only.
+/// Renders the tasks that `folder` lacks, one after another, and waits for those that other processes are
+/// rendering. Message thread only.
 SweepTally runSweepTasks(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& part);
 
 } // namespace physvib

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each job does every so many-th task, so that all take about as long; which are done already, the folder
-// says.
+// Each job runs every n-th task, so all jobs take about equally long. The folder shows which tasks are done.
 #include "CommandLine/Sweep/SweepSlurm.h"
 #include "System/Process.h"
 #include <algorithm>
@@ -16,12 +15,12 @@ std::string inShellQuotes(const fs::path& path) { return '"' + path.string() + '
 } // namespace
 
 std::uint64_t slurmJobs(std::uint64_t tasks) noexcept {
-    // starting a job takes as long as some renders; MaxArraySize is 1001 by default
+    // starting a job costs as much as some renders; Slurm's default MaxArraySize is 1001
     constexpr std::uint64_t tasksPerJob = 100, mostAtOnce = 1000;
     return std::clamp<std::uint64_t>((tasks + tasksPerJob - 1) / tasksPerJob, 1, mostAtOnce);
 }
 
-// What a shell, a line "#SBATCH" and Slurm's own names of files leave as it is in quotes.
+// Characters that neither the shell in quotes, nor #SBATCH lines, nor Slurm's file name patterns change.
 bool fitsSlurm(const std::string& path) noexcept {
     return path.find_first_of("\"\\$`%\n'") == std::string::npos;
 }

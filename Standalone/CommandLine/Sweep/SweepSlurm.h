@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A sweep as an array of jobs of the Slurm workload manager.
+// Runs a sweep as a job array of the Slurm workload manager.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -8,24 +8,24 @@
 
 namespace physvib {
 
-/// What a job of the array needs to know, but its own number.
+/// Parameters common to all jobs of the array.
 struct SlurmSweep {
-    std::filesystem::path folder, design; ///< as every node sees them
+    std::filesystem::path folder, design; ///< as seen by every node
     std::uint64_t tasks = 0;
     bool keepsWavs = false, keepsEvents = false;
-    std::vector<std::string> words; ///< of sbatch, of the user's own: partition, time, account
+    std::vector<std::string> words; ///< the user's options of sbatch: partition, time, account
 };
 
-/// How many jobs: a hundred tasks in each, and not more jobs than a usual Slurm takes. Any thread.
+/// Number of jobs: one per hundred tasks, within Slurm's usual limit. Any thread.
 std::uint64_t slurmJobs(std::uint64_t tasks) noexcept;
 
-/// The script for sbatch; its paths fit. M only.
+/// The script for sbatch. Precondition: fitsSlurm() for its paths. Message thread only.
 std::string slurmScript(const SlurmSweep& sweep);
 
-/// Whether a path can stand in the script. Any thread.
+/// True if a path can be used in the script. Any thread.
 bool fitsSlurm(const std::string& path) noexcept;
 
-/// Gives the script to sbatch: empty, or one line. What sbatch says is said. M only.
+/// Submits the script with sbatch; empty, or one error line. Prints sbatch's output. Message thread only.
 std::string submitToSlurm(const std::filesystem::path& script);
 
 } // namespace physvib

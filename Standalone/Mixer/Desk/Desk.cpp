@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mix, the session that plays it, and the output.
+// The mixer's state, the session that plays it, and its output device.
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Desk/DeskWords.h"
 #include "Scene/SceneCatalogue.h"
@@ -10,7 +10,7 @@ namespace physvib {
 namespace {
 
 constexpr int stepsPerSecond = 100;
-constexpr double newStripDb = -12.0; // hands are attached
+constexpr double newStripDb = -12.0; // quiet, because people may be holding the actuators
 
 Mix shakeTheBox() {
     Mix mix;
@@ -42,7 +42,7 @@ RigSettings rigOf(const Mix& mix, const DeviceChoice& device) {
 
 Mix Desk::firstMix() { return shakeTheBox(); }
 
-/// One thing to undo; edits of a held fader grow into one.
+/// An undoable edit of the mixer state; repeated edits of one fader merge into one.
 class Desk::MixEdit final : public juce::UndoableAction {
 public:
     MixEdit(Desk& desk, Mix before, Mix after)
@@ -93,14 +93,14 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
 
 Desk::~Desk() {
     output().stop();
-    recording_.keep(); // before what may hang
+    recording_.keep(); // first, since closing devices may hang
     inputs_.close();
     rig_.close();
 }
 
 void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
     if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
-    // undone, it is as it was drawn
+    // undo restores the scene as it was drawn
     if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene)
         mix_.scene = std::make_shared<const Scene>(drawn);
     undo_.perform(new MixEdit{*this, mix_, next});
@@ -186,7 +186,7 @@ std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
 }
 
 void Desk::watchOutput() {
-    told_.tell(session(), mix_); // what found no room before
+    told_.tell(session(), mix_); // retries controls for which the queue was full
     if (isSilent_ != output().isSilent()) showSilence();
     device_.maintain();
     if (const auto trouble = device_.trouble(); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
@@ -209,7 +209,7 @@ void Desk::setSlowness(int slowness) {
 
 void Desk::edited(bool isShown) {
     ++edits_;
-    if (isShown) sendChangeMessage(); // who rests looks again
+    if (isShown) sendChangeMessage(); // lets idle views repaint
 }
 
 void Desk::takeFelt(const Result<std::string>& note) {

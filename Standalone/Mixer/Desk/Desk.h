@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mixer's window shows and changes: a live session on a device, its mix, the way back of edits.
+// Model of the mixer's window: a live session on a device, the mixer state, and the undo history.
 #pragma once
 #include "Host/Rig/Rig.h"
 #include "Live/Documents/SessionFile.h"
@@ -21,21 +21,22 @@
 
 namespace physvib {
 
-/// M only. Listeners are told when the mix, the device or the trouble changes.
+/// Message thread only. Listeners are notified when the mixer state, the device or the error message changes.
 class Desk final : public juce::ChangeBroadcaster {
 public:
-    static constexpr int channels = limits::maxEnchanters; ///< of the session: room for all that is attached
-    static constexpr double gapSeconds = 0.005; ///< the driver's thread shares the machine with painting
+    static constexpr int channels = limits::maxEnchanters; ///< of the session: the maximum number of
+                                                           ///< actuators
+    static constexpr double gapSeconds = 0.005; ///< the simulation thread shares the processor with painting
 
-    /// Plays `mix` on `device`, one of `types`; trouble() if it does not open. Its rate and block hold until
-    /// another is opened.
+    /// Plays `mix` on `device`, one of `types`; trouble() reports a failure. Sample rate and block size stay
+    /// until another device is opened.
     Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix = firstMix());
-    static Mix firstMix(); ///< *Shake the box* on PHONE4, at a safe level
+    static Mix firstMix(); ///< *Shake the box* on PHONE4 at a safe level
     ~Desk() override;
 
     const Mix& mix() const noexcept { return mix_; }
-    /// Takes up another mix, which can be undone. `name` is what the menu says; of edits that follow each
-    /// other with `goesOn`, as those of a fader that is held, only the first starts something to undo.
+    /// Applies another mixer state as an undoable edit named `name`. In a series of edits with `goesOn`, such
+    /// as those of a held fader, only the first starts a new undo step.
     void edit(const juce::String& name, const Mix& next, bool goesOn = false);
     template <class Change>
     void change(const juce::String& name, Change change, bool goesOn = false) {
@@ -44,10 +45,11 @@ public:
         edit(name, next, goesOn);
     }
     juce::UndoManager& undoManager() noexcept { return undo_; }
-    bool attach(double shareX, double shareY); ///< at shares of the field, quietly; false: no room
-    void detach(int enchanter);                ///< one always stays
-    std::uint64_t edits() const noexcept { return edits_; } ///< with inputs: what a document is saved for
-    const SavedSession& saved(); ///< the session until now: rendered again it is what was played
+    bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false if there is
+                                               ///< no channel left
+    void detach(int enchanter);                ///< the last actuator cannot be detached
+    std::uint64_t edits() const noexcept { return edits_; } ///< inputs included; for unsaved changes
+    const SavedSession& saved(); ///< the session until now; rendering it reproduces what was played
     void restart(std::uint32_t seed);
     void setSlowness(int slowness); ///< see WorldRunner
     Rig& rig() noexcept { return rig_; }
@@ -66,25 +68,25 @@ public:
     DeskExposure& exposure() noexcept { return exposure_; }
     DeskScript& script() noexcept { return script_; }
     const DeskSignals& signals() const noexcept { return signals_; }
-    const RecentContacts& recent() const noexcept { return recent_; } ///< the last that were played
+    const RecentContacts& recent() const noexcept { return recent_; } ///< the last contacts that were played
     std::string open(const DeviceChoice& choice);
-    /// As DeskListening::monitor; enchanters that have these outputs have none then, which can be undone.
+    /// As DeskListening::monitor. Actuators on these outputs lose them, which can be undone.
     std::string monitorInstead(std::vector<int> outputs, double db);
-    void setSilent(bool silent);                         ///< as a person at the machine wishes
-    bool isSilent() const noexcept { return isSilent_; } ///< as it is shown: what is pressed then means that
-    void stop();                                         ///< what Esc does first of all
-    void takeEscape(); ///< of an Esc that nothing else took: lifts what was silent before it
-    void setDisplayWidth(double metres); ///< of what the world is seen on, for drags; 0: as the system says
+    void setSilent(bool silent);                         ///< set by the user at the machine
+    bool isSilent() const noexcept { return isSilent_; } ///< as displayed: keys refer to what users see
+    void stop();                                         ///< first action of Esc
+    void takeEscape(); ///< an Esc that no other component used: ends a silence that already existed
+    void setDisplayWidth(double metres); ///< of the display, to scale drags; 0: as the system reports
     double displayWidthMetres() const noexcept { return displayWidthMetres_; }
-    DeskMoment look(); ///< what is new; at most about 30 times a second
-    const juce::String& trouble() const noexcept { return trouble_; } ///< one line; empty while all is well
+    DeskMoment look(); ///< changes since the last call; at most about 30 times a second
+    const juce::String& trouble() const noexcept { return trouble_; } ///< error in one line, or empty
     void report(const juce::String& trouble);
-    void tell(const juce::String& news); ///< what went well, in the same place
+    void tell(const juce::String& news); ///< reports a success in the same place
     bool isNews() const noexcept { return isNews_; }
 
 private:
     class MixEdit;
-    friend class DeskInputs; // it shows silence, and hears often of what was played
+    friend class DeskInputs; // calls showSilence() and, often, takePlayed()
     void edited(bool isShown = true);
     void watchOutput();
     void beginWorld(bool isSameScene);
@@ -101,7 +103,7 @@ private:
     DeskRecording recording_;
     juce::UndoManager undo_;
     DeskWorld world_;
-    juce::String trouble_, deviceTrouble_; // shown; the device's of the last look
+    juce::String trouble_, deviceTrouble_; // trouble_ is displayed; deviceTrouble_ is the device's last error
     double displayWidthMetres_ = 0.0;
     bool isSilent_ = false, hasStopped_ = false, isNews_ = false;
     std::uint64_t edits_ = 0;
@@ -112,8 +114,8 @@ private:
     DeskMoment now_;
     DeskScript script_{*this};
     DeskLanes lanes_{*this};
-    std::vector<CollisionEvent> hits_; // played since the last look
-    DeskStrikes strikes_;              // these last: their threads use the others
+    std::vector<CollisionEvent> hits_; // played since the last look()
+    DeskStrikes strikes_;              // destroyed before the members above, because its threads use them
     DeskInputs inputs_{*this};
 };
 

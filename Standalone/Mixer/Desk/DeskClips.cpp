@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A drop becomes a message; what comes of it is told on M.
+// Converts a dropped clip to a message, and reports its result on the message thread.
 #include "Mixer/Desk/DeskClips.h"
 #include "Host/Recordings/ClipFolder.h"
 #include <utility>
@@ -18,7 +18,7 @@ DeskClips::DeskClips(Session& session, const AudioOutput& output,
 
 DeskClips::~DeskClips() {
     constexpr int untilItHasBeenRead = -1;
-    reader_.removeAllJobs(false, untilItHasBeenRead); // from here on nobody asks for an update
+    reader_.removeAllJobs(false, untilItHasBeenRead); // after this no thread triggers an update
     cancelPendingUpdate();
 }
 
@@ -31,18 +31,19 @@ void DeskClips::feel(const juce::File& file, const EnchanterPlace& atMetres, boo
     });
 }
 
-// On the reader's thread.
+// Runs on the reader's thread.
 Result<std::string> DeskClips::strike(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
     PlainMessage clip{"clip",
                       {{"file", file.getFullPathName().toStdString()},
                        {"place", std::vector{atMetres.xMetres, atMetres.yMetres}}}};
     if (isAlone) clip.values.push_back({"law", std::string{nameOf(Spread::alone)}});
-    const auto unlessLent = [this](const std::string& path) { // it may have been lent while others were read
+    const auto unlessLent = [this](const std::string& path) { // a study may have borrowed the output while
+                                                              // earlier clips were read
         return output_.isLent() ? Result<LoadedClip>{Failure{"a study is running"}} : loadWholeClip(path);
     };
     const auto result = messages_.take(clip, nullptr, unlessLent);
     if (!result) return Failure{result.error};
-    // a note
+    // a note, if there is one
     return result.value.values.empty() ? std::string{}
                                        : std::get<std::string>(result.value.values.front().value);
 }

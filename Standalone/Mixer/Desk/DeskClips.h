@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Clips that are dropped on the desk: read beside M, struck as messages are.
+// Plays clips dropped on the mixer: a background thread reads them and posts them like messages.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Live/Messages/MessageRouter.h"
@@ -12,20 +12,20 @@
 
 namespace physvib {
 
-/// Whether that is dragged which may be dropped as a clip: documents are the window's. M.
+/// True if the dragged files may be dropped as clips; the window handles documents. Message thread.
 bool isClipDrag(const juce::StringArray& files);
 
-/// M only.
+/// Message thread only.
 class DeskClips final : private juce::AsyncUpdater {
 public:
-    /// All outlive it; `told` is called on M for each clip, when it has been struck (with a note or an empty
-    /// line) or refused (why).
+    /// All references outlive it. `told` is called on the message thread for each clip: with a note or an
+    /// empty text if it plays, or with the reason if it was rejected.
     DeskClips(Session& session, const AudioOutput& output,
               std::function<void(const Result<std::string>&)> told);
     ~DeskClips() override;
 
-    /// As soon as it has been read: at that place of the field, or on the enchanter there alone. Several wait
-    /// for one another.
+    /// Plays the clip when it has been read: at that place of the field, or only on the actuator there. Clips
+    /// are read one after the other.
     void feel(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone);
 
 private:
@@ -35,9 +35,9 @@ private:
     const AudioOutput& output_;
     std::function<void(const Result<std::string>&)> told_;
     MessageRouter messages_;
-    std::mutex mutex_; // guards what follows
+    std::mutex mutex_; // guards the members below
     std::vector<Result<std::string>> results_;
-    juce::ThreadPool reader_{1}; // last: its thread uses the others
+    juce::ThreadPool reader_{1}; // destroyed first, because its thread uses the other members
 };
 
 } // namespace physvib

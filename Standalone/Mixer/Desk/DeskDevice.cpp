@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Opening, and looking after what may go and come back.
+// Opens the device, and regularly checks devices that may disappear and return.
 #include "Mixer/Desk/DeskDevice.h"
 #include "Mixer/Desk/DeskWords.h"
 #include <utility>
@@ -29,7 +29,8 @@ std::vector<int> DeskDevice::outputMap() const {
 }
 
 std::string DeskDevice::assign() {
-    rig_.output().hear(listening_.least()); // hands first: an enchanter may come where somebody listens
+    rig_.output().hear(listening_.least()); // remove monitor outputs first, because an actuator may be
+                                            // assigned to one of them
     auto error = rig_.output().assign(outputMap(), mix_.count());
     listening_.hearWanted();
     return error;
@@ -45,7 +46,7 @@ void DeskDevice::maintain() {
     const double now = nowMs();
     if (now - maintainedAtMs_ <= maintainMs) return;
     maintainedAtMs_ = now;
-    listening_.hearWanted(); // the device may have gone, or may be back
+    listening_.hearWanted(); // the device may have disappeared or returned
     rig_.maintain();
 }
 

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The device that the desk is felt on, as it was chosen, and what is wrong with it and what is beside it.
+// The chosen output device of the mixer, its additional sinks, and their errors.
 #pragma once
 #include "Host/Rig/Rig.h"
 #include "Mixer/Desk/DeskListening.h"
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskDevice {
 public:
-    /// Both outlive it. `onChange` as of DeskListening.
+    /// Both references outlive it. `onChange` as for DeskListening.
     DeskDevice(Rig& rig, AudioDeviceTypes types, const Mix& mix, std::function<void()> onChange)
         : rig_{rig}
         , types_{std::move(types)}
         , mix_{mix}
         , listening_{rig.output(), mix, choice_, std::move(onChange)} {}
 
-    /// Empty, or why not: trouble() as well.
+    /// Opens a device. Empty, or an error, which trouble() has too.
     std::string open(const DeviceChoice& choice);
 
-    /// What was chosen, of which devices; and how many outputs there are.
+    /// The chosen device and the available ones. outputs(): number of its outputs.
     const DeviceChoice& choice() const noexcept { return choice_; }
     const AudioDeviceTypes& types() const noexcept { return types_; }
     int outputs() const { return rig_.output().deviceOutputs(); }
@@ -32,15 +32,16 @@ public:
         return rateHz > 0 ? static_cast<double>(rig_.session().timeline().playOutFrames()) / rateHz : 0.0;
     }
 
-    /// The mix has other enchanters, or other outputs for them. Empty, or why they cannot be.
+    /// Applies changed actuators or output assignments of the mixer state. Empty, or why that failed.
     std::string assign();
 
-    /// What is beside the device and plays no clips, by its name; empty: all plays them.
+    /// Name of a sink that cannot play clips; empty if all can.
     juce::String withoutClips() const;
-    /// The choice has other sinks: L is another then, so the session has to begin anew.
+    /// Called if the choice has other sinks. They change the output latency, so the session must be
+    /// restarted.
     std::function<void(const DeviceChoice&)> onSinksWanted;
 
-    /// Looks after them, often; and one line on what is wrong.
+    /// Checks the sinks; to be called often. trouble(): error in one line.
     void maintain();
     juce::String trouble() const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Differences of sums, each at its enchanter's full scale.
+// Computes exposure from differences of the output's sums, scaled by each actuator's full scale.
 #include "Mixer/Desk/DeskExposure.h"
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What hands have taken of what the output played, in g: sums of full scales become sums of g by the layout
-// that is felt.
+// Vibration exposure of the mixer's output in g, from sums in full scales and the current layout.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Scene/LayoutFile.h"
@@ -8,28 +7,29 @@
 
 namespace physvib {
 
-/// Enchanters count as axes do in ISO 5349-1: as if all lay in one hand, their squares add up. M only.
+/// Actuators are treated like the axes in ISO 5349-1, as if all were in one hand: their squares add up.
+/// Message thread only.
 class DeskExposure {
 public:
     explicit DeskExposure(AudioOutput& output)
         : output_{output} {}
 
-    /// From now on the channels are these enchanters.
+    /// Sets the layout of the channels from now on.
     void use(const LayoutDescription& layout);
 
-    /// Takes up what has left since the last time; often enough that it is of one layout.
+    /// Adds the output since the last call. Call it often, and before the layout changes.
     void update();
 
     void goOnFrom(double squareGSeconds) noexcept {
         squareGSeconds_ += squareGSeconds;
-    }                                                                  ///< hands had taken that before
+    }                                                                  ///< adds earlier exposure
     double squareGSeconds() const noexcept { return squareGSeconds_; } ///< weighted, of today
-    /// A(8), if nothing else was felt that day
+    /// A(8), if there was no other exposure that day
     double daily() const noexcept { return dailyExposure(squareGSeconds_); }
 
-    /// felt() begins anew.
+    /// Starts a new measurement of felt().
     void restartLevels() { mark_ = output_.restartLevels(); }
-    /// The strongest enchanter since then, over `seconds`; zeros while nothing has left.
+    /// Level of the strongest actuator since restartLevels(), over `seconds`; zeros if nothing was played.
     FeltLevel felt(double seconds) const;
 
 private:

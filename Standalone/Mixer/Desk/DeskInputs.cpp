@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Opening its port, and what inputs and controls do.
+// Opens the OSC port, and applies inputs and controls to the mixer.
 #include "Mixer/Desk/DeskInputs.h"
 #include "Core/Decibels.h"
 #include "Mixer/Desk/Desk.h"
@@ -27,7 +27,7 @@ std::string DeskInputs::use(const OscChoice& choice) {
     return error;
 }
 
-// What is open is closed first: its port may be the one that is wanted.
+// Closes the open port first, because it may be the one to be opened.
 std::string DeskInputs::open() {
     osc_.reset();
     messages_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What comes to the desk from outside, by messages: it moves what the desk shows.
+// External input of the mixer by messages, applied to the displayed state.
 #pragma once
 #include "Mixer/Desk/DeskOsc.h"
 #include <memory>
@@ -10,21 +10,21 @@ namespace physvib {
 
 class Desk;
 
-/// M only.
+/// Message thread only.
 class DeskInputs {
 public:
     /// `desk` outlives it.
     explicit DeskInputs(Desk& desk)
         : desk_{desk} {}
 
-    /// Messages by OSC, from now on; empty, or why not, and then as before.
+    /// Sets the OSC port. Empty, or an error, and then the old port stays.
     std::string use(const OscChoice& choice);
     const OscChoice& choice() const noexcept { return choice_; }
     std::optional<OscStatus> status() const { return osc_ ? std::optional{osc_->status()} : std::nullopt; }
 
-    bool haveCome(); ///< whether messages have come since it was asked last
+    bool haveCome(); ///< true if messages have come since the last call
 
-    void close() { osc_.reset(); } ///< nothing comes any more
+    void close() { osc_.reset(); } ///< stops all input
 
 private:
     std::string open();
@@ -33,7 +33,7 @@ private:
 
     Desk& desk_;
     OscChoice choice_;
-    std::uint64_t messages_ = 0; // as of haveCome()
+    std::uint64_t messages_ = 0; // as of the last haveCome()
     std::unique_ptr<DeskOsc> osc_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A recording's moves on top of the lanes that played meanwhile.
+// Converts fader moves during a recording to lanes, added to the lanes that were playing.
 #include "Mixer/Desk/DeskLanes.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Desk/DeskWords.h"
@@ -12,15 +12,16 @@ constexpr double jumpSeconds = 1e-3; // between two steps of the world
 
 void setPoint(GainLane& lane, double seconds, double db) {
     if (!lane.empty() && lane.back().seconds >= seconds)
-        lane.back().db = db; // the world stands still
+        lane.back().db = db; // the world is paused
     else
         lane.push_back({seconds, db});
 }
 
 double highestDb(const GainLane& lane) { return std::ranges::max(lane, {}, &GainPoint::db).db; }
 
-/// The lane and the fader below it that are felt as the old lane below a fader that was moved. The fader goes
-/// back to where it was; if it was silent, or the lane cannot lift it so far, to less than where it has been.
+/// Splits the sum of the moved fader and the old lane into a new lane and a fader value. The fader returns to
+/// its start value. If it was silent, it gets the highest value of the move instead. If the lane cannot rise
+/// that far, the fader is raised by the rest.
 void write(const GainLane& moves, double startDb, double& faderDb, GainLane& lane) {
     const double highest = highestDb(moves);
     faderDb = startDb <= leastStripDb ? highest : std::max(startDb, highest - mostStripDb);
@@ -62,7 +63,7 @@ void DeskLanes::begin() {
     for (const double db : faders()) faders_.push_back({db, db});
 }
 
-// From where a fader was when it was looked at last.
+// Each move starts at the fader's value of the last look().
 void DeskLanes::follow() {
     const auto now = faders();
     for (std::size_t i = 0; i < now.size(); ++i) {
@@ -82,7 +83,7 @@ void DeskLanes::end() {
         if (moved[i].moves.empty() || highestDb(moved[i].moves) <= leastStripDb) continue;
         const std::size_t k = i - std::min(i, strips_);
         if (i < strips_ ? i >= next.strips.size() : k >= next.groups.size())
-            continue; // it has gone meanwhile
+            continue; // it was removed meanwhile
         if (i < strips_) {
             write(moved[i].moves, moved[i].startDb, next.strips[i].gainDb, next.strips[i].lane);
             names.add(utf8(next.layout.enchanters[i].label));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faders that are moved while the desk records become lanes over the time of the scene.
+// Records fader moves during a recording as automation lanes over the scene's time.
 #pragma once
 #include "Live/Documents/GainLane.h"
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace physvib {
 
 class Desk;
 
-/// M only.
+/// Message thread only.
 class DeskLanes {
 public:
     /// `desk` outlives it.
@@ -21,16 +21,16 @@ public:
 private:
     struct Fader {
         double startDb = 0.0, nowDb = 0.0;
-        GainLane moves{}; ///< where it was, in dB
+        GainLane moves{}; ///< its values, in dB
     };
-    std::vector<double> faders() const; ///< of all strips, then of all groups
+    std::vector<double> faders() const; ///< values of all strips, then of all groups
     double sceneSeconds() const;
     void begin();
     void follow();
     void end();
 
     Desk& desk_;
-    std::vector<Fader> faders_; // none: nothing is written
+    std::vector<Fader> faders_; // empty: not recording
     std::size_t strips_ = 0, take_ = 0;
     double lookedAtSeconds_ = 0.0;
 };

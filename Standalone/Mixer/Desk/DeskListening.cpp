@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is only heard never keeps a device from being felt: where it cannot be, it is not asked for.
+// Audio outputs must never prevent the haptic output: outputs that the device lacks are not requested.
 #include "Mixer/Desk/DeskListening.h"
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the desk's device plays for ears and machines, on outputs where no enchanter is.
+// Audio on the mixer's device for ears and machines (monitor, noise, markers), on outputs without an
+// actuator.
 #pragma once
 #include "Live/Documents/Mix.h"
 #include "Mixer/Desk/DeskMoment.h"
@@ -10,31 +11,32 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskListening {
 public:
-    /// All outlive it; it keeps in `choice` what is wanted. `onChange` is called when that is another.
+    /// All references outlive it. Requested settings are stored in `choice`, and `onChange` is called when
+    /// they change.
     DeskListening(AudioOutput& output, const Mix& mix, DeviceChoice& choice, std::function<void()> onChange)
         : output_{output}
         , mix_{mix}
         , choice_{choice}
         , onChange_{std::move(onChange)} {}
 
-    const ListeningSettings& settings() const noexcept { return told_; } ///< what the output has been told
+    const ListeningSettings& settings() const noexcept { return told_; } ///< settings sent to the output
 
-    /// Left and right, contacts are heard as they are felt; and the output of marks. Where enchanters are,
-    /// neither is. Empty, or why not, and all is as before.
+    /// Sets the outputs of the contact sound (left and right), or the marker output. Outputs with an actuator
+    /// are not allowed. Empty, or an error, and then nothing changes.
     std::string monitor(std::vector<int> outputs, double db);
     std::string mark(int output);
 
-    /// A study begins: noise on headphones, and no monitor, which would tell the ears what hands are asked.
-    /// As monitor().
+    /// Starts a study: noise on headphones, and no monitor, which would reveal the stimuli by ear. Result as
+    /// monitor().
     std::string hear(const ListeningSettings& ofStudy);
     void endStudy();
 
-    /// Nothing but a study's; what the output is to be told first, since hands come first.
+    /// Settings of a study only; applied first, because the actuators have priority.
     const ListeningSettings& least() { return told_ = ofStudy_.value_or(ListeningSettings{}); }
-    std::string hearWanted(); ///< and then what there is room for
+    std::string hearWanted(); ///< then applies the settings for which there are outputs
 
     bool isFree(int output) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was played, as the window shows it.
+// Collects what was played for display in the window.
 #include "Mixer/Desk/Desk.h"
 
 namespace physvib {
@@ -31,7 +31,7 @@ DeskMoment Desk::look() {
         words.isNotEmpty())
         report(words);
     script_.look();
-    if (inputs_.haveCome()) ++edits_; // what a message strikes stands in the session that is saved
+    if (inputs_.haveCome()) ++edits_; // events from messages are part of the saved session
     return now_;
 }
 

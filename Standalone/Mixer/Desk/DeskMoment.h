@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a desk tells of a moment, and which device it plays on.
+// Snapshot of the mixer for display, and the choice of its device.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/ChannelMeters.h"
@@ -12,37 +12,37 @@
 
 namespace physvib {
 
-/// What has happened since the last look.
+/// Changes since the last look.
 struct DeskMoment {
     std::vector<BodyPose> poses;
     std::int64_t sessionNs = 0; ///< of the poses
-    std::int64_t aheadNs = 0;   ///< they are felt so much later
+    std::int64_t aheadNs = 0;   ///< output latency after that time
     std::vector<CollisionEvent> hits;
     ChannelMeters meters;
-    std::array<float, limits::maxEnchanters> holds{}; ///< highest peaks of the last moments
-    float masterPeak = 0.0f;                          ///< behind the master level
-    double dailyExposure = 0.0;                       ///< A(8) of all that the mixer has played today, m/s^2
+    std::array<float, limits::maxEnchanters> holds{}; ///< peak hold values
+    float masterPeak = 0.0f;                          ///< after the master level
+    double dailyExposure = 0.0;                       ///< A(8) of the mixer's output today, m/s^2
     SessionStatus session;
     AudioOutputStatus device;
 };
 
-/// The device that is wanted.
+/// The requested device.
 struct DeviceChoice {
     std::string name;     ///< type:name
-    int sampleRateHz = 0; ///< 0: as it stands
+    int sampleRateHz = 0; ///< 0: device default
     int blockFrames = 0;
-    std::vector<SinkName> sinks{}; ///< beside it
-    std::vector<int> monitor{}; ///< its outputs for the left and the right ear, from 0; empty: nobody listens
+    std::vector<SinkName> sinks{};    ///< additional sinks
+    std::vector<int> monitor{};       ///< its outputs for left and right ear, from 0; empty: no monitor
     double monitorDb = safeContactDb; ///< as ListeningSettings::contactDb
-    int marker = -1;                  ///< its output for marks, from 0; -1: none
+    int marker = -1;                  ///< its marker output, from 0; -1: none
 
-    /// Of the wanted one of that kind; empty: none is.
+    /// Address of the requested sink of that kind; empty: none.
     std::string placeOf(const SinkKind& kind) const {
         for (const SinkName& sink : sinks)
             if (sink.kind == kind.name) return sink.where;
         return {};
     }
-    /// From now on that one of that kind; empty: none.
+    /// Sets the sink of that kind; empty: none.
     void want(const SinkKind& kind, const std::string& where) {
         std::erase_if(sinks, [&](const SinkName& sink) { return sink.kind == kind.name; });
         if (!where.empty()) sinks.push_back({std::string{kind.name}, where});

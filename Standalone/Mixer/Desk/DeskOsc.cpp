@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What comes in on the port's thread, on its way to M.
+// Passes OSC messages from the port's thread to the message thread.
 #include "Mixer/Desk/DeskOsc.h"
 #include <numbers>
 #include <utility>
@@ -7,7 +7,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t mostWaiting = 1000; // M hangs
+constexpr std::size_t mostWaiting = 1000; // reached only if the message thread hangs
 
 OscSettings settingsOf(const OscChoice& choice) {
     OscSettings settings;
@@ -35,11 +35,11 @@ DeskOsc::DeskOsc(const OscChoice& choice, Session& session, AudioOutput& output,
 
 DeskOsc::~DeskOsc() {
     stopTimer();
-    port_.reset(); // from here on nobody asks for an update
+    port_.reset(); // after this no thread triggers an update
     cancelPendingUpdate();
 }
 
-// Silence waits for nobody: M only shows it.
+// Silence takes effect at once; the message thread only displays it.
 std::string DeskOsc::take(const LineInput& input, const OscOrigin& origin) {
     const auto* silence = std::get_if<SilenceControl>(&input);
     const bool isDone = silence != nullptr && silence->isOn;

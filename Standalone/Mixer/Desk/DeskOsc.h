@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Messages by OSC at the desk: from nobody, from this computer, or from any that reaches it; and what is
-// felt, to whom it is wanted.
+// OSC of the mixer: input from no computer, this computer or any computer, and reports of played events to a
+// receiver.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
@@ -17,20 +17,20 @@ namespace physvib {
 enum class OscUse { off, thisComputer, anyComputer };
 
 struct OscChoice {
-    OscUse use = OscUse::off; ///< who is listened to
-    std::string receiver{};   ///< HOST:PORT that hears of hits and status; empty: nobody
-    double turnDegrees = 0.0; ///< by which a phone is held counter-clockwise of upright
+    OscUse use = OscUse::off; ///< accepted senders
+    std::string receiver{};   ///< HOST:PORT that receives impacts and status; empty: none
+    double turnDegrees = 0.0; ///< counter-clockwise rotation of a phone from upright
     bool operator==(const OscChoice&) const = default;
 };
 
-/// Listens and tells while it lives. What strikes goes to the session at once; what the desk shows, its
-/// strips and its world, is set by the desk itself. M only.
+/// Receives and sends while it exists. Events go to the session at once; changes of strips and world are
+/// applied by the mixer itself. Message thread only.
 class DeskOsc final : private juce::AsyncUpdater, private juce::Timer {
 public:
     static constexpr int tellMilliseconds = 10;
 
-    /// All outlive it; `act` is called on M, and says what is wrong; `takePlayed` often, if there is a
-    /// receiver: it tells what has been played.
+    /// All references outlive it. `act` is called on the message thread and returns an error or an empty
+    /// string. With a receiver, `takePlayed` is called often to report played events.
     DeskOsc(const OscChoice& choice, Session& session, AudioOutput& output,
             std::function<std::string(const LineInput&)> act, std::function<void()> takePlayed);
     ~DeskOsc() override;
@@ -50,13 +50,13 @@ private:
     AudioOutput& output_;
     std::function<std::string(const LineInput&)> act_;
     std::function<void()> takePlayed_;
-    std::mutex mutex_; // guards what follows
+    std::mutex mutex_; // guards the members below
     std::vector<Waiting> waiting_;
-    // M
-    std::string fault_; // the last of what the desk was to do
+    // message thread:
+    std::string fault_; // last error of the mixer
     std::uint64_t refused_ = 0;
     MessageRouter messages_;
-    std::unique_ptr<OscPort> port_; // its thread uses the others
+    std::unique_ptr<OscPort> port_; // destroyed first, because its thread uses the other members
 };
 
 } // namespace physvib

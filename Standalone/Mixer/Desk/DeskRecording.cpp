@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// When a recording begins, and when all of it has come.
+// Starts a recording, and closes it after its last block.
 #include "Mixer/Desk/DeskRecording.h"
 #include "Mixer/Desk/DeskWords.h"
 #include <utility>
@@ -14,7 +14,7 @@ DeskRecording::DeskRecording(Session& session, AudioOutput& output, const Mix& m
     , onChange_{std::move(onChange)} {}
 
 void DeskRecording::keep() {
-    if (recording_) close(); // whoever closes the window while it runs wants what is there
+    if (recording_) close(); // closing the window keeps the recording so far
 }
 
 std::string DeskRecording::start(const juce::File& file) {
@@ -53,7 +53,8 @@ void DeskRecording::take(const PlayedEvent& played) {
     if (recording_) recording_->take(played);
 }
 
-// R has let go of it when a block has come since; events of the last frames have been played by then.
+// The audio thread has released the recorder after one more block; by then the events of the last frames have
+// been played too.
 void DeskRecording::look(const AudioOutputStatus& device) {
     if (!recording_) return;
     if (!isEnding_ && recording_->recorder().isWhole() && recording_->error().empty()) return;
@@ -70,7 +71,8 @@ void DeskRecording::look(const AudioOutputStatus& device) {
     onChange_();
 }
 
-// R has let go, or does not run. Both files in their places; empty, or one line with the reason.
+// Precondition: the audio thread released the recorder or does not run. Moves both files to their places;
+// returns an empty string or one error line.
 juce::String DeskRecording::close() {
     const Provenance provenance{PHYSVIB_VERSION,
                                 {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the desk records: its enchanters as WAV, and the events beside it.
+// Records the mixer's actuator channels as WAV, with their events.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Recordings/Recording.h"
@@ -11,29 +11,29 @@
 
 namespace physvib {
 
-/// One recording after the other. M only.
+/// One recording at a time. Message thread only.
 class DeskRecording {
 public:
-    /// All outlive it. `onChange` is called when a recording begins, is to end, and has ended.
+    /// All references outlive it. `onChange` is called when a recording starts, stops and is complete.
     DeskRecording(Session& session, AudioOutput& output, const Mix& mix, std::function<void()> onChange);
 
     ~DeskRecording() { keep(); }
 
-    /// What is there of a recording that runs is in its place. After the output was stopped.
+    /// Completes a running recording. Precondition: the output was stopped.
     void keep();
 
-    /// WAV of the enchanters that are attached now, and the events beside it; empty, or why not.
+    /// Records the attached actuators as WAV, and the events beside it. Empty, or an error.
     std::string start(const juce::File& file);
-    void stop(); ///< the files are in their places a moment later: onEnd says so
+    void stop(); ///< the files are complete a moment later, when onEnd is called
     bool isRunning() const noexcept { return recording_ != nullptr && !isEnding_; }
     double seconds() const noexcept;
-    std::int64_t from() const noexcept { return from_; } ///< session frame of the last recording's first one
+    std::int64_t from() const noexcept { return from_; } ///< session frame of the last recording's start
     std::function<void(const juce::File&, const juce::String& error)> onEnd;
 
-    /// An event that was played.
+    /// Records an event that was played.
     void take(const PlayedEvent& played);
 
-    /// To be called often, with the newest of the device.
+    /// To be called often, with the newest device status.
     void look(const AudioOutputStatus& device);
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the log of a take to the script of a scene.
+// Converts the log of a scene run to the script of a scene.
 #include "Mixer/Desk/DeskScript.h"
 #include "Io/Text/ReadableNumber.h"
 #include "Mixer/Desk/Desk.h"
@@ -34,7 +34,7 @@ void DeskScript::look() {
         return desk_.report("The recording of hands has ended: another scene was chosen. No script was kept");
     }
     const auto& takes = desk_.saved().log.takes;
-    if (takes.size() <= takesBefore_) return; // the world has not begun anew yet
+    if (takes.size() <= takesBefore_) return; // the world has not restarted yet
     const SceneTake& take = takes[takesBefore_];
     seconds_ = 1e-9 * static_cast<double>(take.worldEndNs);
     inputs_ = take.inputs.size();
@@ -60,7 +60,7 @@ void DeskScript::stop() {
     apply({0.0, hands_.lengthSeconds, false}, true);
 }
 
-// What was drawn meanwhile stays.
+// Keeps bodies that were drawn meanwhile.
 void DeskScript::apply(const ScriptTrim& trim, bool goesOn) {
     Scene scene = desk_.world().drawing().drawn();
     scene.script = recordedIn_->script;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Records what hands do in the world as the script of the scene, and trims it.
+// Records user input in the world as the scene's script, and trims it.
 #pragma once
 #include "Scene/Drawing/HandScript.h"
 #include <cstdint>
@@ -11,28 +11,30 @@ namespace physvib {
 
 class Desk;
 
-/// M only.
+/// Message thread only.
 class DeskScript {
 public:
     /// `desk` outlives it.
     explicit DeskScript(Desk& desk)
         : desk_{desk} {}
 
-    /// The world begins anew without what its script does of what hands do, and hands are recorded.
+    /// Restarts the world without the scripted user input, and records the user's input.
     void start();
-    /// What hands did is the scene's script: an edit. The world begins anew with it.
+    /// Makes the recorded input the scene's script, as an edit, and restarts the world with it.
     void stop();
     bool isRecording() const noexcept { return isRecording_; }
-    double seconds() const noexcept { return seconds_; }    ///< recorded so far, of the world
+    double seconds() const noexcept { return seconds_; }    ///< recorded world time so far
     std::size_t inputs() const noexcept { return inputs_; } ///< recorded so far
 
-    /// Often: ends a recording when the drawing is changed, the world begins anew, or the script is full.
+    /// To be called often. Ends a recording when the drawing changes, the world restarts, or the script is
+    /// full.
     void look();
 
-    /// The recording whose part is the scene's script now; nullptr: the scene has another script, or none.
+    /// The recording that the scene's current script is a part of; null if the scene has another script or
+    /// none.
     const HandScript* hands() const;
     ScriptTrim trim() const; ///< of hands()
-    /// Another part of hands(): an edit. The world begins anew with it. `goesOn` as of Desk::edit.
+    /// Selects another part of hands() as an edit, and restarts the world. `goesOn` as for Desk::edit.
     void setTrim(const ScriptTrim& trim, bool goesOn = false);
 
 private:
@@ -45,7 +47,7 @@ private:
     std::uint64_t worldEdits_ = 0;
     std::shared_ptr<const Scene> recordedIn_;
     HandScript hands_;
-    std::vector<std::pair<std::weak_ptr<const Scene>, ScriptTrim>> applied_; // undo brings them back
+    std::vector<std::pair<std::weak_ptr<const Scene>, ScriptTrim>> applied_; // so that undo restores them
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Peaks that fall, and their highest ones that stay for a moment.
+// Falling peak meters and peak holds.
 #include "Mixer/Desk/DeskSignals.h"
 #include "Mixer/Desk/DeskWords.h"
 #include <algorithm>
@@ -18,7 +18,7 @@ void DeskSignals::setRate(int sampleRateHz) {
     sampleRateHz_ = std::max(1, sampleRateHz);
 }
 
-// Frames give the pace; what they miss is made up for.
+// Time advances by frames; differences from lost frames are corrected.
 void DeskSignals::follow(std::size_t take, double feltSeconds, int slowness) {
     constexpr double mostOffSeconds = 0.1;
     if (take != takeTrace_.take()) takeTrace_.begin(take);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The samples that the desk plays, as they are seen: peaks, scope and spectrum.
+// The mixer's output samples for display: peaks, scope and spectrum.
 #pragma once
 #include "Host/Devices/SignalTap.h"
 #include "Mixer/Desk/DeskMoment.h"
@@ -10,10 +10,10 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskSignals {
 public:
-    SignalTap& tap() noexcept { return tap_; } ///< what the output fills
+    SignalTap& tap() noexcept { return tap_; } ///< filled by the output
     const ScopeTrace& scope() const noexcept { return scope_; }
     const SpectrumTrace& spectrum() const noexcept { return spectrum_; }
     std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
@@ -22,12 +22,11 @@ public:
 
     void setRate(int sampleRateHz);
 
-    /// What is read next was felt at that time of a take, whose world goes `slowness` times slower (0: stands
-    /// still).
+    /// Sets the scene-run time of the samples read next; the world runs `slowness` times slower (0: paused).
     void follow(std::size_t take, double feltSeconds, int slowness);
 
-    /// Brings peaks and holds of `moment`, which is the same each time, up to now; the loudest peak of the
-    /// first `enchanters`.
+    /// Updates peaks and holds of `moment`, which must be the same object each time. Returns the loudest peak
+    /// of the first `enchanters`.
     float read(DeskMoment& moment, int enchanters);
 
 private:
@@ -37,7 +36,7 @@ private:
     ScopeTrace scope_;
     SpectrumTrace spectrum_;
     TakeTrace takeTrace_;
-    double scenePerFrame_ = 0.0; // seconds
+    double scenePerFrame_ = 0.0; // in seconds
     int sampleRateHz_ = 48000;
     std::array<double, limits::maxEnchanters> heldAtMs_{};
     double readAtMs_ = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strikes at the place of an enchanter or anywhere on the field.
+// Posts events at an actuator or anywhere on the field.
 #include "Mixer/Desk/DeskStrikes.h"
 #include "Core/ToneEnd.h"
 #include "Scene/ActuatorFile.h"
@@ -9,7 +9,7 @@ namespace physvib {
 
 namespace {
 
-constexpr double strikeAmplitude = 0.5; // of pulses and auditions, in front of strip, ceiling and master
+constexpr double strikeAmplitude = 0.5; // of pulses and auditions, before strip, ceiling and master
 
 } // namespace
 
@@ -27,7 +27,7 @@ EnchanterPlace DeskStrikes::onField(double shareX, double shareY) const {
     return {shareX * world_.scene().fieldWidthMetres, shareY * world_.scene().fieldHeightMetres};
 }
 
-// In the field, where it is alone.
+// Place on the field at which only this actuator plays.
 EnchanterPlace DeskStrikes::placeOf(int enchanter) const {
     const auto& layout = mix_.layout.geometry;
     const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
@@ -61,7 +61,7 @@ std::string DeskStrikes::audition(int material, double shareX, double shareY) {
 void DeskStrikes::testPulse(int enchanter) {
     CollisionEvent pulse;
     const auto profile = findActuator(mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].actuator);
-    // where the thesis' actuators are strongest
+    // resonance of the thesis' actuators
     pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0;
     pulse.decayPerSecond = 30.0;
     pulse.amplitude = strikeAmplitude;
@@ -74,7 +74,7 @@ void DeskStrikes::testSweep(int enchanter) {
     for (int k = 0; k < count; ++k) {
         CollisionEvent tone;
         tone.timeNs = k * std::int64_t{60'000'000};
-        // 40 to 400 Hz: what is felt
+        // 40 to 400 Hz, the main range of vibration perception
         tone.frequencyHz = 40.0 * std::pow(10.0, static_cast<double>(k) / (count - 1));
         tone.durationNs = softEndNs(tone.frequencyHz, 60'000'000);
         tone.amplitude = 0.3;

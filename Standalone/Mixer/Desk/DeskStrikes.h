@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the desk plays apart from the world: pulses and sweeps of one enchanter, a material to be felt, clips.
+// Events that the mixer plays apart from the world: test pulses and sweeps of one actuator, material
+// auditions, and clips.
 #pragma once
 #include "Mixer/Desk/DeskClips.h"
 #include "Mixer/Desk/DeskWorld.h"
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskStrikes {
 public:
-    /// All outlive it. `onStrike` is called for each; `onClip` when a clip has been read, as DeskClips does,
-    /// or that it cannot be.
+    /// All references outlive it. `onStrike` is called for each event; `onClip` when a clip was read (as for
+    /// DeskClips) or failed.
     DeskStrikes(Session& session, const AudioOutput& output, const Mix& mix, const DeskWorld& world,
                 std::function<void()> onStrike, std::function<void(const Result<std::string>&)> onClip);
 
-    /// A pulse of one enchanter, or a sweep of its range.
+    /// A pulse of one actuator, or a sweep over its range.
     void testPulse(int enchanter);
     void testSweep(int enchanter);
 
-    /// A hit of that material of the world's scene at a place of the field, as strong as a test pulse. Empty,
-    /// or why not.
+    /// An impact of that material of the scene at a place of the field, at the level of a test pulse. Empty,
+    /// or an error.
     std::string audition(int material, double shareX, double shareY);
 
-    /// A clip that is dropped, at a place of the field or on one enchanter alone: felt when it has been read.
+    /// Plays a dropped clip at a place of the field, or on one actuator only, when it has been read.
     void feelAt(const juce::StringArray& files, double shareX, double shareY);
     void feelOn(const juce::StringArray& files, int enchanter);
 
@@ -37,7 +38,7 @@ private:
     const DeskWorld& world_;
     std::function<void()> onStrike_;
     std::function<void(const Result<std::string>&)> onClip_;
-    DeskClips clips_; // last: its thread uses the others
+    DeskClips clips_; // destroyed first, because its thread uses the other members
 };
 
 } // namespace physvib

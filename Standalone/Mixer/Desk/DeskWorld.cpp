@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inputs, and edits in the history of the desk.
+// Applies inputs and undoable edits to the mixer's world.
 #include "Mixer/Desk/DeskWorld.h"
 #include "Io/Text/ReadableNumber.h"
 #include "Mixer/Desk/DeskWords.h"
@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// An edit of the drawing that JUCE's history does and undoes.
+/// An edit of the drawing in JUCE's undo history.
 class DeskWorld::Edit final : public juce::UndoableAction {
 public:
     Edit(DeskWorld& world, SceneEdit edit)
@@ -19,7 +19,7 @@ public:
     bool perform() override { return run(true); }
     bool undo() override { return run(false); }
     int getSizeInUnits() override { return 1; }
-    // a sound or a texture that is turned
+    // merges successive changes of a sound or texture by one control
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
         const auto* other = dynamic_cast<Edit*>(next);
         if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other)))
@@ -66,10 +66,10 @@ std::optional<BodyPose> DeskWorld::poseNow(const std::string& body) const {
     const auto cast = sceneCast(scene());
     std::vector<BodyPose> poses;
     session_.world().readPoses(poses);
-    std::size_t last = cast.size(); // of that name
+    std::size_t last = cast.size(); // last body of that name
     while (last-- > 0 && cast[last].name != body) {
     }
-    // none; or it waits for a step, and starts as drawn
+    // not present, or it is created at the next step, at its drawn place
     if (last >= poses.size() || !poses[last].isPresent) return std::nullopt;
     return poses[last];
 }
@@ -77,7 +77,7 @@ std::optional<BodyPose> DeskWorld::poseNow(const std::string& body) const {
 PoseNow DeskWorld::posesNow() const {
     std::vector<BodyPose> poses;
     session_.world().readPoses(poses);
-    std::map<std::string, std::optional<BodyPose>> last; // of each name
+    std::map<std::string, std::optional<BodyPose>> last; // last body of each name
     for (std::size_t i = 0; const BodyDescription& body : sceneCast(scene())) {
         last[body.name] = i < poses.size() && poses[i].isPresent ? std::optional{poses[i]} : std::nullopt;
         ++i;

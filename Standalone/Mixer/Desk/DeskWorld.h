@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world of the desk: what is done to it, and the way back of every edit.
+// The mixer's physics world: user input and undoable edits.
 #pragma once
 #include "Live/Documents/Mix.h"
 #include "Live/Session/Session.h"
@@ -13,38 +13,39 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DeskWorld {
 public:
-    /// All outlive it. `onInput` is called when something was done to the world, and told whether it shows.
+    /// All references outlive it. `onInput` is called after each input to the world, with whether it changes
+    /// the display.
     DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo,
               std::function<void(bool isShown)> onInput);
 
-    /// with what was spawned since it began, under the numbers of events
+    /// The scene with the bodies spawned since its start, indexed as in events.
     const Scene& scene() const noexcept { return drawing_.cast(); }
-    const SceneDrawing& drawing() const noexcept { return drawing_; } ///< what stands there, at its start
-    std::uint64_t edits() const noexcept { return edits_; }           ///< grows when scene() changes
-    std::string act(const Action& action);                            ///< empty, or what is wrong with it
+    const SceneDrawing& drawing() const noexcept { return drawing_; } ///< bodies as drawn, at their start
+    std::uint64_t edits() const noexcept { return edits_; }           ///< increments when scene() changes
+    std::string act(const Action& action);                            ///< empty, or an error
 
-    /// An edit that can be undone: adds a body, takes one away, changes it, joins two, changes a
-    /// sound. `goesOn` as of Desk::edit. Empty, or what is wrong with it. A body without a name is given one.
+    /// Undoable edit: adds, removes or changes a body, joins two bodies, or changes a sound. `goesOn` as for
+    /// Desk::edit. Empty, or an error. A body without a name gets one.
     std::string edit(const juce::String& name, const Action& action, bool goesOn = false) {
         return edit(name, std::vector{action}, goesOn);
     }
     std::string edit(const juce::String& name, std::vector<Action> actions, bool goesOn = false);
 
-    /// Where a body is, as far as the world has been stepped; none: not there, or not yet.
+    /// Pose of a body at the last simulated step; nullopt if it is not present.
     std::optional<BodyPose> poseNow(const std::string& body) const;
 
-    /// The same of all bodies, at one moment.
+    /// Poses of all bodies at one moment.
     PoseNow posesNow() const;
 
-    /// One line when the world has become too much for real time, once for each time that it does; else
-    /// empty. `poses` are the last ones, of session time `posesNs`.
+    /// A warning, once each time the world becomes too slow for real time; else empty. `poses` are the last
+    /// ones, of session time `posesNs`.
     juce::String tooMuch(std::int64_t sessionNs, std::int64_t posesNs, const std::vector<BodyPose>& poses);
 
-    /// The mix's scene begins anew. What was measured, tuned or drawn stays, if it is the same scene. Empty,
-    /// or what is wrong with it.
+    /// Restarts the mixer's scene. If it is the same scene, measured, tuned and drawn values stay. Empty, or
+    /// an error.
     std::string begin(bool isSameScene);
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a world keeps up with real time.
+// Checks whether the simulation keeps up with real time.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -7,17 +7,17 @@
 
 namespace physvib {
 
-/// Asked a few times a second; one thread at a time.
+/// To be polled a few times a second; one thread at a time.
 class PaceWatch {
 public:
     static constexpr std::int64_t everyNs = 500'000'000;
-    static constexpr double leastShare = 0.9; ///< below it a world is too much,
-    static constexpr int leastBodies = 300;   ///< if it is that large: a smaller one is kept waiting by the
-                                              ///< machine
+    static constexpr double leastShare = 0.9; ///< below this share the world is too slow,
+    static constexpr int leastBodies = 300;   ///< if it has this many bodies; a smaller world is delayed by
+                                              ///< other load
 
-    /// The share of real time that the world has run at since the last answer, twice a second; none between.
-    /// Both of the session: its time, and how far the world is behind it: what was given up after stalls, and
-    /// what it has not been stepped to yet. Time that goes back is another session's.
+    /// Share of real time at which the world ran since the last result, twice a second; nullopt in between.
+    /// Arguments: session time, and the time by which the world is behind it (skipped after stalls, or not
+    /// simulated yet). If session time decreases, a new session has begun.
     std::optional<double> look(std::int64_t sessionNs, std::int64_t behindNs) noexcept {
         if (sessionNs < sessionNs_) sessionNs_ = sessionNs, behindNs_ = behindNs;
         const std::int64_t passed = sessionNs - sessionNs_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was played last: hits one by one, what rolls or slides as one contact with all its grains.
+// List of the contacts played last: single impacts, and rolling or sliding contacts that combine all their
+// grains.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include <algorithm>
@@ -11,19 +12,19 @@
 namespace physvib {
 
 struct RecentContact {
-    CollisionEvent event; ///< the first; as strong as the strongest, and where the last was
+    CollisionEvent event; ///< the first event, with the largest amplitude and the last place
     int grains = 1;
     std::int64_t lastNs = 0;
-    std::uint64_t number = 0; ///< no other contact has it
+    std::uint64_t number = 0; ///< unique
 };
 
-/// M.
+/// Message thread.
 class RecentContacts {
 public:
     static constexpr std::size_t most = 100;
-    static constexpr std::size_t mostGrains = 20'000; ///< that are kept one by one: 3 MB, some minutes of a
-                                                      ///< rough surface
-    static constexpr std::int64_t pauseNs = 250'000'000; ///< what pauses for longer has begun anew
+    static constexpr std::size_t mostGrains = 20'000;    ///< limit of stored grains: 3 MB, some minutes of a
+                                                         ///< rough surface
+    static constexpr std::int64_t pauseNs = 250'000'000; ///< a longer pause starts a new contact
 
     void add(const CollisionEvent& event) {
         RecentContact* const known = find(event);
@@ -37,7 +38,7 @@ public:
     }
     const std::deque<RecentContact>& newestFirst() const noexcept { return contacts_; }
 
-    /// Appends what the contact was, one by one: a hit, or as many of its last grains as are kept.
+    /// Appends the contact's events: one impact, or its last grains as far as they are stored.
     void appendEvents(const RecentContact& contact, std::vector<CollisionEvent>& events) const {
         if (contact.event.source.kind == ContactKind::hit) return events.push_back(contact.event);
         for (const Grain& grain : grains_)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the mix to the session's controls.
+// Sends changes of the mixer state to the session as controls.
 #include "Mixer/Desk/ToldMix.h"
 #include "Live/Documents/StripGroups.h"
 #include <algorithm>
@@ -23,14 +23,14 @@ void ToldMix::tell(Session& session, const Mix& mix) {
         return session.take({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty();
     };
     if (const auto panner = mix.panner(); !isSame(panner_, panner)) {
-        // a channel may be another enchanter's now
+        // a channel may belong to another actuator now
         if (panner.channels() < panner_.channels() && !post(Kind::stopAll, {})) return;
         if (!post(Kind::panner, panner)) return;
         panner_ = panner;
     }
     const auto felt = feltStrips(mix);
     for (std::size_t j = 0; j < follows_.size(); ++j)
-        if (follows_[j]) strips_[j].gain = channelGain(felt[j]); // nothing to tell
+        if (follows_[j]) strips_[j].gain = channelGain(felt[j]); // set by its lane
     tellStrips(strips_, felt,
                [&session](const RenderControl& control) { return session.take({control}).error.empty(); });
 }
@@ -38,7 +38,8 @@ void ToldMix::tell(Session& session, const Mix& mix) {
 void ToldMix::follow(Session& session, const Mix& mix) {
     std::vector<bool> follows(mix.strips.size());
     for (std::size_t j = 0; j < follows.size(); ++j) follows[j] = hasLane(mix, j);
-    for (std::size_t j = 0; j < follows_.size(); ++j) // nobody knows where its lane has left it
+    for (std::size_t j = 0; j < follows_.size(); ++j) // forget the gain, since the value at the end of its
+                                                      // lane is unknown here
         if (follows_[j] && (j >= follows.size() || !follows[j]))
             strips_[j].gain = std::numeric_limits<float>::quiet_NaN();
     const bool any = std::ranges::find(follows, true) != follows.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of a mix its session plays by already.
+// Tracks which part of the mixer state the session has received.
 #pragma once
 #include "Live/Documents/Mix.h"
 #include "Live/Session/Session.h"
@@ -8,22 +8,22 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class ToldMix {
 public:
-    /// The session has been made with `panner`, and its strips as they are at first.
+    /// Initial state: the session was created with `panner` and default strips.
     explicit ToldMix(const PhantomPanner& panner)
         : panner_{panner} {}
 
-    /// Posts as little as the session does not know yet. What finds no room is left for the next call.
+    /// Posts all differences. If the session's queue is full, the rest is posted by the next call.
     void tell(Session& session, const Mix& mix);
 
-    /// The mix is another: what has a lane in it is told by the session itself.
+    /// Sends changed lanes; the session itself then controls strips with a lane.
     void follow(Session& session, const Mix& mix);
 
 private:
     PhantomPanner panner_;
-    std::vector<bool> follows_; // per strip
+    std::vector<bool> follows_; // by strip
     std::array<ToldStrip, limits::maxEnchanters> strips_{};
 };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ranges of controls whose limits lie far beyond what is felt.
+// Slider ranges that emphasise the perceivable values of a parameter.
 #pragma once
 #include <cmath>
 #include <juce_gui_basics/juce_gui_basics.h>
 
 namespace physvib {
 
-/// By ratios. The middle nine tenths of the control are what is felt, low to high; the rest of what is
-/// possible is at its ends.
+/// Logarithmic range: the middle 90 % of the slider cover the perceivable values from `low` to `high`, and
+/// its ends the rest of the possible ones.
 inline juce::NormalisableRange<double> feltRange(double least, double low, double high, double most) {
     constexpr double end = 0.05;
     const auto part = [](double from, double to, double share) { return from * std::pow(to / from, share); };
@@ -27,7 +27,7 @@ inline juce::NormalisableRange<double> feltRange(double least, double low, doubl
             }};
 }
 
-/// The same, with 0 at its left end.
+/// The same, with 0 at the left end.
 inline juce::NormalisableRange<double> feltRangeWithZero(double least, double low, double high, double most) {
     const auto felt = feltRange(least, low, high, most);
     return {0.0, most, [=](double, double, double s) { return s <= 0.0 ? 0.0 : felt.convertFrom0to1(s); },

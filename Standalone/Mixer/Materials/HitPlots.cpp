@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The recording in its material's colour, the fit in the accent's.
+// Draws recordings in the material's colour, and the fitted mode in the accent colour.
 #include "Mixer/Materials/HitPlots.h"
 #include "Mixer/Window/Parts.h"
 #include <cmath>
@@ -17,7 +17,7 @@ juce::Rectangle<int> drawWell(juce::Graphics& g, const juce::Component& c) {
     return c.getLocalBounds().reduced(8, 4);
 }
 
-/// The first of `left` that has room beside `right`.
+/// Draws the first text of `left` that fits beside `right`.
 void drawHead(juce::Graphics& g, const juce::Component& c, juce::Rectangle<int> row,
               const juce::StringArray& left, const juce::String& right, Shade rightShade = Shade::muted) {
     const juce::Font font{text::small};
@@ -31,7 +31,7 @@ void drawHead(juce::Graphics& g, const juce::Component& c, juce::Rectangle<int> 
             return g.drawText(words, row, juce::Justification::centredLeft, true);
 }
 
-/// As many decimals as the error tells.
+/// A value with as many decimals as its error justifies.
 juce::String measured(double value, double error, const juce::String& unit) {
     const int decimals = error > 0.0 && error < 0.1 ? 2 : 1;
     return number(value, decimals) + juce::String::fromUTF8(" \xc2\xb1 ") +
@@ -71,7 +71,7 @@ void SpectrumPlot::paint(juce::Graphics& g) {
     area = drawFrequencyAxis(g, *this, area);
     const auto colour = legible(*this, hit_.colour);
     auto heights = levels_;
-    // a peak is seen better without logarithm
+    // linear scale shows peaks better
     for (float& level : heights) level = juce::Decibels::decibelsToGain(level, FrequencyAxis::floorDb);
     drawSpectrum(g, heights, area.toFloat(), colour);
     const auto x = static_cast<float>(area.getX()) +

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A material as it sounds: the spectrum and the course of one hit, with the two numbers that are played drawn
-// over a recording.
+// Plots of a material: spectrum and waveform of an impact, with its frequency and decay drawn over a
+// recording.
 #pragma once
 #include "Mixer/Materials/RecordedHit.h"
 #include <optional>
 
 namespace physvib {
 
-/// What both plots show; redrawn when it changes.
+/// Input of both plots; they redraw when it changes.
 struct ShownHit {
-    double frequencyHz = 0.0, decayPerSecond = 0.0; ///< 0 Hz: nothing
+    double frequencyHz = 0.0, decayPerSecond = 0.0; ///< 0 Hz: empty plot
     juce::Colour colour;
-    const RecordedHit* recording = nullptr; ///< outlives the plots' next show()
+    const RecordedHit* recording = nullptr; ///< must stay valid until the next show()
     bool operator==(const ShownHit&) const = default;
 };
 
@@ -37,7 +37,7 @@ private:
     HitCourse course_;
 };
 
-/// How sure a measurement is: "residual -31 dB, confidence high".
+/// Quality of a measurement: "residual -31 dB, confidence high".
 juce::String confidenceText(const ContactSound& sound);
 
 } // namespace physvib

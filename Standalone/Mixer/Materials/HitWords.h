@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A hit in physical words.
+// Describes an impact in words: material, level and place.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Live/Documents/Mix.h"
@@ -7,14 +7,15 @@
 
 namespace physvib {
 
-/// The index of the material that sounds like this; -1: none.
+/// Index of the material with this frequency and decay; -1: none.
 int materialOf(const Scene& scene, const CollisionEvent& hit);
-/// Its name, or "hit".
+/// The material's name, or "hit".
 juce::String materialName(const Scene& scene, const CollisionEvent& hit);
 
 struct FeltMost {
     int enchanter = 0;
-    double levelG = 0.0; ///< there, by its full scale and the master; before strip and limiter
+    double levelG = 0.0; ///< at that actuator, by its full scale and the master level; before strip and
+                         ///< limiter
 };
 FeltMost feltMost(const Mix& mix, const CollisionEvent& hit);
 

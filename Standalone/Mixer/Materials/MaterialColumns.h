@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands where in a row of the list of materials, and how its numbers are written.
+// Columns in a row of the list of materials, and formatting of its numbers.
 #pragma once
 #include "Mixer/Window/TabPanel.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rows of the list of materials.
+// Draws the rows of the list of materials.
 #include "Mixer/Materials/MaterialColumns.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list, two numbers, a surface, a spot, and a thread that measures.
+// Controls of the materials tab: list, frequency and decay, surface, test spot, and a thread that measures
+// recordings.
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Materials/FeltRange.h"
 #include "Mixer/Materials/MaterialColumns.h"
@@ -11,12 +12,12 @@ namespace physvib {
 namespace {
 
 constexpr int rowPixels = 28, headPixels = 20;
-constexpr int tallPixels = 300; // of the tab; below, half a row of the list tells that there are more
+constexpr int tallPixels = 300; // of the tab; in a lower tab, half a row shows that the list can scroll
 constexpr double arrowRatio = 1.01;
 
 } // namespace
 
-/// One recording on a thread of its own.
+/// Measures one recording on its own thread.
 class MaterialsTab::Measuring final : public juce::Thread {
 public:
     Measuring(Job wanted, juce::AsyncUpdater& isDone)
@@ -32,7 +33,7 @@ public:
     }
 
     const Job job;
-    std::optional<Result<RecordedHit>> hit; ///< when the thread has ended
+    std::optional<Result<RecordedHit>> hit; ///< set when the thread has ended
 
 private:
     juce::AsyncUpdater& isDone_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The materials of the scene: frequency and decay to be set, measured from a recording that is dropped here,
-// and felt at a spot of the field; the grains of their surfaces.
+// Tab with the scene's materials: sets frequency, decay and surface grains, measures them from a dropped
+// recording, and plays the material at a spot of the field.
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Materials/HitPlots.h"
@@ -13,21 +13,20 @@ namespace physvib {
 
 class MaterialsTab final : public Tab, public juce::FileDragAndDropTarget, private juce::AsyncUpdater {
 public:
-    /// While the tab is shown, a click in `world` feels the chosen material there.
+    /// While the tab is visible, a click in `world` plays the selected material there.
     MaterialsTab(Desk& desk, WorldView& world);
     ~MaterialsTab() override;
 
-    /// Takes frequency and decay of the chosen material from a recording, a moment later. What is wrong with
-    /// it is reported.
+    /// Sets frequency and decay of the selected material from a recording, asynchronously. Reports errors.
     void measure(const juce::File& file);
     bool isMeasuring() const noexcept { return measuring_ != nullptr; }
-    void finishMeasuring();    ///< waits for it
+    void finishMeasuring();    ///< waits for the result
     void choose(int material); ///< index in the scene
     void feelAt(FieldShare spot);
-    /// What was measured of a material; null: nothing.
+    /// Measurement of a material; null if there is none.
     const RecordedHit* recordingOf(int material) const;
 
-    // sessions are the window's
+    // the window handles session files
     bool isInterestedInFileDrag(const juce::StringArray& files) override {
         return !files[0].endsWithIgnoreCase(".json");
     }
@@ -43,7 +42,7 @@ public:
     void resized() override;
 
 private:
-    /// A row per material, those that sound first.
+    /// One row per material; materials with a frequency first.
     class Rows final : public juce::ListBoxModel {
     public:
         explicit Rows(MaterialsTab& tab)
@@ -59,7 +58,7 @@ private:
     private:
         MaterialsTab& tab_;
     };
-    /// Arrow keys turn it by a hundredth of its value.
+    /// Arrow keys change the value by 1 %.
     class RatioSlider final : public juce::Slider {
     public:
         bool keyPressed(const juce::KeyPress& key) override;
@@ -88,7 +87,7 @@ private:
 
     Desk& desk_;
     WorldView& world_;
-    std::shared_ptr<const Scene> scene_; // whose recordings are kept
+    std::shared_ptr<const Scene> scene_; // scene of the recordings
     std::vector<int> order_;
     std::map<int, RecordedHit> recordings_;
     FieldShare spot_{0.5, 0.5};

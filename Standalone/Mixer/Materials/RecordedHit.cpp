@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The excerpt that was measured, scaled to be seen.
+// Scales the measured excerpt for display.
 #include "Mixer/Materials/RecordedHit.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Measure/LoudestChannel.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Three bars with their numbers in them, and a choice.
+// Sliders for grain distance, roughness and rolling, and a list of patterns.
 #include "Mixer/Materials/TextureRow.h"
 #include "Mixer/Materials/FeltRange.h"
 #include "Mixer/Window/Parts.h"
@@ -8,7 +8,7 @@
 namespace physvib {
 namespace {
 
-// what fingers tell apart at the speeds of hands and balls
+// limits of perception at speeds of hands and balls
 constexpr double lowGrainMetres = 0.0005, highGrainMetres = 0.2;
 constexpr double leastRoughness = 0.001, lowRoughness = 0.05, highRoughness = 20.0;
 
@@ -26,7 +26,7 @@ double numberOf(const juce::String& words) {
     return words.retainCharacters("0123456789.,").replaceCharacter(',', '.').getDoubleValue();
 }
 
-/// Millimetres, unless somebody writes metres.
+/// Parses millimetres, or metres if the text says so.
 double grainOf(const juce::String& words) {
     const auto text = words.trim();
     return text.endsWith("m") && !text.endsWith("mm") ? numberOf(text) : 1e-3 * numberOf(text);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The grains of a material's surface in one row: how far apart, how strong, in which pattern, how much of it
-// when it rolls.
+// Controls for the surface grains of a material: distance, strength, pattern, and share when rolling.
 #pragma once
 #include "Contacts/Texture.h"
 #include "Mixer/Window/TabPanel.h"
@@ -8,14 +7,15 @@
 
 namespace physvib {
 
-/// M.
+/// Message thread.
 class TextureRow final : public juce::Component {
 public:
     TextureRow();
 
-    /// Nothing: there is no surface to set.
+    /// nullopt: no surface to edit.
     void show(const std::optional<Texture>& texture);
-    /// What a hand has set; `what` it was, and whether the hand goes on (see onSlide).
+    /// Called with the new texture; `what` names the changed value, and `goesOn` is true during a drag (see
+    /// onSlide).
     std::function<void(const Texture& texture, const juce::String& what, bool goesOn)> onChange;
 
     void resized() override;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list of enchanters and the settings of the panner.
+// List of actuators, and controls of the panner.
 #include "Mixer/Output/EnchantersTab.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/ActuatorFile.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr int rowPixels = 34;
 
-// Whoever named it what; -1: a layout of its own.
+// Compares geometry, not names; -1: not a preset.
 int presetOf(const EnchanterLayout& layout) {
     const auto isThat = [&layout](std::string_view name) {
         return isSame(presetLayout(name).geometry, layout);
@@ -103,7 +103,7 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
         });
     };
     exponent_.setTitle("Exponent");
-    // asked for when the box is made
+    // the colour is read when the text box is created
     exponent_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
     exponent_.setSliderStyle(juce::Slider::LinearHorizontal);
     exponent_.setTextBoxStyle(juce::Slider::TextBoxRight, false, 46, 24);

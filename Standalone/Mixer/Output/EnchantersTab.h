@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the enchanters sit and how a hit is spread over them: presets, law, exponent, and a map of what each
-// would play.
+// Tab for actuators and panning: layout presets, panning law, exponent, and gain maps.
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Window/TabPanel.h"
@@ -9,7 +8,7 @@ namespace physvib {
 
 class EnchantersTab final : public Tab {
 public:
-    /// `world` shows the map of the enchanter that is chosen here.
+    /// `world` shows the gain map of the actuator selected here.
     EnchantersTab(Desk& desk, WorldView& world);
     void takeMix() override;
     void paint(juce::Graphics& g) override;
@@ -19,14 +18,14 @@ public:
     }
 
 private:
-    /// The module that is dragged onto the field.
+    /// Actuator symbol that is dragged onto the field.
     class Module final : public juce::Button {
     public:
         Module();
         void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
         void mouseDrag(const juce::MouseEvent& e) override;
     };
-    /// A row per enchanter.
+    /// One row per actuator.
     class Rows final : public juce::ListBoxModel {
     public:
         explicit Rows(EnchantersTab& tab)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chosen contacts of the list on their way out of the mixer.
+// Exports the selected contacts of the events list to files.
 #include "Mixer/Output/EventsTab.h"
 #include <algorithm>
 #include <limits>
@@ -14,7 +14,7 @@ void EventsTab::showMenu() {
     menu.showMenuAsync(juce::PopupMenu::Options{}.withMousePosition());
 }
 
-/// The scene's, and when the first was.
+/// From the scene's name and the time of the first contact.
 juce::String EventsTab::fileName() const {
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
     for (const RecentContact& contact : shown_)
@@ -60,7 +60,7 @@ void EventsTab::saveTo(const juce::File& file) {
           true);
 }
 
-// Escaped, since they stand as addresses in what the other program is told.
+// As escaped URLs, which the drop target receives.
 juce::StringArray EventsTab::filesToDrag() {
     juce::StringArray addresses;
     if (chosen_.empty()) return addresses;

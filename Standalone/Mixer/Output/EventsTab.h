@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was played, hit by hit, the newest first; what is chosen can be dragged into another program, or
-// saved.
+// Tab that lists the played contacts, newest first; selected ones can be dragged to another program or saved.
 #pragma once
 #include "Mixer/Output/HitFiles.h"
 #include "Mixer/Window/TabPanel.h"
@@ -10,7 +9,7 @@ namespace physvib {
 
 class EventsTab final : public Tab {
 public:
-    static constexpr const char* dragged = "chosen contacts"; ///< of a drag
+    static constexpr const char* dragged = "chosen contacts"; ///< description of a drag
 
     explicit EventsTab(Desk& desk);
     void takeMix() override;
@@ -18,10 +17,11 @@ public:
     void paint(juce::Graphics& g) override;
     void resized() override;
 
-    /// The chosen contacts as new files, as addresses; if there are none, the desk tells why.
+    /// Writes the selected contacts to new files and returns their URLs. If there are none, the mixer reports
+    /// why.
     juce::StringArray filesToDrag();
-    /// The same in a file of that name, whose ending says how; none: as they would be dragged. The desk tells
-    /// how it went.
+    /// Saves them to that file in the format of its extension, or without one in the format of drags. The
+    /// mixer reports the result.
     void saveTo(const juce::File& file);
 
 private:
@@ -56,8 +56,8 @@ private:
 
     Desk& desk_;
     std::vector<RecentContact> shown_;
-    std::set<std::uint64_t> chosen_; // contacts, wherever their rows are
-    std::uint64_t last_ = 0;         // of them, the last that was clicked
+    std::set<std::uint64_t> chosen_; // selected contacts, regardless of their rows
+    std::uint64_t last_ = 0;         // the selected contact that was clicked last
     bool isListing_ = false;
     Rows rows_{*this};
     juce::ListBox list_{"Events", &rows_};

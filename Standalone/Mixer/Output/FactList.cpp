@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Column by column, from the top.
+// Draws facts column by column from the top.
 #include "Mixer/Output/FactList.h"
 #include "Mixer/Window/Parts.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names and values in columns, drawn again when one changes.
+// List of names and values in columns; redraws only on changes.
 #pragma once
 #include "Host/Views/Look.h"
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Chosen hits as files: what other programs take, and where it lies while they take it.
+// Exports selected impacts to files, and keeps temporary files of drags for other programs.
 #pragma once
 #include "Formats/ClipFile.h"
 #include "Io/Result.h"
@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// What hits can be written as: samples, or a clip.
+/// File extensions for impacts: samples, or a clip format.
 inline const juce::StringArray& hitEndings() {
     static const juce::StringArray all = [] {
         juce::StringArray endings{".wav"}; // decision 94: what most programs take
@@ -21,25 +21,26 @@ inline const juce::StringArray& hitEndings() {
 }
 
 struct WrittenHits {
-    std::vector<std::string> paths;  ///< one, or one for each enchanter of a format with one channel
-    std::vector<std::string> losses; ///< what the format does not carry
+    std::vector<std::string> paths;  ///< one, or one per actuator if the format is mono
+    std::vector<std::string> losses; ///< data that the format cannot store
 };
 
-/// The hits (in any order), from the first of them on, as enchanters and law of `mix` spread them, by what
-/// `path` ends in; or one line. Several files replace none. M only.
+/// Writes the impacts (in any order) from the first one on, panned over the actuators by the law of `mix`, in
+/// the format of the extension of `path`; or one error line. Several files never replace existing ones.
+/// Message thread only.
 Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
                               const juce::File& path);
 
-/// Files that were dragged out, of which some programs make their copies late: they are there until the mixer
-/// ends. M only.
+/// Files dragged to other programs. Some of these copy them late, so they exist until the mixer ends. Message
+/// thread only.
 class DraggedFiles {
 public:
     ~DraggedFiles() { folder_.deleteRecursively(); }
 
-    /// An empty one for the files of one drag; one line if there is no room for it.
+    /// Creates an empty folder for the files of one drag; or one error line.
     Result<juce::File> makeFolder();
 
-    /// How hits are dragged, of hitEndings(); kept from one document to the next.
+    /// Selected format of drags, an index of hitEndings(); kept when another document is opened.
     int ending() const noexcept { return ending_; }
     void setEnding(int ending) noexcept { ending_ = ending; }
 

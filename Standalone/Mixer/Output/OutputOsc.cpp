@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Messages by OSC in the output tab: who is listened to, who hears of hits, how a phone is held.
+// OSC controls of the output tab: accepted senders, receiver of impacts, and orientation of a phone.
 #include "Mixer/Output/OutputTab.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {
 namespace {
 
-// as OscUse
+// in the order of OscUse
 constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer",
                                              "from any computer, and phones"};
 struct PhoneHold {
     const char* words;
     double turnDegrees;
 };
-// where its top points
+// direction of its top edge
 constexpr std::array<PhoneHold, 4> phoneHolds{
     {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
-constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // of the list of who hears of hits
+constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // item ids of the list of receivers
 
 } // namespace
 
@@ -67,7 +67,7 @@ void OutputTab::chooseReceiver() {
         [this](const juce::String& receiver) { tellHits(receiver); });
 }
 
-// A receiver stays in the list, to be switched off and on.
+// A receiver stays in the list when it is switched off.
 void OutputTab::showOsc() {
     const OscChoice& choice = desk_.inputs().choice();
     const auto known = choice.receiver.empty() ? hits_.getItemText(hits_.indexOfItemId(knownReceiverId))

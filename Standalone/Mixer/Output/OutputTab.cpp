@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Choices of a device, and what it says of itself.
+// Controls for the device, and its status text.
 #include "Mixer/Output/OutputTab.h"
 #include "Host/Devices/NoDevice.h"
 #include "Mixer/Window/Parts.h"
@@ -10,9 +10,10 @@ namespace {
 constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevels{0, -5, -10, -15, -20, -25, -30, -40, -50};
-constexpr int noneId = 1, levelId = 100; // of the lists of outputs and levels: an output's, or a pair's, and
-                                         // a level in dB below it
-constexpr int noSinkId = 1, anySinkId = 2, otherSinkId = 3, firstSinkId = 4; // of the list of a kind of sink
+constexpr int noneId = 1, levelId = 100; // item ids of the lists of outputs and levels: 1 + output or pair;
+                                         // 100 - level in dB
+// item ids of the list for a kind of sink
+constexpr int noSinkId = 1, anySinkId = 2, otherSinkId = 3, firstSinkId = 4;
 
 struct Cell {
     juce::Label& name;
@@ -105,7 +106,7 @@ void OutputTab::scan() {
     takeMix();
 }
 
-// The one that is wanted stands there even if it does not.
+// The requested sink is listed even if it is not available.
 void OutputTab::list(SinkChoice& sink) {
     const auto wanted = desk_.device().choice().placeOf(sink.kind);
     sink.places.clear();
@@ -140,7 +141,7 @@ void OutputTab::choose(SinkChoice& sink) {
         return use(kind, id == anySinkId     ? std::string{kind.any}
                          : id >= firstSinkId ? sink.places[static_cast<std::size_t>(id - firstSinkId)]
                                              : std::string{});
-    list(sink); // shows what is still so
+    list(sink); // shows the unchanged choice
     ask(kind.title.data(), kind.other.data(), utf8(desk_.device().choice().placeOf(kind)),
         [this, &kind](const juce::String& where) { use(kind, where.toStdString()); });
 }
@@ -164,7 +165,7 @@ void OutputTab::open() {
     takeMix();
 }
 
-// Pairs as headphones have them; where enchanters are, it says whose place would be taken.
+// Lists output pairs for headphones, with the labels of actuators that would lose an output.
 void OutputTab::listHeard() {
     const auto& choice = desk_.device().choice();
     const auto& mix = desk_.mix();

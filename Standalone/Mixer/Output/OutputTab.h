@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the enchanters are fed from: device, rate, block and the delay that follows from them; what plays
-// beside it.
+// Tab for the output: device, sample rate, block size and the resulting latency, and additional sinks.
 #pragma once
 #include "Mixer/Output/FactList.h"
 #include "Mixer/Window/TabPanel.h"
@@ -15,7 +14,7 @@ public:
     void refresh(const DeskMoment& moment) override;
     void resized() override;
     void visibilityChanged() override;
-    /// HOST:PORT, as if it had been typed; empty: to nobody.
+    /// Sets the receiver HOST:PORT as if typed; empty: none.
     void tellHits(const juce::String& receiver);
 
 private:
@@ -47,7 +46,7 @@ private:
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;
-    std::vector<std::unique_ptr<SinkChoice>> sinks_; // one per row of the table
+    std::vector<std::unique_ptr<SinkChoice>> sinks_; // one per entry of the table of sinks
     bool isScanned_ = false;
 };
 

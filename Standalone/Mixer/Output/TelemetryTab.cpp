@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counters in words; amber where something was lost.
+// Formats counters of session and device; amber marks losses.
 #include "Mixer/Output/TelemetryTab.h"
 #include "Core/Decibels.h"
 #include "Host/Devices/NoDevice.h"
@@ -9,8 +9,8 @@ namespace physvib {
 
 namespace {
 
-constexpr std::size_t mostLoads = 300; // ten seconds of looks
-constexpr double showMs = 500.0;       // figures that change faster cannot be read
+constexpr std::size_t mostLoads = 300; // ten seconds of updates
+constexpr double showMs = 500.0;       // figures that change faster are illegible
 
 juce::String count(std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; }
 juce::String percent(float share) { return number(100.0 * static_cast<double>(share), 1) + " %"; }

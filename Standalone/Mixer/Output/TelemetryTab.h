@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How well the session keeps up: what came late or was lost, and what rendering costs.
+// Tab with real-time statistics of the session: late and lost events, and processor load of rendering.
 #pragma once
 #include "Mixer/Output/FactList.h"
 #include "Mixer/Window/TabPanel.h"
@@ -18,11 +18,11 @@ private:
 
     Desk& desk_;
     FactList facts_{"Telemetry", 2};
-    std::deque<float> loads_; // of the blocks that were looked at
+    std::deque<float> loads_; // load of recent blocks
     double shownAtMs_ = 0.0;
 };
 
-/// What a session, its device and its board say, in words; `medianLoad` is a share of a block.
+/// Status of session, device and board as text; `medianLoad` is a share of a block's duration.
 std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, float medianLoad);
 
 } // namespace physvib

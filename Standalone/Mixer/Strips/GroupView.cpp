@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a group changes on the desk.
+// Controls of a strip group and their edits of the mixer state.
 #include "Mixer/Strips/GroupView.h"
 #include "Host/Views/StripParts.h"
 #include "Io/Disk/FileLimits.h"
@@ -37,9 +37,8 @@ GroupView::GroupView(Desk& desk, int group)
     remove_ = quietButton("Ungroup", "Ungroup " + label);
     remove_->setTooltip("The strips take over what the group does to them");
     remove_->onClick = [this] {
-        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<GroupView>{this}] { // it goes
-                                                                                                 // with its
-                                                                                                 // group
+        // deferred, because this view is deleted with the group
+        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<GroupView>{this}] {
             if (safe != nullptr) safe->remove();
         });
     };
@@ -87,7 +86,7 @@ bool GroupView::keyPressed(const juce::KeyPress& key) {
 }
 
 void GroupView::paint(juce::Graphics& g) {
-    if (index_ >= desk_.mix().groups.size()) return; // it goes in a moment
+    if (index_ >= desk_.mix().groups.size()) return; // the group was removed; the view follows in a moment
     auto area = getLocalBounds();
     g.setColour(shade(*this, Shade::raised));
     g.fillRoundedRectangle(area.toFloat(), 6.0f);

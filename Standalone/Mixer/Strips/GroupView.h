@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A group of strips beside them: its name, one fader, one mute, and who belongs to it.
+// View of a strip group: name, fader, mute, and members.
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
@@ -31,7 +31,7 @@ private:
     std::unique_ptr<juce::TextButton> remove_;
 };
 
-/// The groups a strip may be put in, and a new one. M.
+/// Menu of groups for a strip, including a new one. Message thread.
 void showGroupMenu(Desk& desk, std::size_t strip, juce::Component& from);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A lane by pointer and keys; heights are a fader's.
+// Mouse and keyboard editing of a gain lane; its vertical scale is that of a fader.
 #include "Mixer/Strips/LaneRow.h"
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace physvib {
 namespace {
 
-constexpr float pointSize = 8.0f, inset = 5.0f; // a point at the edge is seen whole
+constexpr float pointSize = 8.0f, inset = 5.0f; // so that points at the edge are fully visible
 constexpr double nudgeSeconds = 0.05, nudgeDb = 0.5, leapDb = 3.0;
 
 juce::String wordsOf(const GainPoint& point) {
@@ -26,7 +26,7 @@ LaneRow::LaneRow(Desk& desk, std::size_t number)
 
 juce::NormalisableRange<double> LaneRow::scale() {
     juce::NormalisableRange<double> range{leastStripDb, mostStripDb};
-    range.setSkewForCentre(-15.0); // as setUpFader
+    range.setSkewForCentre(-15.0); // as in setUpFader
     return range;
 }
 
@@ -85,7 +85,7 @@ GainPoint LaneRow::pointAt(juce::Point<float> place) const {
                  y = std::clamp(static_cast<double>((area.getBottom() - place.y) / area.getHeight()), 0.0,
                                 1.0);
     const double db = scale().convertFrom0to1(y);
-    return {x * spanSeconds_, std::abs(db) < 0.7 ? 0.0 : std::round(10.0 * db) / 10.0}; // 0 dB is easy to hit
+    return {x * spanSeconds_, std::abs(db) < 0.7 ? 0.0 : std::round(10.0 * db) / 10.0}; // snaps to 0 dB
 }
 
 int LaneRow::nearest(juce::Point<float> place) const {
@@ -117,7 +117,7 @@ void LaneRow::add(const GainPoint& point) {
     edit(next);
 }
 
-// Between its neighbours.
+// Limited to the times of its neighbours.
 void LaneRow::move(GainPoint point, bool goesOn) {
     GainLane next = lane();
     const auto i = static_cast<std::size_t>(chosen_);
@@ -144,7 +144,7 @@ void LaneRow::mouseDown(const juce::MouseEvent& e) {
         return there >= 0 ? removeChosen() : showMenu();
     }
     isDragging_ = true;
-    isMoved_ = there < 0; // it goes on with what adds it
+    isMoved_ = there < 0; // a move after adding continues the same edit
     if (there >= 0)
         chosen_ = there, tellChosen(), repaint();
     else
@@ -200,7 +200,7 @@ void LaneRow::drawWave(juce::Graphics& g) const {
     const TakeTrace& trace = desk_.signals().take();
     const auto shown = [](float sample) {
         return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample);
-    }; // as "Played now"
+    }; // same scale as the scope
     for (const int j : channels()) {
         juce::RectangleList<float> columns;
         for (float x = 0.0f; x < area.getWidth(); x += 1.0f) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The gain lane of one strip or group, over what it has played: points that are added, moved and taken away.
+// View of the gain lane of a strip or group over its played waveform; points can be added, moved and removed.
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
@@ -8,11 +8,11 @@ namespace physvib {
 
 class LaneRow final : public juce::Component, public juce::SettableTooltipClient {
 public:
-    /// Strips come first, then groups. `desk` outlives it.
+    /// `number` counts strips, then groups. `desk` outlives it.
     LaneRow(Desk& desk, std::size_t number);
 
     void takeMix();
-    void show(double spanSeconds); ///< the time that its width is
+    void show(double spanSeconds); ///< duration shown in its width
     bool keyPressed(const juce::KeyPress& key) override;
     void mouseDown(const juce::MouseEvent& e) override;
     void mouseDrag(const juce::MouseEvent& e) override;
@@ -20,12 +20,12 @@ public:
     void focusGained(FocusChangeType) override { repaint(); }
     void paint(juce::Graphics& g) override;
 
-    static juce::NormalisableRange<double> scale(); ///< of gains, upwards: a fader's
+    static juce::NormalisableRange<double> scale(); ///< of gains, upwards, as for a fader
 
 private:
     bool isThere() const {
         return number_ < desk_.mix().strips.size() + desk_.mix().groups.size();
-    } // else it goes in a moment
+    } // false after the strip was removed, until the view follows
     bool isGroup() const { return number_ >= desk_.mix().strips.size(); }
     std::size_t group() const { return number_ - desk_.mix().strips.size(); }
     const GainLane& lane() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// As many rows as there are strips and groups, and a scale of time.
+// Rows for all strips and groups, with a time axis.
 #include "Mixer/Strips/LanesTab.h"
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ void LanesTab::takeMix() {
     rows_.repaint();
 }
 
-// Long enough for the scene so far and for all points.
+// Covers the scene so far and all points.
 double LanesTab::spanSeconds() const {
     double needed = desk_.signals().take().seconds();
     const auto take = [&needed](const GainLane& lane) {

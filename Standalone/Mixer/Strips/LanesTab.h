@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gain lanes of all strips and groups over the time of the scene, one below the other.
+// Tab with the gain lanes of all strips and groups over the scene's time.
 #pragma once
 #include "Mixer/Strips/LaneRow.h"
 #include "Mixer/Window/TabPanel.h"
@@ -16,7 +16,7 @@ public:
     void resized() override;
 
 private:
-    /// The names beside the lanes; it scrolls with them.
+    /// Labels beside the lanes; scrolls with them.
     class Rows final : public juce::Component {
     public:
         explicit Rows(Desk& desk)

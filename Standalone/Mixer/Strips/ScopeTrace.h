@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The last moments of every channel, as the lowest and highest sample of each column of a scope.
+// Ring buffer of recent samples of every channel, as minimum and maximum of each scope column.
 #pragma once
 #include "Core/Limits.h"
 #include "Pictures/WaveformEnvelope.h"
@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class ScopeTrace {
 public:
     static constexpr int columns = 800;
@@ -18,7 +18,7 @@ public:
 
     ScopeTrace() { clear(); }
 
-    /// A column that has begun begins anew.
+    /// Restarts the current column.
     void setRate(int sampleRateHz) {
         framesPerColumn_ = std::max(1, static_cast<int>(seconds * sampleRateHz / columns));
         filled_ = 0;
@@ -50,13 +50,13 @@ public:
         }
     }
 
-    /// Column `index` of a lane, 0 the oldest.
+    /// Column `index` of a channel; 0 is the oldest.
     SampleRange at(int channel, int index) const {
         return lanes_[static_cast<std::size_t>(channel)]
                      [static_cast<std::size_t>((newest_ + 1 + index) % columns)];
     }
 
-    /// Grows with every column that was begun.
+    /// Number of columns begun so far.
     std::int64_t columnsBegun() const noexcept { return begun_; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lanes as columns from the lowest to the highest sample; a square root of the level lets weak hits be seen.
+// Draws each column from its minimum to its maximum; the square root of the level makes weak impacts visible.
 #include "Mixer/Strips/ScopeView.h"
 #include <cmath>
 
@@ -35,7 +35,7 @@ void ScopeView::refresh(const DeskMoment&) {
     if (desk_.signals().scope().columnsBegun() == shown_) return;
     shown_ = desk_.signals().scope().columnsBegun();
     const bool quiet = isQuiet();
-    if (quiet && wasQuiet_) return; // a line stays a line
+    if (quiet && wasQuiet_) return; // a silent trace does not change
     wasQuiet_ = quiet;
     repaint(lanes_);
 }

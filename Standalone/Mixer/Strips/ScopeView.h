@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every enchanter has played in the last second, a lane each, and their spectra beside it.
+// Scope of the last second, one trace per actuator, with their spectra.
 #pragma once
 #include "Mixer/Strips/SpectrumView.h"
 #include "Mixer/Window/TabPanel.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Means of a few frames each.
+// Decimates the channels by averaging consecutive frames.
 #include "Mixer/Strips/SpectrumTrace.h"
 #include <algorithm>
 

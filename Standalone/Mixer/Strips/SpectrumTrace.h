@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every channel has just played, as a spectrum of what is felt.
+// Short-time spectrum of recent samples of every channel, in the range of vibration perception.
 #pragma once
 #include "Core/Limits.h"
 #include "Mixer/Window/FrequencyAxis.h"
@@ -8,19 +8,20 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class SpectrumTrace {
 public:
-    /// A quarter of a second: 8 Hz between what is told apart.
+    /// A quarter of a second, which gives a resolution of 8 Hz.
     static constexpr int window = 2048;
-    static constexpr int keptRateHz = 8000; ///< at least; enough for 1 kHz, and an eighth of the arithmetic
+    static constexpr int keptRateHz = 8000; ///< minimum rate after decimation; sufficient for 1 kHz at an
+                                            ///< eighth of the cost
 
     SpectrumTrace() { setRate(48000); }
-    /// Forgets what was heard.
+    /// Clears the buffers.
     void setRate(int sampleRateHz);
     /// Appends frames of the first `heard` channels.
     void add(const float* const* channels, int heard, int frames);
-    /// Of the last window, by a Hann window: a sine of full scale is 0 dB, within 0.3 dB.
+    /// Spectrum of the last window with a Hann window: a full-scale sine is 0 dB, within 0.3 dB.
     SpectrumLevels levels(int channel) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The transform of what the trace keeps, when somebody looks.
+// Computes the Fourier transform of the stored samples on demand.
 #include "Measure/Spectrum.h"
 #include "Mixer/Strips/SpectrumTrace.h"
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-/// Hann, Oppenheim and Schafer 7.2; its sum is half its length.
+/// Hann window (Oppenheim and Schafer 7.2); its sum is half its length.
 const std::vector<double>& hann() {
     static const std::vector<double> weights = [] {
         std::vector<double> w(SpectrumTrace::window);

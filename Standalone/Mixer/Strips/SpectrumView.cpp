@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ten looks a second; what does not move is not drawn again.
+// Updates the spectra ten times a second, and redraws only visible changes.
 #include "Mixer/Strips/SpectrumView.h"
 #include "Mixer/Window/Parts.h"
 #include <cmath>
@@ -59,7 +59,7 @@ void SpectrumView::paint(juce::Graphics& g) {
                        .constrainedWithin(getLocalBounds()),
                    juce::Justification::centredRight, false);
     }
-    g.reduceClipRegion(area.withTrimmedBottom(2)); // what is on the floor is not drawn
+    g.reduceClipRegion(area.withTrimmedBottom(2)); // does not draw the floor
     for (int j = std::min(desk_.mix().count(), mostCurves) - 1; j >= 0; --j) {
         auto heights = shown(j);
         if (std::ranges::all_of(heights, [](float db) { return db <= FrequencyAxis::floorDb; })) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spectra of what the enchanters play, one curve each: they rise at once and fall calmly.
+// Spectra of the actuators' output, one curve each, with fast attack and slow decay.
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/FrequencyAxis.h"
@@ -12,7 +12,7 @@ public:
 
     explicit SpectrumView(Desk& desk);
 
-    /// Looks for what is new, if it is time; repaints if that is to be seen.
+    /// Updates if it is time; repaints if the change is visible.
     void refresh();
     const SpectrumLevels& shown(int channel) const { return shown_[static_cast<std::size_t>(channel)]; }
     void paint(juce::Graphics& g) override;

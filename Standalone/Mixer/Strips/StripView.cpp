@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strips and what they change on the desk.
+// Controls of channel strips and their edits of the mixer state.
 #include "Mixer/Strips/StripView.h"
 #include "Core/Decibels.h"
 #include "Mixer/Strips/GroupView.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int metersTop = 56;
 
-/// What that peak of a strip is felt as, behind the master.
+/// Felt level in g of a strip's peak after the master level.
 double gOf(const Desk& desk, std::size_t strip, float peak) {
     return peak * masterGain(desk.mix()) * desk.mix().layout.enchanters[strip].fullScaleG;
 }
@@ -165,7 +165,7 @@ void StripView::paint(juce::Graphics& g) {
     g.drawText(utf8(enchanter.label), area.removeFromTop(20), juce::Justification::centred, true);
     g.setColour(shade(*this, Shade::muted));
     g.setFont(juce::Font{11.0f});
-    for (const int db : {0, -20, -40, -60}) { // the meter's scale, right of the fader
+    for (const int db : {0, -20, -40, -60}) { // scale of the meter, right of the fader
         const auto y = static_cast<float>(meter_.getY()) +
                        static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
         g.drawText(number(db, 0),

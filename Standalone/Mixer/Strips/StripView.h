@@ -27,7 +27,7 @@ public:
 
 private:
     void setDropping(bool isDropping);
-    bool isThere() const { return index_ < desk_.mix().strips.size(); } // else it goes in a moment
+    bool isThere() const { return index_ < desk_.mix().strips.size(); } // false: its strip was removed
     const Strip& strip() const { return desk_.mix().strips[index_]; }
     template <class Change>
     void change(const juce::String& name, Change change, bool goesOn = false);
@@ -44,10 +44,10 @@ private:
     juce::ComboBox output_;
     std::unique_ptr<juce::TextButton> group_, test_;
     SignButton sweep_;
-    bool isDropping_ = false; // a clip is dragged over it
+    bool isDropping_ = false; // a clip is being dragged over it
 };
 
-/// All enchanters together: level, limiter, ceiling.
+/// Strip of the total output: level, limiter, ceiling.
 class MasterStrip final : public juce::Component {
 public:
     static constexpr int width = 90;
@@ -62,7 +62,7 @@ private:
     Desk& desk_;
     PeakMeter meter_{"Master level"};
     juce::Slider fader_;
-    float limiterDb_ = 0.0f; // or the guard's
+    float limiterDb_ = 0.0f; // or of the guard
     bool isGuard_ = false;
     juce::Rectangle<int> limiterBar_, limiterText_, ceilingName_, ceiling_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strips come and go with their enchanters.
+// Creates and removes strip views with their actuators.
 #include "Mixer/Strips/StripsPanel.h"
 #include "Host/Views/WorldView.h"
 
@@ -59,7 +59,7 @@ void StripsPanel::takeMix() {
     for (auto& strip : strips_) strip->takeMix();
     for (auto& group : groups_) group->takeMix();
     if (areOther || areOtherGroups) {
-        attach_.toFront(false); // last in the order of the Tab key
+        attach_.toFront(false); // last in Tab order
         resized();
     }
     attach_.setVisible(desk_.mix().count() < limits::maxEnchanters);
@@ -72,7 +72,7 @@ void StripsPanel::makeStrips() {
         strips_.push_back(std::make_unique<StripView>(desk_, j));
         row_.addAndMakeVisible(*strips_.back());
     }
-    for (auto& strip : strips_) prepareControls(*strip); // the shades are those of where it stands
+    for (auto& strip : strips_) prepareControls(*strip); // colours depend on the parent component
     for (auto& group : groups_) group->toFront(false);
 }
 

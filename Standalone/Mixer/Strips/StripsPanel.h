@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The desk's strips and groups side by side, the next strip's empty place, and the master.
+// Panel of the mixer's strips and groups, an empty place for the next strip, and the master strip.
 #pragma once
 #include "Mixer/Strips/GroupView.h"
 #include "Mixer/Strips/StripView.h"
@@ -13,10 +13,10 @@ public:
     void refresh(const DeskMoment& moment);
     void paint(juce::Graphics& g) override;
     void resized() override;
-    void focusOfChildComponentChanged(FocusChangeType) override; ///< what has the focus is seen
+    void focusOfChildComponentChanged(FocusChangeType) override; ///< scrolls to the focused strip
 
 private:
-    /// The place where the next strip would be; pressed, it attaches an enchanter in the middle, dragged,
+    /// Place of the next strip. A click attaches an actuator in the centre of the field; dragging attaches it
     /// where it is dropped.
     class AttachPlace final : public juce::Button {
     public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All of a take, as the lowest and highest sample of each column over the time of its scene.
+// Waveform of a whole scene run, as minimum and maximum of each column over the scene's time.
 #pragma once
 #include "Core/Limits.h"
 #include "Pictures/WaveformEnvelope.h"
@@ -9,15 +9,15 @@
 
 namespace physvib {
 
-/// Columns become twice as wide when they are full. M only.
+/// When the columns are full, their duration doubles. Message thread only.
 class TakeTrace {
 public:
     static constexpr std::size_t columns = 1024;
-    static constexpr double firstSeconds = 0.01; ///< of a column
+    static constexpr double firstSeconds = 0.01; ///< initial duration of a column
 
     TakeTrace() { begin(0); }
 
-    /// Another take begins.
+    /// Starts another scene run.
     void begin(std::size_t take) {
         take_ = take;
         columnSeconds_ = firstSeconds;
@@ -26,10 +26,10 @@ public:
     }
     std::size_t take() const noexcept { return take_; }
 
-    /// What follows was played at that time of the scene.
+    /// Sets the scene time of the frames that follow.
     void moveTo(double seconds) { seconds_ = std::max(0.0, seconds); }
 
-    /// Frames of the first `heard` channels, which last so long for the scene.
+    /// Appends frames of the first `heard` channels, which last `sceneSeconds` of scene time.
     void add(const float* const* channels, int heard, int frames, double sceneSeconds) {
         for (int done = 0; done < frames;) {
             while (seconds_ >= columnSeconds_ * static_cast<double>(columns)) widen();
@@ -48,9 +48,9 @@ public:
         }
     }
 
-    double seconds() const noexcept { return seconds_; } ///< so far
+    double seconds() const noexcept { return seconds_; } ///< scene time so far
 
-    /// Of the columns of [from, to).
+    /// Minimum and maximum over the columns of [from, to).
     SampleRange range(int channel, double from, double to) const {
         SampleRange all;
         const auto first = static_cast<std::size_t>(std::max(0.0, from / columnSeconds_));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same functions as the program's; only where their words and their picture go is another place.
+// Shows results of the same analysis functions as `physvib analyse`.
 #include "Mixer/Studies/AnalysisScreen.h"
 
 namespace physvib {
@@ -14,7 +14,7 @@ std::vector<std::string> pathsOf(const std::vector<juce::File>& files) {
     return paths;
 }
 
-/// Those that fit every file; one line if there are none.
+/// Names of the analyses that fit every file; an error line if there are none.
 Result<std::vector<std::string>> fitting(const std::vector<juce::File>& files) {
     std::vector<std::string> names;
     bool isFirst = true;
@@ -32,7 +32,7 @@ Result<std::vector<std::string>> fitting(const std::vector<juce::File>& files) {
     return names;
 }
 
-/// JUCE draws no patterns: what has one is left out, so that the colour below it stays.
+/// Removes pattern fills, which JUCE cannot draw, so that the colour below stays visible.
 void withoutHatches(juce::XmlElement& svg) {
     for (auto* const part : svg.getChildIterator()) {
         if (part->getStringAttribute("fill").startsWith("url(")) part->setAttribute("fill", "none");
@@ -54,7 +54,7 @@ AnalysisScreen::AnalysisScreen(Desk& desk, const std::vector<juce::File>& files)
     choose_->onClick = [this] { browse(); };
     close_ = quietButton("Close", "Close the analysis");
     close_->onClick = [this] {
-        // it ends with this component
+        // asynchronous, because it deletes this component
         if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); });
     };
     silence_.setTitle("Silence");
@@ -133,7 +133,7 @@ void AnalysisScreen::run(const std::string& name) {
     repaint();
 }
 
-// In the look of the window that it is in.
+// Uses the look of its window.
 void AnalysisScreen::showWords() {
     words_.clear();
     const auto say = [this](const juce::String& words, Shade tone) {
@@ -156,7 +156,7 @@ void AnalysisScreen::paint(juce::Graphics& g) {
     g.drawText(title, titleArea_, juce::Justification::centredLeft, true);
     if (const auto* const whole = dynamic_cast<const juce::DrawableComposite*>(picture_.get())) {
         constexpr int place = juce::RectanglePlacement::xMid | juce::RectanglePlacement::yTop;
-        // not by its bounds: those of turned words reach beyond it
+        // not fitted by its bounds, which rotated text exceeds
         whole->draw(g, 1.0f,
                     juce::RectanglePlacement{place}.getTransformToFit(whole->getContentArea(),
                                                                       pictureArea_.toFloat()));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the trials of a study say, over the whole window: the figures of `physvib analyse`, its warnings and
-// its picture.
+// Screen with the analysis of a study's trials over the whole window: figures of `physvib analyse`, warnings
+// and picture.
 #pragma once
 #include "Lab/Analysis/Analysis.h"
 #include "Mixer/Window/TabPanel.h"
 
 namespace physvib {
 
-/// Fills its parent. M.
+/// Fills its parent. Message thread.
 class AnalysisScreen final : public juce::Component {
 public:
     AnalysisScreen(Desk& desk, const std::vector<juce::File>& files);
@@ -15,13 +15,13 @@ public:
 
     std::function<void()> onClose;
 
-    /// Trial files of one study, or any table that `physvib analyse` takes: the first analysis that fits is
-    /// shown.
+    /// Shows the first analysis that fits the trial files of one study, or any table that `physvib analyse`
+    /// accepts.
     void analyse(const std::vector<juce::File>& files);
     const AnalysisReport& report() const noexcept { return report_; }
     const juce::Drawable* picture() const noexcept { return picture_.get(); }
 
-    void refresh(); ///< the desk may have been silenced
+    void refresh(); ///< updates the silence button
 
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
@@ -41,7 +41,7 @@ private:
     juce::ComboBox kind_;
     juce::TextEditor words_;
     std::unique_ptr<juce::TextButton> choose_, close_;
-    juce::TextButton silence_; // the world goes on behind this
+    juce::TextButton silence_; // the world continues behind this screen
     std::unique_ptr<juce::FileChooser> chooser_;
     juce::Rectangle<int> titleArea_, pictureArea_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Choices, checks, and the way to the screen and back.
+// Mixer tab that selects and checks a study, and opens its screens.
 #include "Mixer/Studies/StudiesTab.h"
 #include "Host/Devices/NoDevice.h"
 #include "Io/Disk/FileLimits.h"
@@ -14,7 +14,7 @@
 namespace physvib {
 namespace {
 
-// of the lists
+// item ids of the lists
 constexpr int fileId = 1000, noNoiseId = 1, protocolWordsId = 1, englishId = 2, firstWordsId = 3;
 constexpr int answersHereId = 1, answersElsewhereId = 2;
 constexpr std::array<int, 8> noiseLevels{-70, -60, -50, -45, -40, -35, -30, -25};
@@ -95,7 +95,7 @@ StudiesTab::StudiesTab(Desk& desk)
     begin_.onClick = [this] { begin(); };
     for (auto* editor : {&code_, &number_, &folder_}) {
         editor->setFont(juce::Font{text::medium});
-        editor->setEscapeAndReturnKeysConsumed(false); // Esc silences, also from here
+        editor->setEscapeAndReturnKeysConsumed(false); // Esc must reach the silence button from here, too
         editor->onTextChange = [this] { look(); };
     }
     for (juce::Component* c : std::initializer_list<juce::Component*>{
@@ -269,7 +269,7 @@ StudyRun StudiesTab::run() const {
             pathOf(folder_.getText())};
 }
 
-/// Whether there is something to go on with.
+/// Shows whether the trial file exists and can be continued.
 void StudiesTab::look() {
     if (!protocol_) return;
     const StudyRun chosen = run();
@@ -378,7 +378,7 @@ void StudiesTab::takeMix() {
     repaint();
 }
 
-// In the order of their weight: a small window has room for the first alone.
+// By importance: a small window has space for the first line only.
 juce::StringArray StudiesTab::advice() const {
     juce::StringArray lines;
     if (protocol_ && protocol_->hasPinkNoise && listening().noise.empty())
@@ -406,8 +406,8 @@ void StudiesTab::paint(juce::Graphics& g) {
 }
 
 void StudiesTab::resized() {
-    constexpr int controlsHeight = 326; // in a small window they stay: the words go, and in the smallest what
-                                        // is written above them
+    constexpr int controlsHeight = 326; // in a small window the controls stay; texts are hidden first, then
+                                        // captions
     const bool isSmall = getHeight() < controlsHeight;
     const int captionHeight = isSmall ? 0 : 18, space = isSmall ? 5 : 8;
     auto area = getLocalBounds();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a participant answers with: one component for each kind of task.
+// Components with which participants answer, one for each kind of task.
 #pragma once
 #include "Lab/Study/Experiment.h"
 #include "Mixer/Studies/StudyWords.h"
@@ -20,19 +20,19 @@ public:
     }
     ~StudyAnswer() override { juce::Desktop::getInstance().removeFocusChangeListener(this); }
 
-    std::function<void()> onAnswer; ///< one was chosen
+    std::function<void()> onAnswer; ///< an answer was chosen
     std::function<void()> onChange; ///< isComplete() may have changed
 
-    /// As it stands; what it does not ask for keeps its default.
+    /// The current answer; unused fields keep their defaults.
     virtual Answer answer() const = 0;
     virtual bool isComplete() const = 0;
-    virtual bool isOpen() const { return false; }                 ///< may be used before everything was felt
-    virtual bool takeKey(const juce::KeyPress&) { return false; } ///< keys that no part has wanted
-    virtual void mark(const std::set<std::string>&) {}            ///< the labels that were felt already
-    virtual std::string keys() const = 0;                         ///< how the keyboard answers, in English
+    virtual bool isOpen() const { return false; }                 ///< can be used before all parts were felt
+    virtual bool takeKey(const juce::KeyPress&) { return false; } ///< keys that no child component used
+    virtual void mark(const std::set<std::string>&) {}            ///< labels that were already felt
+    virtual std::string keys() const = 0;                         ///< keyboard help in English
 
-    /// It may be used: the focus goes to where it was left, as when another window took it for a moment, and
-    /// to the first place in the first moment.
+    /// Sets the focus when answering becomes possible: to the component that had it before, e.g. before
+    /// another window, or else to the first.
     void begin() {
         if (left_ != nullptr && left_->isEnabled())
             left_->grabKeyboardFocus();
@@ -54,8 +54,8 @@ private:
     juce::Component::SafePointer<juce::Component> left_;
 };
 
-/// One of several: a click marks it, and asks for it while exploring; until it is confirmed another one may
-/// be marked.
+/// Choice among several buttons. A click marks one, and while exploring also plays it. The choice can change
+/// until it is confirmed.
 class ChosenAnswer : public StudyAnswer {
 public:
     Answer answer() const override {
@@ -78,11 +78,11 @@ private:
     std::string response_;
 };
 
-/// For the trial at hand; all outlive it. M.
+/// Creates the answer component of the current trial. All arguments outlive it. Message thread.
 std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout,
                                              const StudyWords& words);
 
-// Those of files of their own.
+// Implemented in files of their own:
 std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition,
                                                const LayoutDescription& layout, const StudyWords& words);
 std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDescription& layout);

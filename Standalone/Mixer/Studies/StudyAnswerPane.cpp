@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The answer in its place, and the button that confirms it.
+// Layout of the answer component and its confirm button.
 #include "Mixer/Studies/StudyAnswerPane.h"
 #include "Mixer/Window/Parts.h"
 

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a trial is answered and the answer confirmed: below what is felt, or in a window of its own.
+// Pane for answering a trial and confirming the answer, below the stimuli or in a separate window.
 #pragma once
 #include "Mixer/Studies/StudyAnswer.h"
 #include "Mixer/Studies/StudyParts.h"
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class StudyAnswerPane final : public juce::Component {
 public:
     explicit StudyAnswerPane(const StudyWords& words);
 
     std::function<void()> onConfirm;
-    /// A key that no control here has wanted; the screen knows what to do with it.
+    /// Handles keys that no control here used.
     std::function<bool(const juce::KeyPress&)> onKey;
 
-    void show(std::unique_ptr<StudyAnswer> answer); ///< null: nothing is asked
+    void show(std::unique_ptr<StudyAnswer> answer); ///< null: no answer component
     StudyAnswer* operator->() const noexcept { return answer_.get(); }
     explicit operator bool() const noexcept { return answer_ != nullptr; }
     void setConfirm(bool isSeen, bool isEnabled, const juce::String& words);
-    bool confirm();                                 ///< as its button; false if that may not be pressed
-    void focusConfirm();                            ///< Enter goes on from here
-    void setQuestion(const juce::String& question); ///< where nothing else says it
+    bool confirm();                                 ///< as a click on the button; false if it is disabled
+    void focusConfirm();                            ///< then Enter confirms
+    void setQuestion(const juce::String& question); ///< shown where no other component shows it
     void setStandsAlone(bool standsAlone) { standsAlone_ = standsAlone; }
     bool standsAlone() const noexcept { return standsAlone_; }
 
@@ -38,7 +38,7 @@ private:
     bool standsAlone_ = false;
 };
 
-/// A window for `pane`, over the whole of another display if there is one; the pane outlives it. M.
+/// A window for `pane`, full screen on another display if there is one. The pane outlives it. Message thread.
 std::unique_ptr<juce::Component> makeAnswerWindow(StudyAnswerPane& pane, const juce::Component& beside);
 
 } // namespace physvib

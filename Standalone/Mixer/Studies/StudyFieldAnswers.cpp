@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where it was: a cell of a grid, or any place of the field.
+// Answers on the field: a cell of a grid, or any place.
 #include "Mixer/Studies/StudyAnswer.h"
 #include "Mixer/Studies/StudyParts.h"
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr float margin = 24.0f;
 
-/// A point of the grid, where its stimulus is.
+/// A point of the grid at the place of its stimulus.
 class Cell final : public juce::Button {
 public:
     explicit Cell(const GridCell& c)
@@ -29,8 +29,8 @@ public:
     }
 };
 
-/// All grids on one layout have their corners at the same pixels: the outer points of `corners` lie on the
-/// enchanters.
+/// Answer on a grid. All grids of a layout have their corners at the same pixels: the outer points of
+/// `corners` lie on the actuators.
 class CellAnswer final : public ChosenAnswer {
 public:
     CellAnswer(const GridSet& grid, const LayoutDescription& layout)
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    static constexpr float cellMargin = 62.0f; // for the points and the labels of those at the edge
+    static constexpr float cellMargin = 62.0f; // space for the points at the edge and their labels
     juce::Rectangle<float> field() const {
         return fieldIn(getLocalBounds().toFloat().reduced(cellMargin), layout_.geometry);
     }
@@ -82,7 +82,7 @@ private:
     std::vector<std::unique_ptr<Cell>> cells_;
 };
 
-/// A click or Enter sets the mark; the next one moves it.
+/// Answer at any place. A click or Enter sets the mark; the next one moves it.
 class PlaceAnswer final : public StudyAnswer {
 public:
     explicit PlaceAnswer(const LayoutDescription& layout)
@@ -108,13 +108,14 @@ public:
         if (key.isKeyCode(juce::KeyPress::rightKey)) return moveMark({mark_.x + step, mark_.y}), true;
         if (key.isKeyCode(juce::KeyPress::upKey)) return moveMark({mark_.x, mark_.y - step}), true;
         if (key.isKeyCode(juce::KeyPress::downKey)) return moveMark({mark_.x, mark_.y + step}), true;
-        // where it is already, Enter goes on
+        // if the mark is already here, Enter is passed on to confirm
         if (key.isKeyCode(juce::KeyPress::returnKey) && marked_ != mark_) return take(), true;
         return false;
     }
     bool keyPressed(const juce::KeyPress& key) override { return takeKey(key); }
-    void mouseMove(const juce::MouseEvent& e) override { // JUCE also tells of a mouse that lies still, when
-                                                         // what is under it changes: no hand moved the mark
+    void mouseMove(const juce::MouseEvent& e) override { // JUCE also reports a resting mouse when the
+                                                         // component below it changes; that must not move the
+                                                         // mark
         if (std::exchange(seenAt_, e.position).value_or(e.position) != e.position) follow(e);
     }
     void mouseDrag(const juce::MouseEvent& e) override { follow(e); }
@@ -165,7 +166,7 @@ private:
     const LayoutDescription layout_;
     FieldPlace mark_{0.5, 0.5};
     std::optional<FieldPlace> marked_;
-    std::optional<juce::Point<float>> seenAt_; // the mouse
+    std::optional<juce::Point<float>> seenAt_; // last mouse position
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A letter that is drawn as a letter is that nobody has is a box.
+// Finds typefaces by glyph outlines: a letter whose outline equals that of a non-character is missing.
 #include "Mixer/Studies/StudyFont.h"
 #include <array>
 #include <set>
@@ -7,9 +7,9 @@
 namespace physvib {
 namespace {
 
-constexpr juce::juce_wchar nobodys = 0xfffe; // no letter, by Unicode's promise
+constexpr juce::juce_wchar nobodys = 0xfffe; // a non-character of Unicode
 constexpr std::array preferred{"NanumGothic", "Noto Sans CJK KR", "Noto Sans CJK SC",
-                               "UnDotum"}; // of those that are known to read well
+                               "UnDotum"}; // typefaces known to be legible
 
 juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
     juce::Array<int> glyphs;
@@ -20,7 +20,7 @@ juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
     return path.toString();
 }
 
-/// The one that everything is drawn with; empty: the usual one.
+/// The typeface in use for all text; empty: the default.
 juce::String& inUse() {
     static juce::String name;
     return name;

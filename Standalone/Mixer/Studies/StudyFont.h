@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A typeface with the letters of a language: JUCE draws boxes for those that a typeface lacks, and looks for
-// no other one.
+// Selects a typeface with the letters of a language, because JUCE draws boxes for missing letters instead of
+// substituting another typeface.
 #pragma once
 #include "Lab/Files/Words.h"
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -8,15 +8,15 @@
 
 namespace physvib {
 
-/// Whether the typeface of that name (empty: the usual one) draws each of the letters as itself. M.
+/// True if the typeface (empty: the default) has all the letters. Message thread.
 bool hasLetters(const juce::String& typeface, const juce::String& letters);
 
-/// A typeface for all that the words say: the usual one if it can, else one that is installed; none: no
-/// installed one can. M.
+/// A typeface for all texts of a translation: the default if possible, else an installed one; nullopt if
+/// there is none. Message thread.
 std::optional<juce::String> typefaceFor(const Words& words);
-std::optional<juce::String> typefaceFor(const juce::String& letters); ///< the same of letters
+std::optional<juce::String> typefaceFor(const juce::String& letters); ///< the same for given letters
 
-/// While it lives, everything is drawn with that typeface, then with the one before. M.
+/// Uses that typeface for all text during its lifetime, then restores the previous one. Message thread.
 class StudyFont {
 public:
     explicit StudyFont(const juce::String& typeface);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures come from anywhere: their size is read before they are.
+// Loads pictures for participants. Picture files are untrusted, so their size is checked before decoding.
 #include "Mixer/Studies/StudyLooks.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
@@ -10,9 +10,9 @@ namespace physvib {
 namespace {
 
 constexpr std::size_t mostPictureBytes = 16'000'000;
-constexpr unsigned mostPixels = 4096; // of a side
+constexpr unsigned mostPixels = 4096; // maximum width and height
 
-/// A PNG's sides stand behind its signature, as big-endian numbers.
+/// Reads a side of a PNG: a big-endian number after its signature.
 unsigned sideAt(const std::string& png, std::size_t at) {
     unsigned side = 0;
     for (std::size_t i = at; i < at + 4; ++i) side = 256 * side + static_cast<unsigned char>(png[i]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a participant sees of a world: pictures of materials, and how large it is.
+// Appearance of a world for a participant: pictures of materials, and display scale.
 #pragma once
 #include "Host/Views/MaterialTexture.h"
 #include "Io/Result.h"
@@ -9,11 +9,11 @@
 
 namespace physvib {
 
-/// The pictures of that participant, or one line. M.
+/// That participant's pictures, or an error line. Message thread.
 Result<std::vector<MaterialPicture>> materialPictures(const Protocol& protocol,
                                                       const std::string& participant);
 
-/// Empty, or that a world is to be seen at a scale on a display whose width (metres; 0) nobody has set. Any
+/// Empty, or an error if the protocol has a display scale but the display width (metres) is not set (0). Any
 /// thread (allocates).
 std::string displayScaleFault(const Protocol& protocol, double displayWidthMetres);
 

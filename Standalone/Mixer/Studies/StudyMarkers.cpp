@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The six functions of liblsl's C interface (1.14 and newer) that markers take.
+// Loads liblsl at run time: the six functions of its C interface (1.14 and newer) that markers need.
 #include "Mixer/Studies/StudyMarkers.h"
 #include "Io/Text/CleanText.h"
 #include <cstdint>
@@ -11,7 +11,7 @@ constexpr std::int32_t textFormat = 3; // cft_string
 constexpr double noRate = 0.0;         // LSL_IRREGULAR_RATE
 constexpr std::int32_t keptSeconds = 360;
 
-/// Where a system has it; PHYSVIB_LSL names another one.
+/// Usual library names per system; PHYSVIB_LSL names another.
 juce::StringArray libraryNames() {
     if (const auto own = juce::SystemStats::getEnvironmentVariable("PHYSVIB_LSL", {}); own.isNotEmpty())
         return {own};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What happens in a study as markers of the Lab Streaming Layer, for whoever records EEG, force or gaze
-// beside it. liblsl is looked for when a study begins and never needed: without it there are no markers, and
-// everything else is as it is.
+// Sends study events as markers of the Lab Streaming Layer, to synchronise recordings of EEG, force or gaze.
+// liblsl is optional and looked up when a study starts; without it no markers are sent.
 #pragma once
 #include <juce_core/juce_core.h>
 #include <memory>
@@ -9,7 +8,8 @@
 
 namespace physvib {
 
-/// One stream: name "physvib-PROTOCOL", type "Markers", one channel of text at no fixed rate. M only.
+/// One stream: name "physvib-PROTOCOL", type "Markers", one text channel with irregular rate. Message thread
+/// only.
 class StudyMarkers {
 public:
     explicit StudyMarkers(const std::string& protocol);
@@ -17,14 +17,14 @@ public:
     StudyMarkers(const StudyMarkers&) = delete;
     StudyMarkers& operator=(const StudyMarkers&) = delete;
 
-    bool isOpen() const noexcept; ///< liblsl is there and has made the stream
+    bool isOpen() const noexcept; ///< liblsl was found and the stream was created
 
-    /// A line, at the time so far from now (below 0: it was), by LSL's clock.
+    /// Sends a line at a time relative to now (negative: in the past), on LSL's clock.
     void push(const std::string& words, double secondsFromNow = 0.0);
 
 private:
     struct Outlet;
-    std::unique_ptr<Outlet> outlet_; // none: no liblsl
+    std::unique_ptr<Outlet> outlet_; // null without liblsl
 };
 
 } // namespace physvib

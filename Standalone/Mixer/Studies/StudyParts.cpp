@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How they are drawn, and where arrows lead.
+// Draws the common parts of participants' screens, and moves the focus by arrow keys.
 #include "Mixer/Studies/StudyParts.h"
 #include <cmath>
 
@@ -152,7 +152,7 @@ bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
     juce::Component* from = nullptr;
     for (auto* child : parent.getChildren())
         if (child->hasKeyboardFocus(true)) from = child;
-    for (auto* child : parent.getChildren()) // the focus is elsewhere: from what was chosen
+    for (auto* child : parent.getChildren()) // focus is elsewhere: start from the chosen button
         if (auto* button = dynamic_cast<juce::Button*>(child);
             from == nullptr && button != nullptr && button->getToggleState())
             from = child;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts of the screens for participants: large buttons, a field with its enchanters, arrow keys.
+// Common parts of participants' screens: large buttons, a field with its actuators, arrow keys.
 #pragma once
 #include "Lab/Study/PhantomGrid.h"
 #include "Mixer/Window/Parts.h"
@@ -7,15 +7,15 @@
 
 namespace physvib {
 
-/// A large target: words, a quieter remark below them, and a bar along its foot.
+/// A large button with text, a smaller remark below, and a bar at its lower edge.
 class BigButton final : public juce::Button {
 public:
-    /// `name` is what a screen reader says.
+    /// `name` is for screen readers.
     BigButton(const juce::String& words, const juce::String& name);
     void setWords(const juce::String& words, const juce::String& remark = {});
-    void setShare(double share);   ///< of the bar, 0 to 1; less than 0: no bar
-    void setMain(bool isMain);     ///< the one that goes on
-    void setMarked(bool isMarked); ///< a dot: was felt
+    void setShare(double share);   ///< of the bar, 0 to 1; negative: no bar
+    void setMain(bool isMain);     ///< the button that continues
+    void setMarked(bool isMarked); ///< shows a dot: already felt
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
 
 private:
@@ -24,24 +24,23 @@ private:
     bool isMain_ = false, isMarked_ = false;
 };
 
-/// The ground of all that is chosen by a click, in its state.
+/// Draws the background of a button in its state.
 void drawTarget(juce::Graphics& g, const juce::Button& button, bool isOver, bool isDown, float corner = 8.0f);
 
-/// Largest rectangle of the layout's shape in the middle of `area`.
+/// Largest centred rectangle in `area` with the layout's aspect ratio.
 juce::Rectangle<float> fieldIn(juce::Rectangle<float> area, const EnchanterLayout& layout);
-/// Where an enchanter is on it: x to the right, y downwards, 0 to 1.
+/// Place of an actuator on the field: x to the right, y downwards, 0 to 1.
 FieldPlace placeOf(const EnchanterLayout& layout, int enchanter);
 juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace& place);
-/// The field, and its enchanters as rings with their labels.
+/// Draws the field with its actuators as labelled rings.
 void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field,
                const LayoutDescription& layout);
 
-/// An enchanter of the field with its label, pushed outwards where a point lies on it.
+/// Draws an actuator of the field with its label, which is moved outwards if a point lies on it.
 void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component,
                          const juce::Rectangle<float>& field, const LayoutDescription& layout, int enchanter);
 
-/// An arrow key moves the focus to the nearest child of `parent` in that direction; false if it is another
-/// key.
+/// Moves the focus to the nearest child of `parent` in the direction of an arrow key; false for other keys.
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key);
 
 } // namespace physvib

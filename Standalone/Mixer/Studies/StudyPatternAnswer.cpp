@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which pattern it was, by two clicks: the first pulse's enchanter, then an icon of the whole (thesis 3.2.2).
-// Icons say the order by colour and number, the enchanter by place.
+// Answer for patterns in two clicks: the first pulse's actuator, then an icon of the whole pattern (thesis
+// 3.2.2). Icons show the order by colour and number, and the actuator by place.
 #include "Mixer/Studies/StudyAnswer.h"
 #include "Mixer/Studies/StudyParts.h"
 #include "Stimuli/PulsePattern.h"
@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-juce::Colour orderColour(int pulse) { return palette::ramp(1 + 2 * pulse); } // cool to warm
+juce::Colour orderColour(int pulse) { return palette::ramp(1 + 2 * pulse); } // from cool to warm colours
 
 void drawPulse(juce::Graphics& g, juce::Point<float> at, float radius, int pulse, float light) {
     const auto disc = juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(at);
@@ -20,7 +20,7 @@ void drawPulse(juce::Graphics& g, juce::Point<float> at, float radius, int pulse
     g.drawText(juce::String{pulse + 1}, disc, juce::Justification::centred, false);
 }
 
-/// One pattern on a small field.
+/// Button with a pattern on a small field.
 class PatternIcon final : public juce::Button {
 public:
     PatternIcon(const PulsePattern& p, const LayoutDescription& layout)
@@ -41,7 +41,7 @@ public:
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override {
         drawTarget(g, *this, isOver, isDown, 6.0f);
         const float light = isEnabled() ? 1.0f : 0.4f, radius = 8.5f;
-        // Of low icons the discs of two rows just touch.
+        // In low icons the discs of two rows touch.
         const float above = std::clamp(0.5f * static_cast<float>(getHeight()) - radius - 1.0f, radius, 14.0f);
         const auto inner = getLocalBounds().toFloat().reduced(18.0f, above);
         for (int j = 0; j < layout_.geometry.count; ++j) {
@@ -53,7 +53,7 @@ public:
                 g.setColour(shade(*this, Shade::muted).withMultipliedAlpha(0.55f * light));
                 g.drawEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(at), 1.5f);
             }
-            // Pulses of one enchanter stand side by side, towards the middle of the icon.
+            // Pulses of one actuator are drawn side by side, towards the centre of the icon.
             float x = std::clamp(at.x - 0.5f * static_cast<float>(here - 1) * 2.0f * radius, 4.0f + radius,
                                  static_cast<float>(getWidth()) - 4.0f - radius -
                                      static_cast<float>(here - 1) * 2.0f * radius);
@@ -170,7 +170,7 @@ private:
             if (icon->isVisible()) return icon->grabKeyboardFocus();
     }
 
-    /// Durations below each other, in each the icons of one pulse, two, three.
+    /// One row group per duration, with the icons of one, two and three pulses.
     void placeIcons() {
         std::map<int, std::vector<PatternIcon*>> shown;
         for (auto& icon : icons_)
@@ -183,7 +183,7 @@ private:
         for (const auto& [ms, some] : shown) lines += (static_cast<int>(some.size()) + across - 1) / across;
         auto area = iconsArea_;
         const int free = area.getHeight() - captionHeight * static_cast<int>(shown.size());
-        const int height = std::clamp(free / lines - space, 28, 110); // the same in every row
+        const int height = std::clamp(free / lines - space, 28, 110); // equal in all rows
         const int width = std::clamp(area.getWidth() / across - space, 60, 150);
         for (const auto& [ms, some] : shown) {
             rows_.emplace_back(ms, area.removeFromTop(captionHeight));
@@ -207,7 +207,7 @@ private:
     std::vector<std::unique_ptr<PatternIcon>> icons_;
     juce::Rectangle<int> firstHeading_, iconHeading_, iconsArea_;
     juce::Rectangle<float> field_;
-    std::vector<std::pair<int, juce::Rectangle<int>>> rows_; // ms, caption
+    std::vector<std::pair<int, juce::Rectangle<int>>> rows_; // duration in ms, and area of its caption
     int first_ = -1;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Answers without a place: labels, alternatives, scales, a level, a number.
+// Answers that need no field: labels, alternatives, scales, a level, a number.
 #include "Io/Text/NumberText.h"
 #include "Mixer/Studies/StudyAnswer.h"
 #include "Mixer/Studies/StudyParts.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int space = 16;
 
-/// In the upper part of `area`, near what is felt.
+/// A column in the upper part of `area`, near the stimulus buttons.
 juce::Rectangle<int> column(juce::Rectangle<int> area, int width, int height) {
     const int high = std::min(height, area.getHeight());
     return area.withTrimmedTop((area.getHeight() - high) / 4)
@@ -18,7 +18,7 @@ juce::Rectangle<int> column(juce::Rectangle<int> area, int width, int height) {
         .withSizeKeepingCentre(std::min(width, area.getWidth()), high);
 }
 
-/// A button for each label.
+/// One button per label.
 class LabelAnswer final : public ChosenAnswer {
 public:
     LabelAnswer(const ConditionPlan& condition, const StudyWords& say) {
@@ -58,7 +58,7 @@ private:
     std::vector<std::string> labels_;
 };
 
-/// One of the parts, by its number: what they are called stays unsaid.
+/// One button per part, by number; the names of the parts are hidden.
 class ChoiceAnswer final : public ChosenAnswer {
 public:
     ChoiceAnswer(const Trial& trial, const StudyWords& say)
@@ -95,8 +95,8 @@ private:
     std::vector<std::unique_ptr<BigButton>> buttons_;
 };
 
-/// A slider for each scale, with what it means; one that was not moved has not answered. How many points it
-/// is stays unsaid unless the session wants it told: who reads a number rates the number.
+/// One slider per scale, with its definition. A slider that was not moved has no answer. The score is hidden
+/// unless the session shows numbers, because visible numbers bias ratings.
 class RatingAnswer final : public StudyAnswer {
 public:
     RatingAnswer(const SessionPlan& session, const StudyWords& say)
@@ -183,7 +183,7 @@ private:
     std::vector<std::unique_ptr<Scale>> scales_;
 };
 
-/// Method of adjustment: softer or stronger, a step at a time; the level itself is not told.
+/// Method of adjustment: softer or stronger by one step. The level is hidden.
 class AdjustAnswer final : public StudyAnswer {
 public:
     AdjustAnswer(const Adjustment& adjustment, double startDb, const StudyWords& say)
@@ -252,7 +252,7 @@ public:
         number_.onTextChange = [this] {
             if (onChange) onChange();
         };
-        number_.setEscapeAndReturnKeysConsumed(false); // they silence, and go on
+        number_.setEscapeAndReturnKeysConsumed(false); // so that Esc silences and Enter confirms
         addAndMakeVisible(number_);
     }
     Answer answer() const override {
@@ -263,18 +263,18 @@ public:
     }
     bool isComplete() const override { return answer().value > 0.0; }
     std::string keys() const override { return "Type a number, then Enter."; }
-    // typed while the focus was elsewhere
+    // for keys typed while the focus was elsewhere
     bool takeKey(const juce::KeyPress& key) override { return isEnabled() && number_.keyPressed(key); }
     void beginAnew() override { number_.grabKeyboardFocus(); }
     void resized() override { number_.setBounds(column(getLocalBounds(), 260, 64)); }
     void enablementChanged() override {
-        number_.setVisible(isEnabled()); // there is nothing to see before it may be answered
+        number_.setVisible(isEnabled()); // hidden until it may be answered
         if (isEnabled()) number_.applyColourToAllText(shade(*this, Shade::text));
     }
 
 private:
     struct Editor final : juce::TextEditor {
-        // it feels again
+        // Space plays again
         bool keyPressed(const juce::KeyPress& key) override {
             return !key.isKeyCode(juce::KeyPress::spaceKey) && juce::TextEditor::keyPressed(key);
         }

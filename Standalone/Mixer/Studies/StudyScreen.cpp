@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From page to page; what keys do.
+// Pages of the study screen, and its keys.
 #include "Mixer/Studies/StudyScreen.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Mixer/Window/Parts.h"
@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-/// The answer as it would be with the first stimulus of a condition, to see what it renders to.
+/// A record with the first stimulus of a condition, to check that it can be rendered.
 TrialRecord firstRecord(const Protocol& protocol, std::size_t condition, std::size_t session) {
     const SessionPlan& s = protocol.sessions[session];
     TrialRecord record;
@@ -153,14 +153,14 @@ void StudyScreen::showTrial() {
     pause_.setVisible(hasHands());
     showParts();
     prepareControls(*this);
-    answers_.setHasFocusOutline(false); // a frame around all of them points at none
+    answers_.setHasFocusOutline(false); // a frame around the whole pane would not show a target
     resized();
     refresh();
     repaint();
     if (isShowing()) grabKeyboardFocus();
 }
 
-/// The world of the first button stands still until it is felt.
+/// Shows the world of the first button, paused until it is played.
 void StudyScreen::previewWorld() {
     const auto jobs = jobsOf(study_->protocol(), {experiment().trial(), answers_->answer()});
     const auto world = feltWorld(std::get<WrittenCall>(jobs.front()), study_->protocol().folder);
@@ -189,7 +189,7 @@ void StudyScreen::fail(const std::string& reason) {
 
 void StudyScreen::leave() {
     if (isFeeling() && !hasHands()) return;
-    // it ends with this component
+    // asynchronous, because it deletes this component
     if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); });
 }
 
@@ -235,7 +235,7 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
         answers_.confirm();
     else if (key.isKeyCode(KeyPress::returnKey) && next_.isVisible() && next_.isEnabled())
         goOn();
-    return true; // nothing reaches the mixer below
+    return true; // no key reaches the mixer below
 }
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window as a participant sees it: breaks, stimuli to be felt, the answer, the end. What is asked and
-// what is kept is StudyInProgress' business: this is only somebody who answers.
+// Screen of a study for the participant: breaks, stimuli, answers, end. It is only the user interface;
+// StudyInProgress selects trials and stores answers.
 #pragma once
 #include "Host/Views/MaterialTexture.h"
 #include "Lab/Study/StudyRun.h"
@@ -11,27 +11,27 @@
 
 namespace physvib {
 
-/// Fills its parent. Keys: Space feels, Esc silences, the answer has its own.
+/// Fills its parent. Keys: Space plays, Esc silences; the answer component has its own.
 class StudyScreen final : public juce::Component {
 public:
-    /// With `answersElsewhere`, answers are given in a window of its own, on another display if there is one.
+    /// With `answersElsewhere`, answers are given in a separate window, on another display if there is one.
     StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words = {},
                 bool answersElsewhere = false, std::vector<MaterialPicture> pictures = {});
     ~StudyScreen() override;
 
-    /// the participant has finished, or leaves: everything answered is in the file
+    /// Called when the participant has finished or leaves; all answers are in the file.
     std::function<void()> onClose;
 
     const StudyInProgress& study() const noexcept { return *study_; }
     const StudyWords& words() const noexcept { return say_; }
     enum class Page { pause, trial, comment, done, exposed, fault };
     Page page() const noexcept { return page_; }
-    int plays() const noexcept { return progress_ ? progress_->plays() : 0; } ///< of the trial at hand
+    int plays() const noexcept { return progress_ ? progress_->plays() : 0; } ///< of the current trial
     bool isFeeling() const { return sound_.isPlaying() || pane_.isPlaying(); }
     StudyWorldPane& world() noexcept { return pane_; }
     StudyAnswerPane& answers() noexcept { return answers_; }
 
-    /// Time goes on: breaks, what is felt, what unlocks. About 30 times a second.
+    /// Updates breaks, playback and the answer. To be called about 30 times a second.
     void refresh();
 
     bool keyPressed(const juce::KeyPress& key) override;
@@ -68,7 +68,7 @@ private:
     }
     bool hasHands() const { return worldSet() != nullptr && worldSet()->hasHands; }
     bool isAnswerSeen() const;
-    /// of the part at hand, or the last
+    /// Duration felt of the current or last part.
     double feltSeconds() const {
         return worldSet() != nullptr ? pane_.world().feltSeconds() : sound_.feltSeconds();
     }
@@ -79,7 +79,7 @@ private:
     void updatePause();
     void placeTrial(juce::Rectangle<int> area);
     void drawMaterials(juce::Graphics& g) const;
-    /// of the session's worlds, by the names of stimuli and objects
+    /// Materials of the session's worlds, by the names of stimuli and objects.
     std::vector<MaterialLegend> materialsSeen() const;
     juce::String headline() const, body() const, progressWords() const;
     const Experiment& experiment() const noexcept { return study_->experiment(); }
@@ -90,26 +90,25 @@ private:
     const std::vector<MaterialPicture> pictures_;
     StudySound sound_;
     StudyWorldPane pane_;
-    const double squaresBefore_; // of the participant's day, in g^2 s, without what the desk sums up from now
-                                 // on
+    const double squaresBefore_; // exposure of the participant's day in g^2 s, before what the mixer measures
+                                 // from now on
     StudyAnswerPane answers_;
     StudyMarkers markers_;
-    bool isToBeMarked_ = false;                  ///< a part was begun, and its marker is not out yet
-    std::unique_ptr<juce::Component> elsewhere_; // the answers' own window
+    bool isToBeMarked_ = false;                  ///< a part was started, and its marker is not sent yet
+    std::unique_ptr<juce::Component> elsewhere_; // the separate window for answers
     Page page_ = Page::pause;
     std::string fault_;
 
-    // the trial at hand
+    // current trial:
     LayoutDescription layout_;
     std::optional<TrialProgress> progress_;
-    std::optional<Answer> exploring_; // felt now, answered afterwards
+    std::optional<Answer> exploring_; // being played, to be recorded afterwards
     std::vector<std::unique_ptr<BigButton>> parts_;
-    std::optional<std::size_t> wanted_; // a world that begins when the one before has faded
-    std::vector<std::string> sessions_; // that were felt
-    std::vector<FeltLevel> felt_;       // per part
+    std::optional<std::size_t> wanted_; // a world that starts when the previous one has faded out
+    std::vector<std::string> sessions_; // sessions felt in this trial
+    std::vector<FeltLevel> felt_;       // by part
     std::size_t part_ = 0;
-    double limiterDb_ = 0.0; // by how much it lowered what was felt of the trial at hand, as far as it was
-                             // looked at
+    double limiterDb_ = 0.0; // maximum gain reduction observed in this trial
     double counted_ = 0.0, firstFeltMs_ = 0.0, restEndsMs_ = 0.0;
 
     BigButton next_{"Next", "Next"}, pause_{"Pause", "Pause"};
@@ -120,10 +119,11 @@ private:
     juce::Rectangle<int> headArea_, questionArea_, bodyArea_, keysArea_;
 };
 
-/// With what a trial is felt now. M.
+/// Settings of the apparatus now. Message thread.
 Apparatus apparatusOf(Desk& desk);
 
-/// Why the study cannot be felt in this mixer, with what each condition begins with; empty if it can. M.
+/// Empty, or why the study cannot be played in this mixer, checked with the first stimulus of each condition.
+/// Message thread.
 std::string feltFault(const Protocol& protocol, Desk& desk);
 
 } // namespace physvib

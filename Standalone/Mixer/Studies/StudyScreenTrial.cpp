@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Through a trial: its parts are felt, its answer is given and kept.
+// Course of a trial: plays its parts, and stores the answer.
 #include "Core/Decibels.h"
 #include "Mixer/Studies/StudyScreen.h"
 #include <algorithm>
@@ -12,12 +12,12 @@ bool StudyScreen::isExploring() const { return experiment().session().answer() =
 
 bool StudyScreen::canAnswer() const { return progress_->canAnswer() && !isFeeling(); }
 
-/// A world with hands has the whole screen until it is left for the answer.
+/// An interactive world has the whole screen until the participant leaves it to answer.
 bool StudyScreen::isAnswerSeen() const { return answers_.standsAlone() || !hasHands() || canAnswer(); }
 
 double StudyScreen::restLeft() const { return std::max(0.0, 1e-3 * (restEndsMs_ - nowMs())); }
 
-/// The one after the last that was felt, and the first to begin with.
+/// The part after the last played one; at first, the first.
 std::size_t StudyScreen::nextPart() const {
     return progress_->plays() == 0 ? 0 : (part_ + 1) % parts_.size();
 }
@@ -72,10 +72,10 @@ void StudyScreen::pause() {
     refresh();
 }
 
-/// What is explored is felt at once; else it waits to be confirmed.
+/// An exploration plays the choice at once; other answers wait for confirmation.
 void StudyScreen::asked() {
     if (page_ != Page::trial || isFeeling()) return;
-    if (!isExploring()) return refresh(), answers_.focusConfirm(); // which may be open only now
+    if (!isExploring()) return refresh(), answers_.focusConfirm(); // it may be enabled only now
     exploring_ = answers_->answer();
     play(0);
 }
@@ -90,7 +90,7 @@ void StudyScreen::confirm() {
     if (answers_->isComplete() && canAnswer()) take(answers_->answer());
 }
 
-/// "felt;condition=PHONE;session=main;trial=3;stimulus=2,2;part=1": of the trial at hand.
+/// Marker text of the current trial: "felt;condition=PHONE;session=main;trial=3;stimulus=2,2;part=1".
 std::string StudyScreen::markerWords(const char* what) const {
     const Trial& trial = experiment().trial();
     return std::string{what} + ";condition=" + experiment().condition().name +
@@ -98,7 +98,7 @@ std::string StudyScreen::markerWords(const char* what) const {
            ";stimulus=" + trial.stimulus;
 }
 
-// A stimulus' time is known when it is handed over, a world's when it is first felt.
+// The start time of a stimulus is known when it is posted, that of a world when it is first felt.
 void StudyScreen::markFelt() {
     if (!isToBeMarked_ || (worldSet() != nullptr && pane_.world().feltSeconds() <= 0.0)) return;
     isToBeMarked_ = false;
@@ -109,13 +109,13 @@ void StudyScreen::markFelt() {
         fromNow);
 }
 
-/// Of the part that was felt last, before another is.
+/// Stores the felt level of the last part before another is played.
 void StudyScreen::noteFelt() {
     desk_.exposure().update();
     if (progress_->plays() > 0) felt_[part_] = desk_.exposure().felt(feltSeconds());
 }
 
-/// A(8) of what this study's trials of today have cost the participant.
+/// The participant's A(8) from this study's trials of today.
 double StudyScreen::exposure() const {
     return dailyExposure(std::max(0.0, squaresBefore_ + desk_.exposure().squareGSeconds()));
 }
@@ -136,7 +136,7 @@ void StudyScreen::take(Answer answer) {
                            experiment().sessionNumber() == session &&
                            experiment().trial().restSeconds <= 0.0 && !isExposed();
     if (!staysOpen) return showNext();
-    exploring_.reset(); // the same screen, with what was felt marked
+    exploring_.reset(); // stays on this screen and marks what was felt
     progress_.emplace(experiment().session(), experiment().trial());
     answers_->mark(experiment().explored());
     refresh();
@@ -144,7 +144,7 @@ void StudyScreen::take(Answer answer) {
 }
 
 void StudyScreen::updateTrial() {
-    if (progress_->plays() > 0) { // what was felt since the last time
+    if (progress_->plays() > 0) { // time felt since the last update
         const double felt = feltSeconds();
         progress_->spent(part_, felt - counted_);
         counted_ = felt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the screen says, and where its parts are.
+// Texts and layout of the study screen.
 #include "Mixer/Studies/StudyScreen.h"
 #include "Mixer/Window/Parts.h"
 
@@ -12,7 +12,7 @@ constexpr int barHeight = 56, inset = 40, partWidth = 300, partHeight = 84, choi
 
 void StudyScreen::refresh() {
     const bool hasFocus = hasKeyboardFocus(true) || (elsewhere_ && elsewhere_->hasKeyboardFocus(true));
-    if (isShowing() && !hasFocus) grabKeyboardFocus(); // first: an open answer takes it from here
+    if (isShowing() && !hasFocus) grabKeyboardFocus(); // an answer may then take it
     const bool isSilent = desk_.isSilent();
     silence_.setButtonText(isSilent ? say_("SILENT  Esc: feel") : say_("SILENCE  Esc"));
     silence_.setToggleState(isSilent, juce::dontSendNotification);
@@ -150,7 +150,7 @@ void StudyScreen::paint(juce::Graphics& g) {
     if (page_ == Page::pause) drawMaterials(g);
 }
 
-// On the page before a session: what will be seen, by name.
+// On the page before a session: the materials that will be seen, with their names.
 void StudyScreen::drawMaterials(juce::Graphics& g) const {
     const auto legends = materialsSeen();
     if (legends.empty()) return;

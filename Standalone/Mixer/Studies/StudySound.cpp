@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Controls first, then the strikes, a moment later.
+// Plays a stimulus in the mixer's session: controls first, then its events slightly later.
 #include "Mixer/Studies/StudySound.h"
 #include "Live/Documents/StripGroups.h"
 #include "Mixer/Window/Parts.h"
@@ -9,8 +9,8 @@ namespace physvib {
 namespace {
 
 using Kind = RenderControl::Kind;
-constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may come behind a strike;
-                                            // gains are ramped
+constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may be applied after an
+                                            // event, and gains are ramped
 
 constexpr const char* noControls = "The session took no more controls: expected a device that plays";
 

@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The desk lent to a study: the world stands still, the channels are the stimulus' enchanters, and what is
-// felt are the trial's own calls. Master level, ceilings, outputs and the silence button stay what they are.
+// Borrows the mixer's session for a study: its world is paused, its channels are the stimulus' actuators, and
+// only the trial's stimuli play. Master level, ceilings, outputs and the silence button stay unchanged.
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Studies/StudyCalls.h"
 
 namespace physvib {
 
-/// M only. While it lives nobody edits the desk's mix.
+/// Message thread only. The mixer state must not be edited during its lifetime.
 class StudySound {
 public:
     explicit StudySound(Desk& desk);
-    ~StudySound(); ///< the mix and the world's pace are as they were
+    ~StudySound(); ///< restores mixer state and world speed
     StudySound(const StudySound&) = delete;
     StudySound& operator=(const StudySound&) = delete;
 
-    /// Why it cannot be felt on that desk; empty if it can.
+    /// Empty, or why the stimulus cannot be played in that mixer.
     static std::string refusal(const Desk& desk, const FeltStimulus& stimulus);
-    /// What a trial is made by, at the desk's rate, if it can be felt there.
+    /// Renders a trial's stimulus at the mixer's sample rate, or returns why it cannot be played.
     static Result<FeltStimulus> make(Desk& desk, const TrialJob& job, const std::string& folder = {});
 
-    /// Plays it; empty, or the reason. Not while another plays: what was begun is felt to its end, like in
-    /// the file.
+    /// Plays it; empty, or an error. Not while another plays: stimuli play to their end, as in the rendered
+    /// file.
     std::string play(const FeltStimulus& stimulus);
     bool isPlaying() const;
-    double feltSeconds() const;     ///< of the last one, so far
-    double startsInSeconds() const; ///< until the last one is felt; below 0: it has been
-    /// What rings fades out, and what is to come is mute until the desk is given back.
+    double feltSeconds() const;     ///< of the last stimulus, so far
+    double startsInSeconds() const; ///< time until the last stimulus is felt; negative afterwards
+    /// Fades out sounding modes and mutes pending events until the mixer is returned.
     void stop();
 
 private:
@@ -36,7 +36,7 @@ private:
     Desk& desk_;
     int slowness_;
     double beganAtMs_ = 0.0, seconds_ = 0.0;
-    std::vector<float> gains_; // as posted
+    std::vector<float> gains_; // last posted values
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Words of the tasks.
+// Composes the texts of tasks.
 #include "Mixer/Studies/StudyWords.h"
 #include "Io/Text/CsvText.h"
 #include "Mixer/Window/Parts.h"

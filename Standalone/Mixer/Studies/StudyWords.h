@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a participant reads.
+// Texts for participants, translated and with values inserted.
 #pragma once
 #include "Lab/Files/Words.h"
 #include "Lab/Study/Protocol.h"
@@ -8,22 +8,23 @@
 
 namespace physvib {
 
-/// The texts of the screens and of a protocol in the participant's language. M.
+/// The texts of the screens and of a protocol in the participant's language. Message thread.
 class StudyWords {
 public:
     explicit StudyWords(Words words = {})
         : words_{std::move(words)} {}
 
-    /// "trial {n}" with what stands for {n}. One that the words do not have is told in English, and noted.
+    /// "trial {n}" with the value of {n}. Texts without a translation stay English and are recorded in
+    /// missed().
     juce::String operator()(const std::string& english,
                             std::initializer_list<std::pair<const char*, juce::String>> values = {}) const;
     const std::set<std::string>& missed() const noexcept { return missed_; }
 
-    /// The question of a trial: the protocol's, or that of the task.
+    /// Question of a trial: the protocol's, or the task's default.
     juce::String question(const SessionPlan& session, const ConditionPlan& condition) const;
-    /// How a session goes, in a few lines.
+    /// Course of a session, in a few lines.
     juce::String instruction(const SessionPlan& session, const ConditionPlan& condition) const;
-    /// "the first", of the parts to choose from.
+    /// "the first", for the parts to choose from.
     juce::String ordinal(int part) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lends a session to the output and keeps its journal.
+// Plays a session of its own on the borrowed output, and keeps its journal.
 #include "Mixer/Studies/StudyWorld.h"
 #include "Io/Disk/FileClash.h"
 #include "Scene/SceneEdits.h"
@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::int64_t fadeNs = 100'000'000; // longer than whatever rings takes to fade, by
+constexpr std::int64_t fadeNs = 100'000'000; // longer than the fade-out of any mode, by
                                              // limits::stealFadePerSecond
 
 } // namespace
@@ -49,7 +49,7 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
         file, *session_, setup_,
         Provenance{PHYSVIB_VERSION, {{"scene", setup_.scene.name}, {"seed", std::to_string(setup_.seed)}}});
     if (auto fault = journal_->error(); !fault.empty()) return finish(), fault;
-    driver_ = std::make_unique<ThreadDriver>(*session_, setup_.stepsPerSecond); // from now on time goes on
+    driver_ = std::make_unique<ThreadDriver>(*session_, setup_.stepsPerSecond); // starts its time
     return {};
 }
 
@@ -68,7 +68,7 @@ void StudyWorld::end() {
     RenderControl stop;
     stop.kind = RenderControl::Kind::stopAll;
     session_->world().setSlowness(0);
-    // no room for it: the world goes on with the next look, to be ended later
+    // queue full: the world continues, and end() is called again by the next look()
     if (const auto stopped = session_->take({stop})) stoppedNs_ = stopped.value;
 }
 
@@ -86,11 +86,12 @@ WorldMoment StudyWorld::look() {
         session_->timeline().playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
     const std::int64_t now = session_->status().sessionNs;
     if (isMoving()) {
-        session_->world().setSlowness(desk_.isSilent() ? 0 : 1); // what is not felt is not shown either
+        session_->world().setSlowness(desk_.isSilent() ? 0 : 1); // pause the display too while output is
+                                                                 // silent
         if (!desk_.isSilent())
             feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
-    } else if (session_->timeline().nextFeltNs() >= stoppedNs_ + fadeNs) { // L may have grown meanwhile
+    } else if (session_->timeline().nextFeltNs() >= stoppedNs_ + fadeNs) { // the latency may have grown
         finish();
     }
     seenNs_ = now;
@@ -101,15 +102,15 @@ void StudyWorld::finish() {
     if (!session_) return;
     desk_.output().lend(nullptr);
     driver_.reset();
-    session_->advance(); // the world is told as far as time went: a render would let it go on from there
-    // A hit of the last step is known a step later, and there is none: a render that ended where the
-    // stand-still does would feel it.
+    session_->advance(); // simulates up to the end of time, from which a later render would continue
+    // Impacts of the last step are known one step later, which does not exist here. A render that ended at
+    // the pause would include them.
     const std::int64_t endNs = stoppedNs_ < 0 ? session_->status().sessionNs : stoppedNs_ + fadeNs;
     if (journal_ && journal_->error().empty()) {
         for (PlayedEvent played; session_->played().pop(played);)
             journal_->played(played, session_->timeline().sampleRateHz());
         journal_->end(endNs);
-        fault_ = journal_->finish(SessionJournal::quickBytes); // the window waits
+        fault_ = journal_->finish(SessionJournal::quickBytes); // limited, because the window waits
     }
     journal_.reset();
     session_.reset();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A world that a participant watches, feels and may play with: a session of its own on the desk's output,
-// which becomes a file that renders what was felt, to the bit.
+// A world that a participant sees, feels and can act in: a session of its own on the mixer's output, saved as
+// a file that renders exactly what was felt.
 #pragma once
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/Views/WorldView.h"
@@ -14,8 +14,8 @@
 
 namespace physvib {
 
-/// One after the other, while nobody edits the desk's mix. Strips give polarity, delay and ceiling; their
-/// levels are the study's business. M only.
+/// One at a time, and the mixer state must not be edited meanwhile. Strips give polarity, delay and ceiling;
+/// the study sets levels. Message thread only.
 class StudyWorld {
 public:
     explicit StudyWorld(Desk& desk)
@@ -24,28 +24,29 @@ public:
     StudyWorld(const StudyWorld&) = delete;
     StudyWorld& operator=(const StudyWorld&) = delete;
 
-    /// Why it cannot be felt on that desk; empty if it can.
+    /// Empty, or why the world cannot be played in that mixer.
     static std::string refusal(const Desk& desk, const FeltWorld& world);
 
-    /// The world begins to move. With hands, what its script does of what hands do is left out, and it goes
-    /// on until end(); else it ends after the call's seconds. `file` (.json) keeps it. Empty, or the reason.
+    /// Starts the world. With `hasHands`, scripted user input is disabled and the world runs until end();
+    /// otherwise it ends after the call's seconds. The session is saved to `file` (.json). Empty, or an
+    /// error.
     std::string begin(FeltWorld world, bool hasHands, const std::filesystem::path& file);
 
-    bool isPlaying() const noexcept { return session_ != nullptr; } ///< it moves, or fades out
+    bool isPlaying() const noexcept { return session_ != nullptr; } ///< it runs or fades out
     bool isMoving() const noexcept { return isPlaying() && stoppedNs_ < 0; }
-    /// of this one, or the last, while it was not silent
+    /// Duration of the current or last world, without silences.
     double feltSeconds() const noexcept { return 1e-9 * static_cast<double>(feltNs_); }
 
-    /// It stands still, and what rings fades out.
+    /// Stops the world; sounding modes fade out.
     void end();
-    /// A hand's doing; nothing while none moves. Empty, or what is wrong with it.
+    /// Applies user input if the world runs. Empty, or an error.
     std::string act(const Action& action);
 
-    /// Time goes on; what is new, to be drawn. About 30 times a second.
+    /// Advances time and returns the changes to draw. To be called about 30 times a second.
     WorldMoment look();
 
     const Scene& scene() const noexcept { return setup_.scene; }
-    const std::string& fault() const noexcept { return fault_; } ///< empty, or why the last one is not kept
+    const std::string& fault() const noexcept { return fault_; } ///< why the last one was not saved
 
 private:
     void tellStrips();
@@ -57,8 +58,8 @@ private:
     std::unique_ptr<SessionJournal> journal_;
     std::unique_ptr<SimulationDriver> driver_;
     std::string fault_;
-    double seconds_ = 0.0;                                  // of a world without hands
-    std::int64_t feltNs_ = 0, seenNs_ = 0, stoppedNs_ = -1; // the latter: session time of what stops it
+    double seconds_ = 0.0;                                  // of a world without user input
+    std::int64_t feltNs_ = 0, seenNs_ = 0, stoppedNs_ = -1; // stoppedNs_: session time of the stop
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hands become inputs of the session that is felt.
+// Converts mouse and key input to inputs of the session that is played.
 #include "Mixer/Studies/StudyWorldPane.h"
 #include "Io/Text/NumberText.h"
 #include "Mixer/Window/Parts.h"
@@ -15,8 +15,8 @@ StudyWorldPane::StudyWorldPane(Desk& desk)
             act(ImpulseAction{body, {thesisDrag * screenMetres.x, thesisDrag * screenMetres.y}, point});
     };
     tilt_.onValueChange = [this] { act(TiltAction{tilt_.angleRadians()}); };
-    view_.setMargin(8);        // no badges here
-    view_.showMaterials(true); // by which participants expect what they feel
+    view_.setMargin(8);        // there are no badges here
+    view_.showMaterials(true); // materials are visible, as participants form expectations by them
     addAndMakeVisible(view_);
     addChildComponent(tilt_);
 }
@@ -44,7 +44,7 @@ std::string StudyWorldPane::begin(FeltWorld world, bool hasHands, const std::fil
 
 void StudyWorldPane::preview(const Scene& scene) {
     view_.setDisplayWidth(desk_.displayWidthMetres());
-    view_.show(Scene{}); // also where the same one begins again
+    view_.show(Scene{}); // resets the view if the same scene starts again
     view_.show(scene);
 }
 

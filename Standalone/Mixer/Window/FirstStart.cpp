@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One click to the first pulse; levels begin low, since hands are attached.
+// First-start assistant: device choice and test pulses. Levels start low, because people may be holding the
+// actuators.
 #include "Mixer/Window/FirstStart.h"
 #include "Core/Limits.h"
 #include "Host/Devices/LikelyDevices.h"
@@ -12,8 +13,8 @@ namespace {
 
 constexpr int mostRows = 6;
 constexpr int lookMs = 100,
-              mostLooks = 50; // for a sink to come: greeting and clock of a board take half a second,
-                              // Bluetooth one
+              mostLooks = 50; // time for a sink to become ready: greeting and clock of a board need half a
+                              // second, Bluetooth one
 
 juce::String outputsText(int outputs) {
     return juce::String{outputs} + (outputs == 1 ? " output" : " outputs");
@@ -47,9 +48,9 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
                           outputs};
         (outputs > 2 ? many : few).push_back(std::move(choice));
     }
-    std::optional<FeltChoice> ears; // of sound devices alone
+    std::optional<FeltChoice> ears; // best choice among sound devices
     if (const auto& heard = few.empty() ? many : few; !heard.empty()) ears = heard.front();
-    for (const auto& [kind, place] : offers) { // nothing but the sink plays
+    for (const auto& [kind, place] : offers) { // choice with the sink only, without a sound device
         FeltChoice choice{utf8(std::string{kind->title} + ": " + place.where) +
                               (place.about.empty() ? juce::String{} : "  " + utf8(place.about)),
                           {std::string{noDeviceType} + ":" + noDeviceName},
@@ -77,7 +78,7 @@ FirstStart::FirstStart(Desk& desk, std::vector<FeltChoice> choices)
     title_.setFont(juce::Font{text::large, juce::Font::bold});
     words_.setFont(juce::Font{text::medium});
     words_.setJustificationType(juce::Justification::topLeft);
-    words_.setMinimumHorizontalScale(1.0f); // it has room for two lines
+    words_.setMinimumHorizontalScale(1.0f); // it has space for two lines
     for (int i = 0; i < std::min(mostRows, static_cast<int>(choices_.size())); ++i) {
         auto& row = *rows_.emplace_back(
             std::make_unique<juce::TextButton>(choices_[static_cast<std::size_t>(i)].title +
@@ -94,7 +95,7 @@ FirstStart::FirstStart(Desk& desk, std::vector<FeltChoice> choices)
     done_.onClick = [this] { end(true); };
     for (auto* button : {&play_, &without_, &felt_, &louder_, &notFelt_, &done_})
         button->setTitle(button->getButtonText()), addChildComponent(button);
-    // what Return does
+    // default button for Return
     for (auto* button : {&play_, &felt_}) button->setToggleState(true, juce::dontSendNotification);
     for (auto* label : {&title_, &words_}) addAndMakeVisible(label);
     prepareControls(*this);
@@ -130,7 +131,7 @@ void FirstStart::listen() {
 
 void FirstStart::test(int outputs) {
     slowness_ = std::max(1, desk_.session().world().slowness());
-    desk_.setSlowness(0); // nothing but what is tested is felt
+    desk_.setSlowness(0); // pause the world, so that only test pulses are felt
     desk_.change("First start", [outputs](Mix& mix) {
         keepTo(outputs, mix);
         for (int j = 0; j < mix.count(); ++j) mix.strips[static_cast<std::size_t>(j)].output = j;
@@ -142,7 +143,7 @@ void FirstStart::test(int outputs) {
     show();
 }
 
-// What plays beside the device may not be there yet: its first pulse would be lost.
+// A sink may not be ready yet, and then its first pulse would be lost.
 bool FirstStart::isPlayed() const {
     return std::ranges::all_of(desk_.session().sinks().states(), &SinkState::isReady);
 }
@@ -166,7 +167,7 @@ void FirstStart::next() {
 
 void FirstStart::felt() { next(); }
 
-// What was tested may have been detached meanwhile, by a message or in the window behind.
+// The tested actuator may have been detached by a message or in the window behind.
 bool FirstStart::isGone() const { return tested_ >= desk_.mix().count(); }
 
 void FirstStart::feltAt(double shareX, double shareY) {
@@ -198,7 +199,7 @@ void FirstStart::louder() {
 void FirstStart::end(bool hasChosen) {
     if (tested_ >= 0) desk_.setSlowness(slowness_);
     tested_ = -1;
-    if (onEnd) onEnd(hasChosen); // may destroy this
+    if (onEnd) onEnd(hasChosen); // may destroy this object
 }
 
 bool FirstStart::keyPressed(const juce::KeyPress& key) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first start: where the actuators hang, then each of them in turn: was it felt, and where?
+// First-start assistant: chooses the device of the actuators, then tests each actuator: was its pulse felt,
+// and where?
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
@@ -9,32 +10,33 @@
 
 namespace physvib {
 
-/// Something that can be felt.
+/// A device choice that can play vibration.
 struct FeltChoice {
     juce::String title;
     DeviceChoice device;
     int outputs = 0;
-    bool isBeside = false; ///< a sink: the session begins anew with it
-    bool isHeard = false;  ///< on headphones at its first two outputs; no actuator plays there
+    bool isBeside = false; ///< a sink; choosing it restarts the session
+    bool isHeard = false;  ///< headphones on the first two outputs, without actuators
 };
 
-/// Something that can be played on beside a device.
+/// An available sink.
 struct SinkOffer {
     const SinkKind* kind;
     SinkPlace place;
 };
 
-/// All that can be told to be one. M; asks the system, which takes a while.
+/// All available sinks that can be detected. Message thread. Slow, as it queries the system.
 std::vector<SinkOffer> likelySinks();
 
-/// Audio devices, what can be played on beside one, and no device; the likely one first. M; as likelySinks().
+/// Choices of audio devices, sinks, and no device, the most likely one first. Message thread. As slow as
+/// likelySinks().
 std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<SinkOffer>& offers);
 
-/// No more actuators than there are outputs: those of a preset. M.
+/// Reduces the layout to a preset with at most that number of actuators. Message thread.
 void keepTo(int outputs, Mix& mix);
 
-/// A card over the window. All is done by keys as well: up, down and Return; then Return (felt), L (louder),
-/// N (not felt). M only.
+/// Card over the window, usable by keys alone: up, down and Return; then Return (felt), L (louder), N (not
+/// felt). Message thread only.
 class FirstStart final : public juce::Component, private juce::Timer {
 public:
     static constexpr int wide = 600, high = 400;
@@ -43,19 +45,18 @@ public:
     FirstStart(Desk& desk, std::vector<FeltChoice> choices);
 
     std::function<void(bool hasChosen)> onEnd;
-    std::function<void(const DeviceChoice&)> onBeside; ///< the window plays a sink beside a device, and goes
-                                                       ///< on with test()
+    std::function<void(const DeviceChoice&)> onBeside; ///< the window opens the sink, and continues with
+                                                       ///< test()
 
     void choose(int index);
     int chosen() const noexcept { return chosen_; }
-    void playHere();        ///< what is chosen: opens it, and the test begins
-    void listen();          ///< what is felt is heard on what is open
-    void test(int outputs); ///< of as many actuators as there are outputs, four at most, from a low level; a
-                            ///< sink is waited for
-    void pulse();           ///< of the one that is tested, again
-    void felt();            ///< where it is drawn; the next one
-    void feltAt(double shareX, double shareY); ///< there: it moves, and the next one
-    void notFelt();                            ///< takes its output away; the next one
+    void playHere();        ///< opens the chosen device and starts the test
+    void listen();          ///< plays contact sounds on the open device
+    void test(int outputs); ///< tests an actuator per output, four at most, from a low level; waits for sinks
+    void pulse();           ///< repeats the pulse of the tested actuator
+    void felt();            ///< at its drawn place; goes on to the next
+    void feltAt(double shareX, double shareY); ///< moves the actuator there; goes on to the next
+    void notFelt();                            ///< removes its output; goes on to the next
     void louder();
     int tested() const noexcept { return tested_; } ///< -1: none
     void end(bool hasChosen);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Logarithms of frequency and level.
+// Maps frequencies and levels to logarithmic axes, and draws spectra.
 #include "Mixer/Window/FrequencyAxis.h"
 #include "Core/Decibels.h"
 #include "Mixer/Window/Parts.h"
@@ -21,7 +21,7 @@ SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, 
         const double share = static_cast<double>(k) / (FrequencyAxis::points - 1);
         const double from = FrequencyAxis::hzAt(share - half) / binHz,
                      to = std::min(last, FrequencyAxis::hzAt(share + half) / binHz);
-        const auto between = [&](double bin) { // low points are finer than bins
+        const auto between = [&](double bin) { // at low frequencies the points are denser than the bins
             const auto i = static_cast<std::size_t>(bin);
             return i + 1 < magnitudes.size()
                        ? std::lerp(magnitudes[i], magnitudes[i + 1], bin - static_cast<double>(i))

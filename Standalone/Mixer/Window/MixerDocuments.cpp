@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sessions, scenes and layouts from files and into them; recordings and renders; what is asked before
-// anything is lost.
+// Opens and saves sessions, scenes and layouts; records and renders; asks before unsaved changes are lost.
 #include "Calls/SessionMovie.h"
 #include "Host/Recordings/SessionWav.h"
 #include "Io/Disk/AtomicFile.h"
@@ -14,11 +13,11 @@ namespace {
 
 constexpr const char* sessionPattern = "*.json";
 constexpr double movieSeconds = 60.0;
-constexpr double longestRender = 86'400.0; // as `physvib render` makes at most
+constexpr double longestRender = 86'400.0; // the limit of `physvib render`
 
 std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
 
-/// `mix` with the scene or the layout of that file.
+/// Copy of `mix` with the scene or the layout of the file.
 Result<Mix> mixWith(Mix mix, const juce::File& file) {
     const FileKind kind = fileKind(pathOf(file));
     if (kind == FileKind::scene) {
@@ -42,7 +41,7 @@ bool MixerWindow::load(const juce::File& file, const juce::File& document, bool 
     if (session) {
         Mix mix = mixOf(session.value);
         if (!isOwn) return playLowered(std::move(mix), document), true;
-        if (before_) lowerTo(*before_, mix); // the last seconds may be missing in the copy
+        if (before_) lowerTo(*before_, mix); // the copy may lack the last seconds
         return play(std::move(mix), document), true;
     }
     if (!desk_) play(firstMix(), {});
@@ -62,7 +61,7 @@ void MixerWindow::tellLowered(const std::string& lowered, const Mix& asked) {
     if (asked_) say("Lowered to this desk: " + utf8(lowered) + ". The menu has the file's own levels");
 }
 
-// A person at the machine may have what a file may not take.
+// The user may set levels that a file may not.
 void MixerWindow::takeAsked() {
     desk_->change("Levels of the file", [this](Mix& mix) {
         mix.levelDb = asked_->levelDb;
@@ -71,7 +70,7 @@ void MixerWindow::takeAsked() {
     asked_.reset();
 }
 
-// What the command line names is not an edit: there is nothing to save yet.
+// A file on the command line is not an edit, so there is nothing to save yet.
 void MixerWindow::start(const juce::File& file) {
     if (!file.existsAsFile()) return play(firstMix(), file);
     if (fileKind(pathOf(file)) == FileKind::session) return void(load(file, file));
@@ -186,7 +185,7 @@ void MixerWindow::renderOffline() {
                                          "It was played for " + number(played, 1) +
                                              " s. Beyond that its last scene goes on by itself.",
                                          juce::MessageBoxIconType::NoIcon, view_.get()};
-    // without what parts thousands
+    // without thousands separators
     window->addTextEditor("seconds", juce::String{std::ceil(10.0 * played) / 10.0, 1}, "Seconds");
     window->getTextEditor("seconds")->setInputRestrictions(8, "0123456789.");
     window->addButton("Choose a file" + dots(), 1, juce::KeyPress{juce::KeyPress::returnKey});

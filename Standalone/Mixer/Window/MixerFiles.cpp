@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files in one folder.
+// Reads and writes the mixer's settings folder.
 #include "Mixer/Window/MixerFiles.h"
 #include "Io/Disk/ReadFile.h"
 #include "Mixer/Desk/DeskWords.h"
@@ -21,12 +21,12 @@ juce::PropertiesFile::Options options() {
     return o;
 }
 
-constexpr std::size_t mostSettingsBytes = 1u << 18; // eight recent documents of the longest paths, each
-                                                    // letter escaped
-constexpr std::ptrdiff_t mostSettingsTags = 1'000;  // there are about thirty
+constexpr std::size_t mostSettingsBytes = 1u << 18; // enough for eight recent documents with the longest
+                                                    // paths, fully escaped
+constexpr std::ptrdiff_t mostSettingsTags = 1'000;  // a valid file has about thirty
 
-/// Empty, or why the settings there are not read. JUCE's reader calls itself for each tag within a tag,
-/// follows what a document's type says, and waits at a pipe.
+/// Empty, or why the settings are not read. JUCE's XML reader recurses for nested tags, processes document
+/// types, and blocks on pipes, so such files are rejected first.
 std::string faultOfSettings(const juce::File& file) {
     const std::filesystem::path path = file.getFullPathName().toStdString();
     if (const auto there = openRegular(path, mostSettingsBytes); !there) return there.error;
@@ -40,7 +40,7 @@ std::string faultOfSettings(const juce::File& file) {
            ": expected settings as the mixer writes them, found something else, or a part of them";
 }
 
-/// Where settings are read and written. What cannot be read makes room, and `fault` says so.
+/// File for settings. An unreadable file is renamed and reported in `fault`.
 juce::File readableSettings(const juce::File& file, std::string& fault) {
     if (file.exists()) fault = faultOfSettings(file);
     if (fault.empty()) return file;
@@ -70,9 +70,8 @@ MixerFiles::MixerFiles(const juce::File& folder)
     , copies_{folder.getFullPathName().toStdString()}
     , settings_{readableSettings(folder.getChildFile("mixer.settings"), fault_), options()} {
     folder_.createDirectory();
-    for (const auto& key : juce::StringArray{settings_.getAllProperties().getAllKeys()}) // JUCE would read
-                                                                                         // these as tags
-                                                                                         // again
+    // JUCE would parse these as XML
+    for (const auto& key : juce::StringArray{settings_.getAllProperties().getAllKeys()})
         if (settings_.getValue(key).trimStart().startsWithChar('<')) settings_.removeValue(key);
     recent_.setMaxNumberOfItems(8);
     recent_.restoreFromString(settings_.getValue("recent"));
@@ -98,7 +97,7 @@ double MixerFiles::exposureToday() const {
     return std::isfinite(taken) ? std::max(0.0, taken) : 0.0;
 }
 
-// Now and then: it grows all the time, and each time is a file.
+// Limits the rate of file writes, because the value grows steadily.
 void MixerFiles::setExposureToday(double squareGSeconds, bool isLast) {
     const double now = juce::Time::getMillisecondCounterHiRes();
     if (!isLast && now - exposureAtMs_ < exposureMs) return;
@@ -121,7 +120,7 @@ std::string MixerFiles::keep(Desk& desk, bool isChanged) {
 std::string MixerFiles::keepNow(Desk& desk) {
     keptAtMs_ = juce::Time::getMillisecondCounterHiRes();
     keptEdits_ = desk.edits();
-    settings_.saveIfNeeded(); // levels first: the copy must not be newer than what the desk allowed
+    settings_.saveIfNeeded(); // limits first, so that the copy is never newer than the mixer's saved limits
     return copies_.keep(
         sessionJson(desk.saved(), std::filesystem::path{folder_.getFullPathName().toStdString()}));
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mixer keeps between its runs: settings, recent documents, and a copy of the session in case it
-// ends badly.
+// Files that the mixer keeps between runs: settings, recent documents, and recovery copies of the session.
 #pragma once
 #include "Live/Documents/DeskLimits.h"
 #include "Mixer/Desk/Desk.h"
@@ -12,35 +11,36 @@ namespace physvib {
 /// $XDG_CONFIG_HOME/physvib, or ~/.config/physvib.
 juce::File mixerFolder();
 
-/// M only.
+/// Message thread only.
 class MixerFiles {
 public:
     explicit MixerFiles(const juce::File& folder = mixerFolder());
     ~MixerFiles();
 
     juce::PropertiesFile& settings() noexcept { return settings_; }
-    const std::string& settingsFault() const noexcept { return fault_; } ///< empty, or why they begin anew
+    const std::string& settingsFault() const noexcept { return fault_; } ///< why they were reset
     juce::RecentlyOpenedFilesList& recent() noexcept { return recent_; }
     void addRecent(const juce::File& file);
 
-    /// What files may ask of the desk when there is none yet: as it was left, else nothing above firstMix().
-    /// Kept between runs.
+    /// Level limits for opened files if there is no mixer state yet: those of the last run, else of
+    /// firstMix(). Stored between runs.
     DeskLimits limits() const;
     void setLimits(const DeskLimits& limits) {
         settings_.setValue(limitsSetting, juce::String::fromUTF8(deskLimitsText(limits).c_str()));
     }
 
-    /// What hands have taken of this mixer today, in g^2 s, weighted; kept between runs, however they end.
+    /// Vibration exposure from this mixer today, in g^2 s, weighted. Stored between runs, even after a crash.
     double exposureToday() const;
-    void setExposureToday(double squareGSeconds, bool isLast = false); ///< written now and then, and at last
+    void setExposureToday(double squareGSeconds, bool isLast = false); ///< written at intervals, and at the
+                                                                       ///< end
 
-    /// where scenes of one's own are looked for
+    /// Folder of the user's scenes.
     juce::File scenesFolder() const { return folder_.getChildFile("scenes"); }
     juce::Array<juce::File> ownScenes() const;
 
     RecoveryCopies& copies() noexcept { return copies_; }
-    /// Writes the copy of this run if there is something new, as often as it is worth. Empty, or why it
-    /// cannot be written.
+    /// Writes this run's recovery copy if there are changes, at a limited rate. Empty, or why it cannot be
+    /// written.
     std::string keep(Desk& desk, bool isChanged);
     std::string keepNow(Desk& desk);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Copies that runs of the mixer left behind: shown one by one, taken up, or discarded by a person.
+// Offers recovery copies of earlier runs one by one, to be opened or discarded.
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/Window/Parts.h"
 #include <algorithm>
@@ -7,11 +7,11 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t mostOffered = 20; // a person looks through so many; each is read when it is shown
+constexpr std::size_t mostOffered = 20; // as many as a user may look through; each is read when it is shown
 
 juce::String nameOf(const std::filesystem::path& copy) { return utf8(copy.filename().string()); }
 
-/// When a copy was kept and what is in it, or why that cannot be read.
+/// Time and contents of a copy, or why it cannot be read.
 juce::String describe(const std::filesystem::path& copy, const Result<SavedSession>& session) {
     const auto time =
         juce::File{utf8(copy.string())}.getLastModificationTime().toString(true, true, true, true);
@@ -23,7 +23,7 @@ juce::String describe(const std::filesystem::path& copy, const Result<SavedSessi
 
 } // namespace
 
-// The newest that can be read, and a line on the first that cannot.
+// Shows the newest readable copy, with a line on the first unreadable one.
 void MixerWindow::offerRecovery() {
     const auto copies = files_.copies().leftBehind();
     const std::size_t most = std::min(copies.size(), mostOffered);
@@ -71,13 +71,13 @@ void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std
         most > 1 ? "Take up a session?" : "Take up the last session?", words, std::move(answers)));
 }
 
-// The copy stays until this run's own is on the disk.
+// The copy is kept until this run's own copy is on disk.
 void MixerWindow::takeUp(const std::filesystem::path& copy) {
     askThen([this, copy] {
         view_->setQuestion(nullptr);
         if (!load(juce::File{utf8(copy.string())}, {}, true)) return offerRecovery();
         savedEdits_ = neverSaved;
-        files_.copies().forget(); // what was played until now has been saved, or declined
+        files_.copies().forget(); // the previous session was saved or discarded by the user
         files_.copies().goOnFrom(copy);
         if (const auto error = files_.keepNow(*desk_); !error.empty()) say(utf8(error));
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was drawn becomes a scene file, and scenes to draw in.
+// Saves the drawing as a scene file, and creates empty scenes to draw in.
 #include "Io/Disk/AtomicFile.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/Window/Parts.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places of the panels, keys, and 30 pictures a second.
+// Layout of the panels, keyboard handling, and display updates 30 times a second.
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Output/EnchantersTab.h"
@@ -86,11 +86,11 @@ void MixerView::takeMix() {
     repaint();
 }
 
-// What files bring: names may be of any script.
+// Names in files may be in any script, so a typeface with their letters is selected.
 void MixerView::showLetters() {
     juce::String words = desk_.trouble() + juce::String::fromUTF8(desk_.output().device().c_str());
     for (const auto& enchanter : desk_.mix().layout.enchanters) words += utf8(enchanter.label);
-    if (std::exchange(lettersOf_, desk_.world().edits()) != desk_.world().edits()) { // not each time
+    if (std::exchange(lettersOf_, desk_.world().edits()) != desk_.world().edits()) { // only after changes
         const Scene& scene = desk_.world().drawing().drawn();
         words += utf8(scene.name);
         for (const auto& body : scene.bodies) words += utf8(body.name);
@@ -111,7 +111,7 @@ void MixerView::refresh() {
     keepPace();
 }
 
-// Where the world stands still and nothing is felt, there is little to look at.
+// Reduces the update rate while the world is paused and nothing plays.
 void MixerView::keepPace() {
     const auto& peaks = latest_.meters.peaks;
     const bool isAtRest = desk_.session().world().slowness() == 0 && latest_.hits.empty() &&
@@ -157,8 +157,7 @@ bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarg
     return !files.isEmpty();
 }
 
-// A screen lies over everything: keys that come while nothing has the focus are its own before they are the
-// world's below.
+// A screen covers everything. Without a focused component, keys go to the screen before the world.
 bool MixerView::covered(const juce::KeyPress& key) {
     const auto screen = std::ranges::find_if(getChildren(), [](const auto* child) {
         return child->isVisible() && child->getWantsKeyboardFocus();
@@ -169,7 +168,7 @@ bool MixerView::covered(const juce::KeyPress& key) {
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (!world_.isVisible() && covered(key)) return true;
-    if (question_ && question_->keyPressed(key)) return true; // whatever has the focus
+    if (question_ && question_->keyPressed(key)) return true; // regardless of the focus
     if (firstStart_ && firstStart_->keyPressed(key)) return true;
     setHint(false);
     if (key == KeyPress::escapeKey) return desk_.takeEscape(), true;

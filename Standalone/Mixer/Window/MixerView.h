@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All of the mixer's window: the bar, the world, the tabs, the scope and the strips.
+// Contents of the mixer's window: top bar, world, tabs, scope and strips.
 #pragma once
 #include "Host/Views/EmergencyStop.h"
 #include "Mixer/Strips/StripsPanel.h"
@@ -22,9 +22,9 @@ public:
     explicit MixerView(Desk& desk);
     ~MixerView() override;
 
-    /// One picture of what is going on; the timer calls it.
+    /// Updates the display; called by the timer.
     void refresh();
-    const DeskMoment& latest() const noexcept { return latest_; } ///< what it shows
+    const DeskMoment& latest() const noexcept { return latest_; } ///< displayed state
     void setGround(Ground ground);
     Ground ground() const noexcept { return look_.ground(); }
 
@@ -32,17 +32,17 @@ public:
     WorldPanel& world() noexcept { return world_; }
     TabPanel& tabs() noexcept { return tabs_; }
     TabPanel& scope() noexcept { return scope_; }
-    /// Three lines for those who see the mixer for the first time; a click or a key takes them away.
+    /// Three lines of help for new users; a click or key closes them.
     void setHint(bool isShown);
-    /// A card over the world; null: none. It has the keyboard.
+    /// Shows a card over the world, which gets the keyboard; null: none.
     void setFirstStart(std::unique_ptr<FirstStart> card);
     FirstStart* firstStart() noexcept { return firstStart_.get(); }
-    /// Another card, in the middle; null: none.
+    /// Shows a question in the centre; null: none.
     void setQuestion(std::unique_ptr<QuestionCard> card);
     QuestionCard* question() noexcept { return question_.get(); }
-    /// A file that is dragged over the window may be dropped here.
+    /// Highlights the window while an acceptable file is dragged over it.
     void setDropShown(bool isShown);
-    /// What leaves the window by a drag: files, if it is what was played.
+    /// Files of a drag that leaves the window, if it contains played events.
     bool shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
                                               juce::StringArray& files, bool& canMoveFiles) override;
 
@@ -71,7 +71,7 @@ private:
     std::unique_ptr<FirstStart> firstStart_;
     std::unique_ptr<QuestionCard> question_;
     ShownLetters letters_;
-    std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edits of the world that were looked at
+    std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edit count of the world at the last check
     bool isHintShown_ = false, isDropShown_ = false;
     DeskMoment latest_;
     int restedLooks_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window, what plays in it, its keys and its menu.
+// The mixer's window: document, settings, keys and menu.
 #include "Mixer/Window/MixerWindow.h"
 #include "Core/Limits.h"
 #include "Host/Devices/LikelyDevices.h"
@@ -12,16 +12,17 @@
 namespace physvib {
 namespace {
 
-constexpr std::array<const char*, 3> oscUseNames{"off", "this-computer", "any-computer"}; // as OscUse
+// in the order of OscUse
+constexpr std::array<const char*, 3> oscUseNames{"off", "this-computer", "any-computer"};
 
 OscUse oscUseNamed(const juce::String& name) {
     const auto found = std::ranges::find(oscUseNames, name);
     return found == oscUseNames.end() ? OscUse::off : static_cast<OscUse>(found - oscUseNames.begin());
 }
 
-constexpr const char* chosenSetting = "device-chosen";          // a person has said where, or that nowhere
-constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system says
-/// Of borders and a title bar: the window manager says how wide they are when the window is there.
+constexpr const char* chosenSetting = "device-chosen";          // the user has chosen a device, or none
+constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
+/// Size of borders and title bar; the exact size is known only after the window exists.
 constexpr juce::Point<int> frameRoom{8, 40};
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
 
@@ -69,7 +70,7 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
         });
     else if (!endedBadly && !settings.getBoolValue("hint-seen"))
         view_->setHint(true);
-    if (!endedBadly) settings.setValue("hint-seen", true); // it lies over a question
+    if (!endedBadly) settings.setValue("hint-seen", true); // it would cover a question
     tellInstead();
     offerRecovery();
     if (!files_.settingsFault().empty()) sayAlso(utf8(files_.settingsFault()));
@@ -86,7 +87,7 @@ MixerWindow::~MixerWindow() {
     desk_.reset();
 }
 
-// Another document is another desk: its session begins at 0, with nothing to undo.
+// A document gets a new Desk: its session starts at 0, without undo steps.
 void MixerWindow::play(Mix mix, const juce::File& document) {
     const bool wasSilent = desk_ && desk_->isSilent(), wasAsked = view_ && view_->question() != nullptr;
     const double exposure = desk_ ? desk_->exposure().squareGSeconds() : files_.exposureToday();
@@ -105,7 +106,8 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
     view_->topBar().onRecord = [this] { record(); };
     desk_->device().onSinksWanted =
         [safe = juce::Component::SafePointer<MixerWindow>{this}](const DeviceChoice& choice) {
-            juce::MessageManager::callAsync([safe, choice] { // the tab that asked goes with its desk
+            juce::MessageManager::callAsync([safe, choice] { // asynchronous, because the calling tab is
+                                                             // destroyed with its Desk
                 if (safe != nullptr) safe->useSinks(choice);
             });
         };
@@ -124,7 +126,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
                   files_.settings().getValue("osc-to").toStdString(),
                   files_.settings().getDoubleValue("osc-turn")};
     if (const auto error = desk_->inputs().use(osc); !error.empty()) {
-        osc.receiver.clear(); // a name that is not known today
+        osc.receiver.clear(); // the host name cannot be resolved now
         desk_->inputs().use(osc);
         desk_->report("OSC: " + utf8(error));
     }
@@ -143,11 +145,11 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
         const bool isFirst = view_->firstStart() != nullptr;
         play(Mix{desk_->mix()}, document_);
         if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
-        view_->tabs().choose("Output"); // where it was chosen
+        view_->tabs().choose("Output"); // the tab where it was chosen
     });
 }
 
-// ---- the first start, and what is there instead of what was used
+// ---- the first start, and messages on devices that replace missing ones
 
 void MixerWindow::showFirstStart() { addFirstStart(feltChoices(types_, likelySinks())); }
 
@@ -155,7 +157,7 @@ FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
     auto card = std::make_unique<FirstStart>(*desk_, std::move(choices));
     card->onEnd = [this](bool hasChosen) {
         if (hasChosen) files_.settings().setValue(chosenSetting, true);
-        // its button is still being clicked
+        // asynchronous, because its button's click is still being handled
         juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
             if (safe != nullptr) safe->view_->setFirstStart(nullptr);
         });
@@ -183,9 +185,8 @@ void MixerWindow::tellInstead() {
 void MixerWindow::nameWindow() {
     const auto name =
         document_ == juce::File{} ? juce::String{"new session"} : document_.getFileNameWithoutExtension();
-    const auto title = name + (isChanged() ? " *" : "") + " - PhysVib mixer"; // a dash of ASCII: on X11, JUCE
-                                                                              // gives other letters to the
-                                                                              // window manager as Latin-1
+    // ASCII, since JUCE passes other characters to X11 window managers as Latin-1
+    const auto title = name + (isChanged() ? " *" : "") + " - PhysVib mixer";
     if (title != getName()) setName(title);
 }
 
@@ -227,7 +228,7 @@ Mix MixerWindow::firstMix() {
     return mix;
 }
 
-// Once, to whoever may have headphones where others have actuators.
+// Shown once, if headphones may be connected in place of actuators.
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
     if (settings.getBoolValue("monitor-offered") || desk_->device().outputs() != 2 ||
@@ -238,7 +239,7 @@ void MixerWindow::offerMonitor() {
                 "Monitor under Output");
 }
 
-// Not while a study covers the desk: its stimuli are felt through it.
+// Not while a study uses the mixer's output.
 bool MixerWindow::isInterestedInFileDrag(const juce::StringArray& files) {
     return files.size() == 1 && juce::File{files[0]}.hasFileExtension("json") && view_->world().isVisible();
 }
@@ -265,7 +266,7 @@ void MixerWindow::setDisplayWidth(double mm) {
     files_.settings().setValue(displayWidthSetting, mm);
 }
 
-// What the system says of a display is often made up.
+// Display sizes reported by the system are often wrong.
 void MixerWindow::askDisplayWidth() {
     const double now =
         1e3 * displayOf(*view_).getWidth() / screenPixelsPerMetre(*view_, desk_->displayWidthMetres());

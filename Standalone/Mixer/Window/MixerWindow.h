@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window on the screen with its document: open, save, record, render, and what is asked before anything
-// is lost.
+// The mixer's window with its document: opens, saves, records and renders, and asks before unsaved changes
+// are lost.
 #pragma once
 #include "Mixer/Output/HitFiles.h"
 #include "Mixer/Window/MixerFiles.h"
@@ -14,32 +14,32 @@ class MixerWindow final : public juce::DocumentWindow,
                           public juce::FileDragAndDropTarget,
                           private juce::Timer {
 public:
-    /// `file` is opened (see openFile), or will be made when it is saved; none: a new session. A device that
-    /// is named replaces the one of the settings.
+    /// `file` is opened (see openFile), or created when saving; none: a new session. `device` overrides the
+    /// device of the settings.
     MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file,
                 const juce::File& folder = mixerFolder());
     ~MixerWindow() override;
 
-    // What the menu does. M.
+    // Menu commands. Message thread.
     void newDocument();
     void openDocument();
-    void openDocument(const juce::File& file); ///< asks first if something would be lost
-    /// A session is opened, a scene or layout taken over; what is neither is told.
+    void openDocument(const juce::File& file); ///< asks first if changes would be lost
+    /// Opens a session, or applies a scene or layout; reports any other file.
     void openFile(const juce::File& file);
     void save();
     void saveAs();
     void record();        ///< starts or ends
-    void renderOffline(); ///< asks for the length and the file
+    void renderOffline(); ///< asks for duration and file
     void renderTo(const juce::File& file, double seconds);
-    void saveMovie(); ///< of the last minute; asks for the file
+    void saveMovie(); ///< of the last minute; asks for a file
     void saveMovieTo(const juce::File& file, double seconds);
     void import(const juce::String& title); ///< a scene or a layout
     void exportLayout();
-    void saveScene(bool isNow); ///< asks for the file; as drawn, or with bodies where they are now
-    std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or what is wrong
-    void recordScript();               ///< of what hands do in the world: starts or ends
-    void newScene(SceneGround ground); ///< in the field, with the materials of the present one
-    /// Asks if something would be lost, then quits.
+    void saveScene(bool isNow); ///< asks for a file; bodies as drawn, or at their current places
+    std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or an error
+    void recordScript();               ///< records user input in the world: starts or ends
+    void newScene(SceneGround ground); ///< keeps field and materials of the current scene
+    /// Asks if changes would be lost, then quits.
     void requestQuit();
 
     bool isChanged() const { return desk_->edits() != savedEdits_; }
@@ -63,9 +63,10 @@ private:
     void tellInstead();
     void start(const juce::File& file);
     void play(Mix mix, const juce::File& document);
-    /// `isOwn`: what this mixer has kept itself is played as it is.
+    /// `isOwn`: a file that the mixer saved itself keeps its levels.
     bool load(const juce::File& file, const juce::File& document, bool isOwn = false);
-    /// A file's mix, lowered to what the desk was; what was lowered is told, and can be had from the menu.
+    /// Plays a file with its levels lowered to the mixer's previous limits. Reports what was lowered; the
+    /// menu restores it.
     void playLowered(Mix mix, const juce::File& document);
     void tellLowered(const std::string& lowered, const Mix& asked);
     void takeAsked();
@@ -75,12 +76,12 @@ private:
     void askThen(std::function<void()> goOn);
     void chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving,
                     std::function<void(const juce::File&)> use,
-                    const juce::String& suggested = {}); ///< `suggested`: a name, without its ending
+                    const juce::String& suggested = {}); ///< `suggested`: a file name without extension
     void offerRecovery();
     void showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at);
     void takeUp(const std::filesystem::path& copy);
     void offerMonitor();
-    Mix firstMix(); ///< whose enchanters leave the monitor's outputs alone
+    Mix firstMix(); ///< its actuators do not use the monitor's outputs
     void showMenu(juce::Component& from);
     void setGround(Ground ground);
     void setDisplayWidth(double mm);
@@ -101,9 +102,9 @@ private:
     std::unique_ptr<Desk> desk_;
     std::unique_ptr<MixerView> view_;
     juce::File document_, lastRecording_;
-    std::optional<Mix> asked_;                              // of the last file, if it was lowered
-    std::optional<DeskLimits> before_;                      // the desk of a run that ended badly
-    static constexpr std::uint64_t neverSaved = UINT64_MAX; // as no count of edits
+    std::optional<Mix> asked_;         // state of the last file, if its levels were lowered
+    std::optional<DeskLimits> before_; // limits before a run that crashed
+    static constexpr std::uint64_t neverSaved = UINT64_MAX; // never equals a count of edits
     std::uint64_t savedEdits_ = 0;
     std::unique_ptr<juce::FileChooser> chooser_;
     std::unique_ptr<juce::Thread> rendering_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signs as paths, text on grounds.
+// Draws icons as paths, and text on backgrounds.
 #include "Mixer/Window/Parts.h"
 #include "Host/Views/Palette.h"
 
@@ -29,7 +29,7 @@ juce::Path pathOf(Sign sign) {
         p.addRectangle(-6.0f, -1.0f, 12.0f, 2.0f);
         p.addRectangle(-1.0f, -6.0f, 2.0f, 12.0f);
         break;
-    case Sign::sweep: { // waves that become shorter
+    case Sign::sweep: { // a wave of rising frequency
         juce::Path wave;
         wave.startNewSubPath(-9.0f, 0.0f);
         for (int k = 1; k <= 54; ++k) {
@@ -121,12 +121,12 @@ void onSlide(juce::Slider& slider, std::function<void(bool)> use) {
 void prepareControls(juce::Component& root) {
     auto* slider = dynamic_cast<juce::Slider*>(&root);
     if (slider != nullptr) slider->setWantsKeyboardFocus(true);
-    // also one that is disabled now, and wants no focus
+    // also controls that are disabled now
     const bool isBox = dynamic_cast<juce::ComboBox*>(&root) != nullptr;
     const bool isControl = slider != nullptr || isBox || root.getWantsKeyboardFocus() ||
                            dynamic_cast<juce::Button*>(&root) != nullptr;
     if (isControl && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
-    if (slider == nullptr && !isBox) // their parts are theirs
+    if (slider == nullptr && !isBox) // these handle their own children
         for (auto* child : root.getChildren()) prepareControls(*child);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small parts of the mixer's window: buttons with drawn signs, two lines of text, panels.
+// Small components of the mixer's window: icon buttons, two lines of text, panels.
 #pragma once
 #include "Host/Views/Look.h"
 #include "Mixer/Desk/DeskWords.h"
@@ -9,7 +9,7 @@ namespace physvib {
 
 enum class Sign { play, pause, step, restart, plus, sweep };
 
-/// A button with a sign that needs no font; `name` is what a screen reader and the tooltip say.
+/// Button with a drawn icon; `name` is for screen readers and the tooltip.
 class SignButton final : public juce::Button {
 public:
     SignButton(Sign sign, const juce::String& name);
@@ -20,7 +20,7 @@ private:
     Sign sign_;
 };
 
-/// A line to read and a quieter one under it.
+/// A line of text with a less prominent one below.
 class TwoLines final : public juce::Component, public juce::SettableTooltipClient {
 public:
     explicit TwoLines(const juce::String& title) { setTitle(title); }
@@ -35,26 +35,26 @@ private:
     Shade shade_ = Shade::text;
 };
 
-/// A rounded ground; what is in it keeps `panelInset` from its edge.
+/// Draws a rounded background; contents keep `panelInset` from its edge.
 void drawPanel(juce::Graphics& g, const juce::Component& component);
-/// The ground of a card over the window, which waits for an answer.
+/// Draws the background of a card over the window, which asks the user.
 void drawCard(juce::Graphics& g, const juce::Component& component);
 constexpr int panelInset = 14, gap = 12, rowHeight = 30;
 
-/// A button that looks like a word in the accent's colour.
+/// A button that looks like a text link.
 std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name);
 
-/// Calls `use` with every new value of the slider; `goesOn` is true for all but the first while it is held.
+/// Calls `use` with every new value of the slider. `goesOn` is true for all but the first value of a drag.
 void onSlide(juce::Slider& slider, std::function<void(bool goesOn)> use);
 
-/// Every control under `root` can be reached by the keyboard, and is seen to be.
+/// Makes every control under `root` reachable by keyboard, with a visible focus.
 void prepareControls(juce::Component& root);
 
-/// A small word beside a control.
+/// Sets a small caption beside a control.
 void caption(juce::Label& label, const juce::String& words);
 
-/// Fixed notation, with a true minus sign.
+/// Fixed notation with a real minus sign.
 juce::String number(double value, int decimals);
-inline juce::String dots() { return juce::String::charToString(0x2026); } ///< of what asks for more
+inline juce::String dots() { return juce::String::charToString(0x2026); } ///< label opens a dialogue
 
 } // namespace physvib

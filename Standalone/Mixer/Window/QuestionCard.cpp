@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Some lines, and a button for each answer, three in a row.
+// Layout of a question: text, and answer buttons in rows of three.
 #include "Mixer/Window/QuestionCard.h"
 #include <utility>
 
@@ -15,7 +15,7 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
     words_.setText(words, juce::dontSendNotification);
     words_.setFont(juce::Font{text::medium});
     words_.setJustificationType(juce::Justification::topLeft);
-    words_.setMinimumHorizontalScale(1.0f); // it has room for all lines
+    words_.setMinimumHorizontalScale(1.0f); // it has space for all lines
     for (juce::Component* c : {&title_, &words_}) addAndMakeVisible(c);
     answers_.front().key = juce::KeyPress{juce::KeyPress::returnKey};
     for (std::size_t k = 0; k < answers_.size(); ++k) {
@@ -25,7 +25,7 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
         if (answer.key.isValid())
             button.setTooltip(answer.words + " (" + answer.key.getTextDescription() + ")");
         button.setEnabled(answer.isEnabled);
-        button.setToggleState(k == 0 && answer.isEnabled, juce::dontSendNotification); // what Return does
+        button.setToggleState(k == 0 && answer.isEnabled, juce::dontSendNotification); // Return selects it
         button.onClick = [this, k] { act(k); };
         addAndMakeVisible(button);
     }
@@ -39,7 +39,7 @@ void QuestionCard::answer(const juce::String& words) {
         if (answers_[k].words == words) return act(k);
 }
 
-// Later: the button is still being clicked, and the card may go.
+// Asynchronous, because the button's click is still being handled and the action may destroy the card.
 void QuestionCard::act(std::size_t which) {
     if (!answers_[which].isEnabled) return;
     juce::MessageManager::callAsync([safe = juce::Component::SafePointer<QuestionCard>{this}, which] {

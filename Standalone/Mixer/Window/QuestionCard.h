@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A question over the window, in its own look: the first answer by Return, the others by their buttons and
-// keys.
+// Dialogue card over the window: Return selects the first answer, buttons and keys the others.
 #pragma once
 #include "Mixer/Window/Parts.h"
 #include <functional>
@@ -9,7 +8,7 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class QuestionCard final : public juce::Component {
 public:
     static constexpr int wide = 520, perRow = 3, rowHigh = 34;
@@ -23,7 +22,7 @@ public:
 
     QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers);
 
-    /// As a click on that button; one that is not there or not enabled does nothing.
+    /// Same as a click on that button; no effect if it is missing or disabled.
     void answer(const juce::String& words);
     juce::String words() const { return words_.getText(); }
     bool keyPressed(const juce::KeyPress& key) override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// recovery-NAME.json, and beside it the file whose lock says that its run goes on: a copy itself is replaced
-// each time.
+// Recovery copies recovery-NAME.json, each with a lock file. The lock is separate, because the copy is
+// replaced at each update.
 #include "Mixer/Window/RecoveryCopies.h"
 #include "Io/Disk/AtomicFile.h"
 #include <algorithm>
@@ -28,7 +28,8 @@ std::vector<fs::path> filesOf(const fs::path& folder, std::string_view ending) {
     return found;
 }
 
-/// The lock of a copy whose run has ended; what was never locked has none. Nothing if its run goes on.
+/// Acquires the lock of a copy whose run has ended; a copy without a lock file gives a closed file. nullopt
+/// if its run still holds the lock.
 std::optional<SystemFile> takeLock(const fs::path& copy) {
     SystemFile lock = SystemFile::look(lockOf(copy));
     if (lock.isOpen() && lock.lock() == Lock::others) return {};
@@ -41,7 +42,8 @@ RecoveryCopies::RecoveryCopies(const fs::path& folder)
     : folder_{folder}
     , own_{folder / (std::string{prefix} + juce::Uuid{}.toString().toStdString() + ".json")} {
     std::error_code code;
-    for (fs::path copy : filesOf(folder, ".lock")) // of runs that ended before their first copy was whole
+    for (fs::path copy : filesOf(folder, ".lock")) // lock files of runs that ended before their first copy
+                                                   // was complete
         if (!fs::exists(fs::symlink_status(copy.replace_extension(".json"), code))) remove(copy);
 }
 
@@ -52,7 +54,7 @@ RecoveryCopies::~RecoveryCopies() {
 
 std::vector<fs::path> RecoveryCopies::leftBehind() const {
     std::vector<std::pair<fs::file_time_type, fs::path>> found;
-    std::error_code code; // the time of what has gone is the oldest
+    std::error_code code; // deleted files get the oldest time
     for (const fs::path& copy : filesOf(folder_, ".json"))
         if (copy != own_ && std::ranges::find(before_, copy) == before_.end() && takeLock(copy))
             found.emplace_back(fs::last_write_time(copy, code), copy);
@@ -62,7 +64,7 @@ std::vector<fs::path> RecoveryCopies::leftBehind() const {
     return copies;
 }
 
-// A pipe is not waited for.
+// Without blocking on a pipe.
 Result<SavedSession> RecoveryCopies::read(const fs::path& copy) {
     if (const SystemFile there = SystemFile::look(copy); !there.isOpen())
         return Failure{copy.string() + ": cannot be read: " + there.reason()};
@@ -82,8 +84,8 @@ void RecoveryCopies::forget() {
     for (const fs::path& copy : std::exchange(before_, {})) remove(copy);
 }
 
-// Another mixer that starts may take the new file for one that was left behind, before it is locked. Without
-// a lock the copy is kept all the same: others offer it while this run goes on.
+// Another mixer may mistake the new lock file for an abandoned one before it is locked, so this retries.
+// Without a lock the copy is still written, but other mixers offer it during this run.
 void RecoveryCopies::lock() {
     const fs::path path = lockOf(own_);
     for (int tries = 0; tries < 100 && !lock_.isOpen(); ++tries) {
@@ -96,7 +98,7 @@ void RecoveryCopies::lock() {
 std::string RecoveryCopies::remove(const fs::path& copy) {
     const auto held = takeLock(copy);
     if (!held) return copy.string() + ": cannot be removed: another mixer keeps it";
-    { const AtomicFile sweep{copy}; } // removes what a write that was cut off has left beside it
+    { const AtomicFile sweep{copy}; } // removes the temporary file of an interrupted write
     std::error_code code;
     if (fs::remove(copy, code); code) return copy.string() + ": cannot be removed: " + code.message();
     fs::remove(lockOf(copy), code);

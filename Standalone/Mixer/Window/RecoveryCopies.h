@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Copies of sessions, in case a mixer ends badly: each under a lock that its run holds until it ends, however
-// it does.
+// Recovery copies of sessions after a crash. Each run holds a lock on its copy, which the system releases
+// when the run ends in any way.
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include "Live/Documents/SessionFile.h"
@@ -11,29 +11,28 @@
 
 namespace physvib {
 
-/// Those of one folder. A copy goes only when what takes its place is on the disk, or a person does without
-/// it. M only.
+/// The copies in one folder. A copy is removed only when its replacement is on disk or the user discards it.
+/// Message thread only.
 class RecoveryCopies {
 public:
     explicit RecoveryCopies(const std::filesystem::path& folder);
     ~RecoveryCopies();
 
-    /// Those of runs that have ended, whole or not; the newest first.
+    /// Copies of ended runs, newest first; they may be unreadable.
     std::vector<std::filesystem::path> leftBehind() const;
 
-    /// The session of a copy, or one line that names it and says why there is none.
+    /// The session of a copy, or one line that names the copy and the error.
     static Result<SavedSession> read(const std::filesystem::path& copy);
 
-    /// Puts this run's copy on the disk; then those that it goes on from are removed. Empty, or why it cannot
-    /// be written.
+    /// Writes this run's copy to disk, then removes those that it replaces. Empty, or why it cannot be
+    /// written.
     std::string keep(std::string_view session);
-    /// This run goes on from that copy.
+    /// This run replaces that copy.
     void goOnFrom(const std::filesystem::path& copy) { before_.push_back(copy); }
-    /// This run's copy and those that it goes on from are not needed: they were saved, or a person does
-    /// without them.
+    /// Removes this run's copy and those that it replaces, after the session was saved or discarded.
     void forget();
 
-    /// A person does without it. Empty, or why it is still there.
+    /// Discards a copy on the user's request. Empty, or why it still exists.
     static std::string remove(const std::filesystem::path& copy);
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A thread of its own; what it works on is its own as well.
+// Runs the work on its own thread with its own copy of the data.
 #include "Mixer/Window/RenderTask.h"
 
 namespace physvib {

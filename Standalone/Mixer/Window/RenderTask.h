@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file is made beside the session that plays, with a bar that shows how far it is and a button that ends
-// it.
+// Creates a file in the background while the session plays, with a progress bar and a cancel button.
 #pragma once
 #include "Mixer/Window/Parts.h"
 #include <functional>
@@ -8,15 +7,15 @@
 
 namespace physvib {
 
-/// Shows the progress, and tells `done` in a line how it ended. M.
+/// Shows the progress and reports the result to `done` in one line. Message thread.
 class RenderTask final : public juce::ThreadWithProgressWindow {
 public:
-    /// On a thread of its own: gives shares of 0 to 1, and ends where that answers false. Empty, or one line
-    /// with the reason; "cancelled".
+    /// Runs on its own thread, reports progress from 0 to 1, and stops when that returns false. Empty, or one
+    /// error line; "cancelled".
     using Work = std::function<std::string(const std::function<bool(double)>& progress)>;
     using Done = std::function<void(const juce::String& words, bool isGood)>;
 
-    /// `doneWords`: what is told of the file when it is there.
+    /// `doneWords`: text for the completed file.
     RenderTask(const juce::File& file, const juce::String& doneWords, Work work, Done done,
                juce::Component& over);
     ~RenderTask() override { stopThread(-1); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Looks for a typeface when a letter comes that has not been shown yet.
+// Searches for a typeface when a new letter is to be displayed.
 #include "Mixer/Window/ShownLetters.h"
 
 namespace physvib {
@@ -12,8 +12,8 @@ bool ShownLetters::show(const juce::String& words) {
     letters_ += fresh;
     if (hasLetters({}, fresh)) return false;
     const auto typeface = typefaceFor(letters_);
-    if (!typeface) return false; // boxes, as none is installed
-    font_.reset();               // one at a time
+    if (!typeface) return false; // not installed: JUCE draws boxes
+    font_.reset();               // only one may exist
     font_ = std::make_unique<StudyFont>(*typeface);
     return true;
 }

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Letters of other scripts: JUCE draws boxes for those that its typeface lacks, so another typeface is used
-// while they are shown.
+// Selects a typeface for letters of other scripts, because JUCE draws boxes for letters that its typeface
+// lacks.
 #pragma once
 #include "Mixer/Studies/StudyFont.h"
 #include <memory>
 
 namespace physvib {
 
-/// The typeface that has all letters that have been shown, if one is installed. M only.
+/// Uses an installed typeface with all displayed letters, if there is one. Message thread only.
 class ShownLetters {
 public:
-    /// True: the typeface is another one now, and all is to be drawn again. Costs little where there is no
-    /// new letter.
+    /// True if the typeface changed, so that everything must be redrawn. Cheap if there is no new letter.
     bool show(const juce::String& words);
 
 private:
-    juce::String letters_; // beyond ASCII, each once
+    juce::String letters_; // non-ASCII letters, each once
     std::unique_ptr<StudyFont> font_;
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names with a line under the chosen one.
+// Draws the tab names, with a line below the selected one.
 #include "Mixer/Window/TabPanel.h"
 
 namespace physvib {
 
 namespace {
 
-constexpr int widestRest = 60; // beside a name
+constexpr int widestRest = 60; // margin beside a name
 
 int widthOf(const juce::String& name) {
     return juce::Font{text::medium, juce::Font::bold}.getStringWidth(name) + 6;

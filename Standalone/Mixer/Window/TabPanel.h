@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is not needed all the time: a row of names, and the tab whose name is chosen.
+// Panel with tabs: a row of names, and the page of the selected one.
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {
 
-/// A page of the panel. To add one, derive from it and name it in MixerView's constructor.
+/// Base class of a page. To add one, derive from it and name it in MixerView's constructor.
 class Tab : public juce::Component {
 public:
-    virtual void takeMix() {}                  ///< the desk has changed
-    virtual void refresh(const DeskMoment&) {} ///< while it is shown, at most about 30 times a second
+    virtual void takeMix() {}                  ///< the mixer state changed
+    virtual void refresh(const DeskMoment&) {} ///< while visible, at most about 30 times a second
 };
 
 class TabPanel final : public juce::Component {
@@ -20,7 +20,7 @@ public:
     void add(const juce::String& name, std::unique_ptr<Tab> tab);
     void choose(const juce::String& name);
     juce::StringArray names() const;
-    Tab* find(const juce::String& name) const; ///< null: there is none
+    Tab* find(const juce::String& name) const; ///< null if there is none
     void takeMix();
     void refresh(const DeskMoment& moment);
     void paint(juce::Graphics& g) override;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bar's controls and its numbers.
+// Controls and status text of the top bar.
 #include "Mixer/Window/TopBar.h"
 #include "Host/Devices/NoDevice.h"
 #include "Scene/SceneCatalogue.h"
@@ -9,7 +9,7 @@ namespace physvib {
 namespace {
 
 constexpr int looksPerTime = 3, looksPerNumbers = 12;
-constexpr int sceneFileId = 1000; // then those of one's own
+constexpr int sceneFileId = 1000; // followed by the user's scenes
 constexpr std::array<int, 4> paces{1, 2, 4, 8};
 
 juce::String clock(std::int64_t ns) {
@@ -138,7 +138,7 @@ void TopBar::setRecording(bool isRecording) {
 }
 
 void TopBar::refresh(const DeskMoment& moment) {
-    const int turn = looks_++ % looksPerNumbers; // nobody reads thirty numbers a second
+    const int turn = looks_++ % looksPerNumbers; // numbers that change 30 times a second are illegible
     if (turn % looksPerTime == 0) time_.setText(clock(moment.session.sessionNs), juce::dontSendNotification);
     if (turn != 0) return;
     const auto& output = desk_.output();

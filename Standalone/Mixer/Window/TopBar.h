@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is always in sight: the scene and its time, the device and its numbers, and the button that silences.
+// Bar that is always visible: scene and time, device status, and the silence button.
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
@@ -11,13 +11,13 @@ public:
     explicit TopBar(Desk& desk);
 
     void refresh(const DeskMoment& moment);
-    void takeMix(); ///< the desk has changed
+    void takeMix(); ///< the mixer state changed
     void togglePause();
 
     std::function<void(juce::Component& from)> onMenu;
     std::function<void()> onRecord, onOpenScene;
     std::function<void(const juce::File&)> onOwnScene;
-    void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below those that are built in
+    void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below the built-in ones
     void setRecording(bool isRecording);
 
     void paint(juce::Graphics& g) override;

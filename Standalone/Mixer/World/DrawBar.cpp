@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Buttons that show what is chosen, and change it.
+// Buttons and controls that show and change the selected tool, material and bodies.
 #include "Mixer/World/DrawBar.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
@@ -104,10 +104,10 @@ void MaterialPalette::show() {
             auto& swatch = *swatches_.emplace_back(std::make_unique<Swatch>(
                 utf8(materials[static_cast<std::size_t>(i)].name), palette::material(i)));
             swatch.onClick = [this, i] { pane_.setMaterial(i); };
-            // one that is silent says so elsewhere
+            // a material that makes no sound reports it elsewhere
             swatch.onEnter = [this, i] { desk_.strikes().audition(i, 0.5, 0.5); };
             addAndMakeVisible(swatch);
-            prepareControls(swatch); // it comes after the others
+            prepareControls(swatch); // it is created after the other controls
         }
         resized();
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Beside the world: the tools, the scene's materials, and what the chosen bodies are.
+// Controls beside the world: tools, materials of the scene, and properties of the selected bodies.
 #pragma once
 #include "Mixer/Window/Parts.h"
 #include "Mixer/World/DrawPane.h"
@@ -8,12 +8,12 @@
 
 namespace physvib {
 
-/// The tools, one under the other. M only.
+/// Vertical list of tools. Message thread only.
 class DrawBar final : public juce::Component {
 public:
     explicit DrawBar(DrawPane& pane);
     ~DrawBar() override;
-    void show(); ///< the pane has changed
+    void show(); ///< updates after changes of the pane
     void resized() override;
     static constexpr int wide = 34;
 
@@ -24,7 +24,8 @@ private:
     juce::TextButton snap_{"#"};
 };
 
-/// A name and a colour for each material: a click draws with it, a mouse over it plays it once. M only.
+/// Name and colour of each material: a click selects it for drawing, and hovering plays it once. Message
+/// thread only.
 class MaterialPalette final : public juce::Component {
 public:
     MaterialPalette(Desk& desk, DrawPane& pane);
@@ -40,7 +41,8 @@ private:
     std::vector<std::unique_ptr<Swatch>> swatches_;
 };
 
-/// Static or moving, source or not, density and bounce of the chosen bodies. M only.
+/// Static or moving, haptic source or not, density and restitution of the selected bodies. Message thread
+/// only.
 class BodyPanel final : public juce::Component {
 public:
     BodyPanel(Desk& desk, DrawPane& pane);

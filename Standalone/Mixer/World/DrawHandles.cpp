@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a gesture makes of the chosen bodies: handles, sizes, places.
+// Applies mouse gestures on the selected bodies: handles, sizes, places.
 #include "Mixer/World/DrawPane.h"
 #include "Scene/Drawing/DrawnBodies.h"
 #include <algorithm>

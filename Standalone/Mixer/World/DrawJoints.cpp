@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joints between bodies, or to the field.
+// Creates joints between bodies, or between a body and the field.
 #include "Mixer/Desk/DeskWords.h"
 #include "Mixer/World/DrawPane.h"
 #include "Scene/Drawing/DrawnBodies.h"
@@ -7,8 +7,7 @@
 
 namespace physvib {
 
-// The field holds nothing: what is pinned to it is pinned to something static, or to a small disc that is put
-// there.
+// The field itself is not a body. A joint to it uses a static body, or a small disc that is added there.
 std::string DrawPane::fieldBody(std::vector<Action>& actions, const Vector& place) {
     for (const auto& body : desk_.world().drawing().drawn().bodies)
         if (body.type == BodyType::staticBody) return body.name;
@@ -37,7 +36,7 @@ void DrawPane::join() {
     std::vector<Action> actions;
     std::string b = first.empty() ? std::string{} : first[0],
                 a = second.size() > other && second[other] != b ? second[other] : std::string{};
-    if (tool_ == DrawTool::slider) a.clear(); // its way is on the field
+    if (tool_ == DrawTool::slider) a.clear(); // its axis is fixed to the field
     if (b.empty()) b = fieldBody(actions, from);
     if (a.empty()) a = fieldBody(actions, isPoint ? from : to_);
     SceneDrawing trial = desk_.world().drawing();
@@ -53,7 +52,7 @@ void DrawPane::join() {
                       : tool_ == DrawTool::motor ? JointKind::motor
                       : tool_ == DrawTool::rope  ? JointKind::rope
                                                  : JointKind::slider;
-    const bool isTurnedRound = tool_ == DrawTool::rope; // the first place is on b
+    const bool isTurnedRound = tool_ == DrawTool::rope; // the stroke begins on b
     auto made =
         joined(trial, kind, place(a), place(b), isTurnedRound ? to_ : from, isTurnedRound ? from : to_);
     if (!made) return desk_.report(utf8(made.error));

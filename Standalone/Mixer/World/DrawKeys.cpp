@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys of the tools, and of what is chosen.
+// Keyboard commands for tools and selected bodies.
 #include "Mixer/World/DrawPane.h"
 
 namespace physvib {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tools, what is chosen, and the mouse.
+// Drawing tools, selection and mouse input.
 #include "Mixer/World/DrawPane.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/Drawing/DrawnBodies.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws in the world: over its view, what is chosen, its handles and what a hand is about to make.
+// Drawing layer over the view of the world: selection, handles, and shapes being drawn.
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Desk/Desk.h"
@@ -9,28 +9,28 @@
 
 namespace physvib {
 
-/// M only.
+/// Message thread only.
 class DrawPane final : public juce::Component {
 public:
-    /// Both outlive it; it lies over `view`.
+    /// Both arguments outlive it. It is placed over `view`.
     DrawPane(Desk& desk, WorldView& view);
 
-    void use(DrawTool tool); ///< the hand acts in the view below
+    void use(DrawTool tool); ///< the hand tool acts in the view below
     DrawTool tool() const noexcept { return tool_; }
-    void setMaterial(int material); ///< of what is drawn from now on, and of what is chosen
+    void setMaterial(int material); ///< for new bodies and the selected ones
     int material() const noexcept { return material_; }
     void setSnapping(bool snaps);
     bool snaps() const noexcept { return snaps_; }
 
-    const std::vector<std::string>& chosen() const noexcept { return chosen_; } ///< names of bodies
+    const std::vector<std::string>& chosen() const noexcept { return chosen_; } ///< selected bodies
     void choose(std::vector<std::string> names);
-    /// Changes each chosen body where it is; one edit.
+    /// Changes each selected body in place, as one edit.
     void changeChosen(const juce::String& name,
                       const std::function<void(const Scene&, BodyDescription&)>& change, bool goesOn = false);
 
-    std::function<void()> onChange; ///< tool, choice or material
+    std::function<void()> onChange; ///< tool, selection or material changed
 
-    void takeMix(); ///< the desk has changed
+    void takeMix(); ///< the mixer state changed
     bool takeKey(const juce::KeyPress& key);
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& e) override;
@@ -76,13 +76,13 @@ private:
     Desk& desk_;
     WorldView& view_;
     DrawTool tool_ = DrawTool::hand;
-    int material_ = -1; // at first, the first that sounds
+    int material_ = -1; // at first, the first material with a frequency
     bool snaps_ = false, isDrawing_ = false;
     std::vector<std::string> chosen_;
     Copied copied_;
     Grip grip_ = Grip::none;
     std::vector<Vector> stroke_; // since the mouse was pressed, or of the polygon; metres
-    Vector to_;                  // where the mouse is
+    Vector to_;                  // mouse position
 };
 
 } // namespace physvib

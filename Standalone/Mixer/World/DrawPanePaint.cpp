@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joints, what is chosen and its handles, and what the hand is about to make.
+// Draws joints, the selection with its handles, and the shape being drawn.
 #include "Mixer/World/DrawPane.h"
 #include "Pictures/ShapeOutline.h"
 #include <cmath>
@@ -12,7 +12,7 @@ juce::Path signOf(DrawTool tool) {
         juce::PathStrokeType{width}.createStrokedPath(p, line);
     };
     switch (tool) {
-    case DrawTool::hand: // what is thrown
+    case DrawTool::hand: // a ball being thrown
         p.addEllipse(-8.0f, 0.0f, 8.0f, 8.0f);
         p.addArrow({{0.0f, 0.0f}, {8.0f, -8.0f}}, 1.8f, 7.0f, 6.0f);
         break;
@@ -68,7 +68,7 @@ juce::Path signOf(DrawTool tool) {
     return p;
 }
 
-// On the body as it was drawn, and so on the body as it is now.
+// Rotates and moves the anchor with the body from its drawn to its current pose.
 Vector DrawPane::anchorNow(const JointDescription&, const Vector& anchor, const std::string& name) const {
     const auto* body = desk_.world().drawing().find(name);
     const auto place = placeNow(name);

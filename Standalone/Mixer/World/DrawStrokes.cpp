@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a stroke of the mouse makes: new bodies, and what the eraser takes away.
+// Converts mouse strokes to new bodies, and erases bodies and joints.
 #include "Mixer/Desk/DeskWords.h"
 #include "Mixer/World/DrawPane.h"
 #include "Scene/Drawing/DrawnBodies.h"
@@ -68,7 +68,7 @@ void DrawPane::addInTheMiddle() {
     stroke_.clear();
     const auto after = names();
     if (after.size() == before) return;
-    use(DrawTool::choose); // to be moved by the arrow keys
+    use(DrawTool::choose); // so that arrow keys move it
     choose({after.back()});
 }
 

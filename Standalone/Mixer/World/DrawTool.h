@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a hand in the world does: throws bodies, or draws.
+// List of the tools in the world: throwing bodies, selecting and drawing.
 #pragma once
 #include <array>
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -10,11 +10,11 @@ enum class DrawTool { hand, choose, ball, box, polygon, line, wall, pin, rope, s
 
 struct DrawToolWords {
     DrawTool tool;
-    char key; ///< in the world
+    char key; ///< its key, with the focus in the world
     const char *name, *does;
 };
 
-/// In the order of the bar.
+/// In the order of the tool bar.
 inline constexpr std::array<DrawToolWords, 12> drawTools{{
     {DrawTool::hand, 'h', "Hand", "Drag a body to throw it, with Shift to hold it"},
     {DrawTool::choose, 's', "Select",
@@ -42,7 +42,7 @@ inline bool isJoint(DrawTool tool) {
 
 inline const DrawToolWords& wordsOf(DrawTool tool) { return drawTools[static_cast<std::size_t>(tool)]; }
 
-/// Its sign, around (0, 0), within 9 pixels each way.
+/// Icon around (0, 0), within 9 pixels in each direction.
 juce::Path signOf(DrawTool tool);
 
 } // namespace physvib

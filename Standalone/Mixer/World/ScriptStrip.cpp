@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A lane with a mark for each input, and the two ends of what is kept.
+// Timeline with a mark for each recorded input and the two ends of the kept part.
 #include "Mixer/World/ScriptStrip.h"
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace physvib {
 namespace {
 
-constexpr double stepSeconds = 0.01; // of the world: a part begins and ends at a step
+constexpr double stepSeconds = 0.01; // one step of the world; parts start and end at steps
 
 juce::String countOf(std::size_t inputs) {
     return juce::String{static_cast<int>(inputs)} + (inputs == 1 ? " input" : " inputs");
@@ -95,14 +95,14 @@ void ScriptStrip::show() {
         to_.setValue(trim.toSeconds, juce::dontSendNotification);
         repeats_.setToggleState(trim.repeats, juce::dontSendNotification);
         repeats_.setEnabled(desk_.mix().scene->scriptPeriodSeconds == 0.0 ||
-                            trim.repeats); // else the rest of the script has a period of its own
+                            trim.repeats); // otherwise the rest of the script has its own period
     }
     repaint();
 }
 
 void ScriptStrip::use() {
     if (desk_.script().hands() == nullptr) return;
-    if (to_.getValue() - from_.getValue() < stepSeconds) return show(); // nothing would be left
+    if (to_.getValue() - from_.getValue() < stepSeconds) return show(); // the part would be empty
     desk_.script().setTrim({from_.getValue(), to_.getValue(), repeats_.getToggleState()});
     repaint();
 }
@@ -139,7 +139,7 @@ void ScriptStrip::paint(juce::Graphics& g) {
         g.fillRect(juce::Rectangle<float>{3.0f, at.getHeight()}.withCentre({x, at.getCentreY()}));
 }
 
-// The nearer end follows.
+// Moves the nearer end.
 void ScriptStrip::mouseDown(const juce::MouseEvent& e) {
     dragged_ = nullptr;
     if (desk_.script().hands() == nullptr || !lane().expanded(6, 4).contains(e.getPosition())) return;

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Over the top of the world: what hands did as the scene's script, while it is recorded and when it is
-// trimmed.
+// Strip above the world that shows recorded user input, and trims it as the scene's script.
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {
 
-/// Shown while hands are recorded, and as long as the scene has their script, where no tool has its own
-/// things. M only.
+/// Visible while input is recorded, and while the scene has the recorded script and the hand tool is active.
+/// Message thread only.
 class ScriptStrip final : public juce::Component {
 public:
     explicit ScriptStrip(Desk& desk);
 
-    void refresh(bool isHand); ///< a few times a second; whether the hand is the tool
+    void refresh(bool isHand); ///< a few times a second; true if the hand is the active tool
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& e) override;
     void mouseDrag(const juce::MouseEvent& e) override;
@@ -33,7 +32,7 @@ private:
     juce::TextButton end_{"End"}, again_{"From the start"}, close_{"Close"};
     static constexpr int high = 92, recordingHigh = 40;
     std::shared_ptr<const Scene> shown_,
-        closed_; // of the script that is shown; that is not to be shown any more
+        closed_; // scene of the displayed script; scene whose strip was closed
     juce::Slider* dragged_ = nullptr;
     bool wasRecording_ = false;
 };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The way down: a knob, and the arrow keys of the world that it tilts.
+// Knob for the direction of gravity, also controlled by the arrow keys in the world.
 #pragma once
 #include <juce_gui_basics/juce_gui_basics.h>
 
 namespace physvib {
 
-/// In degrees, clockwise as seen on the screen. M.
+/// In degrees, clockwise on the screen. Message thread.
 class TiltKnob final : public juce::Slider {
 public:
     static constexpr double keyDegrees = 5.0;
@@ -20,21 +20,21 @@ public:
         setValue(0.0, juce::dontSendNotification);
         setDoubleClickReturnValue(true, 0.0);
     }
-    /// Of a TiltAction.
+    /// Angle for a TiltAction.
     double angleRadians() const { return juce::degreesToRadians(-getValue()); }
 
-    /// To that angle, however often it goes round.
+    /// Turns to that angle, wrapped to +-180 degrees.
     void turnTo(double degrees) {
         while (degrees > 180.0) degrees -= 360.0;
         while (degrees < -180.0) degrees += 360.0;
         setValue(degrees);
     }
-    // the same law with the focus on it
+    // the same keys apply when the knob has the focus
     bool keyPressed(const juce::KeyPress& key) override {
         return takeKey(key) || juce::Slider::keyPressed(key);
     }
 
-    /// Left and right turn, down and up stand for themselves; false: another key.
+    /// Left and right turn; down and up set gravity down and up. False for other keys.
     bool takeKey(const juce::KeyPress& key) {
         if (key == juce::KeyPress::leftKey) return turnTo(getValue() + keyDegrees), true;
         if (key == juce::KeyPress::rightKey) return turnTo(getValue() - keyDegrees), true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world with what belongs to it: one sentence on the strongest hit, the way down, how hard a drag pushes,
-// how hits are spread.
+// Panel of the world with its controls: a sentence on the strongest impact, tilt, drag strength and panning
+// law.
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Desk/Desk.h"
@@ -54,13 +54,13 @@ private:
     juce::Label sentence_, law_, tiltName_, dragName_;
     TiltKnob tilt_;
     juce::Slider drag_;
-    std::optional<ScenePlayer> player_; // of a scene that has one
-    std::optional<double> pointed_;     // where in the field the mouse holds, m
-    std::vector<Action> first_;         // what takes over from the script, until the world has begun anew
-    std::size_t takesBefore_ = 0;       // of the session, when it took over
-    std::optional<GripAction> hand_;    // where it is since moveHand() has last told
+    std::optional<ScenePlayer> player_; // for a scene with a player
+    std::optional<double> pointed_;     // place of the held mouse on the field, m
+    std::vector<Action> first_;      // input that takes over from the script, until the world has restarted
+    std::size_t takesBefore_ = 0;    // number of scene runs at that time
+    std::optional<GripAction> hand_; // position since the last moveHand()
     double handAtMs_ = 0.0;
-    bool isMoving_ = false; // a badge, since the mouse was pressed
+    bool isMoving_ = false; // a badge is being moved since the mouse was pressed
     double hitAtMs_ = 0.0;
     CollisionEvent told_;
     std::shared_ptr<const Scene> shown_;

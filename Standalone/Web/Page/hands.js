@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What hands do: drag bodies and actuators, with several fingers; tilt the world by slider, keys or the phone's own sensor.
+// User input: drags bodies and actuators, with several fingers, and tilts the world by slider, keys or the phone's motion sensor.
 const degreesPerKey = 15, tellEveryMs = 30, mostFingers = 10;
 
-/// `tell` sends a message to the player; `moved(isDone)` says that an actuator is elsewhere.
+/// `tell` sends a message to the player; `moved(isDone)` reports that an actuator was moved.
 export function dragOn(world, tell, moved) {
     const { canvas } = world, holds = new Map(); // pointer: what it holds
     const at = event => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
@@ -44,7 +44,7 @@ export function dragOn(world, tell, moved) {
     for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, letGo);
 }
 
-/// The slider's way of tilting, and that of the keys: they play where the scene has a player.
+/// Tilts the world by slider and keys, which control the player in a scene that has one.
 export class Tilt {
     isPlayed = false;
     #told = 0; #followed = null;
@@ -58,7 +58,7 @@ export class Tilt {
         slider.addEventListener('dblclick', () => this.turn(0));
     }
     hold(angleRadians, factor) { this.tell({ hold: [angleRadians, factor] }); }
-    /// The slider alone: the world is held so already.
+    /// Updates the slider only; the world already has that tilt.
     show(degrees) {
         this.slider.value = degrees;
         this.slider.setAttribute('aria-valuetext', `${degrees} degrees`);
@@ -76,7 +76,7 @@ export class Tilt {
     }
 
     static get hasSensor() { return 'DeviceOrientationEvent' in window && matchMedia('(pointer: coarse)').matches; }
-    /// On a click, as phones ask then. Whether the sensor is followed now.
+    /// Follows the motion sensor or stops. To be called on a click, when phones ask for permission. Returns whether it follows.
     async follow(isOn) {
         if (this.#followed) window.removeEventListener('deviceorientation', this.#followed);
         if (this.#followed && !isOn) this.turn(0);
@@ -85,7 +85,7 @@ export class Tilt {
         window.addEventListener('deviceorientation', this.#followed = event => this.#lean(event));
         return true;
     }
-    // Gravity in the plane of the display: the world lies still on a table and is heaviest upright.
+    // Gravity in the plane of the display: zero if the phone lies on a table, largest if it is upright.
     #lean({ beta, gamma }) {
         if (beta === null || performance.now() - this.#told < tellEveryMs) return;
         this.#told = performance.now();

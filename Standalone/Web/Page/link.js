@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All of a world in an address: who opens it gets the same samples. It stands after the #, so that no server is told of it. What is as it always is, is left out.
+// Encodes a complete world in a URL that gives the same samples in every browser. It follows the #, so servers do not receive it. Defaults are omitted.
 import { mostEnchanters } from './sound.js';
 
 export const corners = [[0, 1], [1, 1], [0, 0], [1, 0]];
@@ -9,9 +9,9 @@ const mostVariables = 64, mostMaterials = 256;
 
 export const freshWorld = () => ({ scene: firstScene, text: null, field: [0.12, 0.06], seed: 1, byHand: false, places: corners.map(place => [...place]), law: '', variables: new Map(), materials: new Map() });
 
-/// Numbers of three digits behind the point, as they stand in links and in the world alike.
+/// Rounds to three decimals, in links and in the world alike.
 export const rounded = value => Math.round(value * 1000) / 1000;
-/// Four digits: frequencies and decays.
+/// Rounds to four significant digits: frequencies and decays.
 export const fourDigits = value => Number(value.toPrecision(4));
 
 const toBase64 = bytes => btoa(Array.from(bytes, byte => String.fromCharCode(byte)).join('')).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
@@ -29,10 +29,10 @@ async function unpacked(code) {
     }
 }
 
-/// Event lists of old, and others', do not say how large their field is, m.
+/// True for an event list. Lists of older versions and other programs have no field size, m.
 export const isList = world => world.text !== null && world.scene.endsWith('.csv');
 
-/// What stands after the # for this world.
+/// The URL part after the # for this world.
 export async function linkOf(world) {
     const words = new URLSearchParams({ scene: world.scene });
     if (world.text !== null) words.set('file', await packed(world.text));
@@ -53,7 +53,7 @@ const numbersOf = (text, count, what, expected, isGood) => {
     return numbers;
 };
 
-/// The world of a link's words (what stands after the #, or, in older links, after the ?); throws an Error of one line at anything else.
+/// Parses a link (the part after the #, or, in older links, after the ?). Throws an Error with a one-line message if it is invalid.
 export async function worldOf(text) {
     const words = new URLSearchParams(text), world = freshWorld();
     world.scene = (words.get('scene') || firstScene).slice(0, 200);
@@ -82,6 +82,6 @@ export async function worldOf(text) {
     return world;
 }
 
-/// What a player opens.
+/// The arguments with which a player opens a world.
 export const openedBy = (world, laws) => ({ name: world.scene, isName: world.text === null, bytes: new TextEncoder().encode(world.text ?? world.scene), byHand: world.byHand, seed: world.seed, field: world.field,
     variables: [...world.variables], materials: [...world.materials], places: world.places, law: laws.indexOf(world.law) });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel of what a world is made of: materials, variables, places of actuators. It changes nothing by itself and says what is asked for.
+// Panel with the materials, variables and actuators of a world. It only reports requested changes.
 import { fourDigits, rounded } from './link.js';
 import { enchanterColours, letter, materialColour } from './look.js';
 
@@ -9,7 +9,7 @@ const made = (tag, values, ...children) => {
     return element;
 };
 
-/// Both sliders go by ratios, as what is felt does. `changed(index, [hz, decay])`.
+/// Rows of materials; both sliders are logarithmic, like perception. `changed(index, [hz, decay])`.
 export function materialRows(materials, sounds, changed) {
     return materials.flatMap((material, index) => {
         if (!material.frequency_hz) return [];
@@ -40,7 +40,7 @@ function slider(sound, which, least, most, name, words) {
     return made('label', {}, text, input);
 }
 
-/// `lines`: of each variable its name, its value and its choices. `chosen(name, value)`.
+/// `lines`: name, value and choices of each variable. `chosen(name, value)`.
 export function variableRows(lines, chosen) {
     return lines.split('\n\n').filter(Boolean).map(block => {
         const [name, value, ...choices] = block.split('\n'), select = made('select', {}, ...choices.map(choice => new Option(choice)));
@@ -53,7 +53,7 @@ export function variableRows(lines, chosen) {
 const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const percent = share => `${Math.round(100 * share)} %`;
 
-/// A button per actuator, which the arrow keys move. `moved(index, place)`, `chose(index)`.
+/// One button per actuator, moved by arrow keys. `moved(index, place)`, `chose(index)`.
 export function badgeButtons(places, moved, chose) {
     return places.map((place, index) => {
         const button = made('button', { className: 'badge', textContent: letter(index) });

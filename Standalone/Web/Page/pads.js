@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Controllers and the phone's motor, by the package's own module: all that rings is summed, so no hit is left out because another sounds.
+// Vibration of game controllers and phones, with the package's own module. All sounding modes are summed, so no impact is lost while another sounds.
 import { rumble } from './gamepad.js';
 import { Pad } from './pad.js';
 import { eventOf } from './record.js';
@@ -10,7 +10,7 @@ export class Pads {
     constructor(module) { this.#module = module; }
 
     get isOn() { return this.#pads !== null; }
-    /// On over a field of that size (m), or off.
+    /// Switches vibration on for a field of that size (m), or off.
     set(isOn, [fieldWidth, fieldHeight]) {
         this.#pads?.close();
         this.#pads = null;
@@ -20,12 +20,12 @@ export class Pads {
         this.#pads.setLevel(this.#level);
         this.#pads.follow({ follow: follower => { this.#followers.add(follower); return () => this.#followers.delete(follower); } });
     }
-    /// The page's gain: at the level that it begins with, motors are as strong as the scene asks for.
+    /// Sets the gain of the page. At its initial level, motors have the strength that the scene specifies.
     setLevel(gain) {
         this.#level = gain / firstLevel;
         this.#pads?.setLevel(this.#level);
     }
-    /// What a report of the player has.
+    /// Plays the impacts of a report of the player.
     play(hits, seconds) {
         if (!this.#pads) return;
         const events = hits.map(hit => eventOf(hit));

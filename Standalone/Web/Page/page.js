@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page: its controls, and what the player reports.
+// Main module of the page: its controls, and display of the player's reports.
 import { Tilt, dragOn } from './hands.js';
 import { freshWorld, openedBy, rounded, worldOf } from './link.js';
 import { badgeButtons, materialRows, variableRows } from './mix.js';
@@ -25,12 +25,12 @@ let state = freshWorld(), key = 0, best = { at: 0 }, hasStarted = false, hasFall
 const own = new Option('', ''); // a file that is no built-in scene
 const asked = new Map(); // worlds that the player has not opened yet, by key
 
-// ---- what is wanted
+// ---- opening worlds
 const opened = next => {
     asked.set(++key, next);
     return { ...openedBy(next, laws), key };
 };
-/// The world as it is asked for now, as a player opens it.
+/// The requested world, as arguments for a player.
 export const wanted = () => openedBy(state, laws);
 function open(next) {
     engine.tell({ open: opened(next) });
@@ -57,7 +57,7 @@ function fault(line) {
     $('fault').hidden = !line;
 }
 
-// ---- what is reported
+// ---- reports of the player
 function told(message) {
     if (message.fault) {
         fault(message.fault);
@@ -133,7 +133,7 @@ $('detach').onclick = () => arrange(world.places.filter((_, j) => j !== (world.c
 $('law').onchange = () => { state.law = $('law').value; place(); };
 dragOn(world, message => engine?.tell(message), isDone => (isDone ? arrange(world.places.map(at => at.map(rounded))) : place()));
 
-// ---- the bar
+// ---- top bar
 const gain = () => (isPressed('silence') || +$('level').value <= -60 ? 0 : 10 ** ($('level').value / 20));
 const setPressed = (id, isOn) => $(id).setAttribute('aria-pressed', isOn);
 const isPressed = id => $(id).getAttribute('aria-pressed') === 'true';
@@ -192,7 +192,7 @@ document.addEventListener('dragover', event => event.preventDefault());
 document.addEventListener('drop', event => { event.preventDefault(); openFile(event.dataTransfer.files[0]); });
 window.addEventListener('hashchange', openLink);
 
-// ---- sound begins on a click, never before
+// ---- sound starts on a click only, as browsers require
 let awake = null; // promise of a lock on the screen, while there is something to see
 function stayAwake() {
     awake?.then(lock => lock?.release());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A world in motion and its samples: on the audio thread, and before the first click in the page itself, where nothing of it is heard. The whole chain is
-// one WebAssembly instance; it gets inputs by messages, and reports poses, hits and levels sixty times a second.
+// Runs a world and renders its samples: on the audio thread, or before the first click in the page's own thread without sound. All of it is
+// one WebAssembly instance, which gets inputs by messages, and reports poses, impacts and levels sixty times a second.
 import { Module } from './module.js';
 
 const reportsPerSecond = 60;
@@ -9,18 +9,18 @@ const mostHits = 200; // of one report
 export class Player {
     #report = null; #recording = null;
 
-    /// `post` takes what is reported, and what of it changes hands.
+    /// `post` receives reports, and the objects in them that are transferred.
     constructor(compiled, rate, outputs, post) {
         Object.assign(this, { compiled, rate, outputs, post });
     }
 
-    /// What does not depend on a scene.
+    /// Lists that do not depend on a scene.
     lists() {
         const module = new Module(this.compiled), linesOf = name => module.text(module.run(name)).trim().split('\n');
         return { scenes: linesOf('sceneList'), laws: linesOf('lawList') };
     }
 
-    /// A scene that is refused leaves its instance behind; the one that plays goes on.
+    /// Opens a world. If it is invalid, its instance is discarded, and the current world continues.
     open(wanted) {
         try {
             const next = new Module(this.compiled), { name, bytes, isName, byHand, seed, variables, materials, field } = wanted;
@@ -72,7 +72,7 @@ export class Player {
         if (this.#recording) this.#endRecording(null);
     }
 
-    /// The next frames, output by output, or null: there is no world.
+    /// The next frames, output by output; null if there is no world.
     render(frames) {
         if (!this.module) return null;
         try {
@@ -97,7 +97,7 @@ export class Player {
         this.#report = { blocks: [], hits: [] };
     }
 
-    // Lowest and highest sample of each actuator, a pair per block.
+    // Stores minimum and maximum of each actuator, one pair per block.
     #note(samples, frames) {
         for (let j = 0; j < this.count; ++j) {
             let low = 0, high = 0;

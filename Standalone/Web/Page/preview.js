@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The world before the first click: it moves and can be played with, in the page's own thread, and nothing is heard. At a low rate, as only its picture and
-// the levels are looked at.
+// Silent preview of the world before the first click, interactive and in the page's own thread. It has a low sample rate, because
+// only its picture and levels are displayed.
 import { Player } from './player.js';
 
 const rate = 6000, blockFrames = 16; // as many blocks a second as 128 frames at 48 kHz

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What has played, as files: samples, an event list, and what phones and controllers take, all by the package's own writers.
+// Exports recorded playback as files with the package's own writers: samples, an event list, and formats of phones and controllers.
 import { eventsText, wav, writeClip } from './files.js';
 
 const extent = [0.12, 0.06]; // m, of the actuators' places
 
-/// A report's hit as the package has events.
+/// An impact of a report as an event of the package.
 export const eventOf = ([x, y, frequencyHz, decayPerSecond, amplitude, duration, at, kind], since = 0) =>
     ({ x, y, frequencyHz, decayPerSecond, amplitude, durationNs: duration * 1e9, timeNs: (at - since) * 1e9, kind: ['hit', 'roll', 'slide'][kind] });
 
-/// Of each format its files, { name, bytes }, or why there are none. `world`: places, law; `field`: its size, m.
+/// The files { name, bytes } of each format, or why there are none. `world`: places, law; `field`: its size, m.
 export function filesOf(compiled, title, { channels, rate, hits, since }, { places, law }, [fieldWidth, fieldHeight]) {
     const events = hits.map(hit => eventOf(hit, since)), [extentWidth, extentHeight] = extent;
     const layout = { extentWidth, extentHeight, places: places.map(([x, y]) => ({ x: x * extentWidth, y: y * extentHeight })) };
@@ -29,7 +29,7 @@ export function filesOf(compiled, title, { channels, rate, hits, since }, { plac
     });
 }
 
-/// Links to them, a group for each format.
+/// Download links, one group per format.
 export function fileLinks(formats) {
     return formats.map(({ format, files = [], fault }) => {
         const group = document.createElement('span');

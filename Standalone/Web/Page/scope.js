@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is felt: the last second and a half of each enchanter. Heights are square roots, so that weak hits are seen.
+// Scope of the last second and a half of each actuator. Heights are square roots of levels, so that weak impacts are visible.
 import * as look from './look.js';
 
 const columns = 600; // blocks of 128 frames: 1.6 s at 48 kHz

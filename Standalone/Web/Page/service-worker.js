@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page without a network, after the first visit. build-web.sh says which files there are, and what their version is.
+// Service worker: makes the page work offline after the first visit. build-web.sh inserts the list of files and the version.
 const version = 'physvib-@VERSION@', files = ['@FILES@'];
 
 self.addEventListener('install', event => event.waitUntil(caches.open(version).then(kept => kept.addAll(files.map(file => new Request(file, { cache: 'reload' }))))));

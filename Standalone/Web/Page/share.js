@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A link to the world as it is now, and a QR code of it.
+// Shares the current world as a link and a QR code.
 import { linkOf } from './link.js';
 import { Module } from './module.js';
 
 const $ = id => document.getElementById(id);
 const quietModules = 4, modulePixels = 4; // around a QR code, and of each of its modules
 
-/// Black and white on a canvas; false: the text is too long.
+/// Draws a QR code in black and white on a canvas; false if the text is too long.
 export function drawCode(compiled, text, canvas) {
     const module = new Module(compiled), side = module.withText(text, at => module.run('qrSide', at)); // an instance that is thrown away
     if (side === 0) return false;
@@ -20,7 +20,7 @@ export function drawCode(compiled, text, canvas) {
     return true;
 }
 
-/// Copies the link and shows it.
+/// Copies the link and displays it.
 export async function share(compiled, world) {
     const link = `${location.origin}${location.pathname}#${await linkOf(world)}`;
     history.replaceState(null, '', link);

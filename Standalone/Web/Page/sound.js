@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// From the actuators to the device: each its own output where there are as many, else a stereo monitor by their places.
+// Routes actuator channels to the device: one output each if there are enough, else a stereo monitor panned by their places.
 export const mostEnchanters = 8;
 export const firstLevel = 0.25; // 12 dB below full scale: hands and ears may be attached
 const rampSeconds = 0.0015; // time constant: 58 dB within 10 ms, and still no click
 
-/// Why there can be no sound here, in a sentence; empty: there can.
+/// Why sound is not possible here, in a sentence; empty if it is.
 export function silentBecause() {
     if (globalThis.isSecureContext === false) // browsers give audio worklets to https and to the machine itself only
         return 'No sound here: this page came by http; browsers give sound and vibration to https only. On the computer that serves it, run Standalone/Web/serve.py.';
@@ -15,7 +15,7 @@ export class Sound {
     #context; #node; #master; #pans = []; #connected = '';
     constructor(onTold) { this.onTold = onTold; }
 
-    /// On a click. `code`: the WebAssembly, in bytes; `first`: the scene to begin with.
+    /// To be called on a click. `code`: the WebAssembly in bytes; `first`: the first scene.
     async start(code, first) {
         const why = silentBecause();
         if (why) throw new Error(why);
@@ -32,7 +32,7 @@ export class Sound {
     get outputs() { return this.#context.destination.maxChannelCount; }
     get rate() { return this.#context.sampleRate; }
 
-    /// Whether each of so many actuators has an output.
+    /// True if each of that number of actuators has an output.
     isDirect(count) { return this.outputs >= count && this.outputs > 2; }
 
     connect(places) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The audio thread: a player, one channel per actuator. The page's graph makes of them what the device has.
+// Audio thread: runs a player with one channel per actuator. The audio graph of the page maps the channels to the device.
 import { Player } from './player.js';
 
 class PhysVib extends AudioWorkletProcessor {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture of the world: bodies at their poses, what vibrates outlined, hits that glow, enchanters as badges.
+// Draws the world: bodies at their poses, outlines of vibrating bodies, flashes of impacts, and actuators as badges.
 import * as look from './look.js';
 
 const badge = 26, margin = 20; // px
@@ -23,7 +23,7 @@ export class World {
     }
     add(hits) { for (const hit of hits) this.#hits.push({ hit, at: performance.now() }); }
 
-    /// From metres of the field to pixels of the canvas, and back.
+    /// Maps metres of the field to pixels of the canvas, and back.
     get map() {
         const [width, height] = this.scene.field_m, { clientWidth, clientHeight } = this.canvas;
         const scale = Math.min((clientWidth - 2 * margin) / width, (clientHeight - 2 * margin) / height);
@@ -40,7 +40,7 @@ export class World {
         return this.places.findIndex(place => { const [x, y] = this.pixelOfPlace(place); return Math.hypot(px - x, py - y) < badge * 0.8; });
     }
 
-    /// The body on top there that a hand can move; a finger is 12 px wide. -1: none.
+    /// The topmost body there that the user can move, with a finger width of 12 px; -1: none.
     bodyAt(px, py) {
         const { scale, left, bottom } = this.map, context = this.canvas.getContext('2d'), reach = 24;
         for (let i = this.scene.bodies.length - 1; i >= 0; --i) {
@@ -133,7 +133,7 @@ export class World {
     }
 }
 
-// In the body's metres.
+// In metres, relative to the body.
 function outlineOf({ shape, radius_m, size_m, vertices_m, loop, offset_m = [0, 0], angle_rad = 0 }) {
     const path = new Path2D(), own = new Path2D();
     if (shape === 'circle') own.arc(0, 0, radius_m, 0, 7);
