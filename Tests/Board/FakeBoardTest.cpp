@@ -201,10 +201,12 @@ BoardLinkStatus playPath(FakeBoard& board) {
     first.y = 4.0;
     CollisionEvent second = first;
     first.durationNs = second.timeNs = 400 * ms;
-    first.course = {4.0, 4.0, first.durationNs, 0, Spread::equal};
+    first.course = {4.0, 4.0, first.durationNs, 0};
+    first.spread = Spread::equal;
     second.x = 4.0;
     second.durationNs = 600 * ms;
-    second.course = {4.0, 0.0, second.durationNs, first.durationNs, Spread::equal};
+    second.course = {4.0, 0.0, second.durationNs, first.durationNs};
+    second.spread = Spread::equal;
     EXPECT_TRUE(session.take({Strikes{std::array{first, second}}}));
     EXPECT_TRUE(test::comesTrue([&] {
         goOn();

@@ -33,7 +33,8 @@ CollisionEvent leg(EnchanterPlace from, EnchanterPlace to, std::int64_t fromNs, 
     e.amplitude = 0.5;
     e.x = from.xMetres;
     e.y = from.yMetres;
-    e.course = {to.xMetres, to.yMetres, lengthNs, 0, Spread::equal};
+    e.course = {to.xMetres, to.yMetres, lengthNs, 0};
+    e.spread = Spread::equal;
     return e;
 }
 
@@ -148,6 +149,7 @@ TEST(MovingTones, AnyBlocksGiveTheSameBits) {
 TEST(MovingTones, WhatGoesNowhereIsTheStillStrike) {
     CollisionEvent still = fromAToD, moving = fromAToD;
     still.course = {};
+    still.spread = Spread::layout;
     still.x = moving.x = moving.course.toX = 0.04;
     still.y = moving.y = moving.course.toY = 0.02;
     moving.spread = Spread::layout;
@@ -160,8 +162,10 @@ TEST(MovingTones, WhatGoesNowhereIsTheStillStrike) {
 TEST(MovingTones, TheRestOfALongerToneGoesOnWhereThatOneIs) {
     CollisionEvent whole = fromAToD, rest = fromAToD;
     whole.course = {};
+    whole.spread = Spread::layout;
     whole.decayPerSecond = rest.decayPerSecond = 3.0;
     rest.course = {.sinceNs = 300'000'017};
+    rest.spread = Spread::layout;
     rest.timeNs = rest.course.sinceNs;
     rest.durationNs -= rest.course.sinceNs;
     const auto a = test::renderEvents({whole}, phone4(), rate).channels,

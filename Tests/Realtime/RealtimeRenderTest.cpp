@@ -36,8 +36,8 @@ CollisionEvent randomPath(test::Random& random, std::int64_t fromNs) {
     path.durationNs = 1'000'000 * (1 + random.below(200));
     path.frequencyHz = random.uniform(50, 400);
     path.amplitude = 0.1;
-    path.course = {random.uniform(0, 6.4), random.uniform(0, 3.6), path.durationNs, 0,
-                   static_cast<Spread>(random.below(static_cast<int>(spreadNames.size())))};
+    path.course = {random.uniform(0, 6.4), random.uniform(0, 3.6), path.durationNs, 0};
+    path.spread = static_cast<Spread>(random.below(static_cast<int>(spreadNames.size())));
     return path;
 }
 

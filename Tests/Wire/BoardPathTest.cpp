@@ -22,8 +22,9 @@ CollisionEvent diagonal(Spread spread, double amplitude) {
     e.durationNs = 1'000'000'000;
     e.frequencyHz = 205.0;
     e.amplitude = amplitude;
-    e.y = 1.0;                                      // A
-    e.course = {1.0, 0.0, e.durationNs, 0, spread}; // D
+    e.y = 1.0; // A
+    e.course = {1.0, 0.0, e.durationNs, 0};
+    e.spread = spread; // D
     return e;
 }
 

@@ -19,7 +19,8 @@ CollisionEvent fromAToD(double hz = 205.0) {
     e.frequencyHz = hz;
     e.amplitude = 0.5;
     e.y = 1.0;
-    e.course = {1.0, 0.0, second, 0, Spread::equal};
+    e.course = {1.0, 0.0, second, 0};
+    e.spread = Spread::equal;
     return e;
 }
 
