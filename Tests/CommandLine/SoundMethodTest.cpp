@@ -53,11 +53,11 @@ TEST_F(SoundMethod, MaterialsOfOneFrequencyHaveRecordingsOfTheirOwn) {
     const std::string render = "render --from-events two.csv --layout phone1 --seconds 1 --limiter off "
                                "--method SV --out a.wav ";
     const std::string both = "--sound oak=knock.wav --sound pine=synthetic-3 ";
-    refuses(render + both, 1, "two.csv: expected a --sound for 349 Hz, found none", 3);
+    refuses(render + both, 1, "two.csv: expected a --sound for 349 Hz, found none", 4);
     refuses(render + "--sound oak=knock.wav", 1, "two.csv: expected a --sound for pine or 349 Hz, found none",
-            3);
+            4);
     refuses(render + "--sound elm=knock.wav", 1,
-            "--sound elm=knock.wav: expected a material of two.csv that vibrates, or a frequency", 3);
+            "--sound elm=knock.wav: expected a material of two.csv that vibrates, or a frequency", 4);
     ASSERT_EQ(call(render + both + "--sound 349=knock.wav --events again.csv").exitCode, 0);
     const auto a = samplesOf("a.wav");
     const auto differ = [&](double first, double second) {
