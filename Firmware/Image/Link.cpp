@@ -52,8 +52,8 @@ void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept 
         if (wire::CompactStrike m; wire::decode(payload, m))
             play(m.sequence, wire::expand(m, renderer_->frame()).event);
         break;
-    case wire::Type::leg:
-        if (wire::Leg m; wire::decode(payload, m)) play(m.sequence, m.leg);
+    case wire::Type::segment:
+        if (wire::Segment m; wire::decode(payload, m)) play(m.sequence, m.segment);
         break;
     case wire::Type::gains:
         if (wire::Gains m; wire::decode(payload, m)) {

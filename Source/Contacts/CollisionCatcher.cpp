@@ -8,10 +8,10 @@ namespace physvib {
 CollisionCatcher::CollisionCatcher(const FixtureTable& table, ContactGraph& graph)
     : table_(table)
     , graph_(graph) {
-    blows_.reserve(maxDirectBlows + maxDistantBlows);
-    ends_.reserve(maxDirectBlows + maxDistantBlows);
-    last_.reserve(maxDirectBlows + maxDistantBlows);
-    struck_.reserve(2 * (maxDirectBlows + maxDistantBlows));
+    collisions_.reserve(maxDirectCollisions + maxDistantCollisions);
+    ends_.reserve(maxDirectCollisions + maxDistantCollisions);
+    last_.reserve(maxDirectCollisions + maxDistantCollisions);
+    struck_.reserve(2 * (maxDirectCollisions + maxDistantCollisions));
 }
 
 void CollisionCatcher::beginStep(const StepSpan& span) noexcept {
@@ -21,7 +21,8 @@ void CollisionCatcher::beginStep(const StepSpan& span) noexcept {
 
 void CollisionCatcher::settle() {
     isStepping_ = false;
-    if (!blows_.empty() || !last_.empty()) loads_.settle(); // without a collision no impulse is transmitted
+    if (!collisions_.empty() || !last_.empty())
+        loads_.settle(); // without a collision no impulse is transmitted
 }
 
 void CollisionCatcher::endStep() {
@@ -29,11 +30,11 @@ void CollisionCatcher::endStep() {
     last_.clear();
     for (const std::uint64_t fixture : struck_) struckNames_.remove(fixture);
     struck_.clear();
-    for (const Blow& blow : blows_) {
-        pairs_[blow.pair].blow = TouchingPairs::none;
-        pairs_[blow.pair].last = static_cast<std::int32_t>(last_.size());
-        last_.push_back({blow.pair, {}});
-        for (const std::int32_t slot : {blow.a, blow.b}) {
+    for (const Collision& collision : collisions_) {
+        pairs_[collision.pair].collision = TouchingPairs::none;
+        pairs_[collision.pair].last = static_cast<std::int32_t>(last_.size());
+        last_.push_back({collision.pair, {}});
+        for (const std::int32_t slot : {collision.a, collision.b}) {
             struck_.push_back(table_[slot].fixture);
             struckNames_.add(struck_.back());
         }
@@ -41,20 +42,20 @@ void CollisionCatcher::endStep() {
     loads_.endStep(graph_);
     pairs_.endStep(graph_);
     hasHeard_ = false;
-    blows_.clear();
+    collisions_.clear();
     ends_.clear();
-    directBlows_ = 0;
+    directCollisions_ = 0;
     order_ = 0;
 }
 
 void CollisionCatcher::forget(std::int32_t slot) noexcept {
     const auto isOf = [slot](const auto& noted) { return noted.a == slot || noted.b == slot; };
-    for (const Blow& blow : blows_) pairs_[blow.pair].blow = TouchingPairs::none;
-    std::erase_if(blows_, isOf);
-    directBlows_ = 0;
-    for (std::size_t i = 0; i < blows_.size(); ++i) {
-        pairs_[blows_[i].pair].blow = static_cast<std::int32_t>(i);
-        directBlows_ += isFelt(blows_[i].a, blows_[i].b) ? 1 : 0;
+    for (const Collision& collision : collisions_) pairs_[collision.pair].collision = TouchingPairs::none;
+    std::erase_if(collisions_, isOf);
+    directCollisions_ = 0;
+    for (std::size_t i = 0; i < collisions_.size(); ++i) {
+        pairs_[collisions_[i].pair].collision = static_cast<std::int32_t>(i);
+        directCollisions_ += isFelt(collisions_[i].a, collisions_[i].b) ? 1 : 0;
     }
     std::erase_if(ends_, isOf);
     loads_.forget(slot);
@@ -85,26 +86,26 @@ double CollisionCatcher::aftermath(std::int32_t pair) const noexcept {
                : static_cast<double>(last_[static_cast<std::size_t>(last)].newtonSeconds.length());
 }
 
-Blow* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachMetresPerSecond) {
+Collision* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachMetresPerSecond) {
     hasHeard_ = true;
     const auto [a, b, number] = pair;
     const bool isDirect = isFelt(a, b);
-    const std::size_t count = isDirect ? directBlows_ : blows_.size() - directBlows_;
+    const std::size_t count = isDirect ? directCollisions_ : collisions_.size() - directCollisions_;
     const FixtureTable::Mobility &ofA = table_.mobility(a), &ofB = table_.mobility(b);
     const double lighterMassKg = std::min(ofA.movableMassKg, ofB.movableMassKg);
     const double expected = lighterMassKg * approachMetresPerSecond;
-    Blow* made = nullptr;
-    if (count < (isDirect ? maxDirectBlows : maxDistantBlows)) {
-        made = &blows_.emplace_back();
-        directBlows_ += isDirect ? 1 : 0;
+    Collision* made = nullptr;
+    if (count < (isDirect ? maxDirectCollisions : maxDistantCollisions)) {
+        made = &collisions_.emplace_back();
+        directCollisions_ += isDirect ? 1 : 0;
     } else {
         ++drops_;
         made = weakest(isDirect);
         if (made->expectedNewtonSeconds >= expected) return nullptr;
-        pairs_[made->pair].blow = TouchingPairs::none;
+        pairs_[made->pair].collision = TouchingPairs::none;
         *made = {};
     }
-    pairs_[number].blow = static_cast<std::int32_t>(made - blows_.data());
+    pairs_[number].collision = static_cast<std::int32_t>(made - collisions_.data());
     made->pair = number;
     made->a = a;
     made->b = b;
@@ -116,12 +117,12 @@ Blow* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachM
 }
 
 // Linear search, because the list is full only when hundreds of pairs collide at once.
-Blow* CollisionCatcher::weakest(bool isDirect) noexcept {
-    Blow* found = nullptr;
-    for (Blow& blow : blows_)
-        if (isFelt(blow.a, blow.b) == isDirect &&
-            (found == nullptr || blow.expectedNewtonSeconds < found->expectedNewtonSeconds))
-            found = &blow;
+Collision* CollisionCatcher::weakest(bool isDirect) noexcept {
+    Collision* found = nullptr;
+    for (Collision& collision : collisions_)
+        if (isFelt(collision.a, collision.b) == isDirect &&
+            (found == nullptr || collision.expectedNewtonSeconds < found->expectedNewtonSeconds))
+            found = &collision;
     return found;
 }
 

@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-/// Updates the contact graph and records the collisions of each step (`Blow`). A collision needs parts
+/// Updates the contact graph and records the collisions of each step (`Collision`). A collision needs parts
 /// of two surfaces that were apart and that approach each other faster than a resting body does; its impulse
 /// is what these parts push. All other impulses are loads: bodies that rest, lean, roll over a seam, or are
 /// created at rest. A pair of fixtures has at most one collision per step, however many contacts and points
@@ -23,8 +23,8 @@ class CollisionCatcher {
 public:
     /// Capacity for collisions of one step: those of haptic sources, and others, which may be transmitted to
     /// them. A world with more is noise to the touch.
-    static constexpr std::size_t maxDirectBlows = 1024;
-    static constexpr std::size_t maxDistantBlows = 4096;
+    static constexpr std::size_t maxDirectCollisions = 1024;
+    static constexpr std::size_t maxDistantCollisions = 4096;
 
     CollisionCatcher(const FixtureTable& table, ContactGraph& graph);
 
@@ -67,17 +67,17 @@ public:
 
     /// True if parts that approach each other at this speed, before the solver, collide; `gravityScale`: the
     /// larger one of the two bodies.
-    bool isBlow(float gravityScale, double approachMetresPerSecond) const noexcept {
+    bool isCollision(float gravityScale, double approachMetresPerSecond) const noexcept {
         return approachMetresPerSecond >= span_.leastApproach(gravityScale);
     }
 
-    /// `blow` returns a pair's collision in this step, if there is one. `strike` creates it, with fixtures,
-    /// mass and order set; the caller fills in the rest. When full, the weakest by mass and approach is
-    /// dropped and counted; nullptr if that is the new one.
-    Blow* strike(const TouchingPairs::Name& pair, double approachMetresPerSecond);
-    Blow* blow(const TouchingPairs::Name& pair) noexcept {
-        const std::int32_t known = pairs_[pair.number].blow;
-        return known == TouchingPairs::none ? nullptr : &blows_[static_cast<std::size_t>(known)];
+    /// `collision` returns a pair's collision in this step, if there is one. `strike` creates it, with
+    /// fixtures, mass and order set; the caller fills in the rest. When full, the weakest by mass and
+    /// approach is dropped and counted; nullptr if that is the new one.
+    Collision* strike(const TouchingPairs::Name& pair, double approachMetresPerSecond);
+    Collision* collision(const TouchingPairs::Name& pair) noexcept {
+        const std::int32_t known = pairs_[pair.number].collision;
+        return known == TouchingPairs::none ? nullptr : &collisions_[static_cast<std::size_t>(known)];
     }
 
     /// False: the world has no haptic source, so nothing has to be reported. A source that is added later
@@ -111,7 +111,7 @@ public:
         if (isFelt(pair.a, pair.b)) loads_.add(pair, newtonSeconds, point);
     }
 
-    const std::vector<Blow>& blows() const noexcept { return blows_; }
+    const std::vector<Collision>& collisions() const noexcept { return collisions_; }
     /// Impulse in N s that a pair which collided in the last step has added in this one: engines spread an
     /// impact over two steps.
     double aftermath(std::int32_t pair) const noexcept;
@@ -131,19 +131,19 @@ private:
         std::int32_t pair;
         Vector2 newtonSeconds;
     };
-    Blow* weakest(bool isDirect) noexcept;
+    Collision* weakest(bool isDirect) noexcept;
 
     const FixtureTable& table_;
     ContactGraph& graph_;
     TouchingPairs pairs_;
     ChainLoads loads_{table_, pairs_};
     StepSpan span_;
-    std::vector<Blow> blows_; // of this step
+    std::vector<Collision> collisions_; // of this step
     std::vector<ContactEnd> ends_;
     std::vector<Aftermath> last_;
     std::vector<std::uint64_t> struck_; // engine's numbers of the fixtures that collided in the last step
     NameSketch struckNames_;
-    std::size_t directBlows_ = 0;
+    std::size_t directCollisions_ = 0;
     std::int32_t order_ = 0;
     bool isStepping_ = false, hasHeard_ = false;
     std::uint64_t drops_ = 0, contacts_ = 0, withoutSource_ = 0, tooSlow_ = 0;

@@ -14,7 +14,7 @@ namespace {
 
 // Two haptic sources per direct collision, two voices each, of this step and of the one whose events are
 // still held.
-constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectBlows;
+constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectCollisions;
 
 const ImpactSettings& checked(const ImpactSettings& settings) {
     if (const std::string_view fault = faultOf(settings); !fault.empty())
@@ -143,9 +143,9 @@ void ContactEvents::endStep() {
 void ContactEvents::finish() {
     if (std::exchange(isConcluded_, true)) return;
     catcher_.settle();
-    for (const Blow& blow : catcher_.blows())
-        if (!span_.isStrike(blow.impulse(), blow.lighterMassKg, blow.gravityScale))
-            catcher_.passOver(blow.a, blow.b);
+    for (const Collision& collision : catcher_.collisions())
+        if (!span_.isStrike(collision.impulse(), collision.lighterMassKg, collision.gravityScale))
+            catcher_.passOver(collision.a, collision.b);
     impacts_.clear();
     if (settings_.timing == ImpactTiming::onset)
         onset_.collect(span_, impacts_);

@@ -103,24 +103,25 @@ void FedContacts::strikeTogether() {
     if (ofPush > 0.0 && fastest > 0.0)
         ofNew = supported(ofNew, ofPush, (1.0 + first.restitution) * fastest, fraction);
     const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : ofNew;
-    const bool isBlow = impulse > 0.0 && std::isfinite(impulse) && catcher.isBlow(gravityScale, fastest);
-    if (!isBlow) catcher.passOver(pair.a, pair.b);
-    if (!isBlow && first.isImpulseOfPair) return load(first);
-    if (!isBlow) {
+    const bool isCollision =
+        impulse > 0.0 && std::isfinite(impulse) && catcher.isCollision(gravityScale, fastest);
+    if (!isCollision) catcher.passOver(pair.a, pair.b);
+    if (!isCollision && first.isImpulseOfPair) return load(first);
+    if (!isCollision) {
         for (const Waiting* each : together_)
             if (each->isNew && (each->contact.isSoft || speedOf(each->contact) > 0.0))
                 load(withMomentum(*each));
         return;
     }
-    Blow* blow = catcher.blow(pair);
-    const bool isFirst = blow == nullptr;
-    if (isFirst && (blow = catcher.strike(pair, fastest)) == nullptr) return;
-    const double sum = blow->normalImpulse + impulse;
-    blow->fraction = isFirst ? fraction : std::min(blow->fraction, fraction);
-    blow->point += static_cast<float>(impulse / sum) * (point - blow->point);
-    blow->normalImpulse = sum;
+    Collision* collision = catcher.collision(pair);
+    const bool isFirst = collision == nullptr;
+    if (isFirst && (collision = catcher.strike(pair, fastest)) == nullptr) return;
+    const double sum = collision->normalImpulse + impulse;
+    collision->fraction = isFirst ? fraction : std::min(collision->fraction, fraction);
+    collision->point += static_cast<float>(impulse / sum) * (point - collision->point);
+    collision->normalImpulse = sum;
     if (!first.isImpulseOfPair) return;
-    blow->tangentialImpulse += share * first.tangentialNewtonSeconds;
+    collision->tangentialImpulse += share * first.tangentialNewtonSeconds;
     FedContact rest = first; // the impulse of old points is a load
     rest.impulseNewtonSeconds = (1.0 - share) * *first.impulseNewtonSeconds;
     rest.tangentialNewtonSeconds = (1.0 - share) * first.tangentialNewtonSeconds;

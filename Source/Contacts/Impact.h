@@ -55,7 +55,7 @@ struct StepSpan {
 
 /// A collision: two fixtures whose parts were apart and meet in this step, faster than resting bodies do.
 /// Fixtures are slots of the FixtureTable.
-struct Blow {
+struct Collision {
     std::int32_t a = 0, b = 0;
     std::int32_t pair = 0;     // number of the pair
     std::int32_t order = 0;    // order of collisions and ended contacts within the step

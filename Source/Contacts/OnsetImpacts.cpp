@@ -10,7 +10,7 @@ OnsetImpacts::OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& 
     : catcher_(catcher)
     , table_(table)
     , graph_(graph) {
-    waiting_.reserve(CollisionCatcher::maxDirectBlows);
+    waiting_.reserve(CollisionCatcher::maxDirectCollisions);
 }
 
 void OnsetImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
@@ -41,13 +41,16 @@ void OnsetImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
 
 void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
     strikes_.clear();
-    for (const Blow& blow : catcher_.blows()) {
-        const double impulse = blow.impulse();
-        if (!span.isStrike(impulse, blow.lighterMassKg, blow.gravityScale)) continue;
-        const std::int64_t timeNs = span.timeNs(blow.fraction);
-        strikes_.add({blow.a, blow.b, blow.pair, timeNs, impulse, 0.0, 0, 0, SlotMap::none, SlotMap::none});
-        if (table_.isCamera(blow.a)) impacts.push_back({blow.a, blow.b, timeNs, impulse, blow.point});
-        if (table_.isCamera(blow.b)) impacts.push_back({blow.b, blow.a, timeNs, impulse, blow.point});
+    for (const Collision& collision : catcher_.collisions()) {
+        const double impulse = collision.impulse();
+        if (!span.isStrike(impulse, collision.lighterMassKg, collision.gravityScale)) continue;
+        const std::int64_t timeNs = span.timeNs(collision.fraction);
+        strikes_.add({collision.a, collision.b, collision.pair, timeNs, impulse, 0.0, 0, 0, SlotMap::none,
+                      SlotMap::none});
+        if (table_.isCamera(collision.a))
+            impacts.push_back({collision.a, collision.b, timeNs, impulse, collision.point});
+        if (table_.isCamera(collision.b))
+            impacts.push_back({collision.b, collision.a, timeNs, impulse, collision.point});
     }
 }
 

@@ -13,9 +13,9 @@ ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTab
     , table_(table)
     , graph_(graph)
     , bodies_(bodies) {
-    strikes_.reserve(CollisionCatcher::maxDistantBlows);
-    reached_.reserve(CollisionCatcher::maxDirectBlows);
-    impulses_.reserve(CollisionCatcher::maxDirectBlows + CollisionCatcher::maxDistantBlows);
+    strikes_.reserve(CollisionCatcher::maxDistantCollisions);
+    reached_.reserve(CollisionCatcher::maxDirectCollisions);
+    impulses_.reserve(CollisionCatcher::maxDirectCollisions + CollisionCatcher::maxDistantCollisions);
 }
 
 void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
@@ -42,28 +42,28 @@ void ReleaseImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
 }
 
 void ReleaseImpacts::open(const StepSpan& span) {
-    if (catcher_.blows().empty()) return;
+    if (catcher_.collisions().empty()) return;
     underWay_.clear();
     for (const Strike& strike : strikes_) underWay_.set(strike.camera, strike.isDirect ? direct : handedOn);
     findCauses(span);
-    for (std::size_t i = 0; i < catcher_.blows().size(); ++i)
+    for (std::size_t i = 0; i < catcher_.collisions().size(); ++i)
         // 0 for a collision that the user has disabled
-        if (impulses_[i] > 0.0) openDirect(catcher_.blows()[i], span);
+        if (impulses_[i] > 0.0) openDirect(catcher_.collisions()[i], span);
     openHandedOn(span);
 }
 
 // Finds the strongest collision of each component, the first of equal ones.
 void ReleaseImpacts::findCauses(const StepSpan& span) {
-    const std::vector<Blow>& blows = catcher_.blows();
-    impulses_.resize(blows.size());
+    const std::vector<Collision>& collisions = catcher_.collisions();
+    impulses_.resize(collisions.size());
     strongestOf_.clear();
-    for (std::size_t i = 0; i < blows.size(); ++i) {
-        const Blow& blow = blows[i];
-        impulses_[i] = blow.impulse();
-        if (!span.isStrike(impulses_[i], blow.lighterMassKg, blow.gravityScale)) continue;
-        causes_.add({blow.a, blow.b, blow.pair, span.timeNs(blow.fraction), impulses_[i], 0.0, 0, 0,
-                     SlotMap::none, SlotMap::none});
-        for (const std::int32_t slot : {blow.a, blow.b}) {
+    for (std::size_t i = 0; i < collisions.size(); ++i) {
+        const Collision& collision = collisions[i];
+        impulses_[i] = collision.impulse();
+        if (!span.isStrike(impulses_[i], collision.lighterMassKg, collision.gravityScale)) continue;
+        causes_.add({collision.a, collision.b, collision.pair, span.timeNs(collision.fraction), impulses_[i],
+                     0.0, 0, 0, SlotMap::none, SlotMap::none});
+        for (const std::int32_t slot : {collision.a, collision.b}) {
             const std::int32_t component = graph_.component(slot);
             if (component != ContactGraph::noComponent &&
                 isStronger(static_cast<std::int32_t>(i), strongestOf_.find(component)))
@@ -72,23 +72,23 @@ void ReleaseImpacts::findCauses(const StepSpan& span) {
     }
 }
 
-bool ReleaseImpacts::isStronger(std::int32_t blow, std::int32_t than) const noexcept {
-    if (blow == SlotMap::none || than == SlotMap::none) return blow != SlotMap::none;
-    const double one = impulses_[static_cast<std::size_t>(blow)],
+bool ReleaseImpacts::isStronger(std::int32_t collision, std::int32_t than) const noexcept {
+    if (collision == SlotMap::none || than == SlotMap::none) return collision != SlotMap::none;
+    const double one = impulses_[static_cast<std::size_t>(collision)],
                  other = impulses_[static_cast<std::size_t>(than)];
-    return one != other ? one > other : blow < than;
+    return one != other ? one > other : collision < than;
 }
 
-void ReleaseImpacts::openDirect(const Blow& blow, const StepSpan& span) {
+void ReleaseImpacts::openDirect(const Collision& collision, const StepSpan& span) {
     for (const bool isA : {true, false}) {
-        const std::int32_t camera = isA ? blow.a : blow.b;
+        const std::int32_t camera = isA ? collision.a : collision.b;
         if (!table_.isCamera(camera)) continue;
         // From now on transmitted impulses cannot be separated from the direct collision.
         if (underWay_.find(camera) == handedOn)
             std::erase_if(strikes_, [camera](const Strike& s) { return s.camera == camera && !s.isDirect; });
-        push({camera, isA ? blow.b : blow.a, blow.a, blow.b, blow.order, true, false,
-              span.timeNs(blow.fraction), blow.point, isA ? blow.armA : blow.armB,
-              isA ? blow.motionA : blow.motionB, blow.lighterMassKg, blow.gravityScale});
+        push({camera, isA ? collision.b : collision.a, collision.a, collision.b, collision.order, true, false,
+              span.timeNs(collision.fraction), collision.point, isA ? collision.armA : collision.armB,
+              isA ? collision.motionA : collision.motionB, collision.lighterMassKg, collision.gravityScale});
     }
 }
 
@@ -103,10 +103,10 @@ void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
     graph_.reach(camera, reached_);
     std::int32_t strongest = SlotMap::none;
     for (const std::int32_t component : reached_)
-        if (const std::int32_t blow = strongestOf_.find(component); isStronger(blow, strongest))
-            strongest = blow;
+        if (const std::int32_t collision = strongestOf_.find(component); isStronger(collision, strongest))
+            strongest = collision;
     if (strongest == SlotMap::none) return;
-    const Blow* const cause = &catcher_.blows()[static_cast<std::size_t>(strongest)];
+    const Collision* const cause = &catcher_.collisions()[static_cast<std::size_t>(strongest)];
     const ChainLoads::Passed passed = catcher_.loads().passed(camera);
     const bool isKnown = passed.other != FixtureTable::none;
     const Vector2 point = isKnown ? passed.point : cause->point;
@@ -150,9 +150,9 @@ Vector2 ReleaseImpacts::gain(std::int32_t camera) {
     sums_ = sums_ == std::numeric_limits<std::int32_t>::max() ? 0 : sums_ + 1;
     Vector2 sum;
     graph_.forNeighbours(camera, [&](std::int32_t neighbour) { sum += gainOf(neighbour); });
-    for (const Blow& blow : catcher_.blows()) { // its contact may have ended already
-        if (blow.a == camera) sum += gainOf(blow.b);
-        if (blow.b == camera) sum += gainOf(blow.a);
+    for (const Collision& collision : catcher_.collisions()) { // its contact may have ended already
+        if (collision.a == camera) sum += gainOf(collision.b);
+        if (collision.b == camera) sum += gainOf(collision.a);
     }
     return sum;
 }

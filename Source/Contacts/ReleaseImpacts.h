@@ -70,11 +70,11 @@ private:
                                           // far
     };
     void open(const StepSpan& span);
-    void openDirect(const Blow& blow, const StepSpan& span);
+    void openDirect(const Collision& collision, const StepSpan& span);
     void openHandedOn(const StepSpan& span);
     void openHandedOn(std::int32_t camera, const StepSpan& span);
     void findCauses(const StepSpan& span);
-    bool isStronger(std::int32_t blow, std::int32_t than) const noexcept;
+    bool isStronger(std::int32_t collision, std::int32_t than) const noexcept;
     void push(const Strike& strike);
     void follow();
     void followCauses();

@@ -7,7 +7,8 @@
 namespace physvib {
 
 StrikeCauses::StrikeCauses() {
-    constexpr std::size_t most = CollisionCatcher::maxDirectBlows + CollisionCatcher::maxDistantBlows;
+    constexpr std::size_t most =
+        CollisionCatcher::maxDirectCollisions + CollisionCatcher::maxDistantCollisions;
     strikes_.reserve(most);
     sums_.reserve(most);
     reached_.reserve(most);
@@ -15,19 +16,19 @@ StrikeCauses::StrikeCauses() {
 
 void StrikeCauses::clear() noexcept { strikes_.clear(); }
 
-void StrikeCauses::add(const HardBlow& strike) {
+void StrikeCauses::add(const HardCollision& strike) {
     strikes_.push_back(strike);
     isLocated_ = false;
 }
 
 void StrikeCauses::follow(const CollisionCatcher& catcher) {
     isLocated_ = false; // the graph has changed as well
-    for (HardBlow& strike : strikes_) strike.aftermath = catcher.aftermath(strike.pair);
+    for (HardCollision& strike : strikes_) strike.aftermath = catcher.aftermath(strike.pair);
 }
 
 void StrikeCauses::locate(ContactGraph& graph) {
     if (std::exchange(isLocated_, true)) return;
-    std::sort(strikes_.begin(), strikes_.end(), [](const HardBlow& one, const HardBlow& two) {
+    std::sort(strikes_.begin(), strikes_.end(), [](const HardCollision& one, const HardCollision& two) {
         return one.newtonSeconds != two.newtonSeconds ? one.newtonSeconds > two.newtonSeconds
                                                       : one.timeNs < two.timeNs;
     });
@@ -35,14 +36,14 @@ void StrikeCauses::locate(ContactGraph& graph) {
     sumOf_.clear();
     struck_.clear();
     for (std::size_t i = 0; i < strikes_.size(); ++i) {
-        HardBlow& strike = strikes_[i];
+        HardCollision& strike = strikes_[i];
         strike.componentA = graph.component(strike.a);
         strike.componentB = graph.component(strike.b);
         sum(strike.componentA, i);
         if (strike.componentB != strike.componentA) sum(strike.componentB, i);
     }
     for (std::size_t i = strikes_.size(); i-- > 0;) {
-        HardBlow& strike = strikes_[i];
+        HardCollision& strike = strikes_[i];
         for (auto [slot, next] : {std::pair{strike.a, &strike.nextA}, {strike.b, &strike.nextB}}) {
             *next = struck_.find(slot);
             struck_.set(slot, static_cast<std::int32_t>(i));
@@ -83,11 +84,11 @@ StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph)
         found.aftermath += sum.aftermath;
     }
     if (std::int32_t own = struck_.find(camera); own != SlotMap::none) {
-        const auto isOwn = [camera](const HardBlow& strike) {
+        const auto isOwn = [camera](const HardCollision& strike) {
             return strike.a == camera || strike.b == camera;
         };
         while (own != SlotMap::none) {
-            const HardBlow& strike = strikes_[static_cast<std::size_t>(own)];
+            const HardCollision& strike = strikes_[static_cast<std::size_t>(own)];
             own = strike.a == camera ? strike.nextA : strike.nextB;
             if (!isReached(strike)) continue;
             found.newtonSeconds -= strike.newtonSeconds;
@@ -103,10 +104,11 @@ StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph)
 
 void StrikeCauses::forget(std::int32_t slot) noexcept {
     isLocated_ = false; // indices have changed
-    std::erase_if(strikes_, [slot](const HardBlow& strike) { return strike.a == slot || strike.b == slot; });
+    std::erase_if(strikes_,
+                  [slot](const HardCollision& strike) { return strike.a == slot || strike.b == slot; });
 }
 
-bool StrikeCauses::isReached(const HardBlow& strike) const noexcept {
+bool StrikeCauses::isReached(const HardCollision& strike) const noexcept {
     const auto isIn = [&](std::int32_t component) {
         return component != ContactGraph::noComponent &&
                std::find(reached_.begin(), reached_.end(), component) != reached_.end();

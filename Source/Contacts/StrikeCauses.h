@@ -10,7 +10,7 @@
 namespace physvib {
 
 /// A collision above the impact threshold.
-struct HardBlow {
+struct HardCollision {
     std::int32_t a, b, pair; // slots, and the number of their pair
     std::int64_t timeNs;
     double newtonSeconds;
@@ -27,7 +27,7 @@ public:
     StrikeCauses();
 
     void clear() noexcept;
-    void add(const HardBlow& strike);
+    void add(const HardCollision& strike);
     bool isEmpty() const noexcept { return strikes_.empty(); }
 
     /// Reads what the pairs added in the next step, after which the graph has changed.
@@ -36,7 +36,7 @@ public:
     /// Sum and strongest of the collisions that reach a haptic source in the present graph, without its own.
     /// The first query after add() or follow() visits each collision.
     struct Found {
-        const HardBlow* strongest = nullptr;         // nullptr: none
+        const HardCollision* strongest = nullptr;    // nullptr: none
         double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
     };
     Found find(std::int32_t camera, ContactGraph& graph);
@@ -51,9 +51,9 @@ private:
     };
     void locate(ContactGraph& graph);
     void sum(std::int32_t component, std::size_t strike);
-    bool isReached(const HardBlow& strike) const noexcept;
+    bool isReached(const HardCollision& strike) const noexcept;
 
-    std::vector<HardBlow> strikes_; // sorted by strength once located
+    std::vector<HardCollision> strikes_; // sorted by strength once located
     std::vector<Sum> sums_;
     bool isLocated_ = false;
     SlotMap sumOf_;                     // by component

@@ -23,7 +23,7 @@ public:
 
     struct Pair {
         std::int32_t a = none, b = none; ///< slots in any order; none: the number is free
-        std::int32_t blow = none;        ///< index of its collision in this step
+        std::int32_t collision = none;   ///< index of its collision in this step
         std::int32_t last = none;        ///< index of its collision in the last step
         std::int32_t load = none;        ///< index of its resting load
     };
@@ -75,7 +75,7 @@ public:
         std::erase_if(loose_, [&](std::int32_t number) {
             Pair& pair = (*this)[number];
             if (pair.a == none || graph.isTouching(pair.a, pair.b)) return true;
-            if (pair.blow != none || pair.last != none || pair.load != none) return false;
+            if (pair.collision != none || pair.last != none || pair.load != none) return false;
             numbers_.erase(pairKey(pair.a, pair.b));
             pair = {};
             free_.push_back(number);

@@ -11,7 +11,7 @@
 namespace physvib {
 
 namespace limits::board {
-constexpr int maxLegs = 8; // 40 bytes each: of four moving tones, the sounding segment and the next
+constexpr int maxSegments = 8; // 40 bytes each: of four moving tones, the sounding segment and the next
 }
 
 /// x_j(n) = a_j sin(2 pi f k / rate) exp(-tau k / rate), k = n - frame, from k = 0 on (Eq. 5.1 on the board's
@@ -36,7 +36,7 @@ constexpr bool isPlayable(const BoardEvent& e) noexcept {
 /// A segment of a moving tone: x_j(n) = (start_j + (end_j - start_j) k / (frames - 1)) sin(2 pi (phase + turn
 /// k)) exp(-tau k / rate), k = n - frame, for `frames` frames. A segment does not depend on the one before,
 /// because that one may be lost on the link.
-struct BoardLeg {
+struct BoardSegment {
     std::uint32_t frame = 0; ///< first frame, in frames of the board's clock; wraps
     std::uint32_t turn = 0;  ///< phase advance per frame, in turns / 2^32: consecutive segments join in phase
                              ///< at any frequency
@@ -45,12 +45,14 @@ struct BoardLeg {
     std::uint16_t decay16 = 0; ///< tau in 1/16 per second
     /// amplitude at the first and at the last frame, in 1/4096 of full scale
     std::array<std::int16_t, limits::board::channels> start{}, end{};
-    bool operator==(const BoardLeg&) const = default;
+    bool operator==(const BoardSegment&) const = default;
 };
 
 /// True if the board can play the segment: its frequency is below half the sample rate, and it has at least
 /// one frame. Any thread.
-constexpr bool isPlayable(const BoardLeg& leg) noexcept { return leg.frames > 0 && leg.turn < 0x8000'0000u; }
+constexpr bool isPlayable(const BoardSegment& segment) noexcept {
+    return segment.frames > 0 && segment.turn < 0x8000'0000u;
+}
 
 /// The decay per frame of a `decay16` of the link, in octaves / 2^56. Any thread.
 constexpr std::int64_t boardOctaves(std::uint16_t decay16) noexcept {

@@ -32,7 +32,7 @@ bool exceeds(const PhasorBank::Block& block) noexcept {
 
 void BoardRenderer::prepare() noexcept {
     bank_.clear();
-    legs_.clear();
+    segments_.clear();
     pending_.clear();
     nextDue_ = never;
     for (auto& gain : gains_) gain.prepare(limits::board::sampleRateHz, limits::channelRampSeconds, 1.0f);
@@ -50,11 +50,11 @@ bool BoardRenderer::schedule(const BoardEvent& event) noexcept {
     return isTaken;
 }
 
-bool BoardRenderer::schedule(const BoardLeg& leg) noexcept {
-    const bool isTaken = isPlayable(leg) && legs_.add(leg, frame());
+bool BoardRenderer::schedule(const BoardSegment& segment) noexcept {
+    const bool isTaken = isPlayable(segment) && segments_.add(segment, frame());
     dropped_ += isTaken ? 0 : 1;
     played_ += isTaken ? 1 : 0;
-    late_ += isTaken && static_cast<std::int32_t>(leg.frame - frame()) < 0 ? 1 : 0;
+    late_ += isTaken && static_cast<std::int32_t>(segment.frame - frame()) < 0 ? 1 : 0;
     return isTaken;
 }
 
@@ -64,7 +64,7 @@ void BoardRenderer::setGains(const Gains& gains) noexcept {
 
 void BoardRenderer::stopAll() noexcept {
     bank_.clear();
-    legs_.clear();
+    segments_.clear();
     pending_.clear();
     nextDue_ = never;
     linkedGain_ = 1.0f;
@@ -74,7 +74,7 @@ void BoardRenderer::render(Codes& out) noexcept {
     PhasorBank::Block block;
     bank_.render(frame(), block);
     if (nextDue_ < frame_ + blockFrames) strikeDue(block);
-    if (legs_.count() > 0) legs_.render(frame(), block);
+    if (segments_.count() > 0) segments_.render(frame(), block);
     for (int j = 0; j < channels; ++j) {
         float* const channel = block[at(j)].data();
         gains_[at(j)].apply(&channel, 1, blockFrames);

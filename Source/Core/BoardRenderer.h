@@ -46,7 +46,7 @@ public:
     /// False, and counted as dropped, if the event is not playable or the pending store is full. Events of
     /// one frame keep their order.
     bool schedule(const BoardEvent& event) noexcept;
-    bool schedule(const BoardLeg& leg) noexcept;
+    bool schedule(const BoardSegment& segment) noexcept;
 
     /// Gains per channel, reached within limits::channelRampSeconds. Negative gains invert the polarity, 0
     /// mutes.
@@ -74,7 +74,7 @@ private:
     void encode(const PhasorBank::Block& block, Codes& out) noexcept;
 
     PhasorBank bank_;
-    MovingLegs legs_;
+    MovingSegments segments_;
     TimeOrdered<BoardEvent, limits::board::maxPending> pending_;
     std::array<GainRamp, static_cast<std::size_t>(channels)> gains_{};
     float linkedGain_ = 1.0f;

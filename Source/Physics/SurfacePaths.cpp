@@ -67,13 +67,13 @@ std::uint64_t featureOf(const b2Contact& contact, const b2ManifoldPoint& point) 
 } // namespace
 
 void tellLasting(const b2Contact& contact, const b2WorldManifold& world, const b2ContactImpulse& impulse,
-                 unsigned blows, std::int32_t a, std::int32_t b, LastingContacts& lasting) {
+                 unsigned collisions, std::int32_t a, std::int32_t b, LastingContacts& lasting) {
     const b2Manifold& manifold = *contact.GetManifold();
     const Side sideA{*contact.GetFixtureA(), lasting.isRough(a)},
         sideB{*contact.GetFixtureB(), lasting.isRough(b)};
     const b2Vec2 tangent = b2Cross(world.normal, 1.0F);
     for (int i = 0; i < impulse.count; ++i) {
-        if ((blows >> i & 1U) != 0) continue;
+        if ((collisions >> i & 1U) != 0) continue;
         const b2ManifoldPoint& local = manifold.points[i];
         LastingPoint point;
         switch (manifold.type) {

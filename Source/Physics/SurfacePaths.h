@@ -7,9 +7,9 @@
 
 namespace physvib {
 
-/// In PostSolve: reports the points of a contact of two slots to `lasting`, except those in `blows` (a bit
-/// each), which belong to a collision. World thread (M) only.
+/// In PostSolve: reports the points of a contact of two slots to `lasting`, except those in `collisions` (a
+/// bit each), which belong to a collision. World thread (M) only.
 void tellLasting(const b2Contact& contact, const b2WorldManifold& world, const b2ContactImpulse& impulse,
-                 unsigned blows, std::int32_t a, std::int32_t b, LastingContacts& lasting);
+                 unsigned collisions, std::int32_t a, std::int32_t b, LastingContacts& lasting);
 
 } // namespace physvib

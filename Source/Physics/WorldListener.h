@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Listener that receives Box2D's callbacks for an attachment and forwards them to the game's own listeners.
 #pragma once
-#include "Physics/BlowFinder.h"
+#include "Physics/CollisionFinder.h"
 #include "Physics/WorldBodies.h"
 #include <box2d/box2d.h>
 #include <memory>
@@ -18,7 +18,7 @@ public:
     WorldListener(ContactEvents& events, BodySweeps& sweeps, WorldBodies& bodies)
         : events_(events)
         , bodies_(bodies)
-        , finder_(std::make_unique<BlowFinder>(events, sweeps)) {}
+        , finder_(std::make_unique<CollisionFinder>(events, sweeps)) {}
     WorldListener(const WorldListener&) = delete;
     WorldListener& operator=(const WorldListener&) = delete;
 
@@ -36,7 +36,7 @@ public:
     /// From now on it only forwards calls.
     void deafen() noexcept { finder_.reset(); }
 
-    BlowFinder& finder() noexcept { return *finder_; }
+    CollisionFinder& finder() noexcept { return *finder_; }
 
     void BeginContact(b2Contact* contact) override;
     void EndContact(b2Contact* contact) override;
@@ -54,7 +54,7 @@ private:
 
     ContactEvents& events_;
     WorldBodies& bodies_;
-    std::unique_ptr<BlowFinder> finder_; // null: deactivated
+    std::unique_ptr<CollisionFinder> finder_; // null: deactivated
     b2ContactListener* chained_ = nullptr;
     bool isAlone_ = false; // nothing to forward to: no other listener, or Box2D's own, which does nothing
     b2DestructionListener* chainedEnds_ = nullptr;

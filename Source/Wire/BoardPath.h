@@ -55,7 +55,8 @@ public:
     /// The next segment; nullopt if the tone is over. `gainsAt(event, x, y)` returns the panner's Gains.
     /// isHurried: at least hurriedFrames long, to save line time, even if the line is then less accurate.
     template <class GainsAt>
-    std::optional<BoardLeg> next(const BoardTime& time, GainsAt gainsAt, bool isHurried = false) noexcept {
+    std::optional<BoardSegment> next(const BoardTime& time, GainsAt gainsAt,
+                                     bool isHurried = false) noexcept {
         isJoined_ = isJoined_ && std::abs(time.secondsAt(after_.frame) -
                                           static_cast<double>(nextNs_) * 1e-9) < mostJumpSeconds;
         const std::int64_t begin =
@@ -73,14 +74,14 @@ public:
         const std::uint32_t phase =
             isJoined_ ? after_.phase : static_cast<std::uint32_t>(phaseAfter(turns) >> 32);
         const double behind = std::clamp(std::remainder(turns - phase * turnUnit, 1.0), -mostSlip, mostSlip);
-        BoardLeg leg = chord(frames, level);
-        leg.frame = static_cast<std::uint32_t>(begin);
-        leg.phase16 = static_cast<std::uint16_t>((phase + 0x8000u) >> 16);
-        leg.turn = static_cast<std::uint32_t>(
+        BoardSegment segment = chord(frames, level);
+        segment.frame = static_cast<std::uint32_t>(begin);
+        segment.phase16 = static_cast<std::uint16_t>((phase + 0x8000u) >> 16);
+        segment.turn = static_cast<std::uint32_t>(
             std::llround((moving_.frequencyHz / time.framesPerSecond + behind / frames) / turnUnit));
-        following_ = {begin + frames, phase + leg.turn * leg.frames,
+        following_ = {begin + frames, phase + segment.turn * segment.frames,
                       static_cast<std::int64_t>(time.secondsAt(begin + frames) * 1e9)};
-        return leg;
+        return segment;
     }
 
     /// True if the last segment is off by more than `tolerance`.
@@ -120,15 +121,15 @@ private:
     };
     static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
-    BoardLeg chord(int frames, double level) const noexcept {
-        BoardLeg leg;
-        leg.frames = static_cast<std::uint16_t>(frames);
-        leg.decay16 = boardDecay16(moving_.decayPerSecond);
-        for (std::size_t j = 0; j < leg.start.size(); ++j) {
-            leg.start[j] = boardAmplitude(level * samples_[0][j]);
-            leg.end[j] = boardAmplitude(level * samples_[at(frames - 1)][j]);
+    BoardSegment chord(int frames, double level) const noexcept {
+        BoardSegment segment;
+        segment.frames = static_cast<std::uint16_t>(frames);
+        segment.decay16 = boardDecay16(moving_.decayPerSecond);
+        for (std::size_t j = 0; j < segment.start.size(); ++j) {
+            segment.start[j] = boardAmplitude(level * samples_[0][j]);
+            segment.end[j] = boardAmplitude(level * samples_[at(frames - 1)][j]);
         }
-        return leg;
+        return segment;
     }
 
     /// Largest number of frames, up to `most`, that one straight line approximates.

@@ -17,7 +17,7 @@
 namespace physvib::wire {
 
 constexpr std::uint8_t protocolVersion = 2; // 2: segments
-constexpr std::uint8_t legsSince = 2;
+constexpr std::uint8_t segmentsSince = 2;
 constexpr int lineBitsPerSecond = 115200; // 8N1: 11,520 bytes a second, the speed of the thesis' Bluetooth
                                           // module
 constexpr std::size_t maxPayload = 64;    // type, fields, CRC; leaves space for more telemetry
@@ -36,7 +36,7 @@ enum class Type : std::uint8_t {
     telemetryRequest,
     stopAll,
     selfTest,
-    leg,
+    segment,
     helloReply = 0x81,
     pong = 0x85,
     telemetry = 0x86,
@@ -96,15 +96,15 @@ struct CompactStrike {
 };
 
 /// A segment of a moving tone. Shares the sequence numbers of events.
-struct Leg {
-    static constexpr Type type = Type::leg;
+struct Segment {
+    static constexpr Type type = Type::segment;
     std::uint8_t sequence = 0;
-    BoardLeg leg;
+    BoardSegment segment;
     void visit(auto&& field) {
-        field(sequence), field(leg.frame), field(leg.turn), field(leg.frames), field(leg.phase16),
-            field(leg.decay16);
-        for (auto& a : leg.start) field(a);
-        for (auto& a : leg.end) field(a);
+        field(sequence), field(segment.frame), field(segment.turn), field(segment.frames),
+            field(segment.phase16), field(segment.decay16);
+        for (auto& a : segment.start) field(a);
+        for (auto& a : segment.end) field(a);
     }
 };
 

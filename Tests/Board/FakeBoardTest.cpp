@@ -50,9 +50,9 @@ public:
         const std::scoped_lock lock{mutex_};
         return strikes_;
     }
-    std::vector<BoardLeg> legs() const {
+    std::vector<BoardSegment> segments() const {
         const std::scoped_lock lock{mutex_};
-        return legs_;
+        return segments_;
     }
 
 private:
@@ -76,7 +76,7 @@ private:
         }
         const std::scoped_lock lock{mutex_};
         if (wire::Strike strike; wire::decode(payload, strike)) strikes_.push_back(strike);
-        if (wire::Leg leg; wire::decode(payload, leg)) legs_.push_back(leg.leg);
+        if (wire::Segment segment; wire::decode(payload, segment)) segments_.push_back(segment.segment);
         if (wire::TelemetryRequest request; wire::decode(payload, request)) ++seconds_;
         if (wire::Gains gains; wire::decode(payload, gains)) hear(gains);
     }
@@ -98,7 +98,7 @@ private:
     const std::int64_t startNs_ = BoardLink::nowNs();
     mutable std::mutex mutex_;
     std::vector<wire::Strike> strikes_;
-    std::vector<BoardLeg> legs_;
+    std::vector<BoardSegment> segments_;
     wire::Gains gains_, sent_; // heard; as they came last, perhaps lost
     int losses_ = 0, unheard_ = 0, seconds_ = 0, changedIn_ = 0, secondsLate_ = 0;
     std::atomic<bool> stop_{false};
@@ -213,24 +213,24 @@ BoardLinkStatus playPath(FakeBoard& board) {
         return session.timeline().presentNs() > 2'000 * ms;
     }));
     const auto now = onBoard.status();
-    EXPECT_EQ(board.legs().size(), now.legs);
+    EXPECT_EQ(board.segments().size(), now.segments);
     EXPECT_EQ(board.strikes().size(), now.sent);
     return now;
 }
 
-TEST(BoardLinkWithAFakeBoard, WhatMovesIsOneRowOfLegs) {
+TEST(BoardLinkWithAFakeBoard, WhatMovesIsOneRowOfSegments) {
     FakeBoard board{ours(), 0};
     const auto link = playPath(board);
-    const auto legs = board.legs();
+    const auto segments = board.segments();
     EXPECT_TRUE(board.strikes().empty());
-    ASSERT_GE(legs.size() + link.refused, 24u);
-    for (std::size_t i = 1; i < legs.size(); ++i) {
-        const BoardLeg &before = legs[i - 1], &leg = legs[i];
+    ASSERT_GE(segments.size() + link.refused, 24u);
+    for (std::size_t i = 1; i < segments.size(); ++i) {
+        const BoardSegment &before = segments[i - 1], &segment = segments[i];
         if (link.refused > 0) break; // other programs held this one up
-        EXPECT_EQ(leg.frame, before.frame + before.frames) << i;
+        EXPECT_EQ(segment.frame, before.frame + before.frames) << i;
         const auto phase = static_cast<std::uint16_t>(
             before.phase16 + (static_cast<std::uint64_t>(before.turn) * before.frames >> 16));
-        EXPECT_LE(std::abs(static_cast<std::int16_t>(leg.phase16 - phase)), 2)
+        EXPECT_LE(std::abs(static_cast<std::int16_t>(segment.phase16 - phase)), 2)
             << i << " goes on in the phase of the one before";
     }
 }
@@ -240,7 +240,7 @@ TEST(BoardLinkWithAFakeBoard, OnAnOlderBoardWhatMovesIsStillBursts) {
     reply.version = 1;
     FakeBoard board{reply, 0};
     const auto link = playPath(board);
-    EXPECT_TRUE(board.legs().empty());
+    EXPECT_TRUE(board.segments().empty());
     ASSERT_GE(board.strikes().size() + link.refused + link.thinned, 17u);
     for (const auto& strike : board.strikes()) EXPECT_LE(strike.event.durationMs, 60);
 }

@@ -106,7 +106,7 @@ TEST_F(ContactFeedTest, AnOverlapFoundAfterTheStepLiesBeforeIt) {
     EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 6.0);
 }
 
-TEST_F(ContactFeedTest, APairThatIsNamedAgainHasOneBlowAndRestsThen) {
+TEST_F(ContactFeedTest, APairThatIsNamedAgainHasOneCollisionAndRestsThen) {
     FedContact contact = landing();
     contact.impulseNewtonSeconds = 6.0;
     for (int i = 0; i < 5; ++i) {
@@ -126,7 +126,7 @@ TEST_F(ContactFeedTest, APairThatIsNamedAgainHasOneBlowAndRestsThen) {
     EXPECT_EQ(felt[1].source.impulseNewtonSeconds, 4.0);
 }
 
-TEST_F(ContactFeedTest, ABlowOfASoftContactIsItsSpeedsAndNotWhatOneStepPushes) {
+TEST_F(ContactFeedTest, ACollisionOfASoftContactIsItsSpeedsAndNotWhatOneStepPushes) {
     FedContact contact = landing();
     contact.isSoft = true;
     contact.impulseNewtonSeconds = 0.3;
@@ -147,16 +147,16 @@ TEST_F(ContactFeedTest, SoftContactsHandOnWhatTheyPush) {
     constexpr std::int32_t striker = 2;
     ASSERT_EQ(feed.set(ground, {.massKg = 2.0}, {}), "");
     ASSERT_EQ(feed.set(striker, {.massKg = 2.0}, {}), "");
-    FedContact touching = landing(), blow = {.a = striker, .b = ground};
-    touching.isSoft = blow.isSoft = true;
+    FedContact touching = landing(), collision = {.a = striker, .b = ground};
+    touching.isSoft = collision.isSoft = true;
     touching.impulseNewtonSeconds = 0.0;
-    blow.impulseNewtonSeconds = 0.1;
-    blow.approachMetresPerSecond = 3.0;
+    collision.impulseNewtonSeconds = 0.1;
+    collision.approachMetresPerSecond = 3.0;
     for (int i = 0; i < 6; ++i) {
         beginStep(0.01);
         touching.impulseNewtonSeconds = i == 4 ? 1.25 : 0.0;
         EXPECT_EQ(feed.touch(touching), "");
-        if (i >= 4) EXPECT_EQ(feed.touch(blow), "");
+        if (i >= 4) EXPECT_EQ(feed.touch(collision), "");
         endStep();
     }
     const auto felt = events();
@@ -173,7 +173,7 @@ TEST_F(ContactFeedTest, WhatIsBornAtRestIsNotFelt) {
     EXPECT_TRUE(events().empty());
 }
 
-TEST_F(ContactFeedTest, PointsOfAFlatLandingAreOneBlowInTheirMiddle) {
+TEST_F(ContactFeedTest, PointsOfAFlatLandingAreOneCollisionInTheirMiddle) {
     beginStep(0.01);
     FedContact contact = landing();
     contact.impulseNewtonSeconds = 3.0;
@@ -187,7 +187,7 @@ TEST_F(ContactFeedTest, PointsOfAFlatLandingAreOneBlowInTheirMiddle) {
     EXPECT_EQ(felt[0].x, 0.5);
 }
 
-TEST_F(ContactFeedTest, ABlowBesideTheCentreHasLessMass) {
+TEST_F(ContactFeedTest, ACollisionBesideTheCentreHasLessMass) {
     ASSERT_EQ(feed.set(ball, {.massKg = 2.0, .inertiaKgSquareMetres = 0.5}, camera()), "");
     ASSERT_EQ(feed.move(ball, {0.0F, 0.5F}, {{0.0F, -3.0F}, 0.0F}), "");
     beginStep(0.01);
@@ -200,7 +200,7 @@ TEST_F(ContactFeedTest, ABlowBesideTheCentreHasLessMass) {
 }
 
 /// Five balls that touch, the last one a camera; what strikes the first goes through all of them.
-TEST_F(ContactFeedTest, AChainHandsABlowOnAndItCountsOnce) {
+TEST_F(ContactFeedTest, AChainHandsACollisionOnAndItCountsOnce) {
     for (const std::int32_t id : {1, 2, 3, 4, 5})
         ASSERT_EQ(feed.set(id, {.massKg = 1.0, .gravityScale = 0.0}, id == 5 ? camera() : HapticFixture{}),
                   "");

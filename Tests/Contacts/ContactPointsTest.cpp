@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points of pairs: what is new while its pair touches is a blow, and what is told at several points is solved
-// together.
+// Points of pairs: what is new while its pair touches is a collision, and what is told at several points is
+// solved together.
 #include "Contacts/ContactFeed.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -140,7 +140,7 @@ TEST_F(ContactPoints, ABallThatRollsHasOnePointWhereverItIs) {
     EXPECT_TRUE(events().empty());
 }
 
-TEST_F(ContactPoints, ANewPointIsNoBlowWhereOnlyAnImpulseIsTold) {
+TEST_F(ContactPoints, ANewPointIsNoCollisionWhereOnlyAnImpulseIsTold) {
     set(2.0, 0.0);
     for (int step = 0; step < 4; ++step) {
         begin();
@@ -204,7 +204,8 @@ TEST_F(ContactPoints, ARowHandsOnByMomentumAlone) {
             contact.b = id + 1;
             contact.normal = {1.0F, 0.0F};
             contact.isSoft = true;
-            contact.restitution = 0.9; // the blow is told by its speed, and is the most that can be handed on
+            contact.restitution = 0.9; // the collision is told by its speed, and is the most that can be
+                                       // handed on
             contact.impulseNewtonSeconds = 77.0; // whatever the engine says
             touch(contact);
         }

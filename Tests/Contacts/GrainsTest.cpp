@@ -184,7 +184,8 @@ TEST_F(LastingStream, ALoadThatHasJustComeIsNotFelt) {
     EXPECT_TRUE(step(1.0, 1.0).empty());
     const double usual = step(1.0, 1.0).front().newtonSeconds;
     double most = 0.0;
-    for (const Impact& impact : step(1000.0, 1.0)) most = std::max(most, impact.newtonSeconds); // a blow's
+    for (const Impact& impact : step(1000.0, 1.0))
+        most = std::max(most, impact.newtonSeconds); // a collision's
     EXPECT_LT(most, 20.0 * usual);
     step(1.0, 1.0);
     EXPECT_TRUE(step(-1.0, 1.0).empty()); // nothing touches

@@ -25,11 +25,11 @@ std::unique_ptr<BoardRenderer> prepared() {
 TEST(BoardGuard, KeepsWhatIsSlowWithinItsShare) {
     for (const auto& hazard : test::boardHazards(0, 10)) {
         const auto renderer = prepared();
-        const auto codes = test::renderBoardEvents(*renderer, hazard.events, 12 * 8000, 64, hazard.legs);
+        const auto codes = test::renderBoardEvents(*renderer, hazard.events, 12 * 8000, 64, hazard.segments);
         EXPECT_EQ(renderer->status().dropped, 0u) << hazard.name;
         EXPECT_GT(renderer->guard().episodes(), 0u) << hazard.name;
         expectWithin(codes, hazard.name);
-        if (!hazard.legs.empty()) continue; // the closed form knows none
+        if (!hazard.segments.empty()) continue; // the closed form knows none
         test::ReferenceGuard none{false}, fromLeft{true, &codes};
         const auto worst = test::worstSlowFigures(test::boardClosedForm(hazard.events, codes.size(), none));
         EXPECT_GT(std::max(worst.mean, worst.rms), 1.2 * most) << hazard.name << ": it needs no guard";
@@ -68,8 +68,8 @@ TEST(BoardGuard, RandomListsDoNotPassIt) {
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
         const auto list = test::slowBoardList(seed, 6);
         const auto renderer = prepared();
-        worst.join(
-            test::worstSlowFigures(test::renderBoardEvents(*renderer, list.events, 8 * 8000, 64, list.legs)));
+        worst.join(test::worstSlowFigures(
+            test::renderBoardEvents(*renderer, list.events, 8 * 8000, 64, list.segments)));
     }
     EXPECT_LE(worst.mean, most);
     EXPECT_LE(worst.rms, most);

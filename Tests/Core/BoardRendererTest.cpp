@@ -143,28 +143,29 @@ TEST(BoardRenderer, GainsTurnPolarityAndStopAllIsSilence) {
     for (const auto& frame : test::renderBoardEvents(*renderer, {}, 400)) ASSERT_EQ(frame, silence);
 }
 
-BoardLeg legOf(std::uint32_t frame, std::uint16_t frames, double hz, std::array<std::int16_t, 4> start,
-               std::array<std::int16_t, 4> end) {
+BoardSegment segmentOf(std::uint32_t frame, std::uint16_t frames, double hz,
+                       std::array<std::int16_t, 4> start, std::array<std::int16_t, 4> end) {
     return {frame,  static_cast<std::uint32_t>(hz / limits::board::sampleRateHz * 4294967296.0),
             frames, 0,
             0,      start,
             end};
 }
 
-/// Of legs alone, that are within full scale.
-std::vector<BoardFrame> legsInDouble(const std::vector<BoardLeg>& legs, std::size_t frames) {
+/// Of segments alone, that are within full scale.
+std::vector<BoardFrame> segmentsInDouble(const std::vector<BoardSegment>& segments, std::size_t frames) {
     std::vector<std::array<double, 4>> sums(frames);
-    for (const BoardLeg& leg : legs)
-        for (std::size_t k = 0; k < leg.frames && leg.frame + k < frames; ++k) {
+    for (const BoardSegment& segment : segments)
+        for (std::size_t k = 0; k < segment.frames && segment.frame + k < frames; ++k) {
             const auto n = static_cast<double>(k);
             const double tone =
                 std::sin(2.0 * std::numbers::pi *
-                         (leg.phase16 / 65536.0 + std::fmod(leg.turn / 4294967296.0 * n, 1.0))) *
-                std::exp(-leg.decay16 / 16.0 * n / 8000.0);
+                         (segment.phase16 / 65536.0 + std::fmod(segment.turn / 4294967296.0 * n, 1.0))) *
+                std::exp(-segment.decay16 / 16.0 * n / 8000.0);
             for (std::size_t j = 0; j < 4; ++j)
-                sums[leg.frame + k][j] +=
-                    tone * std::lerp(leg.start[j], leg.end[j], leg.frames > 1 ? n / (leg.frames - 1) : 0.0) /
-                    limits::board::amplitudeUnit;
+                sums[segment.frame + k][j] += tone *
+                                              std::lerp(segment.start[j], segment.end[j],
+                                                        segment.frames > 1 ? n / (segment.frames - 1) : 0.0) /
+                                              limits::board::amplitudeUnit;
         }
     std::vector<BoardFrame> codes(frames);
     for (std::size_t n = 0; n < frames; ++n)
@@ -173,44 +174,44 @@ std::vector<BoardFrame> legsInDouble(const std::vector<BoardLeg>& legs, std::siz
     return codes;
 }
 
-TEST(BoardRenderer, LegsAreWithinOneStepOfTheClosedForm) {
+TEST(BoardRenderer, SegmentsAreWithinOneStepOfTheClosedForm) {
     for (const int most : {4, 40, 320, 4000}) {
         const auto renderer = prepared();
-        const auto legs = test::randomBoardLegs(4, 100, 16'000, most, 5);
-        EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, {}, 20'000, 4, legs),
-                                        legsInDouble(legs, 20'000)),
+        const auto segments = test::randomBoardSegments(4, 100, 16'000, most, 5);
+        EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, {}, 20'000, 4, segments),
+                                        segmentsInDouble(segments, 20'000)),
                   1)
             << most;
-        EXPECT_EQ(renderer->status().played, legs.size());
+        EXPECT_EQ(renderer->status().played, segments.size());
         EXPECT_EQ(renderer->status().late + renderer->status().dropped, 0u);
     }
 }
 
-TEST(BoardRenderer, OfALateLegTheRestIsPlayedAndOneThatIsOverIsNot) {
-    const BoardLeg leg = legOf(2, 300, 205.0, {4000, 0, -2000, 1000}, {0, 4000, 2000, 1000});
-    const auto whole = test::renderBoardEvents(*prepared(), {}, 400, 64, {leg});
+TEST(BoardRenderer, OfALateSegmentTheRestIsPlayedAndOneThatIsOverIsNot) {
+    const BoardSegment segment = segmentOf(2, 300, 205.0, {4000, 0, -2000, 1000}, {0, 4000, 2000, 1000});
+    const auto whole = test::renderBoardEvents(*prepared(), {}, 400, 64, {segment});
     const auto renderer = prepared();
     auto late = test::renderBoardEvents(*renderer, {}, 40);
-    EXPECT_TRUE(renderer->schedule(leg));
+    EXPECT_TRUE(renderer->schedule(segment));
     const auto rest = test::renderBoardEvents(*renderer, {}, 360);
     EXPECT_LE(test::worstDifference(rest, {whole.begin() + 40, whole.end()}), 1);
     EXPECT_EQ(renderer->status().late, 1u);
-    EXPECT_FALSE(renderer->schedule(leg)) << "over";
+    EXPECT_FALSE(renderer->schedule(segment)) << "over";
     EXPECT_EQ(renderer->status().dropped, 1u);
 }
 
-TEST(BoardRenderer, MoreLegsThanItHoldsAreDroppedAndStopAllForgetsThem) {
+TEST(BoardRenderer, MoreSegmentsThanItHoldsAreDroppedAndStopAllForgetsThem) {
     const auto renderer = prepared();
-    for (int i = 0; i < limits::board::maxLegs; ++i)
-        EXPECT_TRUE(renderer->schedule(legOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
-    EXPECT_FALSE(renderer->schedule(legOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
-    EXPECT_FALSE(renderer->schedule(BoardLeg{})) << "of no length";
-    EXPECT_FALSE(renderer->schedule(legOf(100, 10, 4000.0, {}, {}))) << "half the sample rate";
+    for (int i = 0; i < limits::board::maxSegments; ++i)
+        EXPECT_TRUE(renderer->schedule(segmentOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
+    EXPECT_FALSE(renderer->schedule(segmentOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
+    EXPECT_FALSE(renderer->schedule(BoardSegment{})) << "of no length";
+    EXPECT_FALSE(renderer->schedule(segmentOf(100, 10, 4000.0, {}, {}))) << "half the sample rate";
     EXPECT_EQ(renderer->status().dropped, 3u);
     EXPECT_NE(test::renderBoardEvents(*renderer, {}, 110).back(), silence);
     renderer->stopAll();
     for (const auto& frame : test::renderBoardEvents(*renderer, {}, 400)) ASSERT_EQ(frame, silence);
-    EXPECT_TRUE(renderer->schedule(legOf(renderer->frame(), 1, 200.0, {}, {})));
+    EXPECT_TRUE(renderer->schedule(segmentOf(renderer->frame(), 1, 200.0, {}, {})));
 }
 
 TEST(BoardRenderer, RefusesWhatItCannotPlay) {

@@ -25,7 +25,7 @@ EnchanterPlace placeOf(char letter) {
     return phone4().panner.layout().places[static_cast<std::size_t>(letter - 'A')];
 }
 
-CollisionEvent leg(EnchanterPlace from, EnchanterPlace to, std::int64_t fromNs, std::int64_t lengthNs) {
+CollisionEvent segment(EnchanterPlace from, EnchanterPlace to, std::int64_t fromNs, std::int64_t lengthNs) {
     CollisionEvent e;
     e.timeNs = fromNs;
     e.durationNs = lengthNs;
@@ -38,7 +38,7 @@ CollisionEvent leg(EnchanterPlace from, EnchanterPlace to, std::int64_t fromNs, 
     return e;
 }
 
-const CollisionEvent fromAToD = leg(placeOf('A'), placeOf('D'), 0, 1'000'000'000);
+const CollisionEvent fromAToD = segment(placeOf('A'), placeOf('D'), 0, 1'000'000'000);
 
 /// Of the tone in samples [first, first + count).
 double amplitudeIn(const std::vector<float>& samples, std::size_t first, std::size_t count) {
@@ -117,10 +117,10 @@ TEST(MovingTones, NothingIsBesideTheTone) {
     for (std::size_t j = 0; j < 4; ++j) EXPECT_LE(loudestBeside(felt[j], 20.0), -80.0) << j;
 }
 
-TEST(MovingTones, LegsOfOnePathJoinWithoutAStep) {
-    CollisionEvent first = leg(placeOf('A'), placeOf('B'), 0, 400'123'457),
-                   second =
-                       leg(placeOf('B'), placeOf('D'), first.durationNs, 1'000'000'000 - first.durationNs);
+TEST(MovingTones, SegmentsOfOnePathJoinWithoutAStep) {
+    CollisionEvent first = segment(placeOf('A'), placeOf('B'), 0, 400'123'457),
+                   second = segment(placeOf('B'), placeOf('D'), first.durationNs,
+                                    1'000'000'000 - first.durationNs);
     second.course.sinceNs = second.timeNs;
     const auto felt = test::renderEvents({first, second}, phone4(), rate).channels;
     float steepest = 0.0f;
@@ -133,9 +133,9 @@ TEST(MovingTones, LegsOfOnePathJoinWithoutAStep) {
 TEST(MovingTones, AnyBlocksGiveTheSameBits) {
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 12; ++i) {
-        events.push_back(leg(placeOf(static_cast<char>('A' + i % 4)),
-                             placeOf(static_cast<char>('A' + (i + 1) % 4)), 3'333'331 * i,
-                             20'000'000 + 1'234'567 * i));
+        events.push_back(segment(placeOf(static_cast<char>('A' + i % 4)),
+                                 placeOf(static_cast<char>('A' + (i + 1) % 4)), 3'333'331 * i,
+                                 20'000'000 + 1'234'567 * i));
         events.back().decayPerSecond = i % 3 * 7.0;
         events.back().spread = static_cast<Spread>(i % static_cast<int>(spreadNames.size()));
     }

@@ -62,7 +62,7 @@ struct Engine {
         physvib_body values;
         physvib_body_init(&values, sizeof values);
         values.mass_kg = body.massKg;
-        values.inertia_kg_m2 = body.isBox ? body.inertia() : 0.0; // a ball's blows go through its centre
+        values.inertia_kg_m2 = body.isBox ? body.inertia() : 0.0; // a ball's collisions go through its centre
         values.is_camera = body.isSource;
         values.frequency_hz = 200.0;
         values.decay_per_s = 30.0;
@@ -74,8 +74,8 @@ struct Engine {
     double handedOnPart = 0.02; ///< of what a row hands on
     int subSteps = 1;           ///< in each of which gravity changes the velocity
     double restitution = 0.5;
-    bool isRigid = true; ///< a blow goes through a row at once, and not over many steps; boxes and joints are
-                         ///< asked for
+    bool isRigid = true; ///< a collision goes through a row at once, and not over many steps; boxes and
+                         ///< joints are asked for
     physvib_world world = nullptr;
 };
 

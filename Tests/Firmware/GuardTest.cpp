@@ -15,10 +15,10 @@ TEST(BoardGuardOnTheImage, KeepsWhatIsSlowWithinItsShare) {
     for (const auto& hazard : test::boardHazards(first, 4)) {
         test::Rig rig(PHYSVIB_BOARD_IMAGE, virtualboard::CostModel::pessimistic);
         rig.connect();
-        rig.play(hazard.events, hazard.legs, frames);
+        rig.play(hazard.events, hazard.segments, frames);
         const auto here = std::make_unique<BoardRenderer>();
         here->prepare();
-        const auto codes = test::renderBoardEvents(*here, hazard.events, frames, 160, hazard.legs);
+        const auto codes = test::renderBoardEvents(*here, hazard.events, frames, 160, hazard.segments);
         auto played = rig.codes();
         played.resize(frames);
         const auto worst = test::worstSlowFigures(played);

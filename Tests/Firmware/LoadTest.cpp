@@ -35,8 +35,8 @@ Load measure(int modes, double perSecond, CostModel model, int tones = 0) {
     const auto events = strikes(4000, perSecond, 2.0);
     rig.play({events.begin(), events.begin() + 10}, events[10].frame - 480, true);
     const auto began = rig.board.cycle(), idle = rig.board.idleCycles();
-    const auto legs = test::randomBoardLegs(tones, events[10].frame, events.back().frame, 320, 3);
-    rig.play({events.begin() + 10, events.end()}, legs, events.back().frame + 100, true);
+    const auto segments = test::randomBoardSegments(tones, events[10].frame, events.back().frame, 320, 3);
+    rig.play({events.begin() + 10, events.end()}, segments, events.back().frame + 100, true);
     Load load;
     load.share = 1.0 - static_cast<double>(rig.board.idleCycles() - idle) /
                            static_cast<double>(rig.board.cycle() - began);
@@ -44,7 +44,7 @@ Load measure(int modes, double perSecond, CostModel model, int tones = 0) {
     return load;
 }
 
-constexpr double fullLine = 11520.0 / 16.0 * 0.99, someStrikes = 100, besideLegs = 400;
+constexpr double fullLine = 11520.0 / 16.0 * 0.99, someStrikes = 100, besideSegments = 400;
 
 void expectLoad(int modes, double perSecond, CostModel model, double most, int tones = 0) {
     const auto load = measure(modes, perSecond, model, tones);
@@ -65,10 +65,10 @@ TEST(BoardLoad, HalfTheModesOptimistic) { expectLoad(64, someStrikes, CostModel:
 // 0.25 before the guard.
 TEST(BoardLoad, HalfTheModesPessimistic) { expectLoad(64, someStrikes, CostModel::pessimistic, 0.27); }
 TEST(BoardLoad, AllModesAndFourTonesThatMoveOptimistic) {
-    expectLoad(128, besideLegs, CostModel::optimistic, 0.60, 4);
+    expectLoad(128, besideSegments, CostModel::optimistic, 0.60, 4);
 }
 TEST(BoardLoad, AllModesAndFourTonesThatMovePessimistic) {
-    expectLoad(128, besideLegs, CostModel::pessimistic, 0.60, 4);
+    expectLoad(128, besideSegments, CostModel::pessimistic, 0.60, 4);
 }
 TEST(BoardLoad, HalfTheModesOnAFullLine) { expectLoad(64, fullLine, CostModel::pessimistic, 0.34); }
 

@@ -56,26 +56,27 @@ TEST(BoardParity, WhatTheGuardTurnsDown) {
     EXPECT_EQ(parity.telemetry.missedFrames, 0u);
 }
 
-// Three tones that move, of long and of short legs, between strikes.
-TEST(BoardParity, Legs) {
+// Three tones that move, of long and of short segments, between strikes.
+TEST(BoardParity, Segments) {
     test::Rig rig;
     rig.connect();
     const auto events = test::randomBoardEvents(listOf(700, 60'000, 20, 0.1, 0.2), 8);
-    auto legs = test::randomBoardLegs(2, 2000, 60'000, 320, 9);
-    for (const BoardLeg& leg : test::randomBoardLegs(1, 2000, 60'000, 150, 10)) legs.push_back(leg);
-    std::stable_sort(legs.begin(), legs.end(),
-                     [](const BoardLeg& a, const BoardLeg& b) { return a.frame < b.frame; });
-    rig.play(events, legs, 63'000);
+    auto segments = test::randomBoardSegments(2, 2000, 60'000, 320, 9);
+    for (const BoardSegment& segment : test::randomBoardSegments(1, 2000, 60'000, 150, 10))
+        segments.push_back(segment);
+    std::stable_sort(segments.begin(), segments.end(),
+                     [](const BoardSegment& a, const BoardSegment& b) { return a.frame < b.frame; });
+    rig.play(events, segments, 63'000);
     const auto t = rig.telemetry();
     const auto here = std::make_unique<BoardRenderer>();
     here->prepare();
-    const auto codes = test::renderBoardEvents(*here, events, 63'000, 160, legs);
+    const auto codes = test::renderBoardEvents(*here, events, 63'000, 160, segments);
     std::size_t differing = 0;
     for (std::size_t n = 0; n < codes.size(); ++n) differing += codes[n] != rig.codes()[n] ? 1 : 0;
-    std::cout << legs.size() << " legs, " << events.size() << " strikes, differing " << differing << '\n';
+    std::cout << segments.size() << " legs, " << events.size() << " strikes, differing " << differing << '\n';
     EXPECT_EQ(differing, 0u);
-    EXPECT_EQ(t.played, events.size() + legs.size());
-    EXPECT_EQ(here->status().played, events.size() + legs.size());
+    EXPECT_EQ(t.played, events.size() + segments.size());
+    EXPECT_EQ(here->status().played, events.size() + segments.size());
     EXPECT_EQ(t.late + t.dropped + t.stolen + t.lost + t.missedFrames + t.overruns + t.bad, 0u);
 }
 

@@ -87,16 +87,17 @@ public:
         runTo(end);
     }
 
-    /// The same with legs of what moves, 20 ms before their onsets, as the board holds only a few.
-    void play(const std::vector<BoardEvent>& events, const std::vector<BoardLeg>& legs, std::uint32_t end,
-              bool compact = false) {
+    /// The same with segments of what moves, 20 ms before their onsets, as the board holds only a few.
+    void play(const std::vector<BoardEvent>& events, const std::vector<BoardSegment>& segments,
+              std::uint32_t end, bool compact = false) {
         auto event = events.begin();
-        for (const BoardLeg& leg : legs) {
-            const auto next = std::find_if(
-                event, events.end(), [&](const BoardEvent& e) { return e.frame - 480 > leg.frame - 160; });
-            play({event, next}, leg.frame - 160, compact);
+        for (const BoardSegment& segment : segments) {
+            const auto next = std::find_if(event, events.end(), [&](const BoardEvent& e) {
+                return e.frame - 480 > segment.frame - 160;
+            });
+            play({event, next}, segment.frame - 160, compact);
             event = next;
-            send(wire::Leg{++sequence_, leg});
+            send(wire::Segment{++sequence_, segment});
         }
         play({event, events.end()}, end, compact);
     }

@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto payload = decoder.feed(data[i]);
         demandRoundTrip<Hello>(payload), demandRoundTrip<HelloReply>(payload),
             demandRoundTrip<Strike>(payload);
-        demandRoundTrip<CompactStrike>(payload), demandRoundTrip<Leg>(payload),
+        demandRoundTrip<CompactStrike>(payload), demandRoundTrip<Segment>(payload),
             demandRoundTrip<Gains>(payload), demandRoundTrip<Ping>(payload);
         demandRoundTrip<Pong>(payload), demandRoundTrip<TelemetryRequest>(payload),
             demandRoundTrip<Telemetry>(payload);

@@ -3,8 +3,8 @@
 """Words of the old idiom in what people read: words.py ROOT [--list] [--update].
 
 The words stand in Docs/glossary.md ("Words that are being replaced"); words.txt beside this script says how many of them a file may still have. A file with more fails, and so does
-one that has fewer than its line says: lower the number, so that it cannot grow again. --update writes the list; --list prints each word with its place. Comments are read in the
-modules of COMMENTED only; identifiers are not read."""
+one that has fewer than its line says: lower the number, so that it cannot grow again. --update writes the list; --list prints each word with its place. Comments and
+identifiers are read in the modules of COMMENTED only, identifiers word by word."""
 import re
 import sys
 from pathlib import Path
@@ -35,10 +35,16 @@ def comment(line):
     return re.sub(r"`[^`]*`", " ", text)
 
 
-def read_line(line, has_comments):
-    """What people read of a line of C++."""
+def names(line):
+    """The identifiers of a line of C++ in words, a full stop behind each: maxEnchanters is "max enchanters." """
+    code = re.sub(r'"(?:[^"\\]|\\.)*"', "", line).partition("//")[0]
+    return " ".join(" ".join(re.findall(r"[A-Z]?[a-z]+", name)) + "." for name in re.findall(r"[A-Za-z_]\w+", code))
+
+
+def read_line(line, is_whole):
+    """What people read of a line of C++; `is_whole`: comments and identifiers too."""
     text = "" if re.match(r"\s*(//|#include)", line) else " ".join(sentences(line))
-    return text + " " + comment(line) if has_comments else text
+    return " ".join((text, comment(line), names(line))) if is_whole else text
 
 
 def sources():
@@ -53,8 +59,8 @@ def sources():
             yield page, re.sub(r"`[^`\n]*`|\]\([^)]*\)|^    .*$", " ", prose, flags=re.M)
     for folder in ("Source", "Standalone", "Plugin"):
         for file in sorted([*(root / folder).glob("**/*.cpp"), *(root / folder).glob("**/*.h")]):
-            has_comments = file.relative_to(root).as_posix().startswith(tuple(module + "/" for module in COMMENTED))
-            yield file, "\n".join(read_line(line, has_comments) for line in file.read_text().split("\n"))
+            is_whole = file.relative_to(root).as_posix().startswith(tuple(module + "/" for module in COMMENTED))
+            yield file, "\n".join(read_line(line, is_whole) for line in file.read_text().split("\n"))
 
 
 def main():

@@ -169,7 +169,7 @@ TEST_F(CollisionCatcherWorld, SensorsAreNotHit) {
 }
 
 TEST_F(CollisionCatcherWorld, WeakestContactsAreLeftOutWhereThereIsNoRoomAndCounted) {
-    constexpr int balls = static_cast<int>(CollisionCatcher::maxDirectBlows) + 10;
+    constexpr int balls = static_cast<int>(CollisionCatcher::maxDirectCollisions) + 10;
     (void)attachment.set(floor(), camera);
     for (int i = 0; i < balls; ++i)
         (void)attachment.set(ball(-90.0F + 0.16F * static_cast<float>(i), 0.24F, 0.0F,
@@ -180,14 +180,14 @@ TEST_F(CollisionCatcherWorld, WeakestContactsAreLeftOutWhereThereIsNoRoomAndCoun
     for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
         if (body->GetType() == b2_dynamicBody) body->GetFixtureList()->SetFilterData(apart);
     const auto events = run(1);
-    EXPECT_EQ(events.size(), CollisionCatcher::maxDirectBlows);
+    EXPECT_EQ(events.size(), CollisionCatcher::maxDirectCollisions);
     EXPECT_EQ(attachment.drops(), 10U);
     for (const CollisionEvent& event : events)
         EXPECT_GT(event.source.impulseNewtonSeconds, 1.5 * massKg(*world.GetBodyList()->GetFixtureList()));
 }
 
 TEST_F(CollisionCatcherWorld, ContactsOfOthersDoNotTakeTheRoomOfCameras) {
-    constexpr int pairs = static_cast<int>(CollisionCatcher::maxDistantBlows) + 10;
+    constexpr int pairs = static_cast<int>(CollisionCatcher::maxDistantCollisions) + 10;
     for (int i = 0; i < pairs; ++i) {
         const auto x = static_cast<float>(i % 100), y = 2.0F + static_cast<float>(i / 100);
         ball(x, y, 0.5F, 0.0F);

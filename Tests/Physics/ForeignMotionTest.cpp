@@ -120,9 +120,9 @@ TEST(ForeignMotion, IsTheSameToTheBitInTwoHundredRandomWorlds) {
     EXPECT_GT(events, 2000U);
 }
 
-/// Those of a cluster that meet after they have been struck: what bounces strikes again, and these are blows
-/// of their own.
-struct SecondBlows : b2ContactListener {
+/// Those of a cluster that meet after they have been struck: what bounces strikes again, and these are
+/// collisions of their own.
+struct SecondCollisions : b2ContactListener {
     void BeginContact(b2Contact* contact) override {
         met.emplace_back(contact->GetFixtureA(), contact->GetFixtureB());
     }
@@ -149,7 +149,7 @@ TEST_P(RandomClusters, HandOnNoMoreThanWhatStruck) {
     std::mt19937 random(3);
     int handedOn = 0;
     for (int round = 0; round < 300; ++round) {
-        SecondBlows second;
+        SecondCollisions second;
         b2World world({0.0F, 0.0F});
         world.SetContactListener(&second);
         ImpactSettings settings = unity();

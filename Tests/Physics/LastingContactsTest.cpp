@@ -217,7 +217,7 @@ TEST_F(Lasting, SmoothOrUnfeltIsSilent) {
     EXPECT_TRUE(lasting(100).empty());
 }
 
-TEST_F(Lasting, RestIsSilentAndLandingIsABlowOnly) {
+TEST_F(Lasting, RestIsSilentAndLandingIsACollisionOnly) {
     slope(0.0, rough(0.0005));
     ball(0.0F, 1.0F, 0.0F, 0.0F, 0.0F);
     const std::vector<CollisionEvent> events = run(200);

@@ -109,17 +109,17 @@ TEST(Messages, APatternIsOnItsEnchantersAlone) {
     EXPECT_EQ(own[7].timeNs, 350'000'000);
 }
 
-TEST(Messages, APathIsOneToneFromLegToLeg) {
-    const auto legs =
+TEST(Messages, APathIsOneToneFromSegmentToSegment) {
+    const auto segments =
         strikesOfLine(R"({"message": "path", "places": [[0, 0], [3, 0], [3, 0], [3, 1]], "seconds": 2})");
-    ASSERT_EQ(legs.size(), 2u) << "where it does not go there is no leg";
-    EXPECT_EQ(legs[0].durationNs, 1'500'000'000);
-    EXPECT_EQ(legs[1].timeNs, legs[0].durationNs);
-    EXPECT_EQ(legs[1].course.sinceNs, legs[0].durationNs);
-    EXPECT_EQ(legs[1].durationNs, 500'000'000);
-    EXPECT_EQ(legs[1].course.travelNs, legs[1].durationNs);
-    EXPECT_EQ(legs[1].course.toY, 1.0);
-    EXPECT_EQ(legs[0].spread, Spread::equal);
+    ASSERT_EQ(segments.size(), 2u) << "where it does not go there is no leg";
+    EXPECT_EQ(segments[0].durationNs, 1'500'000'000);
+    EXPECT_EQ(segments[1].timeNs, segments[0].durationNs);
+    EXPECT_EQ(segments[1].course.sinceNs, segments[0].durationNs);
+    EXPECT_EQ(segments[1].durationNs, 500'000'000);
+    EXPECT_EQ(segments[1].course.travelNs, segments[1].durationNs);
+    EXPECT_EQ(segments[1].course.toY, 1.0);
+    EXPECT_EQ(segments[0].spread, Spread::equal);
     const auto bySpeed =
         strikesOfLine(R"({"message": "path", "places": [[0, 0], [3, 0]], "speed_m_per_s": 1.5})");
     EXPECT_EQ(bySpeed.at(0).durationNs, 2'000'000'000);
@@ -168,11 +168,12 @@ TEST(Messages, APathThatIsCutGoesOnAtItsSpeed) {
     EXPECT_EQ(longer[0].durationNs, 251'219'512) << "it stays where it is for the rest";
     EXPECT_EQ(shorter[0].course.travelNs, 249'000'000);
     EXPECT_EQ(shorter[0].durationNs, 248'780'488);
-    const auto legs = strikesOfLine(
+    const auto segments = strikesOfLine(
         R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61.7})");
-    ASSERT_EQ(legs.size(), 2u);
-    EXPECT_EQ(legs[0].durationNs, 500'000'000) << "legs join where they did";
-    EXPECT_NEAR(static_cast<double>(legs[1].course.sinceNs + legs[1].durationNs) * 2e-9 * 61.7, 62.0, 1e-6);
+    ASSERT_EQ(segments.size(), 2u);
+    EXPECT_EQ(segments[0].durationNs, 500'000'000) << "legs join where they did";
+    EXPECT_NEAR(static_cast<double>(segments[1].course.sinceNs + segments[1].durationNs) * 2e-9 * 61.7, 62.0,
+                1e-6);
     EXPECT_EQ(strikesOfLine(
                   R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61})")
                   .size(),

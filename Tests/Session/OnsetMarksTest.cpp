@@ -51,16 +51,16 @@ TEST(OnsetMarks, APulseLastsTwoMillisecondsOrRestsBeforeTheNext) {
         EXPECT_EQ(out[static_cast<std::size_t>(n)], 0.0f) << n << ": a quarter of a millisecond";
 }
 
-TEST(OnsetMarks, OnlyTheWantedOnesAndNoLegOfALongerTone) {
-    CollisionEvent hit = hitAt(0), grain = hit, message = hit, leg = hit;
+TEST(OnsetMarks, OnlyTheWantedOnesAndNoSegmentOfALongerTone) {
+    CollisionEvent hit = hitAt(0), grain = hit, message = hit, segment = hit;
     grain.source.kind = ContactKind::roll;
     message.source = {};
-    leg.source = {};
-    leg.course.sinceNs = 1;
+    segment.source = {};
+    segment.course.sinceNs = 1;
     const auto made = [&](MarkedOnsets which) {
         OnsetMarks marks{which};
         marks.prepare(48000, 0);
-        for (std::int64_t frame = 0; const CollisionEvent& e : {hit, grain, message, leg})
+        for (std::int64_t frame = 0; const CollisionEvent& e : {hit, grain, message, segment})
             marks.strike(e, frame += 1000);
         return edgesOf(marked(marks, 4800, 4800));
     };

@@ -9,8 +9,8 @@ namespace physvib::test {
 
 struct BoardHazard {
     std::string name;
-    std::vector<BoardEvent> events; ///< sorted by onset
-    std::vector<BoardLeg> legs;     ///< the same
+    std::vector<BoardEvent> events;     ///< sorted by onset
+    std::vector<BoardSegment> segments; ///< the same
 };
 
 /// Of all four channels.
@@ -51,18 +51,18 @@ inline std::vector<BoardHazard> boardHazards(std::uint32_t first, int seconds) {
         strikes("steady " + std::to_string(hz) + " Hz", hz, 0.0625, 20 * rate, 0, loud);
     BoardHazard constant{"a constant", {}, {}};
     for (std::uint32_t n = 0; n < frames; n += 4000) {
-        BoardLeg leg;
-        leg.frame = first + n;
-        leg.frames = 4000;
-        leg.phase16 = 0x4000;
-        leg.start = leg.end = loud;
-        constant.legs.push_back(leg);
+        BoardSegment segment;
+        segment.frame = first + n;
+        segment.frames = 4000;
+        segment.phase16 = 0x4000;
+        segment.start = segment.end = loud;
+        constant.segments.push_back(segment);
     }
     all.push_back(std::move(constant));
     return all;
 }
 
-/// Slow notes and legs of any phase, some too loud.
+/// Slow notes and segments of any phase, some too loud.
 inline BoardHazard slowBoardList(std::uint32_t seed, int seconds) {
     Random random{seed};
     const int frames = seconds * limits::board::sampleRateHz;
@@ -81,16 +81,17 @@ inline BoardHazard slowBoardList(std::uint32_t seed, int seconds) {
     }
     std::stable_sort(h.events.begin(), h.events.end(),
                      [](const BoardEvent& a, const BoardEvent& b) { return a.frame < b.frame; });
-    BoardLeg leg;
-    for (leg.frame = 100; leg.frame < static_cast<std::uint32_t>(frames); leg.frame += leg.frames) {
-        leg.frames = static_cast<std::uint16_t>(200 + random.below(4000));
-        leg.turn = static_cast<std::uint32_t>(random.uniform(0.0, 20.0) / limits::board::sampleRateHz *
-                                              4294967296.0);
-        leg.phase16 = static_cast<std::uint16_t>(random.below(65536));
-        for (auto* row : {&leg.start, &leg.end})
+    BoardSegment segment;
+    for (segment.frame = 100; segment.frame < static_cast<std::uint32_t>(frames);
+         segment.frame += segment.frames) {
+        segment.frames = static_cast<std::uint16_t>(200 + random.below(4000));
+        segment.turn = static_cast<std::uint32_t>(random.uniform(0.0, 20.0) / limits::board::sampleRateHz *
+                                                  4294967296.0);
+        segment.phase16 = static_cast<std::uint16_t>(random.below(65536));
+        for (auto* row : {&segment.start, &segment.end})
             for (auto& a : *row)
                 a = static_cast<std::int16_t>(random.uniform(-1.0, 1.0) * limits::board::amplitudeUnit);
-        h.legs.push_back(leg);
+        h.segments.push_back(segment);
     }
     return h;
 }

@@ -117,47 +117,48 @@ inline std::vector<BoardEvent> randomBoardEvents(const BoardListSettings& s, std
     return events;
 }
 
-/// What so many tones that move are made of from `firstFrame` to `endFrame`, each leg joined to the one
+/// What so many tones that move are made of from `firstFrame` to `endFrame`, each segment joined to the one
 /// before; sorted by onset.
-inline std::vector<BoardLeg> randomBoardLegs(int tones, std::uint32_t firstFrame, std::uint32_t endFrame,
-                                             int mostFrames, std::uint32_t seed) {
+inline std::vector<BoardSegment> randomBoardSegments(int tones, std::uint32_t firstFrame,
+                                                     std::uint32_t endFrame, int mostFrames,
+                                                     std::uint32_t seed) {
     Random random{seed};
-    std::vector<BoardLeg> legs;
+    std::vector<BoardSegment> segments;
     for (int tone = 0; tone < tones; ++tone) {
-        BoardLeg leg;
-        leg.turn = static_cast<std::uint32_t>(random.uniform(40.0, 400.0) / limits::board::sampleRateHz *
-                                              4294967296.0);
+        BoardSegment segment;
+        segment.turn = static_cast<std::uint32_t>(random.uniform(40.0, 400.0) / limits::board::sampleRateHz *
+                                                  4294967296.0);
         std::uint32_t phase = 0;
-        for (leg.frame = firstFrame + static_cast<std::uint32_t>(random.below(200)); leg.frame < endFrame;
-             leg.frame += leg.frames) {
-            leg.frames = static_cast<std::uint16_t>(mostFrames - random.below(mostFrames / 4));
-            leg.phase16 = static_cast<std::uint16_t>(phase >> 16);
-            leg.decay16 = static_cast<std::uint16_t>(random.below(3) * 50);
-            leg.start = leg.end;
-            for (auto& a : leg.end)
+        for (segment.frame = firstFrame + static_cast<std::uint32_t>(random.below(200));
+             segment.frame < endFrame; segment.frame += segment.frames) {
+            segment.frames = static_cast<std::uint16_t>(mostFrames - random.below(mostFrames / 4));
+            segment.phase16 = static_cast<std::uint16_t>(phase >> 16);
+            segment.decay16 = static_cast<std::uint16_t>(random.below(3) * 50);
+            segment.start = segment.end;
+            for (auto& a : segment.end)
                 a = static_cast<std::int16_t>(random.uniform(-0.2, 0.2) * limits::board::amplitudeUnit);
-            legs.push_back(leg);
-            phase += leg.turn * leg.frames;
+            segments.push_back(segment);
+            phase += segment.turn * segment.frames;
         }
     }
-    std::stable_sort(legs.begin(), legs.end(),
-                     [](const BoardLeg& a, const BoardLeg& b) { return a.frame < b.frame; });
-    return legs;
+    std::stable_sort(segments.begin(), segments.end(),
+                     [](const BoardSegment& a, const BoardSegment& b) { return a.frame < b.frame; });
+    return segments;
 }
 
 /// The board's renderer on this computer: each event is scheduled `lead` frames ahead.
 inline std::vector<BoardFrame> renderBoardEvents(BoardRenderer& renderer,
                                                  const std::vector<BoardEvent>& events, std::size_t frames,
                                                  std::uint32_t lead = 64,
-                                                 const std::vector<BoardLeg>& legs = {}) {
+                                                 const std::vector<BoardSegment>& segments = {}) {
     std::vector<BoardFrame> codes;
     BoardRenderer::Codes block;
-    for (std::size_t next = 0, nextLeg = 0; codes.size() < frames;
+    for (std::size_t next = 0, nextSegment = 0; codes.size() < frames;
          codes.insert(codes.end(), block.begin(), block.end())) {
         while (next < events.size() && events[next].frame < codes.size() + lead)
             renderer.schedule(events[next++]);
-        while (nextLeg < legs.size() && legs[nextLeg].frame < codes.size() + lead)
-            renderer.schedule(legs[nextLeg++]);
+        while (nextSegment < segments.size() && segments[nextSegment].frame < codes.size() + lead)
+            renderer.schedule(segments[nextSegment++]);
         renderer.render(block);
     }
     codes.resize(frames);

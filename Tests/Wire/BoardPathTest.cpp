@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What moves, on a board of protocol 2: within one step of the converters of what the computer's own renderer
-// plays, in few legs.
+// plays, in few segments.
 #include "Wire/BoardPath.h"
 #include "Support/BoardReference.h"
 #include "Support/Rendering.h"
@@ -39,33 +39,33 @@ auto gainsOf(const PhantomPanner& panner) {
 double boardFrameOf(std::int64_t ns) { return static_cast<double>(ns) * 1e-9 * limits::board::sampleRateHz; }
 
 /// Of these, each the rest of the one before or apart from it; the board's clock begins with the session's.
-std::vector<BoardLeg> legsOf(const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
-    std::vector<BoardLeg> legs;
+std::vector<BoardSegment> segmentsOf(const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
+    std::vector<BoardSegment> segments;
     std::vector<BoardPath> paths;
     for (const CollisionEvent& event : events) {
         BoardPath path{event, deskRate};
         if (!paths.empty()) path.joinTo(paths.back());
         while (!path.isOver()) {
-            const auto leg = path.next({boardFrameOf(event.timeNs)}, gainsOf(panner));
-            if (!leg) break;
+            const auto segment = path.next({boardFrameOf(event.timeNs)}, gainsOf(panner));
+            if (!segment) break;
             EXPECT_FALSE(path.isCoarse());
-            legs.push_back(*leg);
+            segments.push_back(*segment);
             path.take();
         }
         paths.push_back(path);
     }
-    return legs;
+    return segments;
 }
 
-/// Each leg is handed over 20 frames before its first.
-std::vector<test::BoardFrame> onTheBoard(const std::vector<BoardLeg>& legs, std::size_t frames) {
+/// Each segment is handed over 20 frames before its first.
+std::vector<test::BoardFrame> onTheBoard(const std::vector<BoardSegment>& segments, std::size_t frames) {
     const auto renderer = std::make_unique<BoardRenderer>();
     renderer->prepare();
     std::vector<test::BoardFrame> codes;
     BoardRenderer::Codes block;
     for (std::size_t next = 0; codes.size() < frames; codes.insert(codes.end(), block.begin(), block.end())) {
-        for (; next < legs.size() && legs[next].frame < codes.size() + 20; ++next)
-            EXPECT_TRUE(renderer->schedule(legs[next]));
+        for (; next < segments.size() && segments[next].frame < codes.size() + 20; ++next)
+            EXPECT_TRUE(renderer->schedule(segments[next]));
         renderer->render(block);
     }
     codes.resize(frames);
@@ -87,19 +87,19 @@ std::vector<test::BoardFrame> onTheDesk(const std::vector<CollisionEvent>& event
 
 std::size_t expectOneStep(const std::vector<CollisionEvent>& events, const RendererSettings& settings,
                           std::size_t frames = 8800) {
-    const auto legs = legsOf(events, settings.panner);
-    EXPECT_LE(test::worstDifference(onTheBoard(legs, frames), onTheDesk(events, settings, frames)), 1);
-    return legs.size();
+    const auto segments = segmentsOf(events, settings.panner);
+    EXPECT_LE(test::worstDifference(onTheBoard(segments, frames), onTheDesk(events, settings, frames)), 1);
+    return segments.size();
 }
 
 TEST(BoardPath, FromAToDInASecondIsWithinOneStepOfTheDeviceByEveryLaw) {
     for (std::size_t spread = 0; spread < spreadNames.size(); ++spread)
         for (const double amplitude : {0.5, 1.0}) {
             SCOPED_TRACE(std::string{spreadNames[spread]} + ' ' + std::to_string(amplitude));
-            const auto legs = expectOneStep({diagonal(static_cast<Spread>(spread), amplitude)}, deskOf());
-            std::cout << spreadNames[spread] << ' ' << amplitude << ": " << legs << " legs\n";
-            EXPECT_GE(legs, 25u) << "none is longer than 40 ms";
-            EXPECT_LE(legs, 50u) << "a sixth of the line";
+            const auto segments = expectOneStep({diagonal(static_cast<Spread>(spread), amplitude)}, deskOf());
+            std::cout << spreadNames[spread] << ' ' << amplitude << ": " << segments << " legs\n";
+            EXPECT_GE(segments, 25u) << "none is longer than 40 ms";
+            EXPECT_LE(segments, 50u) << "a sixth of the line";
         }
 }
 
@@ -134,26 +134,26 @@ TEST(BoardPath, APathOfSeveralPlacesIsOneTone) {
         e.course.toX = corners[i + 1][0], e.course.toY = corners[i + 1][1];
         around.push_back(e);
     }
-    const auto legs = legsOf(around, deskOf().panner);
-    for (std::size_t i = 1; i < legs.size(); ++i)
-        EXPECT_EQ(legs[i].frame, legs[i - 1].frame + legs[i - 1].frames) << i;
+    const auto segments = segmentsOf(around, deskOf().panner);
+    for (std::size_t i = 1; i < segments.size(); ++i)
+        EXPECT_EQ(segments[i].frame, segments[i - 1].frame + segments[i - 1].frames) << i;
     expectOneStep(around, deskOf(), 4400);
 }
 
-// The clock is learnt anew between two legs, and the device's is another by some ppm: nothing of it may be
-// heard as a step.
+// The clock is learnt anew between two segments, and the device's is another by some ppm: nothing of it may
+// be heard as a step.
 TEST(BoardPath, AClockThatIsCorrectedMakesNoStep) {
     test::Random random{9};
     BoardPath path{diagonal(Spread::equal, 1.0), deskRate};
     const auto settings = deskOf();
-    std::vector<BoardLeg> legs;
+    std::vector<BoardSegment> segments;
     for (; !path.isOver(); path.take()) {
         // half a millisecond either way
-        const auto leg = path.next({80.0 + random.uniform(-4.0, 4.0), 8000.8}, gainsOf(settings.panner));
-        if (!leg) break;
-        legs.push_back(*leg);
+        const auto segment = path.next({80.0 + random.uniform(-4.0, 4.0), 8000.8}, gainsOf(settings.panner));
+        if (!segment) break;
+        segments.push_back(*segment);
     }
-    const auto codes = onTheBoard(legs, 8200);
+    const auto codes = onTheBoard(segments, 8200);
     int steepest = 0;
     for (std::size_t n = 1; n < codes.size(); ++n)
         for (std::size_t j = 0; j < 4; ++j)
@@ -170,23 +170,23 @@ TEST(BoardPath, InAHurryItIsLongerThanItsLawAsksForAndSaysSo) {
     EXPECT_FALSE(path.isCoarse());
 }
 
-// A device that stands still for a while: legs that would be over before they are due must not be made again
-// and again.
+// A device that stands still for a while: segments that would be over before they are due must not be made
+// again and again.
 TEST(BoardPath, AClockThatJumpsIsFollowed) {
     CollisionEvent rest = diagonal(Spread::equal, 0.5);
     rest.timeNs = rest.course.sinceNs = 1'000'000'000;
     BoardPath first{diagonal(Spread::equal, 0.5), deskRate}, second{rest, deskRate};
     const auto settings = deskOf();
     while (!first.isOver() && first.next({}, gainsOf(settings.panner))) first.take();
-    int legs = 0;
-    for (; !second.isOver() && legs < 100; ++legs) {
+    int segments = 0;
+    for (; !second.isOver() && segments < 100; ++segments) {
         second.joinTo(first);
-        const auto leg = second.next({8000.0 + 4000.0}, gainsOf(settings.panner)); // half a second later
-        if (!leg) break;
-        if (legs == 0) EXPECT_EQ(leg->frame, 12'000u);
+        const auto segment = second.next({8000.0 + 4000.0}, gainsOf(settings.panner)); // half a second later
+        if (!segment) break;
+        if (segments == 0) EXPECT_EQ(segment->frame, 12'000u);
         second.take();
     }
-    EXPECT_LE(legs, 40);
+    EXPECT_LE(segments, 40);
 }
 
 TEST(BoardPath, WhatIsSkippedGoesOnWhereItWouldBe) {
@@ -196,10 +196,10 @@ TEST(BoardPath, WhatIsSkippedGoesOnWhereItWouldBe) {
     path.skip();
     const std::int64_t at = path.nextNs();
     const BoardTime later{50'000.25};
-    const auto leg = path.next(later, gainsOf(settings.panner));
-    EXPECT_EQ(leg->frame, static_cast<std::uint32_t>(later.frameAt(static_cast<double>(at) * 1e-9)));
-    const double turns = 205.0 * later.secondsAt(leg->frame);
-    EXPECT_NEAR(std::remainder(turns - leg->phase16 / 65536.0, 1.0), 0.0, 1e-5);
+    const auto segment = path.next(later, gainsOf(settings.panner));
+    EXPECT_EQ(segment->frame, static_cast<std::uint32_t>(later.frameAt(static_cast<double>(at) * 1e-9)));
+    const double turns = 205.0 * later.secondsAt(segment->frame);
+    EXPECT_NEAR(std::remainder(turns - segment->phase16 / 65536.0, 1.0), 0.0, 1e-5);
 }
 
 } // namespace

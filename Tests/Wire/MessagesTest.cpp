@@ -58,11 +58,11 @@ TEST(Messages, ALegComesBackAsItWas) {
         field = static_cast<std::remove_reference_t<decltype(field)>>(random() % 7 == 0 ? 0 : random());
     };
     for (int i = 0; i < 10000; ++i) {
-        wire::Leg sent, got;
+        wire::Segment sent, got;
         sent.visit(any);
         const Bytes frame = framed(sent);
         ASSERT_TRUE(read(frame, got));
-        ASSERT_EQ(got.leg, sent.leg);
+        ASSERT_EQ(got.segment, sent.segment);
         ASSERT_EQ(got.sequence, sent.sequence);
         ASSERT_EQ(frame.size(), 36u) << "320 a second at 115,200 bit/s";
     }

@@ -23,26 +23,27 @@ std::int64_t octavesAfter(std::uint16_t decay16, std::uint32_t frames) noexcept 
     return perFrame > most / frames ? most : perFrame * frames;
 }
 
-Complex<float> phasorAfter(const BoardLeg& leg, std::uint32_t frames) noexcept {
-    const std::uint64_t phase = (static_cast<std::uint64_t>(leg.phase16) << 48) +
-                                (static_cast<std::uint64_t>(leg.turn) << 32) * frames;
+Complex<float> phasorAfter(const BoardSegment& segment, std::uint32_t frames) noexcept {
+    const std::uint64_t phase = (static_cast<std::uint64_t>(segment.phase16) << 48) +
+                                (static_cast<std::uint64_t>(segment.turn) << 32) * frames;
     return unitPhasor<float>(phase) *
-           (frames > 0 ? decayFactor<float>(octavesAfter(leg.decay16, frames)) : 1.0f);
+           (frames > 0 ? decayFactor<float>(octavesAfter(segment.decay16, frames)) : 1.0f);
 }
 
 } // namespace
 
-bool MovingLegs::add(const BoardLeg& leg, std::uint32_t now) noexcept {
-    const auto missed = std::max<std::int32_t>(0, ageOf(leg.frame, now));
-    if (count_ == capacity || missed >= leg.frames) return false;
-    const auto turn = unitPhasor<float>(static_cast<std::uint64_t>(leg.turn) << 32) *
-                      decayFactor<float>(boardOctaves(leg.decay16));
-    slots_[at(count_++)] = {leg.frame, leg.frames, phasorAfter(leg, static_cast<std::uint32_t>(missed)),
-                            turn,      leg.start,  leg.end};
+bool MovingSegments::add(const BoardSegment& segment, std::uint32_t now) noexcept {
+    const auto missed = std::max<std::int32_t>(0, ageOf(segment.frame, now));
+    if (count_ == capacity || missed >= segment.frames) return false;
+    const auto turn = unitPhasor<float>(static_cast<std::uint64_t>(segment.turn) << 32) *
+                      decayFactor<float>(boardOctaves(segment.decay16));
+    slots_[at(count_++)] = {
+        segment.frame, segment.frames, phasorAfter(segment, static_cast<std::uint32_t>(missed)),
+        turn,          segment.start,  segment.end};
     return true;
 }
 
-void MovingLegs::render(std::uint32_t frame, PhasorBank::Block& io) noexcept {
+void MovingSegments::render(std::uint32_t frame, PhasorBank::Block& io) noexcept {
     int kept = 0;
     for (int i = 0; i < count_; ++i) {
         const std::int32_t age = ageOf(slots_[at(i)].frame, frame);
@@ -54,7 +55,7 @@ void MovingLegs::render(std::uint32_t frame, PhasorBank::Block& io) noexcept {
     count_ = kept;
 }
 
-void MovingLegs::renderSlot(Slot& slot, std::int32_t age, PhasorBank::Block& io) noexcept {
+void MovingSegments::renderSlot(Slot& slot, std::int32_t age, PhasorBank::Block& io) noexcept {
     constexpr float amplitudeStep = 1.0f / limits::board::amplitudeUnit;
     const float perFrame = slot.frames > 1 ? 1.0f / static_cast<float>(slot.frames - 1) : 0.0f;
     std::array<float, at(limits::board::channels)> start, slope;

@@ -13,16 +13,16 @@
 namespace physvib {
 
 /// All memory is inside the object. Render thread (R) only.
-class MovingLegs {
+class MovingSegments {
 public:
-    static constexpr int capacity = limits::board::maxLegs;
+    static constexpr int capacity = limits::board::maxSegments;
 
     void clear() noexcept { count_ = 0; }
     int count() const noexcept { return count_; }
 
     /// False if there is no room, or if the segment ends before frame `now`, which is rendered next. A late
-    /// segment is played from where it would be by then. `leg` is playable.
-    bool add(const BoardLeg& leg, std::uint32_t now) noexcept;
+    /// segment is played from where it would be by then. `segment` is playable.
+    bool add(const BoardSegment& segment, std::uint32_t now) noexcept;
 
     /// Adds all segments to the block that begins at `frame`; blocks are consecutive. Segments that have
     /// ended are removed.

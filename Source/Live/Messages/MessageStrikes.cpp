@@ -158,29 +158,30 @@ Route timedRoute(const MessageValues& values) {
 
 /// Ends the last segment at a zero crossing of the whole tone. Segments that would begin after that are
 /// removed.
-void endSoftly(std::vector<CollisionEvent>& legs, const EventShaping& shaping) {
-    const auto& last = legs.back();
+void endSoftly(std::vector<CollisionEvent>& segments, const EventShaping& shaping) {
+    const auto& last = segments.back();
     const std::int64_t end = softEndNs(shaping(last).frequencyHz, last.course.sinceNs + last.durationNs);
-    while (legs.back().course.sinceNs >= end) legs.pop_back(); // the first one begins at 0, so one remains
-    legs.back().durationNs = end - legs.back().course.sinceNs;
+    while (segments.back().course.sinceNs >= end)
+        segments.pop_back(); // the first one begins at 0, so one remains
+    segments.back().durationNs = end - segments.back().course.sinceNs;
 }
 
 /// One tone in segments: each continues the phase of the one before.
 std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route& route,
                                        const EventShaping& shaping) {
-    std::vector<CollisionEvent> legs;
+    std::vector<CollisionEvent> segments;
     for (std::size_t i = 0; i + 1 < route.places.size(); ++i) {
-        CollisionEvent leg =
+        CollisionEvent segment =
             toneOf(values, route.places[i], route.times[i], route.times[i + 1], values.spread());
-        if (leg.durationNs == 0) continue; // shorter than a nanosecond
-        leg.course.toX = route.places[i + 1].xMetres;
-        leg.course.toY = route.places[i + 1].yMetres;
-        leg.course.travelNs = leg.durationNs;
-        leg.course.sinceNs = leg.timeNs - nanoseconds(route.startSeconds());
-        legs.push_back(leg);
+        if (segment.durationNs == 0) continue; // shorter than a nanosecond
+        segment.course.toX = route.places[i + 1].xMetres;
+        segment.course.toY = route.places[i + 1].yMetres;
+        segment.course.travelNs = segment.durationNs;
+        segment.course.sinceNs = segment.timeNs - nanoseconds(route.startSeconds());
+        segments.push_back(segment);
     }
-    if (!legs.empty()) endSoftly(legs, shaping);
-    return legs;
+    if (!segments.empty()) endSoftly(segments, shaping);
+    return segments;
 }
 
 /// Overlapping stationary vibrations in phase: one tone that is at another place each time. Each begins and

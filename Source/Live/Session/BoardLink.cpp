@@ -41,10 +41,10 @@ std::string refusal(const wire::HelloReply& board) {
     return {};
 }
 
-constexpr std::size_t compactBytes = 16;   // of an event in the compact form on the line
-constexpr std::int64_t earlyLeg = 40 * ms; // a segment due later than this can also be sent later
-constexpr std::size_t legBytes = 36;       // of a segment
-constexpr double besidesMs = 3.0;          // line time for pings, gains and the last events in the long form
+constexpr std::size_t compactBytes = 16;       // of an event in the compact form on the line
+constexpr std::int64_t earlySegment = 40 * ms; // a segment due later than this can also be sent later
+constexpr std::size_t segmentBytes = 36;       // of a segment
+constexpr double besidesMs = 3.0; // line time for pings, gains and the last events in the long form
 
 // The board's wrapping frame counter of an unwrapped, fractional frame.
 std::uint32_t wrapped(double frame) {
@@ -188,7 +188,7 @@ void BoardLink::meet(const wire::HelloReply& board) {
                                                        // gains
     now_.state = State::synchronising;
     sequence_ = 0xFF;
-    legEnds_.clear();
+    segmentEnds_.clear();
     pingSentNs_.fill(0);
     ++now_.connections;
 }
@@ -240,7 +240,7 @@ void BoardLink::obey() {
         backlog_.clear();
         for (BoardStrike waiting; strikes_.pop(waiting);) {
         }
-        legEnds_.clear();
+        segmentEnds_.clear();
         if (line_) send(wire::StopAll{});
     }
     if (orders.gains) gains_ = orders.gains, nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain;
@@ -252,28 +252,31 @@ void BoardLink::obey() {
 
 bool BoardLink::isLineFree(std::int64_t now) const { return lineFreeNs_ - now < lineAhead; }
 
-bool BoardLink::takesLeg(std::int64_t dueNs) {
+bool BoardLink::takesSegment(std::int64_t dueNs) {
     const std::int64_t now = nowNs();
-    if (!line_ || now_.state != State::ready || !playsLegs() || !isLineFree(now)) return false;
+    if (!line_ || now_.state != State::ready || !playsSegments() || !isLineFree(now)) return false;
     const std::uint32_t played = wrapped(clock_.frameAt(now));
-    std::erase_if(legEnds_, [=](std::uint32_t end) { return static_cast<std::int32_t>(end - played) <= 0; });
-    const std::size_t kept = dueNs - now > earlyLeg ? 2 : 0; // reserved for tones that begin meanwhile
-    if (legEnds_.size() + kept >= limits::board::maxLegs) return false;
+    std::erase_if(segmentEnds_,
+                  [=](std::uint32_t end) { return static_cast<std::int32_t>(end - played) <= 0; });
+    const std::size_t kept = dueNs - now > earlySegment ? 2 : 0; // reserved for tones that begin meanwhile
+    if (segmentEnds_.size() + kept >= limits::board::maxSegments) return false;
     const std::scoped_lock lock{mutex_};
     return !orders_.stopAll; // the pending stop would delete it at once
 }
 
-std::int64_t BoardLink::legReadyNs() const {
-    return std::max(nowNs(), lineFreeNs_) + lineNs(legBytes) + static_cast<std::int64_t>(1e6 * transitMs());
+std::int64_t BoardLink::segmentReadyNs() const {
+    return std::max(nowNs(), lineFreeNs_) + lineNs(segmentBytes) +
+           static_cast<std::int64_t>(1e6 * transitMs());
 }
 
-void BoardLink::sendLeg(const BoardLeg& leg, bool isCoarse) {
-    const std::uint32_t end = leg.frame + leg.frames, ready = wrapped(clock_.frameAt(legReadyNs()));
-    if (!isPlayable(leg) || static_cast<std::int32_t>(end - ready) <= 0) return refuseLeg();
-    legEnds_.push_back(end);
-    send(wire::Leg{++sequence_, leg});
-    ++now_.legs;
-    now_.coarseLegs += isCoarse ? 1 : 0;
+void BoardLink::sendSegment(const BoardSegment& segment, bool isCoarse) {
+    const std::uint32_t end = segment.frame + segment.frames,
+                        ready = wrapped(clock_.frameAt(segmentReadyNs()));
+    if (!isPlayable(segment) || static_cast<std::int32_t>(end - ready) <= 0) return refuseSegment();
+    segmentEnds_.push_back(end);
+    send(wire::Segment{++sequence_, segment});
+    ++now_.segments;
+    now_.coarseSegments += isCoarse ? 1 : 0;
 }
 
 void BoardLink::sendStrikes() {

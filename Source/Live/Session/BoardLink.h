@@ -37,8 +37,8 @@ struct BoardLinkStatus {
     double driftPpm = 0.0;  ///< the board's clock relative to this computer's
     std::uint64_t sent = 0, thinned = 0, refused = 0; ///< events: sent; dropped for lack of bandwidth;
                                                       ///< refused as unplayable or too old, segments included
-    std::uint64_t legs = 0, coarseLegs = 0; ///< segments of moving tones: sent; sent in longer pieces than
-                                            ///< planned for lack of bandwidth
+    std::uint64_t segments = 0, coarseSegments = 0; ///< segments of moving tones: sent; sent in longer pieces
+                                                    ///< than planned for lack of bandwidth
     std::uint64_t connections = 0, badFrames = 0;
 };
 
@@ -73,16 +73,16 @@ public:
 
     /// True if the connected board plays segments; otherwise moving tones are sent as series of events. Link
     /// thread, as the next five.
-    bool playsLegs() const noexcept { return now_.board.version >= wire::legsSince; }
+    bool playsSegments() const noexcept { return now_.board.version >= wire::segmentsSince; }
     /// True if a segment that is due then can be sent now: the clock is known, and line and board have room.
-    bool takesLeg(std::int64_t dueNs);
+    bool takesSegment(std::int64_t dueNs);
     /// The board's frame at that time, usually fractional; only while the clock is known.
     double frameAt(std::int64_t steadyNs) const noexcept { return clock_.frameAt(steadyNs); }
     /// The earliest time at which a segment that is sent now can be played.
-    std::int64_t legReadyNs() const;
-    /// Sends a segment; one that is over by legReadyNs() is counted as refused. Only if takesLeg().
-    void sendLeg(const BoardLeg& leg, bool isCoarse);
-    void refuseLeg() noexcept { ++now_.refused; }
+    std::int64_t segmentReadyNs() const;
+    /// Sends a segment; one that is over by segmentReadyNs() is counted as refused. Only if takesSegment().
+    void sendSegment(const BoardSegment& segment, bool isCoarse);
+    void refuseSegment() noexcept { ++now_.refused; }
 
     /// Sets the source that the link thread calls, or none (null); only that source may push. On return the
     /// link thread is not inside the previous one. M.
@@ -149,8 +149,8 @@ private:
     std::array<std::int64_t, 256> pingSentNs_{}; // 0: no ping with this id is unanswered
     std::int64_t heardNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0, nextGainsNs_ = 0,
                  gainsPauseNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
-    std::vector<std::uint32_t> legEnds_; // end frames of segments in transit or on the board
-    std::size_t searched_ = 0;           // ports tried so far
+    std::vector<std::uint32_t> segmentEnds_; // end frames of segments in transit or on the board
+    std::size_t searched_ = 0;               // ports tried so far
     std::uint8_t pingId_ = 0, sequence_ = 0xFF;
     std::thread thread_;
 };

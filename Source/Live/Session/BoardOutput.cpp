@@ -70,7 +70,7 @@ void BoardOutput::feed() {
                 strike(event);
         }
         takeSteps();
-        takeLegs();
+        takeSegments();
     }
     setGains();
 }
@@ -109,9 +109,9 @@ void BoardOutput::takeSteps() {
 void BoardOutput::move(const CollisionEvent& event) {
     const auto atOnce = std::count_if(paths_.begin(), paths_.end(),
                                       [&](const BoardPath& path) { return path.endNs() > event.timeNs; });
-    const bool hasLegs =
-        link_.playsLegs() && atOnce < mostPaths && 2 * event.frequencyHz < limits::board::sampleRateHz;
-    if (hasLegs)
+    const bool hasSegments =
+        link_.playsSegments() && atOnce < mostPaths && 2 * event.frequencyHz < limits::board::sampleRateHz;
+    if (hasSegments)
         paths_.emplace_back(event, rateHz_);
     else
         steps_.emplace_back(event);
@@ -119,7 +119,7 @@ void BoardOutput::move(const CollisionEvent& event) {
 
 // Sends segments in order of due time, as many as there is room for, and not earlier than the link would send
 // events of that time.
-void BoardOutput::takeLegs() {
+void BoardOutput::takeSegments() {
     const std::int64_t now = BoardLink::nowNs();
     std::erase_if(
         paths_, [&](const BoardPath& path) { return path.isOver() && clock_.steadyAt(path.endNs()) < now; });
@@ -129,27 +129,27 @@ void BoardOutput::takeLegs() {
             paths_.begin(), paths_.end(), [&](const auto& a, const auto& b) { return dueNs(a) < dueNs(b); });
         if (first == paths_.end() || first->isOver()) return;
         const std::int64_t due = clock_.steadyAt(first->nextNs());
-        if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.takesLeg(due)) sendLeg(*first);
+        if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.takesSegment(due)) sendSegment(*first);
         // the line is gone or busy
         else if (due < now - mostLateNs)
-            first->skip(), link_.refuseLeg();
+            first->skip(), link_.refuseSegment();
         else
             return;
     }
 }
 
-void BoardOutput::sendLeg(BoardPath& path) {
+void BoardOutput::sendSegment(BoardPath& path) {
     takeLayouts(path.nextNs());
     for (const BoardPath& before : paths_) path.joinTo(before);
     const auto frameAt = [&](std::int64_t sinceNs) {
         return link_.frameAt(clock_.steadyAt(path.onsetNs() + sinceNs));
     };
     const BoardTime time{frameAt(0), frameAt(secondNs) - frameAt(0)};
-    const bool isHurried = clock_.steadyAt(path.nextNs()) < link_.legReadyNs() + spareNs;
-    const auto leg = path.next(
+    const bool isHurried = clock_.steadyAt(path.nextNs()) < link_.segmentReadyNs() + spareNs;
+    const auto segment = path.next(
         time, [this](const auto&... at) { return gainsAt(at...); }, isHurried);
-    if (!leg) return;
-    link_.sendLeg(*leg, path.isCoarse());
+    if (!segment) return;
+    link_.sendSegment(*segment, path.isCoarse());
     path.take();
 }
 

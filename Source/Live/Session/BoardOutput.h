@@ -55,11 +55,11 @@ private:
     void takeLayouts(std::int64_t timeNs);
     PathGains::Gains gainsAt(const CollisionEvent& event, double x, double y) const noexcept;
     void takeSteps();
-    void takeLegs();
-    void sendLeg(BoardPath& path);
+    void takeSegments();
+    void sendSegment(BoardPath& path);
 
     // two per moving tone: the sounding segment and the next
-    static constexpr std::ptrdiff_t mostPaths = limits::board::maxLegs / 2;
+    static constexpr std::ptrdiff_t mostPaths = limits::board::maxSegments / 2;
 
     const std::string port_; // as it is wanted
     BoardLink link_;

@@ -27,10 +27,10 @@ std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
         {"Board", "ready, its clock " + fixedNumber(s.driftPpm, 0) + " ppm off"},
         {"Link", count(s.sent) + " sent, " + count(s.thinned) + " thinned, " + count(s.refused) + " refused",
          s.thinned + s.refused > 0}};
-    if (s.legs > 0)
+    if (s.segments > 0)
         facts.push_back({"What moves",
-                         count(s.legs) + " segments sent, " + count(s.coarseLegs) + " of them coarse",
-                         s.coarseLegs > 0});
+                         count(s.segments) + " segments sent, " + count(s.coarseSegments) + " of them coarse",
+                         s.coarseSegments > 0});
     facts.push_back(
         {"On board",
          count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost",
@@ -78,8 +78,8 @@ std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
     const auto s = link.status();
     const auto& t = s.telemetry;
     std::string lines;
-    if (s.legs > 0)
-        lines = count(s.legs) + " segments of moving strikes, " + count(s.coarseLegs) +
+    if (s.segments > 0)
+        lines = count(s.segments) + " segments of moving strikes, " + count(s.coarseSegments) +
                 " of them longer than their law asks for, as the line was full\n";
     std::string guarded;
     if (const auto times = static_cast<std::uint16_t>(t.guarded - before.guarded); times > 0)

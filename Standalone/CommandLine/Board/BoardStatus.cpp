@@ -18,7 +18,7 @@ void printBoardInfo(const BoardLinkStatus& s) {
               << b.maxModes << " modes, protocol " << int(b.version) << ", clock "
               << (b.crystal ? "72 MHz from the crystal" : "64 MHz, internal") << ", " << int(b.resets)
               << " restarts by the watchdog\n"
-              << (b.version < wire::legsSince
+              << (b.version < wire::segmentsSince
                       ? "what moves is a row of still bursts on this image, an older one"
                       : "what moves is within one step of a device")
               << '\n'

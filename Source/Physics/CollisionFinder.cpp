@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Evaluates Box2D's contact callbacks: new contact points that approach fast are collisions, all other
 // impulses are load.
-#include "Physics/BlowFinder.h"
+#include "Physics/CollisionFinder.h"
 #include "Physics/SurfacePaths.h"
 #include "Physics/WorldNames.h"
 #include <algorithm>
@@ -36,7 +36,7 @@ double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
 
 } // namespace
 
-std::int32_t BlowFinder::find(const b2Fixture& fixture) {
+std::int32_t CollisionFinder::find(const b2Fixture& fixture) {
     const std::int32_t slot = events_.fixtures().find(nameOf(fixture));
     if (slot == FixtureTable::none || events_.fixtures()[slot].body.body == nameOf(*fixture.GetBody()))
         return slot;
@@ -46,7 +46,7 @@ std::int32_t BlowFinder::find(const b2Fixture& fixture) {
 }
 
 // nullptr: one of the fixtures is not registered.
-BlowFinder::Known* BlowFinder::find(const b2Contact& contact) {
+CollisionFinder::Known* CollisionFinder::find(const b2Contact& contact) {
     if (const std::int32_t at = knownAt_.find(nameOf(contact)); at != IntegerMap::none) {
         Known& known = known_[static_cast<std::size_t>(at)];
         if (known.fixtureA == contact.GetFixtureA() && known.fixtureB == contact.GetFixtureB()) return &known;
@@ -56,7 +56,7 @@ BlowFinder::Known* BlowFinder::find(const b2Contact& contact) {
     return &remember(contact, {.a = a, .b = b});
 }
 
-BlowFinder::Known& BlowFinder::remember(const b2Contact& contact, Pair pair) {
+CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair pair) {
     std::int32_t at = knownAt_.find(nameOf(contact));
     if (at == IntegerMap::none) {
         at = static_cast<std::int32_t>(known_.size());
@@ -68,7 +68,7 @@ BlowFinder::Known& BlowFinder::remember(const b2Contact& contact, Pair pair) {
     return known;
 }
 
-void BlowFinder::forget(const b2Contact& contact) noexcept {
+void CollisionFinder::forget(const b2Contact& contact) noexcept {
     const std::int32_t at = knownAt_.find(nameOf(contact));
     if (at == IntegerMap::none) return;
     knownAt_.erase(nameOf(contact));
@@ -80,30 +80,30 @@ void BlowFinder::forget(const b2Contact& contact) noexcept {
     known_.pop_back();
 }
 
-void BlowFinder::forgetContacts() noexcept {
+void CollisionFinder::forgetContacts() noexcept {
     known_.clear();
     knownAt_.clear();
 }
 
-std::int32_t BlowFinder::know(const b2Fixture& fixture) {
+std::int32_t CollisionFinder::know(const b2Fixture& fixture) {
     const std::int32_t slot = find(fixture); // a fixture that reuses the address of a destroyed one gets new
                                              // state
     const BodyFacts body = factsOf(*fixture.GetBody());
     return slot == FixtureTable::none ? events_.know(nameOf(fixture), body) : events_.know(slot, body);
 }
 
-BlowFinder::Known& BlowFinder::know(const b2Contact& contact) {
+CollisionFinder::Known& CollisionFinder::know(const b2Contact& contact) {
     const std::int32_t a = know(*contact.GetFixtureA()), b = know(*contact.GetFixtureB());
     return remember(contact, {.a = a, .b = b});
 }
 
-void BlowFinder::begin(const b2Contact& contact) {
+void CollisionFinder::begin(const b2Contact& contact) {
     if (!isSolid(contact) || !contact.IsTouching()) return;
     const Pair& pair = know(contact).pair;
     events_.catcher().begin(pair.a, pair.b);
 }
 
-void BlowFinder::end(const b2Contact& contact) {
+void CollisionFinder::end(const b2Contact& contact) {
     fresh_.forget(contact);
     const Known* const found = find(contact);
     const Pair pair = found != nullptr ? found->pair : Pair{};
@@ -119,7 +119,7 @@ void BlowFinder::end(const b2Contact& contact) {
     }
 }
 
-void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
+void CollisionFinder::look(const b2Contact& contact, const b2Manifold& before) {
     const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping());
     if (fresh == 0 || !contact.IsEnabled() || !events_.catcher().isHearing()) return;
     b2WorldManifold manifold;
@@ -128,39 +128,40 @@ void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
     for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
         if (isIn(fresh, i))
             fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
-    if (!events_.catcher().isBlow(gravityScaleOf(contact), fastest)) return passOver(contact);
+    if (!events_.catcher().isCollision(gravityScaleOf(contact), fastest)) return passOver(contact);
     const Pair& pair = pairOf(know(contact));
-    if (events_.catcher().blow(pair) != nullptr) return;
-    if (Blow* blow = events_.catcher().strike(pair, fastest)) describe(contact, manifold, fresh, *blow);
+    if (events_.catcher().collision(pair) != nullptr) return;
+    if (Collision* collision = events_.catcher().strike(pair, fastest))
+        describe(contact, manifold, fresh, *collision);
 }
 
-void BlowFinder::passOver(const b2Contact& contact) {
+void CollisionFinder::passOver(const b2Contact& contact) {
     if (!events_.catcher().mayBeHeard(nameOf(*contact.GetFixtureA()), nameOf(*contact.GetFixtureB()))) return;
     if (const Known* const known = find(contact)) events_.catcher().passOver(known->pair.a, known->pair.b);
 }
 
-void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
-                          Blow& blow) const {
+void CollisionFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
+                               Collision& collision) const {
     const int count = contact.GetManifold()->pointCount;
     int deepest = isIn(fresh, 0) ? 0 : 1;
     const bool isFlat = count > 1 && isIn(fresh, 0) && isIn(fresh, 1);
     if (isFlat && manifold.separations[1] < manifold.separations[0]) deepest = 1;
     const b2Vec2 touch = manifold.points[deepest];
     // A flat impact touches along a line. Its middle is used, because rounding decides which end is deeper.
-    blow.point = toVector(isFlat ? 0.5F * (manifold.points[0] + manifold.points[1]) : touch);
-    blow.motionA = motionOf(bodyA(contact));
-    blow.motionB = motionOf(bodyB(contact));
-    blow.armA = blow.point - toVector(bodyA(contact).GetWorldCenter());
-    blow.armB = blow.point - toVector(bodyB(contact).GetWorldCenter());
+    collision.point = toVector(isFlat ? 0.5F * (manifold.points[0] + manifold.points[1]) : touch);
+    collision.motionA = motionOf(bodyA(contact));
+    collision.motionB = motionOf(bodyB(contact));
+    collision.armA = collision.point - toVector(bodyA(contact).GetWorldCenter());
+    collision.armB = collision.point - toVector(bodyB(contact).GetWorldCenter());
 
     const double speed = approach(contact, touch, manifold.normal);
     const double depth = std::max(0.0, -static_cast<double>(manifold.separations[deepest]));
-    blow.fraction = momentOf(contact, speed > 0.0 ? depth / speed : 0.0);
+    collision.fraction = momentOf(contact, speed > 0.0 ? depth / speed : 0.0);
 }
 
 // Surfaces sink into each other in the step before, so its length counts. Outside a reported step there is no
 // time.
-double BlowFinder::momentOf(const b2Contact& contact, double secondsAgo) const noexcept {
+double CollisionFinder::momentOf(const b2Contact& contact, double secondsAgo) const noexcept {
     if (!events_.catcher().isStepping()) return 0.0;
     const double now = sweeps_.stepSeconds(), before = sweeps_.lastStepSeconds();
     // deeper: the contact was made at its start
@@ -169,7 +170,7 @@ double BlowFinder::momentOf(const b2Contact& contact, double secondsAgo) const n
     return length > 0.0 ? std::max(-1.0, seconds / length) : 0.0;
 }
 
-double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {
+double CollisionFinder::fractionOf(const b2Contact& contact) const noexcept {
     if (!events_.catcher().isStepping()) return 0.0;
     const bool aIsFaster = bodyA(contact).GetLinearVelocity().LengthSquared() >
                            bodyB(contact).GetLinearVelocity().LengthSquared();
@@ -177,7 +178,7 @@ double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {
 }
 
 // Impulses at new points belong to the collision, if there is one; all others are load.
-void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
+void CollisionFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
     if (!events_.catcher().isHearing()) return;
     if (fresh == 0 &&
@@ -186,25 +187,25 @@ void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse)
     Known* const known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
-    Blow* const blow = fresh != 0 ? events_.catcher().blow(pair) : nullptr;
+    Collision* const collision = fresh != 0 ? events_.catcher().collision(pair) : nullptr;
     const bool isHeard = events_.catcher().isHeard(pair);
-    if (!isHeard && blow == nullptr) return;
+    if (!isHeard && collision == nullptr) return;
     b2WorldManifold manifold;
     if (isHeard) contact.GetWorldManifold(&manifold);
-    share(impulse, manifold, pair, fresh, blow, isHeard);
+    share(impulse, manifold, pair, fresh, collision, isHeard);
     if (events_.lasting().isHeard(pair.a, pair.b)) // only pairs whose load matters
-        tellLasting(contact, manifold, impulse, blow != nullptr ? fresh : 0U, pair.a, pair.b,
+        tellLasting(contact, manifold, impulse, collision != nullptr ? fresh : 0U, pair.a, pair.b,
                     events_.lasting());
 }
 
-void BlowFinder::share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair,
-                       unsigned fresh, Blow* blow, bool isHeard) {
+void CollisionFinder::share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold,
+                            const Pair& pair, unsigned fresh, Collision* collision, bool isHeard) {
     b2Vec2 onB{0.0F, 0.0F};
     bool isLoaded = false;
     for (int i = 0; i < impulse.count; ++i) {
-        if (blow != nullptr && isIn(fresh, i)) {
-            blow->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
-            blow->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
+        if (collision != nullptr && isIn(fresh, i)) {
+            collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
+            collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
         } else if (isHeard) {
             isLoaded = true;
             onB += impulse.normalImpulses[i] * manifold.normal +

@@ -12,9 +12,9 @@
 namespace physvib {
 
 /// Converts Box2D's contact callbacks to the reports that CollisionCatcher needs. World thread (M) only.
-class BlowFinder {
+class CollisionFinder {
 public:
-    BlowFinder(ContactEvents& events, BodySweeps& sweeps)
+    CollisionFinder(ContactEvents& events, BodySweeps& sweeps)
         : events_(events)
         , sweeps_(sweeps) {
         known_.reserve(expectedContacts);
@@ -58,9 +58,9 @@ private:
     Known& remember(const b2Contact& contact, Pair pair);
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
-                  Blow& blow) const;
+                  Collision& collision) const;
     void share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair,
-               unsigned fresh, Blow* blow, bool isHeard);
+               unsigned fresh, Collision* collision, bool isHeard);
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 

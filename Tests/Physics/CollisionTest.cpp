@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A blow is what goes beyond load: what must be felt, and what must not, with the figures of a pencil.
+// A collision is what goes beyond load: what must be felt, and what must not, with the figures of a pencil.
 #include "AttachedWorld.h"
 #include "Contacts/OnsetImpacts.h"
 #include <algorithm>
@@ -9,9 +9,9 @@ namespace physvib {
 namespace {
 
 /// Gravity of 10 m/s^2 and a floor with a camera; nothing bounces, nothing sleeps.
-class Blows : public AttachedWorld {
+class Collisions : public AttachedWorld {
 protected:
-    Blows() {
+    Collisions() {
         world.SetGravity({0.0F, -10.0F});
         world.SetAllowSleeping(false);
     }
@@ -33,7 +33,7 @@ protected:
     }
 };
 
-TEST_F(Blows, HeadOfAPoleThatTopplesIsFelt) {
+TEST_F(Collisions, HeadOfAPoleThatTopplesIsFelt) {
     (void)attachment.set(floor(), camera);
     const float length = 4.0F, half = 0.05F;
     b2Fixture& pole = block({0.0F, 0.5F * length}, {half, 0.5F * length});
@@ -57,7 +57,7 @@ TEST_F(Blows, HeadOfAPoleThatTopplesIsFelt) {
     EXPECT_NEAR(events[0].source.impulseNewtonSeconds, expected, 0.05 * expected);
 }
 
-TEST_F(Blows, TippedCrateThatFallsBackIsFelt) {
+TEST_F(Collisions, TippedCrateThatFallsBackIsFelt) {
     (void)attachment.set(floor(), camera);
     b2Fixture& crate = block({0.0F, 0.5F}, {0.5F, 0.5F});
     (void)attachment.set(crate, object);
@@ -68,7 +68,7 @@ TEST_F(Blows, TippedCrateThatFallsBackIsFelt) {
     EXPECT_GT(strongest(events), 0.5);
 }
 
-TEST_F(Blows, EveryDominoIsFeltToFallOnce) {
+TEST_F(Collisions, EveryDominoIsFeltToFallOnce) {
     constexpr int count = 10;
     std::vector<std::int32_t> ids;
     const std::int32_t ground = attachment.set(floor(), camera).id;
@@ -91,7 +91,7 @@ TEST_F(Blows, EveryDominoIsFeltToFallOnce) {
         EXPECT_GT(seconds(*fall), struckAt) << i; // one after the other
         struckAt = seconds(*fall);
         // Once: what follows within a tenth of a second is a faint rattle; later both come to lie, which is
-        // another blow.
+        // another collision.
         for (auto later = fall + 1; later != events.end(); ++later)
             if (isFall(*later) && seconds(*later) < struckAt + 0.1)
                 EXPECT_LT(later->source.impulseNewtonSeconds, 0.5 * fall->source.impulseNewtonSeconds) << i;
@@ -107,7 +107,7 @@ public:
     bool isShut = false;
 };
 
-TEST_F(Blows, ContactEnabledLateIsFeltWhenItPushes) {
+TEST_F(Collisions, ContactEnabledLateIsFeltWhenItPushes) {
     Gate gate;
     world.SetContactListener(&gate); // after the attachment: it is heard all the same
     (void)attachment.set(floor(), camera);
@@ -121,7 +121,7 @@ TEST_F(Blows, ContactEnabledLateIsFeltWhenItPushes) {
     EXPECT_NEAR(events[0].source.impulseNewtonSeconds, momentum, 0.05 * momentum);
 }
 
-TEST_F(Blows, ContactThatBeginsWhileTimeStandsIsFeltWhenItGoesOn) {
+TEST_F(Collisions, ContactThatBeginsWhileTimeStandsIsFeltWhenItGoesOn) {
     world.SetGravity({0.0F, 0.0F});
     (void)attachment.set(floor(), camera);
     b2Fixture& falling = ball(0.0F, 0.25F, 0.0F, -3.0F, 0.0F);
@@ -133,7 +133,7 @@ TEST_F(Blows, ContactThatBeginsWhileTimeStandsIsFeltWhenItGoesOn) {
     EXPECT_NEAR(events[0].source.impulseNewtonSeconds, massKg(falling) * 3.0, 0.01 * massKg(falling) * 3.0);
 }
 
-TEST_F(Blows, HitsOfStepsThatAreNotToldAreFeltAtTheNextThatIs) {
+TEST_F(Collisions, HitsOfStepsThatAreNotToldAreFeltAtTheNextThatIs) {
     (void)attachment.set(floor(), camera);
     b2Fixture& falling = ball(0.0F, 0.5F, 0.0F, -3.0F, 0.0F);
     (void)attachment.set(falling, object);
@@ -145,7 +145,7 @@ TEST_F(Blows, HitsOfStepsThatAreNotToldAreFeltAtTheNextThatIs) {
 }
 
 /// Over the seams of a flat chain with ghost vertices, at a gravity scale.
-class BlowsOnAChain : public Blows, public testing::WithParamInterface<float> {
+class CollisionsOnAChain : public Collisions, public testing::WithParamInterface<float> {
 protected:
     b2Fixture& chain() {
         std::vector<b2Vec2> points;
@@ -158,7 +158,7 @@ protected:
     }
 };
 
-TEST_P(BlowsOnAChain, BallThatRollsFeelsNoSeams) {
+TEST_P(CollisionsOnAChain, BallThatRollsFeelsNoSeams) {
     (void)attachment.set(chain(), camera);
     b2Fixture& rolling = ball(-20.0F, 0.25F, 6.0F, 0.0F, 0.0F);
     rolling.GetBody()->SetGravityScale(GetParam());
@@ -167,7 +167,7 @@ TEST_P(BlowsOnAChain, BallThatRollsFeelsNoSeams) {
     EXPECT_GT(rolling.GetBody()->GetPosition().x, -5.0F); // over many of them
 }
 
-TEST_P(BlowsOnAChain, CartFeelsNoSeams) {
+TEST_P(CollisionsOnAChain, CartFeelsNoSeams) {
     (void)attachment.set(chain(), camera);
     b2Fixture& deck = block({-20.0F, 0.7F}, {1.0F, 0.1F});
     deck.GetBody()->SetGravityScale(GetParam());
@@ -187,25 +187,25 @@ TEST_P(BlowsOnAChain, CartFeelsNoSeams) {
     EXPECT_TRUE(run(400).empty());
     EXPECT_GT(deck.GetBody()->GetPosition().x, -10.0F);
 }
-INSTANTIATE_TEST_SUITE_P(GravityScales, BlowsOnAChain, testing::Values(1.0F, 3.0F));
+INSTANTIATE_TEST_SUITE_P(GravityScales, CollisionsOnAChain, testing::Values(1.0F, 3.0F));
 
-TEST_F(Blows, WhatIsCreatedAtRestIsNotFelt) {
+TEST_F(Collisions, WhatIsCreatedAtRestIsNotFelt) {
     (void)attachment.set(floor(), camera);
     for (int i = 0; i < 5; ++i)
         (void)attachment.set(block({0.0F, 0.505F + 1.01F * static_cast<float>(i)}, {0.5F, 0.5F}), camera);
     EXPECT_TRUE(run(200).empty());
 }
 
-TEST_F(Blows, GentleHitsAreNotFelt) {
+TEST_F(Collisions, GentleHitsAreNotFelt) {
     world.SetGravity({0.0F, 0.0F});
     (void)attachment.set(floor(), camera);
     (void)attachment.set(ball(0.0F, 0.3F, 0.0F, -0.09F, 1.0F), camera);
     EXPECT_TRUE(run(200).empty());
 }
 
-class BlowsBesideAMachine : public Blows, public testing::WithParamInterface<ImpactTiming> {};
+class CollisionsBesideAMachine : public Collisions, public testing::WithParamInterface<ImpactTiming> {};
 
-TEST_P(BlowsBesideAMachine, SmallStrikeDoesNotHandOnItsHumming) {
+TEST_P(CollisionsBesideAMachine, SmallStrikeDoesNotHandOnItsHumming) {
     ImpactSettings settings = attachment.settings();
     settings.timing = GetParam();
     attachment.configure(settings);
@@ -222,7 +222,7 @@ TEST_P(BlowsBesideAMachine, SmallStrikeDoesNotHandOnItsHumming) {
         pebble.SetDensity(0.15F);
         pebble.GetBody()->ResetMassData();
         (void)attachment.set(pebble, object);
-        // it falls at 2 m/s, and lies for the two steps of a blow
+        // it falls at 2 m/s, and lies for the two steps of a collision
         pebbles += massKg(pebble) * (2.0 + 2 * 0.1);
     }
     for (int i = 0; i < 60; ++i) { // it shakes the floor by 60 N s
@@ -231,7 +231,8 @@ TEST_P(BlowsBesideAMachine, SmallStrikeDoesNotHandOnItsHumming) {
             EXPECT_LT(event.source.impulseNewtonSeconds, 1.05 * pebbles);
     }
 }
-INSTANTIATE_TEST_SUITE_P(, BlowsBesideAMachine, testing::Values(ImpactTiming::onset, ImpactTiming::release));
+INSTANTIATE_TEST_SUITE_P(, CollisionsBesideAMachine,
+                         testing::Values(ImpactTiming::onset, ImpactTiming::release));
 
 } // namespace
 } // namespace physvib

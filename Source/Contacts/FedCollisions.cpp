@@ -12,8 +12,8 @@ double FedContacts::supported(double bySpeed, double pushed, double gainedMetres
                               double fraction) const {
     constexpr double clearly = 1.2; // the impulse of a step also moves overlaps apart
     const double falls = gravity_ * events_.stepSeconds() * (1.0 - std::clamp(fraction, 0.0, 1.0));
-    const double ofBlow = pushed * gainedMetresPerSecond / (gainedMetresPerSecond + falls);
-    return ofBlow > clearly * bySpeed ? ofBlow : bySpeed;
+    const double ofCollision = pushed * gainedMetresPerSecond / (gainedMetresPerSecond + falls);
+    return ofCollision > clearly * bySpeed ? ofCollision : bySpeed;
 }
 
 double FedContacts::speedOf(const FedContact& contact) const {
@@ -41,24 +41,24 @@ void FedContacts::strike(const FedContact& contact, double pushed) {
     // speed before.
     const bool isSpeedKnown = contact.approachMetresPerSecond || !isImpulseTold || told > 0.0;
     const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
-    if (!catcher.isBlow(std::max(a.gravityScale(), b.gravityScale()), speed)) {
+    if (!catcher.isCollision(std::max(a.gravityScale(), b.gravityScale()), speed)) {
         catcher.passOver(pair.a, pair.b);
         return load(contact);
     }
 
-    Blow* blow = catcher.blow(pair);
-    const bool isFirst = blow == nullptr;
-    if (isFirst && (blow = catcher.strike(pair, speed)) == nullptr) return;
+    Collision* collision = catcher.collision(pair);
+    const bool isFirst = collision == nullptr;
+    if (isFirst && (collision = catcher.strike(pair, speed)) == nullptr) return;
     const double fraction = fractionOf(contact, isSpeedKnown ? speed : 0.0);
-    blow->fraction = isFirst ? fraction : std::min(blow->fraction, fraction);
+    collision->fraction = isFirst ? fraction : std::min(collision->fraction, fraction);
     if (isImpulseTold || isFirst) { // impulses of points add up; a speed gives that of the whole impact
-        const double sum = blow->normalImpulse + impulse;
-        blow->point += static_cast<float>(impulse / sum) * (contact.point - blow->point);
-        blow->normalImpulse = sum;
-        blow->tangentialImpulse += isImpulseTold ? contact.tangentialNewtonSeconds : 0.0;
-    } else if (impulse > blow->normalImpulse) {
-        blow->normalImpulse = impulse;
-        blow->point = contact.point;
+        const double sum = collision->normalImpulse + impulse;
+        collision->point += static_cast<float>(impulse / sum) * (contact.point - collision->point);
+        collision->normalImpulse = sum;
+        collision->tangentialImpulse += isImpulseTold ? contact.tangentialNewtonSeconds : 0.0;
+    } else if (impulse > collision->normalImpulse) {
+        collision->normalImpulse = impulse;
+        collision->point = contact.point;
     }
 }
 
