@@ -52,13 +52,5 @@ TEST(InputCheck, ABodyThatWasSpawnedCanBeSwitchedAndChanged) {
               "");
 }
 
-TEST(InputCheck, ABodyOfTheSceneComesBackWithAChange) {
-    const Scene scene = dropScene(1.0);
-    const ChangeAction change{scene.bodies[ballIndex], false};
-    InputCheck check(scene);
-    EXPECT_EQ(takeAll(check, {change, RemoveAction{"ball"}, change, TiltAction{0.1}}), "")
-        << "it is still one body of that name";
-}
-
 } // namespace
 } // namespace physvib
