@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Remapping keeps the order of frequencies, and nothing else of an event changes.
+// Remapping keeps the order of frequencies and changes nothing else; gain, weighting and cuts act in their
+// order.
 #include "Core/EventShaping.h"
 #include <gtest/gtest.h>
 
