@@ -169,5 +169,26 @@ TEST(SessionInputs, AStopLeavesWhatIsDueHoweverLateTheDriver) {
     EXPECT_EQ(felt(true), felt(false));
 }
 
+TEST(SessionInputs, ACeilingThatIsLoweredIsStillTheHighestThatWas) {
+    auto setup = shakeTheBoxSetup(0.02);
+    setup.ceilings.fill(0.2f);
+    Session session{setup};
+    session.prepare(rate, block);
+    for (const float ceiling : {0.5f, 0.1f})
+        ASSERT_TRUE(session.take({RenderControl{0, Kind::ceiling, 1, ceiling, {}}}));
+    EXPECT_EQ(session.rendered().ceiling(1), 0.5f);
+    EXPECT_EQ(session.rendered().ceiling(0), 0.2f);
+}
+
+TEST(WaitingStrikes, AreForgottenFromATimeOnAndBounded) {
+    const auto at = [](std::int64_t timeNs) { return std::array{CollisionEvent{.timeNs = timeNs}}; };
+    WaitingStrikes waiting;
+    for (const std::int64_t timeNs : {20, 10, 30}) EXPECT_TRUE(waiting.add(at(timeNs)));
+    waiting.forget(20);
+    EXPECT_EQ(waiting.size(), 1u) << "that of 20 ns has gone as well";
+    EXPECT_FALSE(waiting.add(std::vector<CollisionEvent>(WaitingStrikes::most)));
+    EXPECT_EQ(waiting.size(), 1u) << "nothing of what found no room was kept";
+}
+
 } // namespace
 } // namespace physvib
