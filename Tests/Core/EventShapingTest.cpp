@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Remapping keeps the order of frequencies, and nothing else of an event changes.
+// Remapping keeps the order of frequencies and changes nothing else; gain, weighting and cuts act in their
+// order.
 #include "Core/EventShaping.h"
 #include <gtest/gtest.h>
 
@@ -81,6 +82,47 @@ TEST(EventShaping, AClipStaysAsItIsAloneAndAmongTheHitsOfAWorld) {
     EXPECT_EQ(shaper(clip), clip);
     EXPECT_NE(shaping(hit), hit);
     EXPECT_NE(shaper(hit), shaping(hit)) << "whose level is held";
+}
+
+TEST(EventShaping, WeightsTheAmplitudeThatTheGainHasMade) {
+    const EventShaping shaping{.method = {}, .remap = {}, .gain = 0.5, .perceived = {true}};
+    const CollisionEvent loud{.frequencyHz = 500, .decayPerSecond = 40, .amplitude = 0.8};
+    EXPECT_DOUBLE_EQ(shaping(loud).amplitude, 0.8) << "weighted first, it would stop at full scale";
+}
+
+TEST(EventShaping, CutsALaterSegmentWhereItsToneEnds) {
+    EventShaping shaping;
+    shaping.truncation = 0.1;
+    CollisionEvent e{.timeNs = 7, .frequencyHz = 349, .decayPerSecond = 107, .amplitude = 0.3};
+    const std::int64_t whole = shaping(e).durationNs;
+    e.course.sinceNs = 10'000'000;
+    EXPECT_EQ(shaping(e).durationNs, whole - 10'000'000);
+    e.course.sinceNs = whole + 5;
+    EXPECT_EQ(shaping(e).durationNs, 1) << "a duration of 0 would be endless";
+}
+
+TEST(EventShaping, DoesNotCutWhatHardlyDecays) {
+    EventShaping shaping;
+    shaping.truncation = 0.1;
+    const CollisionEvent e{.timeNs = 7, .frequencyHz = 349, .decayPerSecond = 1e-12, .amplitude = 0.3};
+    EXPECT_EQ(shaping(e), e) << "70,000 years do not fit in nanoseconds";
+}
+
+TEST(EventShaper, ForgetsTheImpactsThatStillSound) {
+    EventShaping shaping;
+    ASSERT_TRUE(renderingMethodNamed("AF-FV-DRV", shaping.method));
+    shaping.method.holdsLevel = true;
+    const CollisionEvent hit{.timeNs = 7,
+                             .frequencyHz = 349,
+                             .decayPerSecond = 107,
+                             .amplitude = 0.3,
+                             .durationNs = 0,
+                             .source = {1, 2, 3, 4}};
+    EventShaper shaper{shaping};
+    const double first = shaper(hit).amplitude;
+    EXPECT_LT(shaper(hit).amplitude, first) << "only what the first one leaves free";
+    shaper.forget();
+    EXPECT_EQ(shaper(hit).amplitude, first);
 }
 
 } // namespace

@@ -107,5 +107,26 @@ TEST(StripGroups, NothingThatAGroupOrALaneAddsIsLouderThanTheDesk) {
     EXPECT_EQ(lowerTo(DeskLimits::of(four()), lane), "D gain 0.0 to -5.0 dB");
 }
 
+TEST(StripGroups, FeltStripsAreInNoGroupAndHaveNoLanes) {
+    Mix mix = four();
+    mix.strips[1].group = addGroup(mix, "Left hand");
+    mix.groups[0].gainDb = -6.0;
+    mix.strips[1].lane = mix.strips[2].lane = {{0.0, -20.0}};
+    for (const Strip& felt : feltStrips(mix)) {
+        EXPECT_EQ(felt.group, -1) << "its gain has the group's already";
+        EXPECT_TRUE(felt.lane.empty());
+    }
+}
+
+TEST(StripGroups, NewNamesAreTheUsualOnesThenNumbers) {
+    Mix mix = four();
+    for (int i = 0; i < 5; ++i) addGroup(mix, freeGroupName(mix));
+    std::vector<std::string> names;
+    for (const StripGroup& group : mix.groups) names.push_back(group.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"Left hand", "Right hand", "Back", "Group 4", "Group 5"}));
+    removeGroup(mix, 1);
+    EXPECT_EQ(freeGroupName(mix), "Right hand") << "a name that is free again";
+}
+
 } // namespace
 } // namespace physvib

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Groups and gain lanes at the desk and in its window: what they do to strips, how they are written, edited
-// and taken back.
+// Groups at the desk and in its window: what they do to strips, how they are named, shown and taken back.
 #include "Live/Documents/StripGroups.h"
-#include "Mixer/Strips/LanesTab.h"
 #include "MixerTesting.h"
 
 namespace physvib {
@@ -59,107 +57,50 @@ TEST(Groups, AreMadeRenamedMutedAndTakenApartInTheWindow) {
     name->setText("Palm", juce::sendNotificationSync);
     EXPECT_EQ(desk.mix().groups[0].name, "Palm");
     desk.dispatchPendingMessages();
-    dynamic_cast<juce::Button*>(find(view, "Ungroup Palm"))->triggerClick();
+    auto* ungroup = dynamic_cast<juce::Button*>(find(view, "Ungroup Palm"));
+    ASSERT_NE(ungroup, nullptr) << "its controls have its new name";
+    ungroup->triggerClick();
     ASSERT_TRUE(runUntil([&] { return desk.mix().groups.empty(); }));
     EXPECT_TRUE(desk.mix().strips[1].isMuted) << "felt as before";
     desk.dispatchPendingMessages();
     EXPECT_EQ(find(view, "Ungroup Palm"), nullptr);
 }
 
-TEST(Lanes, FadersThatAreMovedWhileItRecordsAreWrittenAndPlayedAgain) {
-    const TestFolder folder;
-    Desk desk{onlyNoDevice(), noDevice};
-    group(desk);
-    desk.change("Gain", [](Mix& mix) { mix.strips[2].gainDb = -6.0; });
-    ASSERT_EQ(desk.recording().start(folder("take.wav")), "");
-    const auto wait = [&](double seconds) {
-        const auto until = desk.session().world().sceneNs() + static_cast<std::int64_t>(1e9 * seconds);
-        return runUntil([&] { return desk.look(), desk.session().world().sceneNs() >= until; });
-    };
-    ASSERT_TRUE(wait(0.3));
-    desk.change("Gain", [](Mix& mix) { mix.strips[2].gainDb = -26.0, mix.groups[0].gainDb = -12.0; });
-    ASSERT_TRUE(wait(0.3));
-    desk.recording().stop();
-    ASSERT_TRUE(runUntil([&] { return desk.look(), !desk.mix().strips[2].lane.empty(); })) << desk.trouble();
-    EXPECT_EQ(desk.mix().strips[2].gainDb, -6.0) << "back where it was";
-    EXPECT_EQ(desk.mix().groups[0].gainDb, 0.0);
-    EXPECT_EQ(desk.mix().strips[2].lane.front().db, 0.0);
-    EXPECT_EQ(desk.mix().strips[2].lane.back().db, -20.0);
-    EXPECT_EQ(desk.mix().groups[0].lane.back().db, -12.0);
-    EXPECT_TRUE(desk.mix().strips[0].lane.empty());
-    EXPECT_NEAR(lastGain(desk, 2), 0.0501, 1e-3) << "felt as when it was moved";
-    desk.restart(desk.mix().seed);
-    ASSERT_TRUE(runUntil([&] { return desk.look(), std::abs(lastGain(desk, 2) - 0.501f) < 1e-3f; }))
-        << lastGain(desk, 2);
-    ASSERT_TRUE(runUntil([&] { return desk.look(), std::abs(lastGain(desk, 2) - 0.0501f) < 1e-3f; }))
-        << "and falls again";
-    desk.undoManager().undo();
-    EXPECT_TRUE(desk.mix().strips[2].lane.empty());
-    EXPECT_EQ(desk.mix().strips[2].gainDb, -26.0);
-}
-
-TEST(Lanes, WithoutAPointTheFaderIsHeardAgain) {
-    Desk desk{onlyNoDevice(), noDevice};
-    desk.change("Lane", [](Mix& mix) { mix.strips[1].lane = {{0.0, -20.0}}; });
-    ASSERT_TRUE(runUntil([&] { return std::abs(lastGain(desk, 1) - 0.1f) < 1e-6f; }));
-    desk.undoManager().undo();
-    EXPECT_EQ(lastGain(desk, 1), 1.0f);
-}
-
-class LanesByHand : public ::testing::Test {
-protected:
+TEST(Groups, AMuteIsTakenBackByTheNextClick) {
     Desk desk{onlyNoDevice(), noDevice};
     MixerView view{desk};
-    LaneRow* row = nullptr;
-    void SetUp() override {
-        view.scope().choose("Gain lanes");
-        view.refresh();
-        row = dynamic_cast<LaneRow*>(find(view, "Gain lane of B"));
-        ASSERT_NE(row, nullptr);
+    group(desk);
+    desk.dispatchPendingMessages();
+    auto* mute = dynamic_cast<juce::Button*>(find(view, "Mute the group Left hand"));
+    ASSERT_NE(mute, nullptr);
+    for (const bool isMuted : {true, false}) {
+        mute->triggerClick();
+        ASSERT_TRUE(runUntil([&] { return desk.mix().groups[0].isMuted == isMuted; }));
     }
-    const GainLane& lane() const { return desk.mix().strips[1].lane; }
-    juce::Point<float> at(float shareX, float shareY) const {
-        return {shareX * static_cast<float>(row->getWidth()), shareY * static_cast<float>(row->getHeight())};
-    }
-    void press(juce::Point<float> place) { row->mouseDown(mouseAt(*row, place)); }
-};
-
-TEST_F(LanesByHand, APointIsAddedMovedAndTakenAwayByKeys) {
-    press(at(0.5f, 0.5f));
-    row->mouseUp(mouseAt(*row, at(0.5f, 0.5f)));
-    ASSERT_EQ(lane().size(), 1u);
-    EXPECT_NEAR(lane()[0].seconds, 5.0, 0.2);
-    EXPECT_NEAR(lane()[0].db, -15.0, 2.0) << "the middle of a fader";
-    press(at(0.8f, 0.2f));
-    ASSERT_EQ(lane().size(), 2u);
-    const double db = lane()[1].db;
-    EXPECT_TRUE(row->keyPressed(juce::KeyPress{juce::KeyPress::downKey}));
-    EXPECT_NEAR(lane()[1].db, db - 0.5, 1e-9);
-    EXPECT_TRUE(row->keyPressed(juce::KeyPress{juce::KeyPress::leftKey}));
-    EXPECT_TRUE(row->keyPressed(juce::KeyPress{juce::KeyPress::deleteKey}));
-    ASSERT_EQ(lane().size(), 1u);
-    EXPECT_NEAR(lane()[0].seconds, 8.0, 0.2) << "the first has gone";
-    for (int k = 0; k < 40; ++k)
-        row->keyPressed(juce::KeyPress{juce::KeyPress::upKey, juce::ModifierKeys::shiftModifier, 0});
-    EXPECT_EQ(lane()[0].db, mostStripDb) << "no louder than a fader";
-    EXPECT_TRUE(row->keyPressed(juce::KeyPress{juce::KeyPress::returnKey}));
-    EXPECT_EQ(lane().size(), 2u);
-    EXPECT_TRUE(
-        row->keyPressed(juce::KeyPress{juce::KeyPress::deleteKey, juce::ModifierKeys::shiftModifier, 0}));
-    EXPECT_TRUE(lane().empty());
-    desk.undoManager().undo();
-    EXPECT_EQ(lane().size(), 2u);
 }
 
-TEST_F(LanesByHand, AStripThatGoesTakesItsLaneAlong) {
-    press(at(0.5f, 0.5f));
-    desk.detach(1);
-    view.refresh(); // before the window has been told
+TEST(Groups, ShowTheNameAndTheGainThatTheyHave) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    group(desk);
     desk.dispatchPendingMessages();
-    for (const Strip& strip : desk.mix().strips) EXPECT_TRUE(strip.lane.empty());
-    EXPECT_EQ(find(view, "Gain lane of B"), nullptr);
+    auto* shown = find(view, "Group Left hand");
+    auto* name = dynamic_cast<juce::Label*>(find(view, "Name of Left hand"));
+    ASSERT_NE(name, nullptr);
+    for (const auto& bad : {juce::String{"  "}, juce::String::repeatedString("x", 2000)}) {
+        name->setText(bad, juce::sendNotificationSync);
+        ASSERT_EQ(desk.mix().groups[0].name, "Left hand");
+        EXPECT_EQ(name->getText(), "Left hand");
+    }
+    juce::Slider* fader = nullptr;
+    for (auto* child : shown->getChildren())
+        if (auto* slider = dynamic_cast<juce::Slider*>(child)) fader = slider;
+    ASSERT_NE(fader, nullptr);
+    fader->setValue(-12.0, juce::sendNotificationSync);
+    EXPECT_EQ(desk.mix().groups[0].gainDb, -12.0);
     desk.undoManager().undo();
-    EXPECT_EQ(lane().size(), 1u);
+    desk.dispatchPendingMessages();
+    EXPECT_EQ(fader->getValue(), 0.0) << "after it was undone, too";
 }
 
 } // namespace

@@ -27,12 +27,13 @@ inline juce::Component* find(juce::Component& root, const juce::String& title) {
     return nullptr;
 }
 
-/// The left button at a place of `c`.
-inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at) {
+/// A button, the left one unless told, at a place of `c`.
+inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at,
+                                juce::ModifierKeys button = juce::ModifierKeys::leftButtonModifier) {
     const auto now = juce::Time::getCurrentTime();
     return {juce::Desktop::getInstance().getMainMouseSource(),
             at,
-            juce::ModifierKeys::leftButtonModifier,
+            button,
             0.0f,
             0.0f,
             0.0f,
