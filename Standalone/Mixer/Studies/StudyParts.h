@@ -7,6 +7,9 @@
 
 namespace physvib {
 
+/// Left and right margin of the screens that fill the window, in pixels.
+constexpr int pageInset = 40;
+
 /// A large target: words, a quieter remark below them, and a bar along its foot.
 class BigButton final : public juce::Button {
 public:
