@@ -8,9 +8,11 @@ physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohm
     pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev"
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
-physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang clang-format-14 libclang-rt-14-dev \
-    liblo-tools python3-numpy python3-pandas luajit love mono-mcs doxygen cmark-gfm libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
+physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool clang clang-format-14 libclang-rt-14-dev \
+    liblo-tools python3-numpy python3-pandas luajit doxygen cmark-gfm \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
+# Of tests with the label engines alone: physics engines and languages of others (Tests/Engines/passed.sh says when).
+physvib_engine_packages="love mono-mcs libchipmunk-dev libbullet-dev libode-dev libmujoco-dev"
 # Of Standalone/Web/build-web.sh, Source/Api/JavaScript/build-package.sh, Tests/web.sh and Tests/javascript.sh alone.
 physvib_web_packages="binaryen clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
 physvib_web_test_packages="$physvib_web_packages chromium python3 zbar-tools"
@@ -19,7 +21,7 @@ physvib_release_packages="$physvib_build_packages libgtest-dev g++ git debhelper
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
 # Of Tests/Release/abi.sh alone, and of Tests/House/tidy.sh.
 physvib_abi_packages="abigail-tools python3"
-physvib_tidy_packages="$physvib_test_packages clang-tidy-14"
+physvib_tidy_packages="$physvib_test_packages $physvib_engine_packages clang-tidy-14"
 # Of Tests/CommandLine/movies.sh alone: what makes .gif and .mp4 of pictures.
 physvib_movie_packages="ffmpeg"
 # Of Tests/Studies/screens.sh alone: windows with title bars, and pictures of them.
