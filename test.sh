@@ -7,7 +7,7 @@ cd "$(dirname "$0")"
 . .ci/packages.sh
 
 # shellcheck disable=SC2086 # a list of words
-ensure_packages $physvib_test_packages
+ensure_build_packages $physvib_test_packages
 
 # Engines and languages of others are tested at night, and here where they changed since the last night that passed. No label is called "none".
 at_night=none not_made=

@@ -105,6 +105,33 @@ from_debian() (
     { apt-get $from update && apt-get $from "$@"; } >"$fetched/log" 2>&1 || { cat "$fetched/log" >&2; exit 1; }
 )
 
+# What JUCE's sources are compiled with here. Their package also wants a web browser's library and GTK, 184 packages that our build does not use.
+juce_needs="libx11-dev libxext-dev libxinerama-dev libxrandr-dev libxcursor-dev libxrender-dev libjpeg-dev libflac-dev libvorbis-dev zlib1g-dev fontconfig-config"
+juce_folder=$PWD/build/juce # where Source/Host/CMakeLists.txt finds it
+
+# unpack_juce: puts JUCE's sources there without installing them; its build files name the paths of an installed one.
+unpack_juce() {
+    unpacked=$juce_folder.new
+    rm -rf "$unpacked" && mkdir -p "$unpacked" || return 1
+    from_debian "$unpacked" download juce-modules-source juce-modules-source-data || return 1
+    for archive in "$unpacked"/*.deb; do dpkg-deb -x "$archive" "$unpacked" || return 1; done
+    rm "$unpacked"/*.deb
+    find "$unpacked/usr/lib" -name '*.cmake' -exec sed -i "s|\"/usr/|\"$juce_folder/usr/|" {} + || return 1
+    rm -rf "$juce_folder" && mv "$unpacked" "$juce_folder"
+}
+
+# ensure_build_packages NAME...: as ensure_packages, but JUCE's sources are unpacked where they are not installed, if that works.
+ensure_build_packages() {
+    if is_installed juce-modules-source; then
+        ensure_packages "$@"
+    elif [ -d "$juce_folder" ] || { command -v apt-get >/dev/null 2>&1 && say "unpacking JUCE's sources in $juce_folder" && unpack_juce; }; then
+        # shellcheck disable=SC2046,SC2086 # lists of words
+        ensure_packages $(printf '%s\n' "$@" | grep -vx juce-modules-source) $juce_needs
+    else
+        ensure_packages "$@"
+    fi
+}
+
 # progress: copies ninja's lines, and says on the way how far it is: at every step on a terminal, else at each quarter.
 progress() {
     quarter=0
