@@ -120,13 +120,16 @@ unpack_juce() {
     rm -rf "$juce_folder" && mv "$unpacked" "$juce_folder"
 }
 
+# with_juce_unpacked NAME...: the packages that are then to be installed.
+with_juce_unpacked() { printf '%s\n' "$@" | grep -vx juce-modules-source && echo "$juce_needs"; }
+
 # ensure_build_packages NAME...: as ensure_packages, but JUCE's sources are unpacked where they are not installed, if that works.
 ensure_build_packages() {
     if is_installed juce-modules-source; then
         ensure_packages "$@"
     elif [ -d "$juce_folder" ] || { command -v apt-get >/dev/null 2>&1 && say "unpacking JUCE's sources in $juce_folder" && unpack_juce; }; then
-        # shellcheck disable=SC2046,SC2086 # lists of words
-        ensure_packages $(printf '%s\n' "$@" | grep -vx juce-modules-source) $juce_needs
+        # shellcheck disable=SC2046 # a list of words
+        ensure_packages $(with_juce_unpacked "$@")
     else
         ensure_packages "$@"
     fi
