@@ -9,7 +9,7 @@ cd "$(dirname "$0")"
 
 programs() {
     # shellcheck disable=SC2086 # a list of words
-    ensure_packages $physvib_run_packages
+    ensure_build_packages $physvib_run_packages
     build release "$@"
 }
 if [ $# -gt 0 ]; then

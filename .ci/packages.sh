@@ -8,9 +8,11 @@ physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohm
     pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev"
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
-physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang clang-format-14 libclang-rt-14-dev \
-    liblo-tools python3-numpy python3-pandas luajit love mono-mcs doxygen cmark-gfm libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
+physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool clang clang-format-14 libclang-rt-14-dev \
+    liblo-tools python3-numpy python3-pandas luajit doxygen cmark-gfm \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
+# Of tests with the label engines alone: physics engines and languages of others (Tests/Engines/passed.sh says when).
+physvib_engine_packages="love mono-mcs libchipmunk-dev libbullet-dev libode-dev libmujoco-dev"
 # Of Standalone/Web/build-web.sh, Source/Api/JavaScript/build-package.sh, Tests/web.sh and Tests/javascript.sh alone.
 physvib_web_packages="binaryen clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
 physvib_web_test_packages="$physvib_web_packages chromium python3 zbar-tools"
@@ -19,7 +21,7 @@ physvib_release_packages="$physvib_build_packages libgtest-dev g++ git debhelper
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
 # Of Tests/Release/abi.sh alone, and of Tests/House/tidy.sh.
 physvib_abi_packages="abigail-tools python3"
-physvib_tidy_packages="$physvib_test_packages clang-tidy-14"
+physvib_tidy_packages="$physvib_test_packages $physvib_engine_packages clang-tidy-14"
 # Of Tests/CommandLine/movies.sh alone: what makes .gif and .mp4 of pictures.
 physvib_movie_packages="ffmpeg"
 # Of Tests/Studies/screens.sh alone: windows with title bars, and pictures of them.
@@ -102,6 +104,36 @@ from_debian() (
     # shellcheck disable=SC2086 # a list of words
     { apt-get $from update && apt-get $from "$@"; } >"$fetched/log" 2>&1 || { cat "$fetched/log" >&2; exit 1; }
 )
+
+# What JUCE's sources are compiled with here. Their package also wants a web browser's library and GTK, 184 packages that our build does not use.
+juce_needs="libx11-dev libxext-dev libxinerama-dev libxrandr-dev libxcursor-dev libxrender-dev libjpeg-dev libflac-dev libvorbis-dev zlib1g-dev fontconfig-config"
+juce_folder=$PWD/build/juce # where Source/Host/CMakeLists.txt finds it
+
+# unpack_juce: puts JUCE's sources there without installing them; its build files name the paths of an installed one.
+unpack_juce() {
+    unpacked=$juce_folder.new
+    rm -rf "$unpacked" && mkdir -p "$unpacked" || return 1
+    from_debian "$unpacked" download juce-modules-source juce-modules-source-data || return 1
+    for archive in "$unpacked"/*.deb; do dpkg-deb -x "$archive" "$unpacked" || return 1; done
+    rm "$unpacked"/*.deb
+    find "$unpacked/usr/lib" -name '*.cmake' -exec sed -i "s|\"/usr/|\"$juce_folder/usr/|" {} + || return 1
+    rm -rf "$juce_folder" && mv "$unpacked" "$juce_folder"
+}
+
+# with_juce_unpacked NAME...: the packages that are then to be installed.
+with_juce_unpacked() { printf '%s\n' "$@" | grep -vx juce-modules-source && echo "$juce_needs"; }
+
+# ensure_build_packages NAME...: as ensure_packages, but JUCE's sources are unpacked where they are not installed, if that works.
+ensure_build_packages() {
+    if is_installed juce-modules-source; then
+        ensure_packages "$@"
+    elif [ -d "$juce_folder" ] || { command -v apt-get >/dev/null 2>&1 && say "unpacking JUCE's sources in $juce_folder" && unpack_juce; }; then
+        # shellcheck disable=SC2046 # a list of words
+        ensure_packages $(with_juce_unpacked "$@")
+    else
+        ensure_packages "$@"
+    fi
+}
 
 # progress: copies ninja's lines, and says on the way how far it is: at every step on a terminal, else at each quarter.
 progress() {

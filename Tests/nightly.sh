@@ -10,6 +10,13 @@ cd "$(dirname "$0")/.."
 bin=build/release/bin
 
 under() { build "$1" all && ctest --preset "$1" -j2 -LE 'live|display|checked' && ctest --preset "$1" -L display --repeat until-pass:2; }
+# engines: those of others, all of them; what passed is kept, and test.sh leaves them out until it changes.
+engines() {
+    # shellcheck disable=SC2086 # a list of words
+    ensure_packages $physvib_engine_packages && build release all &&
+        ctest --preset release -L engines --no-tests=error --output-junit "$PWD/build/tests-engines.xml" --test-output-size-passed 1000000 &&
+        Tests/House/skipped.py --quiet build/release build/tests-engines.xml && Tests/Engines/passed.sh --keep
+}
 step() {
     case $1 in
         asan) under asan ;;
@@ -20,9 +27,11 @@ step() {
         kills) Tests/CommandLine/kills.sh $bin 200 render study sweep play ;;
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;
         skipped) Tests/Plugin/skipped.sh $bin ;;
+        engines) engines ;;
         pymunk) Tests/Api/pymunk.sh $PWD/build/release/lib/libphysvib.so.0 ;;
         quick) Tests/quick.py build/release ;;
         osc) Tests/Osc/run.sh $bin ;;
+        jalv) ensure_packages jalv && Tests/Plugin/Formats/jalv.sh "$PWD/build/release" 5 ;;
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh ;;
         studies) Tests/Studies/recorded.sh $bin ;;
@@ -53,7 +62,7 @@ steps=$(sed -n 's/^        \([a-z0-9-]*\)) .*;;$/\1/p' "$0")
 [ $# -eq 0 ] || steps="$*"
 
 # shellcheck disable=SC2086 # a list of words
-ensure_packages $physvib_test_packages && build release all || exit 1
+ensure_build_packages $physvib_test_packages && build release all || exit 1
 mkdir -p build/nightly
 table=$(mktemp)
 trap 'rm -f "$table"' EXIT

@@ -8,7 +8,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir -p "$folder/.ci" "$folder/build/first/bin" "$folder/build/release/bin" "$folder/sudo"
 cp "$root/run.sh" "$folder"
-printf '%s\n' ". '$root/.ci/packages.sh'" 'ensure_packages() { :; }' 'build() { :; }' 'say() { :; }' >"$folder/.ci/packages.sh"
+printf '%s\n' ". '$root/.ci/packages.sh'" 'ensure_packages() { :; }' 'ensure_build_packages() { :; }' 'build() { :; }' 'say() { :; }' >"$folder/.ci/packages.sh"
 cp "$bin/physvib-render" "$folder/build/first/bin"
 printf '#!/bin/sh\necho "the mixer is open"\n' >"$folder/build/release/bin/physvib-mixer"
 chmod +x "$folder/build/release/bin/physvib-mixer"

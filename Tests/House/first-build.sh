@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The first build, of run.sh, stays small: files to compile, packages, megabytes to fetch. usage: first-build.sh FOLDER
-# What is counted are packages beyond a bare Debian 12; apt only tells what it would do.
+# The first build, of run.sh, stays small: files to compile, packages, megabytes to fetch; and so do the packages of test.sh. usage: first-build.sh FOLDER
+# What is counted are packages beyond a bare Debian 12, for test.sh those beyond the first build's; apt only tells what it would do.
 set -eu
 folder=$1
 cd "$(dirname "$0")/../.."
@@ -9,6 +9,7 @@ cd "$(dirname "$0")/../.."
 most_objects=30
 most_packages=120
 most_megabytes=120
+most_test_packages=350
 
 fail() {
     echo "$*" >&2
@@ -42,3 +43,8 @@ megabytes=$(((${whole#* } - ${bare#* } + 999999) / 1000000))
 echo "packages: $count of at most $most_packages, $megabytes MB of at most $most_megabytes"
 [ $count -le $most_packages ] || fail "run.sh installs $count packages: at most $most_packages"
 [ $megabytes -le $most_megabytes ] || fail "run.sh fetches $megabytes MB: at most $most_megabytes"
+# shellcheck disable=SC2046,SC2086 # lists of words
+tests=$(fetched $physvib_first_packages $(with_juce_unpacked $physvib_test_packages))
+count=$((${tests% *} - ${whole% *}))
+echo "packages of test.sh beyond them: $count of at most $most_test_packages"
+[ $count -le $most_test_packages ] || fail "test.sh installs $count packages beyond those of run.sh: at most $most_test_packages"

@@ -12,10 +12,10 @@ WAYS = {"ran": "echo done", "said-nothing-of-it": "echo '12 blocks skipped, 0 sk
 QUIET = {"ran", "said-nothing-of-it", "odd"}
 
 
-def looked(kept: str, cache: str = "", quiet: bool = False) -> "subprocess.CompletedProcess[str]":
+def looked(kept: str, cache: str = "", quiet: bool = False, at_night: str = "") -> "subprocess.CompletedProcess[str]":
     (folder / "kept.txt").write_text("# a comment\n" + kept)
     (folder / "CMakeCache.txt").write_text(cache)
-    words = ["--quiet"] * quiet + ["--kept", folder / "kept.txt", folder, folder / "report.xml"]
+    words = ["--quiet"] * quiet + ["--at-night", at_night, "--kept", folder / "kept.txt", folder, folder / "report.xml"]
     return subprocess.run([root / "Tests/House/skipped.py", *words], capture_output=True, text=True)
 
 
@@ -38,4 +38,11 @@ with tempfile.TemporaryDirectory() as name:
     assert looked(why + "more | a reason | Tests/none.sh\n").stderr == "more: Tests/none.sh does not exist\n"
     for line in ("PHYSVIB_LOVE:FILEPATH=PHYSVIB_LOVE-NOTFOUND\n", "UNICORN_FOUND:INTERNAL=\n"):
         assert looked(why, "PHYSVIB_ALL:BOOL=ON\nUNICORN_FOUND:INTERNAL=1\n" + line).stderr == "tests are left out: " + line
+    # What is left to the night by its name may be absent, and is named; by itself it may not.
+    absent, night = "PHYSVIB_ENGINE_LOVE:FILEPATH=PHYSVIB_ENGINE_LOVE-NOTFOUND\n", why + "PHYSVIB_ENGINE_* | a reason | Tests/nightly.sh hours\n"
+    assert looked(night, absent).stderr == "tests are left out: " + absent
+    left = looked(night, absent, at_night="PHYSVIB_ENGINE_*")
+    assert left.returncode == 0 and "not run here: PHYSVIB_ENGINE_*: a reason; Tests/nightly.sh hours does\n" in left.stdout, left
+    assert looked(night, absent.replace("ENGINE_", ""), at_night="PHYSVIB_ENGINE_*").returncode == 1
+    assert looked(why, at_night="PHYSVIB_ENGINE_*").stderr == "PHYSVIB_ENGINE_*: Tests/House/skips.txt has no reason for it\n"
     print(f"{len(WAYS) - len(QUIET)} ways to leave a test out are seen")

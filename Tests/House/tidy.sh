@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
 # shellcheck disable=SC2086 # a list of words
-ensure_packages $physvib_tidy_packages
+ensure_build_packages $physvib_tidy_packages
 folder=build/tidy
 mkdir -p $folder
 cmake --preset debug -B $folder -DPHYSVIB_STRICT=OFF >$folder/configure.log 2>&1 || { cat $folder/configure.log; exit 1; }

@@ -26,7 +26,7 @@ public:
         EXPECT_EQ(pipe(ready), 0);
         number_ = fork();
         if (number_ == 0) {
-            work([&] { EXPECT_EQ(write(ready[1], "x", 1), 1); });
+            work([&] { EXPECT_EQ(::write(ready[1], "x", 1), 1); });
             for (;;) pause();
         }
         close(ready[1]);

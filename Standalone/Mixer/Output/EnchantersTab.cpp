@@ -7,7 +7,7 @@
 namespace physvib {
 namespace {
 
-constexpr int rowPixels = 34;
+constexpr int enchanterRowPixels = 34;
 
 // Compares geometry, not names; -1: not a preset.
 int presetOf(const EnchanterLayout& layout) {
@@ -115,7 +115,7 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
             "Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, goesOn);
     });
     list_.setTitle("List of actuators");
-    list_.setRowHeight(rowPixels);
+    list_.setRowHeight(enchanterRowPixels);
     maps_.setTitle("Map of the chosen actuator");
     maps_.onClick = [this] { visibilityChanged(); };
     detach_ = quietButton("Detach", "Detach the chosen actuator (Delete)");

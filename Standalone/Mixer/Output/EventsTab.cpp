@@ -11,7 +11,7 @@ namespace physvib {
 
 namespace {
 
-constexpr int rowPixels = 22, headPixels = 18, formatPixels = 26, footPixels = formatPixels + 6;
+constexpr int eventRowPixels = 22, eventHeadPixels = 18, formatPixels = 26, footPixels = formatPixels + 6;
 constexpr double showMs = 250.0;
 constexpr std::size_t mostListed = 1000; // a minute of many hits
 
@@ -51,7 +51,7 @@ EventsTab::EventsTab(Desk& desk)
     : desk_{desk} {
     setTitle("Events");
     list_.setTitle("List of played events");
-    list_.setRowHeight(rowPixels);
+    list_.setRowHeight(eventRowPixels);
     list_.setMultipleSelectionEnabled(true);
     caption(choice_, {});
     for (int k = 0; k < hitEndings().size(); ++k) format_.addItem("as " + hitEndings()[k], k + 1);
@@ -98,7 +98,7 @@ void EventsTab::listRecent() {
     }
     if (const int now = rowOf(last_); before >= 0 && now >= 0) // and where it is seen
         list_.getViewport()->setViewPosition(0, list_.getViewport()->getViewPositionY() +
-                                                    (now - before) * rowPixels);
+                                                    (now - before) * eventRowPixels);
     tellChoice();
     list_.repaint();
 }
@@ -186,7 +186,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
 }
 
 void EventsTab::paint(juce::Graphics& g) {
-    const Columns at{getLocalBounds().withHeight(headPixels).withWidth(list_.getVisibleRowWidth())};
+    const Columns at{getLocalBounds().withHeight(eventHeadPixels).withWidth(list_.getVisibleRowWidth())};
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
     const auto head = [&](const juce::String& words, juce::Rectangle<int> area, juce::Justification where) {
@@ -202,7 +202,7 @@ void EventsTab::paint(juce::Graphics& g) {
 }
 
 void EventsTab::resized() {
-    auto area = getLocalBounds().withTrimmedTop(headPixels);
+    auto area = getLocalBounds().withTrimmedTop(eventHeadPixels);
     auto foot = area.removeFromBottom(footPixels);
     list_.setBounds(area);
     foot.removeFromTop(footPixels - formatPixels);

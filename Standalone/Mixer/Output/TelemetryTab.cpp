@@ -9,8 +9,8 @@ namespace physvib {
 
 namespace {
 
-constexpr std::size_t mostLoads = 300; // ten seconds of updates
-constexpr double showMs = 500.0;       // figures that change faster are illegible
+constexpr std::size_t mostLoads = 300;  // ten seconds of updates
+constexpr double showFiguresMs = 500.0; // figures that change faster are illegible
 
 juce::String count(std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; }
 juce::String percent(float share) { return number(100.0 * static_cast<double>(share), 1) + " %"; }
@@ -106,7 +106,7 @@ void TelemetryTab::refresh(const DeskMoment& moment) {
     if (moment.device.isRunning) loads_.push_back(moment.device.load);
     if (loads_.size() > mostLoads) loads_.pop_front();
     const double now = juce::Time::getMillisecondCounterHiRes();
-    if (now - shownAtMs_ < showMs) return;
+    if (now - shownAtMs_ < showFiguresMs) return;
     shownAtMs_ = now;
     facts_.set(telemetryFacts(desk_, moment, medianLoad()));
 }

@@ -7,7 +7,7 @@
 namespace physvib {
 namespace {
 
-constexpr float pointSize = 8.0f, inset = 5.0f; // so that points at the edge are fully visible
+constexpr float pointSize = 8.0f, pointInset = 5.0f; // so that points at the edge are fully visible
 constexpr double nudgeSeconds = 0.05, nudgeDb = 0.5, leapDb = 3.0;
 
 juce::String wordsOf(const GainPoint& point) {
@@ -73,14 +73,14 @@ void LaneRow::show(double spanSeconds) {
 }
 
 juce::Point<float> LaneRow::placeOf(const GainPoint& point) const {
-    const auto area = getLocalBounds().toFloat().reduced(inset);
+    const auto area = getLocalBounds().toFloat().reduced(pointInset);
     return {area.getX() + area.getWidth() * static_cast<float>(point.seconds / spanSeconds_),
             area.getBottom() - area.getHeight() * static_cast<float>(scale().convertTo0to1(
                                                       std::clamp(point.db, leastStripDb, mostStripDb)))};
 }
 
 GainPoint LaneRow::pointAt(juce::Point<float> place) const {
-    const auto area = getLocalBounds().toFloat().reduced(inset);
+    const auto area = getLocalBounds().toFloat().reduced(pointInset);
     const double x = std::clamp(static_cast<double>((place.x - area.getX()) / area.getWidth()), 0.0, 1.0),
                  y = std::clamp(static_cast<double>((area.getBottom() - place.y) / area.getHeight()), 0.0,
                                 1.0);
@@ -196,7 +196,7 @@ bool LaneRow::keyPressed(const juce::KeyPress& key) {
 }
 
 void LaneRow::drawWave(juce::Graphics& g) const {
-    const auto area = getLocalBounds().toFloat().reduced(inset, 2.0f);
+    const auto area = getLocalBounds().toFloat().reduced(pointInset, 2.0f);
     const TakeTrace& trace = desk_.signals().take();
     const auto shown = [](float sample) {
         return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample);
@@ -219,7 +219,7 @@ void LaneRow::drawWave(juce::Graphics& g) const {
 }
 
 void LaneRow::drawLine(juce::Graphics& g) const {
-    const auto right = static_cast<float>(getWidth()) - inset;
+    const auto right = static_cast<float>(getWidth()) - pointInset;
     juce::Path line;
     line.startNewSubPath(placeOf({0.0, laneDbAt(lane(), 0.0)}));
     for (const GainPoint& point : lane()) line.lineTo(placeOf(point));

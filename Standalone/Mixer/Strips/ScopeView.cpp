@@ -7,7 +7,7 @@ namespace physvib {
 
 namespace {
 
-constexpr int footHeight = 16, mostLanes = SpectrumView::mostCurves, labelWidth = 26, between = 6;
+constexpr int scopeFootHeight = 16, mostLanes = SpectrumView::mostCurves, laneLabelWidth = 26, laneGap = 6;
 
 float shownLevel(float sample) { return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample); }
 
@@ -64,7 +64,7 @@ void ScopeView::paint(juce::Graphics& g) {
     const auto& mix = desk_.mix();
     auto area = lanes_;
     const int lanes = std::min(mix.count(), mostLanes);
-    const auto foot = area.removeFromBottom(footHeight).withTrimmedLeft(labelWidth);
+    const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(laneLabelWidth);
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
     g.drawText(mix.count() > lanes ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()}
@@ -73,13 +73,13 @@ void ScopeView::paint(juce::Graphics& g) {
                foot, juce::Justification::centredLeft, false);
     g.drawText("now", foot, juce::Justification::centredRight, false);
     area.removeFromBottom(2);
-    const int height = (area.getHeight() + between) / lanes;
+    const int height = (area.getHeight() + laneGap) / lanes;
     for (int j = 0; j < lanes; ++j) {
-        auto lane = area.removeFromTop(height).withTrimmedBottom(j + 1 < lanes ? between : 0);
+        auto lane = area.removeFromTop(height).withTrimmedBottom(j + 1 < lanes ? laneGap : 0);
         g.setColour(enchanterColour(*this, j));
         g.setFont(juce::Font{text::medium, juce::Font::bold});
         g.drawText(utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label),
-                   lane.removeFromLeft(labelWidth), juce::Justification::centredLeft, false);
+                   lane.removeFromLeft(laneLabelWidth), juce::Justification::centredLeft, false);
         drawLane(g, lane, j);
     }
 }

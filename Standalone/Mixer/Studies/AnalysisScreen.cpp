@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shows results of the same analysis functions as `physvib analyse`.
 #include "Mixer/Studies/AnalysisScreen.h"
+#include "Mixer/Studies/StudyParts.h"
 
 namespace physvib {
 
 namespace {
 
-constexpr int inset = 40, headHeight = 56, wordsWidth = 430;
+constexpr int analysisHeadHeight = 56, wordsWidth = 430;
 
 std::vector<std::string> pathsOf(const std::vector<juce::File>& files) {
     std::vector<std::string> paths;
@@ -164,8 +165,8 @@ void AnalysisScreen::paint(juce::Graphics& g) {
 }
 
 void AnalysisScreen::resized() {
-    auto area = getLocalBounds().reduced(inset, 16);
-    auto head = area.removeFromTop(headHeight - 16);
+    auto area = getLocalBounds().reduced(pageInset, 16);
+    auto head = area.removeFromTop(analysisHeadHeight - 16);
     silence_.setBounds(head.removeFromRight(160).translated(0, -8));
     head.removeFromRight(16);
     close_->setBounds(head.removeFromRight(90));

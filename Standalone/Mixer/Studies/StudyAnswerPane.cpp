@@ -6,7 +6,7 @@
 namespace physvib {
 namespace {
 
-constexpr int footHeight = 84, inset = 40;
+constexpr int footHeight = 84;
 
 class AnswerWindow final : public juce::DocumentWindow {
 public:
@@ -95,7 +95,7 @@ void StudyAnswerPane::paint(juce::Graphics& g) {
 }
 
 void StudyAnswerPane::resized() {
-    auto area = standsAlone_ ? getLocalBounds().reduced(inset, 16) : getLocalBounds();
+    auto area = standsAlone_ ? getLocalBounds().reduced(pageInset, 16) : getLocalBounds();
     questionArea_ = standsAlone_ ? area.removeFromTop(64) : juce::Rectangle<int>{};
     auto foot = area.removeFromBottom(footHeight);
     confirm_.setBounds(foot.withSizeKeepingCentre(260, 64));

@@ -11,9 +11,9 @@ namespace {
 constexpr float margin = 24.0f;
 
 /// A point of the grid at the place of its stimulus.
-class Cell final : public juce::Button {
+class CellButton final : public juce::Button {
 public:
-    explicit Cell(const GridCell& c)
+    explicit CellButton(const GridCell& c)
         : juce::Button{utf8(gridLabel(c))}
         , cell{c} {
         setTitle("Row " + juce::String{c.row} + ", column " + juce::String{c.column});
@@ -38,7 +38,7 @@ public:
         , layout_{layout} {
         setTitle("Grid");
         for (const GridCell& cell : grid_.cells()) {
-            auto& button = cells_.emplace_back(std::make_unique<Cell>(cell));
+            auto& button = cells_.emplace_back(std::make_unique<CellButton>(cell));
             button->onClick = [this, cell] { choose(gridLabel(cell)); };
             addAndMakeVisible(*button);
         }
@@ -79,7 +79,7 @@ private:
     }
     PhantomGrid grid_;
     const LayoutDescription layout_;
-    std::vector<std::unique_ptr<Cell>> cells_;
+    std::vector<std::unique_ptr<CellButton>> cells_;
 };
 
 /// Answer at any place. A click or Enter sets the mark; the next one moves it.

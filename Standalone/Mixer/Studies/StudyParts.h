@@ -7,6 +7,9 @@
 
 namespace physvib {
 
+/// Left and right margin of the screens that fill the window, in pixels.
+constexpr int pageInset = 40;
+
 /// A large button with text, a smaller remark below, and a bar at its lower edge.
 class BigButton final : public juce::Button {
 public:

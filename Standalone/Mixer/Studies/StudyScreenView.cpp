@@ -6,7 +6,7 @@
 namespace physvib {
 namespace {
 
-constexpr int barHeight = 56, inset = 40, partWidth = 300, partHeight = 84, choiceHeight = 216;
+constexpr int studyBarHeight = 56, partWidth = 300, partHeight = 84, choiceHeight = 216;
 
 } // namespace
 
@@ -131,7 +131,8 @@ void StudyScreen::paint(juce::Graphics& g) {
     g.setFont(juce::Font{text::medium});
     g.drawText(progressWords(), headArea_, juce::Justification::centredLeft, true);
     if (!experiment().isDone() && experiment().sessionTrials() > 0) {
-        const auto bar = juce::Rectangle<int>{inset, barHeight - 2, getWidth() - 2 * inset, 4}.toFloat();
+        const auto bar =
+            juce::Rectangle<int>{pageInset, studyBarHeight - 2, getWidth() - 2 * pageInset, 4}.toFloat();
         g.setColour(shade(*this, Shade::line));
         g.fillRoundedRectangle(bar, 2.0f);
         g.setColour(shade(*this, Shade::accent));
@@ -155,8 +156,8 @@ void StudyScreen::drawMaterials(juce::Graphics& g) const {
     const auto legends = materialsSeen();
     if (legends.empty()) return;
     constexpr int swatch = 48, height = 76;
-    const int width = std::min(190, (getWidth() - 2 * inset) / static_cast<int>(legends.size()));
-    auto row = juce::Rectangle<int>{inset, next_.getBottom() + 24, getWidth() - 2 * inset, height}
+    const int width = std::min(190, (getWidth() - 2 * pageInset) / static_cast<int>(legends.size()));
+    auto row = juce::Rectangle<int>{pageInset, next_.getBottom() + 24, getWidth() - 2 * pageInset, height}
                    .withSizeKeepingCentre(width * static_cast<int>(legends.size()), height);
     if (row.getBottom() > getHeight()) return;
     g.setFont(juce::Font{text::medium});
@@ -188,8 +189,8 @@ std::vector<MaterialLegend> StudyScreen::materialsSeen() const {
 }
 
 void StudyScreen::resized() {
-    auto area = getLocalBounds().reduced(inset, 0);
-    auto head = area.removeFromTop(barHeight - 8);
+    auto area = getLocalBounds().reduced(pageInset, 0);
+    auto head = area.removeFromTop(studyBarHeight - 8);
     silence_.setBounds(head.removeFromRight(160).withTrimmedTop(8));
     leave_->setBounds(head.removeFromRight(110).reduced(16, 10));
     headArea_ = head;

@@ -24,8 +24,9 @@ juce::String count(std::uint64_t n, const char* what) {
 }
 
 const juce::String disc = juce::String::charToString(0x25cf) + " ";
-const juce::String dot = juce::String::charToString(0x00b7);
-juce::String dotted(const juce::StringArray& parts) { return parts.joinIntoString("  " + dot + "  "); }
+juce::String dotted(const juce::StringArray& parts) {
+    return parts.joinIntoString("  " + juce::String::charToString(0x00b7) + "  ");
+}
 
 } // namespace
 
