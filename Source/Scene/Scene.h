@@ -163,18 +163,24 @@ struct JointDescription {
     bool operator==(const JointDescription&) const = default;
 };
 
+// Actions. `isByHand`: the user's own, which a script leaves to a user who plays (sceneForHands).
+// `isLasting`: it changes the scene permanently and not only its motion.
+
 /// Gravity is this vector from now on: a tilt or a shake of the device.
 struct GravityAction {
+    static constexpr bool isByHand = true;
     Vector metresPerSecond2;
     bool operator==(const GravityAction&) const = default;
 };
 /// Gravity is the scene's, turned counter-clockwise: the device is held so from now on.
 struct TiltAction {
+    static constexpr bool isByHand = true;
     double angleRadians = 0.0;
     bool operator==(const TiltAction&) const = default;
 };
 /// A push or drag. No effect if the body is absent or not dynamic.
 struct ImpulseAction {
+    static constexpr bool isByHand = true;
     std::string body;
     Vector newtonSeconds;
     std::optional<Vector> pointMetres; ///< on the body, from its origin; none: the centre of mass
@@ -182,6 +188,7 @@ struct ImpulseAction {
 };
 /// Gives a body, dynamic or kinematic, this velocity.
 struct VelocityAction {
+    static constexpr bool isByHand = true;
     std::string body;
     Vector metresPerSecond;
     double spinRadiansPerSecond = 0.0;
@@ -190,11 +197,13 @@ struct VelocityAction {
 /// Adds a body to the world. Repetitions are separate bodies, "name 1", "name 2"..., each `shift` farther. A
 /// body that exists already (in the script's next period) restarts.
 struct SpawnAction {
+    static constexpr bool isLasting = true;
     BodyDescription body;
     Vector shiftMetres;
     bool operator==(const SpawnAction&) const = default;
 };
 struct RemoveAction {
+    static constexpr bool isLasting = true;
     std::string body;
     bool operator==(const RemoveAction&) const = default;
 };
@@ -210,6 +219,7 @@ constexpr int everyFixture = -1;
 
 /// Makes a fixture of a body (or every one) a haptic source, or not.
 struct CameraAction {
+    static constexpr bool isLasting = true;
     std::string body;
     int fixture = everyFixture; ///< index in the body
     bool isOn = true;
@@ -218,6 +228,7 @@ struct CameraAction {
 /// Makes a fixture of a body (or every one) of another material: sound, friction, restitution, and the mass
 /// if it comes from the density.
 struct MaterialAction {
+    static constexpr bool isLasting = true;
     std::string body;
     int fixture = everyFixture; ///< index in the body
     int material = 0;
@@ -225,6 +236,7 @@ struct MaterialAction {
 };
 /// Changes the contact sound of a material, of later collisions.
 struct SoundAction {
+    static constexpr bool isLasting = true;
     int material = 0;
     double frequencyHz = 0.0;
     double decayPerSecond = 0.0;
@@ -232,6 +244,7 @@ struct SoundAction {
 };
 /// Changes the grains of a material's surface, see Texture: of what passes them from now on.
 struct TextureAction {
+    static constexpr bool isLasting = true;
     int material = 0;
     double grainMetres = 0.0;
     double roughness = 1.0;
@@ -243,6 +256,7 @@ struct TextureAction {
 };
 /// The user turns the device counter-clockwise and changes its weight, in addition to gravity and tilt.
 struct HoldAction {
+    static constexpr bool isByHand = true;
     double factor = 1.0;
     double angleRadians = 0.0;
     bool operator==(const HoldAction&) const = default;
@@ -251,6 +265,7 @@ struct HoldAction {
 /// straight line; without `toMetres` it lets go. See SceneGrips. No effect if the body is absent or not
 /// dynamic.
 struct GripAction {
+    static constexpr bool isByHand = true;
     std::string body;
     std::optional<Vector> toMetres;
     std::optional<Vector> pointMetres; ///< on the body, from its origin; none: the centre of mass. Counts
@@ -261,6 +276,7 @@ struct GripAction {
 /// Replaces the body of that name by this description, also if it was removed: an editor's action. Not in a
 /// script. Its joints keep their points on it. Its fixtures get new numbers, like those of a spawned body.
 struct ChangeAction {
+    static constexpr bool isLasting = true;
     BodyDescription body;
     bool stays = false; ///< true: keeps its present place and motion if it is present; the description has
                         ///< its place at the scene's start
@@ -268,11 +284,13 @@ struct ChangeAction {
 };
 /// Joins two bodies; places are those of the world when it acts. Not in a script.
 struct JoinAction {
+    static constexpr bool isLasting = true;
     JointDescription joint;
     bool operator==(const JoinAction&) const = default;
 };
 /// Takes a joint away, of the scene or of a JoinAction. Not in a script.
 struct UnjoinAction {
+    static constexpr bool isLasting = true;
     std::string joint;
     bool operator==(const UnjoinAction&) const = default;
 };

@@ -52,10 +52,11 @@ void describeEdit(Scene& scene, const Action& action) {
 }
 
 bool isLasting(const Action& action) {
-    return bodyPutBy(action) != nullptr || std::holds_alternative<RemoveAction>(action) ||
-           std::holds_alternative<MaterialAction>(action) || std::holds_alternative<CameraAction>(action) ||
-           std::holds_alternative<SoundAction>(action) || std::holds_alternative<TextureAction>(action) ||
-           std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
+    return std::visit(
+        []<class One>(const One&) {
+            return requires { One::isLasting; };
+        },
+        action);
 }
 
 bool editScene(Scene& scene, const Action& action) {
@@ -87,9 +88,11 @@ Scene sceneForHands(Scene scene) {
     std::erase_if(scene.script, [&](const ScriptInput& input) {
         const Action& a = input.action;
         if (player.isThere()) return player.isPlayedBy(a) || std::holds_alternative<TiltAction>(a);
-        return std::holds_alternative<GravityAction>(a) || std::holds_alternative<TiltAction>(a) ||
-               std::holds_alternative<ImpulseAction>(a) || std::holds_alternative<VelocityAction>(a) ||
-               std::holds_alternative<HoldAction>(a) || std::holds_alternative<GripAction>(a);
+        return std::visit(
+            []<class One>(const One&) {
+                return requires { One::isByHand; };
+            },
+            a);
     });
     return scene;
 }

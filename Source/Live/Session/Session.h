@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A live session: a physics world and its renderer, with a constant play-out latency between them.
+// A live session: a physics world and its renderer, with a constant output latency between them.
 // Docs/threads.md has the threading model: who may call what, when and why.
 #pragma once
 #include "Core/HapticRenderer.h"
@@ -26,12 +26,12 @@ public:
     /// M. Throws std::invalid_argument if the scene is not valid.
     explicit Session(const SessionSetup& setup);
 
-    /// Sets the play-out latency. Session time 0, silence, the scene at its start, an empty log. M, while no
+    /// Sets the output latency. Session time 0, silence, the scene at its start, an empty log. M, while no
     /// thread renders or drives.
     void prepare(int sampleRateHz, int maxBlockFrames);
 
     /// Continues at another rate and block size: session time, world and sounding modes continue, the
-    /// play-out latency is set anew. M, while no thread renders.
+    /// output latency is set anew. M, while no thread renders.
     void resume(int sampleRateHz, int maxBlockFrames);
 
     const Timeline& timeline() const noexcept { return time_; }
@@ -51,18 +51,18 @@ public:
     /// Writes out[0..rendered().count())[0..frames). R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;
 
-    /// By how many frames the play-out latency is too short for the next `frames` to be in time, given how
+    /// By how many frames the output latency is too short for the next `frames` to be in time, given how
     /// far the world has been stepped; 0 or less: spare frames. R, wait-free.
     std::int64_t framesMissing(int frames) const noexcept {
         return time_.framesMissing(frames, world_.steppedNs_);
     }
 
-    /// Replaces render: session time advances by `frames` and the play-out latency grows by as much, so
+    /// Replaces render: session time advances by `frames` and the output latency grows by as much, so
     /// nothing is lost. The caller supplies the samples meanwhile. R, wait-free.
     void wait(int frames) noexcept;
 
     /// The opposite, in addition to render: the next `frames` of the renderer are rendered to `unfelt` and
-    /// not played, which shortens the play-out latency by as much. Only after it has grown, or if the world
+    /// not played, which shortens the output latency by as much. Only after it has grown, or if the world
     /// is far enough ahead. R, wait-free.
     void wait(float* const* unfelt, int frames) noexcept;
 
@@ -70,14 +70,14 @@ public:
     /// or M.
     void startLater(std::int64_t frames) noexcept;
 
-    /// Executes an input. Its effect is felt the play-out latency after its time, is logged, and is the same
+    /// Executes an input. Its effect is felt the output latency after its time, is logged, and is the same
     /// to the bit when the log is rendered. Returns the time that it was given; or an error (invalid, or too
     /// many pending), and nothing is done. Any thread but R; recordings: M.
     Result<std::int64_t> take(Input input) { return scheduler_.take(std::move(input)); }
 
     /// Keeps the channels of a clip, identified by path and hash of its file (their frequencies are ignored),
-    /// and returns the number of the first. Events at clipFrequencyHz() of it and of the following numbers
-    /// play them; what sounds meanwhile is not disturbed. nullopt if there is no room for all, in numbers or
+    /// and returns the number of the first. Events whose sound is soundOfClip() of it and of the following
+    /// numbers play them; other sounds are not disturbed. nullopt if there is no room for all, in numbers or
     /// samples. A clip that is kept already keeps its number. Logged. Any thread but R.
     std::optional<int> keepClip(std::span<const ContactRecording> channels) {
         return scheduler_.keepClip(channels);
@@ -91,10 +91,10 @@ public:
     /// unless the setup has a log. Any thread but R, one reader.
     std::int64_t readLog(SessionLog& log) { return scheduler_.readLog(log); }
 
-    /// The events that were played, in the renderer's frames (session frame - play-out latency). One reader.
+    /// The events that were played, in the renderer's frames (session frame - output latency). One reader.
     HapticRenderer::PlayedQueue& played() noexcept { return renderer_->played(); }
 
-    /// Outputs beside the device. The play-out latency covers the latency of those attached when it is set.
+    /// Outputs beside the device. The output latency covers the latency of those attached when it is set.
     SinkSet& sinks() noexcept { return sinks_; }
     const SinkSet& sinks() const noexcept { return sinks_; }
 

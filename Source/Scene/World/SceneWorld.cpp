@@ -173,38 +173,31 @@ bool SceneWorld::act(const DueAction& due) {
     return apply(*due.action);
 }
 
-bool SceneWorld::apply(const Action& action) {
-    return std::visit(
-        [this](const auto& one) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, SpawnAction>)
-                return act(one);
-            else
-                return false; // spawning needs to know its source
-        },
-        action);
-}
-
 bool SceneWorld::spawn(const BodyDescription& body) {
     startHalfAStepBehind(*add(body, describedStart(body)).body);
     return true;
 }
 
+template <>
 bool SceneWorld::act(const GravityAction& action) {
     setGravity(action.metresPerSecond2);
     return false;
 }
 
+template <>
 bool SceneWorld::act(const TiltAction& action) {
     setGravity(turnedBy(scene_.gravityMetresPerSecond2, action.angleRadians));
     return false;
 }
 
+template <>
 bool SceneWorld::act(const HoldAction& action) {
     hold_ = action;
     holdDevice();
     return false;
 }
 
+template <>
 bool SceneWorld::act(const ImpulseAction& action) {
     b2Body* body = findInWorld(action.body);
     if (body == nullptr) return false;
@@ -214,6 +207,7 @@ bool SceneWorld::act(const ImpulseAction& action) {
     return false;
 }
 
+template <>
 bool SceneWorld::act(const VelocityAction& action) {
     b2Body* body = findInWorld(action.body);
     if (body == nullptr) return false;
@@ -241,6 +235,7 @@ bool SceneWorld::act(const SpawnAction& action, int repetition) {
     return true;
 }
 
+template <>
 bool SceneWorld::act(const RemoveAction& action) {
     const auto place = bodyNames_.find(action.body);
     if (place == bodyNames_.end()) return false;
@@ -285,6 +280,7 @@ void SceneWorld::dropJoints(b2Body& body) {
     });
 }
 
+template <>
 bool SceneWorld::act(const ChangeAction& action) {
     const auto place = bodyNames_.find(action.body.name);
     Body* const before = place == bodyNames_.end() ? nullptr : &bodies_.at(place->second);
@@ -307,14 +303,7 @@ bool SceneWorld::act(const ChangeAction& action) {
     return true;
 }
 
-bool SceneWorld::act(const JoinAction& action) {
-    act(UnjoinAction{action.joint.name});
-    b2Body *const a = findInWorld(action.joint.bodyA), *const b = findInWorld(action.joint.bodyB);
-    if (a != nullptr && b != nullptr)
-        joints_.emplace(action.joint.name, &createJoint(world_, action.joint, *a, *b));
-    return false;
-}
-
+template <>
 bool SceneWorld::act(const UnjoinAction& action) {
     const auto joint = joints_.find(action.joint);
     if (joint == joints_.end()) return false;
@@ -323,7 +312,17 @@ bool SceneWorld::act(const UnjoinAction& action) {
     return false;
 }
 
-bool SceneWorld::act(const MotorAction& action) const {
+template <>
+bool SceneWorld::act(const JoinAction& action) {
+    act(UnjoinAction{action.joint.name});
+    b2Body *const a = findInWorld(action.joint.bodyA), *const b = findInWorld(action.joint.bodyB);
+    if (a != nullptr && b != nullptr)
+        joints_.emplace(action.joint.name, &createJoint(world_, action.joint, *a, *b));
+    return false;
+}
+
+template <>
+bool SceneWorld::act(const MotorAction& action) {
     const auto place = joints_.find(action.joint);
     if (place == joints_.end()) return false;
     const auto set = [&action](auto& joint) {
@@ -336,12 +335,14 @@ bool SceneWorld::act(const MotorAction& action) const {
     return false;
 }
 
+template <>
 bool SceneWorld::act(const CameraAction& action) {
     forFixtures(action.body, action.fixture,
                 [&](Body& body, std::size_t fixture) { body.now.fixtures[fixture].isCamera = action.isOn; });
     return true;
 }
 
+template <>
 bool SceneWorld::act(const MaterialAction& action) {
     forFixtures(action.body, action.fixture,
                 [&](Body& body, std::size_t fixture) { setMaterial(body, fixture, action.material); });
@@ -353,6 +354,7 @@ bool SceneWorld::act(const MaterialAction& action) {
     return true;
 }
 
+template <>
 bool SceneWorld::act(const SoundAction& action) {
     Material& material = materials_[static_cast<std::size_t>(action.material)];
     material.frequencyHz = action.frequencyHz;
@@ -360,14 +362,28 @@ bool SceneWorld::act(const SoundAction& action) {
     return true;
 }
 
+template <>
 bool SceneWorld::act(const TextureAction& action) {
     materials_[static_cast<std::size_t>(action.material)].setTexture(action.texture());
     return true;
 }
 
+template <>
 bool SceneWorld::act(const GripAction& action) {
     if (b2Body* body = findInWorld(action.body)) grips_.act(*body, action, step_);
     return false;
+}
+
+// After all specialisations, which it instantiates.
+bool SceneWorld::apply(const Action& action) {
+    return std::visit(
+        [this](const auto& one) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, SpawnAction>)
+                return act(one);
+            else
+                return false; // spawning needs to know its source
+        },
+        action);
 }
 
 BodyPose SceneWorld::pose(std::size_t number) const noexcept {

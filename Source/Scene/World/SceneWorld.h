@@ -15,6 +15,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace physvib {
@@ -114,22 +115,11 @@ private:
     void setMaterial(Body& body, std::size_t fixture, int material);
 
     bool act(const DueAction& due);
-    bool act(const GravityAction& action);
-    bool act(const TiltAction& action);
-    bool act(const HoldAction& action);
-    bool act(const ImpulseAction& action);
-    bool act(const VelocityAction& action);
     bool act(const SpawnAction& action, int repetition);
-    bool act(const RemoveAction& action);
-    bool act(const MotorAction& action) const;
-    bool act(const CameraAction& action);
-    bool act(const MaterialAction& action);
-    bool act(const SoundAction& action);
-    bool act(const TextureAction& action);
-    bool act(const GripAction& action);
-    bool act(const ChangeAction& action);
-    bool act(const JoinAction& action);
-    bool act(const UnjoinAction& action);
+    /// Executes any other action, each by a specialisation in SceneWorld.cpp. True as of act(step).
+    template <class One>
+    requires std::is_class_v<One>
+    bool act(const One& action);
     void retire(std::size_t number);
     void moveJoints(b2Body& from, b2Body& to);
     void dropJoints(b2Body& body);

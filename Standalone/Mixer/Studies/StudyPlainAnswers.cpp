@@ -294,17 +294,17 @@ std::unique_ptr<StudyAnswer> labelled(const ConditionPlan& condition, const Layo
 std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout,
                                              const StudyWords& words) {
     const SessionPlan& session = experiment.session();
-    switch (session.task) {
-    case StudyTask::explore:
+    switch (session.answer()) {
+    case AnswerKind::wish:
         return session.fewestTouches > 0 ? makePlaceAnswer(layout)
                                          : labelled(experiment.condition(), layout, words);
-    case StudyTask::identify: return labelled(experiment.condition(), layout, words);
-    case StudyTask::locate: return makePlaceAnswer(layout);
-    case StudyTask::choose: return std::make_unique<ChoiceAnswer>(experiment.trial(), words);
-    case StudyTask::rate: return std::make_unique<RatingAnswer>(session, words);
-    case StudyTask::adjust:
+    case AnswerKind::label: return labelled(experiment.condition(), layout, words);
+    case AnswerKind::place: return makePlaceAnswer(layout);
+    case AnswerKind::choice: return std::make_unique<ChoiceAnswer>(experiment.trial(), words);
+    case AnswerKind::scores: return std::make_unique<RatingAnswer>(session, words);
+    case AnswerKind::level:
         return std::make_unique<AdjustAnswer>(*session.adjustment, experiment.trial().levelDb, words);
-    case StudyTask::estimate: return std::make_unique<NumberAnswer>();
+    case AnswerKind::number: return std::make_unique<NumberAnswer>();
     }
     return nullptr;
 }
