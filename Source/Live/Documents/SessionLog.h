@@ -16,7 +16,7 @@ namespace kinds {
 /// Seconds in files, nanoseconds here.
 struct Time {
     std::int64_t operator()(const auto& json) const {
-        return std::llround(json.numberUpTo(static_cast<double>(limits::maxSessionNs) * 1e-9) * 1e9);
+        return std::llround(json.numberUpTo(static_cast<double>(limits::maxSessionNs) / 1e9) * 1e9);
     }
     /// The double that is nearest to the decimal number.
     double write(std::int64_t ns) const { return static_cast<double>(ns) / 1e9; }

@@ -29,6 +29,8 @@ export interface HapticEvent {
     /** Number of what struck it; -1: unknown. */
     other?: number;
     kind?: 'hit' | 'roll' | 'slide';
+    /** Number of its sound's name; 0: none. A list of events gives it that of a material. */
+    sound?: number;
 }
 export type FullHapticEvent = Required<HapticEvent>;
 
