@@ -43,16 +43,19 @@ public:
     }
 
     /// Calls take(row) for each row that counts: no training, and answered so, if the table says so; without
-    /// a kind: of no task.
+    /// a kind: of no task. How many that were.
     template <class Take>
-    void each(std::optional<AnswerKind> answer, Take take) const {
+    std::size_t each(std::optional<AnswerKind> answer, Take take) const {
         const auto phase = optional(trialColumns::phase), tasks = optional(trialColumns::task);
+        std::size_t taken = 0;
         for (const CsvRow& row : table_.rows) {
             if (phase && row.cells[*phase] == trialColumns::training) continue;
             if (tasks && (answer ? answerOf(row.cells[*tasks]) != answer : !row.cells[*tasks].empty()))
                 continue;
             take(row);
+            ++taken;
         }
+        return taken;
     }
 
     const std::string& text(const CsvRow& row, std::size_t column) const {
