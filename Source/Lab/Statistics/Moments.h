@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Mean, spread and interval of values over participants.
 #pragma once
+#include "Lab/Statistics/Distributions.h"
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -8,19 +11,39 @@
 namespace physvib {
 
 /// Of values, whatever their signs; 0 of none. Any thread.
-double largestMagnitude(std::span<const double> values) noexcept;
+inline double largestMagnitude(std::span<const double> values) noexcept {
+    double largest = 0.0;
+    for (const double v : values) largest = std::max(largest, std::abs(v));
+    return largest;
+}
 
 /// The middle value, or the mean of the two in the middle; 0 of none. Any thread.
-double median(std::vector<double> values);
+inline double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    std::ranges::sort(values);
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
 
 struct Moments {
     std::size_t n = 0;
     double mean = 0.0;
     double deviation = 0.0; ///< sample standard deviation; 0 of fewer than two
     /// Any thread.
-    explicit Moments(std::span<const double> values) noexcept;
-    double standardError() const noexcept; ///< of the mean; 0 of fewer than two
-    double halfInterval() const;           ///< 95 %, by Student's t; 0 of fewer than two
+    explicit Moments(std::span<const double> values) noexcept
+        : n{values.size()} {
+        for (const double v : values) mean += v / static_cast<double>(n);
+        for (const double v : values) deviation += (v - mean) * (v - mean);
+        deviation = n > 1 ? std::sqrt(deviation / static_cast<double>(n - 1)) : 0.0;
+    }
+    /// of the mean; 0 of fewer than two
+    double standardError() const noexcept {
+        return n > 1 ? deviation / std::sqrt(static_cast<double>(n)) : 0.0;
+    }
+    /// 95 %, by Student's t; 0 of fewer than two
+    double halfInterval() const {
+        return n > 1 ? studentQuantile(0.975, static_cast<double>(n - 1)) * standardError() : 0.0;
+    }
 };
 
 } // namespace physvib
