@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every participant, one after the other, answered by the observer.
-#include "CommandLine/Study/StudyCommand.h"
+#include "Calls/RenderJob.h"
 #include "Calls/RenderWords.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
@@ -14,10 +14,27 @@
 #include "Studies/StudyCheck.h"
 #include "System/Process.h"
 #include <chrono>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace physvib {
 namespace {
+
+/// As given on the command line.
+struct StudyOptions {
+    std::string protocol;    ///< a built-in one's name or the path of a protocol file
+    std::string observer;    ///< who answers
+    std::string participant; ///< code; empty: P and the number
+    int number = 1;          ///< of the first participant: the row of the Latin squares
+    int participants = 1;
+    std::string folder = ".";
+    RecordedSounds sounds;           ///< instead of the protocol's of that frequency
+    std::vector<std::string> trials; ///< levels: files of those who set them
+    std::string levelsPath;          ///< levels: where they are written
+    std::string pagePath;            ///< check: the page of HTML; empty: none
+    double paceSeconds = 0.0;        ///< per trial, to watch it or to interrupt it
+};
 
 int list() {
     for (const Protocol& protocol : knownProtocols())
@@ -161,8 +178,6 @@ int levels(const StudyOptions& o) {
     return exitDone;
 }
 
-} // namespace
-
 void declareStudy(OptionTable& command, StudyOptions& o) {
     command.addCommand("list", "the built-in protocols, one per line");
     OptionTable& show = command.addCommand("show", "a protocol as JSON, to start your own from");
@@ -201,6 +216,8 @@ int runStudy(const OptionTable& command, const StudyOptions& o) {
     std::cout << protocolJson(protocol.value);
     return exitDone;
 }
+
+} // namespace
 
 Command studyCommand() {
     return commandOf("study", "whole studies, from a protocol", declareStudy, runStudy);
