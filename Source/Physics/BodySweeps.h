@@ -3,9 +3,13 @@
 #pragma once
 #include "Contacts/BodyReader.h"
 #include "Contacts/IntegerMap.h"
+#include "Physics/BoxPrivates.h"
+#include "Physics/WorldNames.h"
+#include <algorithm>
 #include <box2d/box2d.h>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace physvib {
@@ -16,7 +20,27 @@ class BodySweeps {
 public:
     /// Call before b2World::Step. Visits each body once (Box2D does so several times) and no fixture.
     /// Allocates if the world has grown.
-    void beginStep(const b2World& world, double stepSeconds);
+    void beginStep(const b2World& world, double stepSeconds) {
+        lastStepSeconds_ = std::exchange(stepSeconds_, stepSeconds);
+        largestMassKg_ = 0.0;
+        std::size_t count = 0;
+        bool isKnown = true; // usually the bodies and their order are those of the last step
+        for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
+            if (body->GetType() == b2_staticBody) continue;
+            isKnown = isKnown && count < sweeps_.size() && sweeps_[count].body == body;
+            const Sweep sweep{body, body->GetWorldCenter(), motionOf(*body)};
+            if (count < sweeps_.size())
+                sweeps_[count] = sweep;
+            else
+                sweeps_.push_back(sweep);
+            ++count;
+            if (body->GetType() == b2_dynamicBody && body->IsEnabled())
+                largestMassKg_ = std::max(largestMassKg_, static_cast<double>(body->GetMass()));
+        }
+        if (isKnown && count == sweeps_.size()) return;
+        sweeps_.erase(sweeps_.begin() + static_cast<std::ptrdiff_t>(count), sweeps_.end());
+        index();
+    }
 
     double stepSeconds() const noexcept { return stepSeconds_; }
     /// of the last step; 0: there was none
@@ -27,14 +51,27 @@ public:
 
     /// In BeginContact, PreSolve and EndContact: how far this body has been advanced, 0 (start) to 1 (end of
     /// the step).
-    double fraction(const b2Body& body) const noexcept;
+    double fraction(const b2Body& body) const noexcept {
+        const Sweep* sweep = find(body);
+        // otherwise Box2D's value is from an earlier step
+        const bool hasMoved = sweep != nullptr && body.GetWorldCenter() != sweep->centre;
+        return hasMoved ? static_cast<double>(advancedPartOf(body)) : 0.0;
+    }
 
     /// Hash of a world's list of bodies and their order (different lists collide with a probability of
     /// 2^-64).
-    static std::uint64_t censusOf(const b2World& world) noexcept;
+    static std::uint64_t censusOf(const b2World& world) noexcept {
+        std::uint64_t sum = static_cast<std::uint64_t>(world.GetBodyCount()) + 1; // never 0
+        for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+            sum = (sum ^ nameOf(*body)) * 0x9E3779B97F4A7C15U;
+        return sum;
+    }
 
     /// Velocity before the step; for a body that was created later, its present one.
-    BodyMotion start(const b2Body& body) const noexcept;
+    BodyMotion start(const b2Body& body) const noexcept {
+        const Sweep* sweep = find(body);
+        return sweep == nullptr ? motionOf(body) : sweep->start;
+    }
 
 private:
     struct Sweep {
@@ -42,8 +79,15 @@ private:
         b2Vec2 centre;
         BodyMotion start;
     };
-    const Sweep* find(const b2Body& body) const noexcept;
-    void index();
+    const Sweep* find(const b2Body& body) const noexcept {
+        const std::int32_t i = indices_.find(nameOf(body));
+        return i == IntegerMap::none ? nullptr : &sweeps_[static_cast<std::size_t>(i)];
+    }
+    void index() {
+        indices_.clear();
+        for (std::size_t i = 0; i < sweeps_.size(); ++i)
+            indices_.set(nameOf(*sweeps_[i].body), static_cast<std::int32_t>(i));
+    }
 
     double stepSeconds_ = 0.0, lastStepSeconds_ = 0.0;
     double largestMassKg_ = 0.0;

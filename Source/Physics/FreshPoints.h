@@ -2,6 +2,8 @@
 // Detects which points of Box2D's contacts are new: where surfaces that were apart have met.
 #pragma once
 #include "Contacts/IntegerMap.h"
+#include "Physics/WorldNames.h"
+#include <algorithm>
 #include <array>
 #include <box2d/box2d.h>
 #include <cstddef>
@@ -20,18 +22,63 @@ public:
 
     /// In PreSolve: updates a contact and returns its new points, one bit each. Outside a reported step,
     /// whose end is not known, a point with an impulse is old at once.
-    unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping);
+    unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
+        const b2Manifold& now = *contact.GetManifold();
+        int known = find(contact);
+        if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
+            drop(static_cast<std::size_t>(known));
+            known = -1;
+        }
+        if (known < 0 && isSame(before, now)) return 0U; // the usual case
+        // then all of its points are still new
+        const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
+        for (int i = 0; i < now.pointCount; ++i) {
+            const std::uint32_t id = now.points[i].id.key;
+            if (!isWaiting && hasPoint(before, id)) continue;
+            if (known < 0) {
+                known = static_cast<int>(entries_.size());
+                entries_.push_back({nameOf(contact), {}, 0, false});
+                indices_.set(nameOf(contact), known);
+            }
+            Entry& entry = entries_[static_cast<std::size_t>(known)];
+            if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
+                entry.ids[static_cast<std::size_t>(entry.count++)] = id;
+        }
+        return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
+    }
 
     /// In PostSolve: the same; marks the points as having an impulse.
-    unsigned solved(const b2Contact& contact) noexcept;
+    unsigned solved(const b2Contact& contact) noexcept {
+        const int known = find(contact);
+        if (known < 0) return 0U;
+        entries_[static_cast<std::size_t>(known)].isSolved = true;
+        return maskOf(entries_[static_cast<std::size_t>(known)], *contact.GetManifold());
+    }
 
     /// In EndContact.
-    void forget(const b2Contact& contact) noexcept;
+    void forget(const b2Contact& contact) noexcept {
+        if (const int known = find(contact); known >= 0) drop(static_cast<std::size_t>(known));
+    }
 
     /// Call right after the step: points with an impulse become old.
-    void endStep() noexcept;
+    void endStep() noexcept {
+        for (std::size_t i = entries_.size(); i-- > 0;)
+            if (entries_[i].isSolved) drop(i);
+    }
 
 private:
+    static bool hasPoint(const b2Manifold& manifold, std::uint32_t id) noexcept {
+        const auto isIt = [id](const b2ManifoldPoint& point) { return point.id.key == id; };
+        return std::any_of(manifold.points, manifold.points + manifold.pointCount, isIt);
+    }
+    /// True if both have the same points in the same order.
+    static bool isSame(const b2Manifold& before, const b2Manifold& now) noexcept {
+        if (before.pointCount < now.pointCount) return false;
+        for (int i = 0; i < now.pointCount; ++i)
+            if (before.points[i].id.key != now.points[i].id.key) return false;
+        return true;
+    }
+
     static constexpr std::size_t expectedContacts = 1024; // contacts that begin in a step, or are disabled
 
     struct Entry {
@@ -40,10 +87,25 @@ private:
         int count;
         bool isSolved;
     };
-    int find(const b2Contact& contact) const noexcept;
-    static bool has(const Entry& entry, std::uint32_t id) noexcept;
-    static unsigned maskOf(const Entry& entry, const b2Manifold& manifold) noexcept;
-    void drop(std::size_t entry) noexcept;
+    int find(const b2Contact& contact) const noexcept {
+        return entries_.empty() ? IntegerMap::none : indices_.find(nameOf(contact));
+    }
+    static bool has(const Entry& entry, std::uint32_t id) noexcept {
+        const auto* end = entry.ids.data() + entry.count;
+        return std::find(entry.ids.data(), end, id) != end;
+    }
+    static unsigned maskOf(const Entry& entry, const b2Manifold& manifold) noexcept {
+        unsigned mask = 0;
+        for (int i = 0; i < manifold.pointCount; ++i)
+            mask |= has(entry, manifold.points[i].id.key) ? 1U << i : 0U;
+        return mask;
+    }
+    void drop(std::size_t entry) noexcept {
+        indices_.erase(entries_[entry].contact);
+        entries_[entry] = entries_.back();
+        entries_.pop_back();
+        if (entry < entries_.size()) indices_.set(entries_[entry].contact, static_cast<std::int32_t>(entry));
+    }
 
     std::vector<Entry> entries_;
     IntegerMap indices_; // small, to stay in the first-level cache

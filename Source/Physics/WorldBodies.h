@@ -25,7 +25,14 @@ public:
         isCertain_ = false;
         present_ = {one, other};
     }
-    bool has(std::uint64_t body) const;
+    bool has(std::uint64_t body) const {
+        if (!isCertain_) {
+            for (const b2Body* const present : present_)
+                if (present != nullptr && nameOf(*present) == body) return true;
+            look();
+        }
+        return bodies_.find(body) != IntegerMap::none;
+    }
 
     BodyFacts facts(std::uint64_t body) const override {
         return has(body) ? factsOf(bodyOf(body)) : BodyFacts{body, 0.0, 1.0F, false, false};
@@ -42,10 +49,24 @@ public:
     Vector2 toWorld(std::uint64_t body, Vector2 ofBody) const override {
         return has(body) ? toVector(bodyOf(body).GetWorldPoint({ofBody.x, ofBody.y})) : ofBody;
     }
-    double inertia(std::uint64_t body) const override;
+    double inertia(std::uint64_t body) const override {
+        if (!has(body)) return 0.0;
+        const b2Body& of = bodyOf(body);
+        return of.GetInertia() - of.GetMass() * of.GetLocalCenter().LengthSquared();
+    }
 
 private:
-    void look() const;
+    // If the list has the same addresses in the same order, the index is still valid, even if a body was
+    // replaced by another at its address.
+    void look() const {
+        isCertain_ = true;
+        const std::uint64_t census = BodySweeps::censusOf(world_);
+        if (census == census_) return;
+        census_ = census;
+        bodies_.clear();
+        for (const b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext())
+            bodies_.set(nameOf(*body), 0);
+    }
 
     const b2World& world_;
     const BodySweeps& sweeps_;

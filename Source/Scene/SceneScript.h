@@ -4,6 +4,7 @@
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/World/StepClock.h"
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,11 +23,27 @@ struct DueAction {
 class SceneScript {
 public:
     /// `scene` outlives the script.
-    SceneScript(const Scene& scene, const StepClock& clock);
+    SceneScript(const Scene& scene, const StepClock& clock)
+        : periodSteps_(clock.firstStepAt(scene.scriptPeriodSeconds)) {
+        for (const ScriptInput& input : scene.script)
+            for (int i = 0; i < input.times; ++i) {
+                const double seconds = input.timeSeconds + i * input.everySeconds;
+                entries_.push_back({clock.firstStepAt(seconds), {&input.action, i, input.times}});
+            }
+        const auto isEarlier = [](const Entry& a, const Entry& b) { return a.step < b.step; };
+        std::stable_sort(entries_.begin(), entries_.end(), isEarlier);
+    }
 
     /// The next action that is due in step `step` or before, each once; nullptr `action` if there is none.
     /// Steps are asked for in ascending order.
-    DueAction next(std::int64_t step) noexcept;
+    DueAction next(std::int64_t step) noexcept {
+        if (next_ == entries_.size() && periodSteps_ > 0 && !entries_.empty()) {
+            periodStart_ += periodSteps_;
+            next_ = 0;
+        }
+        const bool isDue = next_ < entries_.size() && periodStart_ + entries_[next_].step <= step;
+        return isDue ? entries_[next_++].due : DueAction{};
+    }
 
 private:
     struct Entry {

@@ -3,7 +3,9 @@
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Pictures/RenderMovie.h"
+#include "Pictures/WebpMovie.h"
 #include "Scene/World/SceneRun.h"
+#include "System/Process.h"
 #include <functional>
 #include <optional>
 
@@ -15,23 +17,96 @@ using PoseSource = std::function<void(std::int64_t everyNs, std::int64_t endNs, 
 /// Errors are one line each. After an error, or without commit(), no file remains. One thread at a time.
 class MovieOutput {
 public:
-    MovieOutput(const std::string& path, int sampleRateHz); ///< checks that the file can be written: error()
+    /// Checks that the file can be written: error().
+    MovieOutput(const std::string& path, int sampleRateHz)
+        : path_{path}
+        , sampleRateHz_{sampleRateHz}
+        , movie_{path} {
+        if (!path.ends_with(".webp")) pictures_.emplace(path + ".pictures");
+        if (hasSound()) sound_.emplace(path + ".sound");
+    }
     const std::string& error() const noexcept { return movie_.error(); }
 
     bool hasSound() const noexcept { return path_.ends_with(".mp4"); }
-    bool takeSound(const float* samples, int frames); ///< next frames of the mono sound track
+    /// Next frames of the mono sound track.
+    bool takeSound(const float* samples, int frames) {
+        const std::string_view bytes{reinterpret_cast<const char*>(samples),
+                                     sizeof(float) * static_cast<std::size_t>(frames)};
+        if (!sound_->writeAt(soundBytes_, bytes)) return false;
+        soundBytes_ += static_cast<std::int64_t>(bytes.size());
+        return true;
+    }
 
     /// Draws all pictures, with the bodies' poses. `goesOn` gets progress from 0 to 1; if it returns false,
     /// drawing stops with the error "cancelled". Returns an error or "".
     std::string draw(const PictureInput& picture, const PoseSource& bodies,
-                     const std::function<bool(double)>& goesOn = {});
+                     const std::function<bool(double)>& goesOn = {}) {
+        const RenderMovie movie{picture};
+        const std::int64_t everyNs = RenderMovie::timeNs(1), endNs = RenderMovie::timeNs(movie.count());
+        bool isWhole = true;
+        const Pictures all = [&](const auto& take) {
+            const auto one = [&](std::int64_t timeNs, const picture::Image& image) {
+                isWhole = !goesOn || goesOn(static_cast<double>(timeNs) / static_cast<double>(endNs));
+                return isWhole && take(timeNs, image);
+            };
+            if (bodies)
+                return bodies(everyNs, endNs,
+                              [&](std::int64_t timeNs, const Scene& scene, std::span<const BodyPose> poses) {
+                                  return one(timeNs, movie.at(timeNs, poses, &scene));
+                              });
+            for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += everyNs)
+                if (!one(timeNs, movie.at(timeNs, {}))) return;
+        };
+        const std::string error = pictures_ ? drawByFfmpeg(all) : drawWebp(movie, all);
+        return isWhole ? error : "cancelled";
+    }
     [[nodiscard]] const std::string& commit() { return movie_.commit(); }
 
 private:
     using Pictures =
         std::function<void(const std::function<bool(std::int64_t momentNs, const picture::Image&)>& take)>;
-    std::string drawWebp(const RenderMovie& movie, const Pictures& all);
-    std::string drawByFfmpeg(const Pictures& all);
+    std::string drawWebp(const RenderMovie& movie, const Pictures& all) {
+        WebpMovie webp{RenderMovie::width, RenderMovie::height};
+        all([&](std::int64_t momentNs, const picture::Image& image) {
+            webp.add(image, momentNs / 1'000'000);
+            return true;
+        });
+        return movie_.write(webp.bytes(RenderMovie::timeNs(movie.count()) / 1'000'000));
+    }
+    // ffmpeg reads finished files (concatenated PNGs, 32-bit samples) and writes a temporary file, which
+    // commit() renames.
+    std::string drawByFfmpeg(const Pictures& all) {
+        all([&](std::int64_t, const picture::Image& image) {
+            const std::string png = image.png();
+            const bool isWritten = pictures_->writeAt(pictureBytes_, png);
+            pictureBytes_ += static_cast<std::int64_t>(png.size());
+            return isWritten;
+        });
+        if (!pictures_->error().empty()) return pictures_->error();
+        if (sound_ && !sound_->error().empty()) return sound_->error();
+        std::vector<std::string> words{
+            "-v",   "error",      "-nostdin",   "-y",
+            "-f",   "image2pipe", "-framerate", std::to_string(RenderMovie::picturesPerSecond),
+            "-c:v", "png",        "-i",         pictures_->temporaryPath().string()};
+        const auto add = [&words](std::initializer_list<const char*> more) {
+            words.insert(words.end(), more.begin(), more.end());
+        };
+        if (sound_) {
+            add({"-f", "f32le", "-ac", "1", "-ar"});
+            words.push_back(std::to_string(sampleRateHz_));
+            words.insert(words.end(), {"-i", sound_->temporaryPath().string()});
+            add({"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-c:a", "aac", "-movflags",
+                 "+faststart", "-f", "mp4"});
+        } else
+            add({"-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none", "-f",
+                 "gif"});
+        words.push_back(movie_.temporaryPath().string());
+        const auto ran = runProgram("ffmpeg", words);
+        if (!ran)
+            return path_ + ": .gif and .mp4 need the program ffmpeg, which did not start (" + ran.error +
+                   "); expected it on the path, or a name that ends in .webp";
+        return ran.value ? std::string{} : path_ + ": ffmpeg failed, for the reason above";
+    }
 
     std::string path_;
     int sampleRateHz_;

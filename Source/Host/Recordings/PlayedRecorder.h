@@ -3,8 +3,10 @@
 // writes it to disk.
 #pragma once
 #include "Host/Devices/SignalTap.h"
+#include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -21,11 +23,20 @@ namespace physvib {
 class PlayedRecorder final : public Sink {
 public:
     /// `seconds`: capacity of the buffer, for delays of the disk. M.
-    PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds = 4.0);
+    PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds = 4.0)
+        : sampleRateHz_{sampleRateHz}
+        , tap_{channels, static_cast<int>(seconds * sampleRateHz)}
+        , wav_{path, channels, sampleRateHz}
+        , error_{wav_.error()} {
+        if (error_.empty()) thread_ = std::thread{[this] { run(); }};
+    }
     ~PlayedRecorder() override { end(); }
 
     /// Empty, or one line with the reason. M.
-    std::string error() const;
+    std::string error() const {
+        const std::lock_guard lock{mutex_};
+        return error_;
+    }
 
     int sampleRateHz() const noexcept { return sampleRateHz_; }
 
@@ -45,7 +56,11 @@ public:
 
     /// Writes the last samples and the header. Returns empty, or one line with the reason. M, after R
     /// stopped.
-    std::string finish();
+    std::string finish() {
+        end();
+        write();
+        return wav_.finish();
+    }
 
     /// In session time; -1: no frame yet.
     std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); }
@@ -59,9 +74,36 @@ public:
     std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
 
 private:
-    void run();
-    void write();
-    void end();
+    // With the disk's own delay, shorter than the audio that may be lost when the process is killed.
+    static constexpr std::chrono::milliseconds period{200};
+
+    void run() {
+        std::unique_lock lock{mutex_};
+        while (!ends_.wait_for(lock, period, [this] { return isEnding_; })) {
+            lock.unlock();
+            write();
+            lock.lock();
+            error_ = wav_.error();
+        }
+    }
+    void write() {
+        const std::int64_t before = written_;
+        tap_.read([this](const float* const* channels, int frames) {
+            if (const auto begins = beginsSeconds(); begins && written_ == 0)
+                wav_.setComment("begins at session time " + fixedNumber(*begins, 6) + " s");
+            if (wav_.write(channels, frames)) written_ += frames;
+        });
+        if (written_ > before) wav_.show();
+    }
+    void end() {
+        if (!thread_.joinable()) return;
+        {
+            const std::lock_guard lock{mutex_};
+            isEnding_ = true;
+        }
+        ends_.notify_one();
+        thread_.join();
+    }
 
     int sampleRateHz_;
     SignalTap tap_;

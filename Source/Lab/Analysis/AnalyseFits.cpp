@@ -91,11 +91,8 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
                 report.warnings.push_back(prefixOf(condition.name) + words);
             thresholds.push_back(f.threshold);
             jnds.push_back(f.jnd());
-            table.cell(condition.name).cell(own.participant).cell(own.trials);
-            for (const double number :
-                 {f.threshold, f.width, f.jnd(), f.guess, f.lapse, own.fit.logLikelihood})
-                table.cell(number);
-            table.endRow();
+            table.row(condition.name, own.participant, own.trials, f.threshold, f.width, f.jnd(), f.guess,
+                      f.lapse, own.fit.logLikelihood);
         }
         if (thresholds.empty()) return nobodyFitted(o, report);
         const int decimals = decimalsOf(Moments(jnds).mean);
@@ -127,13 +124,8 @@ AnalysisReport analysePowerLaw(const AnalysisJob& o) {
                 continue;
             }
             exponents.push_back(own.law.exponent);
-            table.cell(condition.name)
-                .cell(own.participant)
-                .cell(own.trials)
-                .cell(own.law.exponent)
-                .cell(own.law.factor)
-                .cell(own.law.determination)
-                .endRow();
+            table.row(condition.name, own.participant, own.trials, own.law.exponent, own.law.factor,
+                      own.law.determination);
         }
         if (exponents.empty()) return nobodyFitted(o, report);
         out << prefixOf(condition.name) << meanWords("exponent", exponents, 3) << ", "

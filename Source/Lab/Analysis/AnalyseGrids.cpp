@@ -57,7 +57,7 @@ void exportMerged(ExportTable& table, const PercentCounts& counts, const Percept
     const PercentCounts grid = merged(counts, resolution.ties.front());
     for (std::size_t r = 0; r < grid.rows; ++r)
         for (std::size_t c = 0; c < grid.columns; ++c) {
-            table.cell(grid.condition).cell(r + 1).cell(c + 1).cell(grid.at(r, c)).endRow();
+            table.row(grid.condition, r + 1, c + 1, grid.at(r, c));
         }
 }
 
@@ -65,14 +65,9 @@ void exportNormals(ExportTable& table, const ConditionResolution& made) {
     for (std::size_t i = 0; i < made.normals.normals.size(); ++i) {
         const PlaceNormal& n = made.normals.normals[i];
         if (n.responses == 0) continue;
-        table.cell(made.condition)
-            .cell(i % made.normals.columns + 1)
-            .cell(i / made.normals.columns + 1)
-            .cell(n.responses);
-        for (const double number :
-             {n.meanX, n.meanY, n.varianceX, n.varianceY, n.covariance, made.counts.percent[i]})
-            table.cell(number);
-        table.cell(std::size_t{n.isBorrowed}).endRow();
+        table.row(made.condition, i % made.normals.columns + 1, i / made.normals.columns + 1, n.responses,
+                  n.meanX, n.meanY, n.varianceX, n.varianceY, n.covariance, made.counts.percent[i],
+                  std::size_t{n.isBorrowed});
     }
 }
 

@@ -70,24 +70,16 @@ void exportMatrix(ExportTable& table, const std::string& condition, const Partic
     const ConfusionMatrix& matrix = own.matrix;
     for (std::size_t i = 0; i < matrix.stimuli(); ++i)
         for (std::size_t j = 0; j < matrix.responses(); ++j) {
-            table.cell(condition)
-                .cell(own.participant)
-                .cell(matrix.label(i))
-                .cell(matrix.label(j))
-                .cell(std::size_t{matrix.count(i, j)})
-                .endRow();
+            table.row(condition, own.participant, matrix.label(i), matrix.label(j),
+                      std::size_t{matrix.count(i, j)});
         }
 }
 
 void exportTransfer(ExportTable& table, const std::string& condition, const ParticipantTransfer& own) {
     const auto trials = static_cast<double>(own.matrix.trials());
-    table.cell(condition)
-        .cell(own.participant)
-        .cell(std::size_t{own.matrix.trials()})
-        .cell(100.0 * static_cast<double>(own.matrix.correct()) / trials)
-        .cell(own.transfer.bits)
-        .cell(own.transfer.canBeCorrected() ? std::optional{own.transfer.correctedBits()} : std::nullopt)
-        .endRow();
+    table.row(condition, own.participant, std::size_t{own.matrix.trials()},
+              100.0 * static_cast<double>(own.matrix.correct()) / trials, own.transfer.bits,
+              own.transfer.canBeCorrected() ? std::optional{own.transfer.correctedBits()} : std::nullopt);
 }
 
 /// Information transfer by participant: the mean as text, all participants in both tables.
@@ -176,7 +168,7 @@ AnalysisReport analyseIcons(const AnalysisJob& o) {
         for (const std::size_t i : leastConfused(matrix, o.meanings)) {
             const double share = shareCorrect(matrix, i);
             out << "  " << printable(matrix.label(i)) << "  " << percent(share) << " % correct\n";
-            table.cell(name).cell(matrix.label(i)).cell(100.0 * share).endRow();
+            table.row(name, matrix.label(i), 100.0 * share);
             icons.emplace_back(matrix.label(i), ChartValue::around(100.0 * share));
         }
     }

@@ -67,12 +67,9 @@ AnalysisReport analysePlaces(const AnalysisJob& o) {
     for (const auto& condition : data.value.conditions) {
         tellErrors(out, condition.name.empty() ? "all trials" : condition.name, condition.trials);
         for (const TargetError& one : targetErrors(condition.trials)) {
-            table.cell(condition.name).cell(one.participant).cell(one.target).cell(one.trials);
-            for (const double number : {one.trueX, one.trueY, one.constantX, one.constantY})
-                table.cell(number);
-            table.cell(one.trials > 1 ? std::optional{one.variable} : std::nullopt)
-                .cell(one.distance)
-                .endRow();
+            table.row(condition.name, one.participant, one.target, one.trials, one.trueX, one.trueY,
+                      one.constantX, one.constantY,
+                      one.trials > 1 ? std::optional{one.variable} : std::nullopt, one.distance);
         }
     }
     report.words = out.str();

@@ -71,12 +71,9 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
     for (const auto& summary : summaries) {
         tell(out, summary);
         for (const auto& share : summary.shares) {
-            table.cell(summary.condition)
-                .cell(share.alternative)
-                .cell(std::size_t{share.hits})
-                .cell(std::size_t{summary.trials});
-            for (const double part : {share.share, share.least, share.most}) table.cell(100.0 * part);
-            table.cell(summary.participants).cell(100.0 * share.median).cell(summary.p).endRow();
+            table.row(summary.condition, share.alternative, std::size_t{share.hits},
+                      std::size_t{summary.trials}, 100.0 * share.share, 100.0 * share.least,
+                      100.0 * share.most, summary.participants, 100.0 * share.median, summary.p);
         }
     }
     report.words = out.str();
@@ -106,10 +103,8 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
         for (std::size_t s = 0; s < scales.size(); ++s) {
             out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
-            table.cell(summary.condition).cell(scales[s]).cell(summary.trials).cell(summary.participants);
-            for (const double number : {summary.means[s], summary.deviations[s], summary.halfIntervals[s]})
-                table.cell(number);
-            table.endRow();
+            table.row(summary.condition, scales[s], summary.trials, summary.participants, summary.means[s],
+                      summary.deviations[s], summary.halfIntervals[s]);
         }
         out << '\n';
     }
@@ -138,16 +133,8 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
                                       (s.flatRuns == 1 ? " staircase has" : " staircases have") +
                                       " fewer than two reversals: the level of the last trial "
                                       "stands for a threshold");
-        table.cell(kindWord(s.kind))
-            .cell(s.condition)
-            .cell(s.stimulus)
-            .cell(s.trials)
-            .cell(s.participants)
-            .cell(s.reversals)
-            .cell(s.estimate)
-            .cell(s.deviation)
-            .cell(s.halfInterval)
-            .endRow();
+        table.row(kindWord(s.kind), s.condition, s.stimulus, s.trials, s.participants, s.reversals,
+                  s.estimate, s.deviation, s.halfInterval);
     }
     report.words = out.str();
     report.table = table.text();

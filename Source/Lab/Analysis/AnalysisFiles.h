@@ -85,6 +85,15 @@ public:
     ExportTable& cell(const std::optional<double>& number) {
         return number ? cell(*number) : cell(std::string_view{});
     }
+    template <class... Values>
+    ExportTable& cells(const Values&... values) {
+        return (cell(values), ...);
+    }
+    /// The last cells of a row, or all.
+    template <class... Values>
+    void row(const Values&... values) {
+        cells(values...).endRow();
+    }
     void endRow() {
         text_ += '\n';
         isFirst_ = true;

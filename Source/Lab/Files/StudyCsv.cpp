@@ -35,10 +35,10 @@ std::vector<Trial>& conditionNamed(const StudyRows& rows, StudyData<Trial>& data
 }
 
 template <class Trial>
-std::vector<std::string>& warningsOf(StudyData<Trial>& data) {
-    return data.warnings;
+StudyData<Trial>& studyOf(StudyData<Trial>& data) {
+    return data;
 }
-std::vector<std::string>& warningsOf(RatingData& ratings) { return ratings.data.warnings; }
+StudyData<RatingTrial>& studyOf(RatingData& ratings) { return ratings.data; }
 
 /// Runs `take(rows, data)` per file. Exceptions become a Failure, and so do files without a usable trial.
 template <class Data, class Take>
@@ -50,18 +50,19 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
             const StudyRows rows{file.text, file.name, file.columns};
             if (std::string fault = shared.add(rows.table()); !fault.empty())
                 throw StudyFault{std::move(fault)};
+            studyOf(data).isSimulated |= rows.isSimulated();
             const std::size_t taken = take(rows, data);
             if (rows.leftOut() > 0)
-                warningsOf(data).push_back(rows.table().name +
-                                           ": rows left out, with nothing in one of the named columns: " +
-                                           std::to_string(rows.leftOut()));
+                studyOf(data).warnings.push_back(
+                    rows.table().name + ": rows left out, with nothing in one of the named columns: " +
+                    std::to_string(rows.leftOut()));
             if (taken == 0)
                 throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
         }
     } catch (const StudyFault& fault) {
         return Failure{fault.message};
     }
-    if (std::string note = shared.note(); !note.empty()) warningsOf(data).push_back(std::move(note));
+    if (std::string note = shared.note(); !note.empty()) studyOf(data).warnings.push_back(std::move(note));
     return data;
 }
 
@@ -81,10 +82,8 @@ void expectFewLabels(const std::string& file, const StudyData<IdentificationTria
 std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTrial>& data) {
     const auto stimulus = rows.required("stimulus"), response = rows.required("response");
     const auto condition = rows.optional("condition"), participant = rows.optional("participant");
-    data.isSimulated |= rows.isSimulated();
-    std::size_t taken = 0, missing = 0, firstMissing = 0;
-    rows.each(AnswerKind::label, [&](const CsvRow& row) {
-        ++taken;
+    std::size_t missing = 0, firstMissing = 0;
+    const std::size_t taken = rows.each(AnswerKind::label, [&](const CsvRow& row) {
         if (row.cells[response].empty() && !rows.text(row, stimulus).empty()) {
             if (missing++ == 0) firstMissing = row.line;
             return;
@@ -110,15 +109,11 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
                x = rows.required("x"), y = rows.required("y");
     const auto condition = rows.optional("condition");
     constexpr int most = static_cast<int>(mostGridLines);
-    data.isSimulated |= rows.isSimulated();
-    std::size_t taken = 0;
-    rows.each(AnswerKind::place, [&](const CsvRow& r) {
-        ++taken;
+    return rows.each(AnswerKind::place, [&](const CsvRow& r) {
         conditionNamed(rows, data, StudyRows::textIf(r, condition))
             .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most),
                         rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0)});
     });
-    return taken;
 }
 
 /// Target columns of our own trial files: a grid cell, and the render call that contains the grid.
@@ -149,16 +144,12 @@ std::size_t takeOwnPlaces(const StudyRows& rows, const OwnTargets& targets, Stud
     const std::string unit = "true places are those of the calls' grids, in shares of the field's width and "
                              "height, y downwards; a distance counts both shares alike";
     if (std::ranges::find(data.warnings, unit) == data.warnings.end()) data.warnings.push_back(unit);
-    data.isSimulated |= rows.isSimulated();
-    std::size_t taken = 0;
-    rows.each(AnswerKind::place, [&](const CsvRow& row) {
-        ++taken;
+    return rows.each(AnswerKind::place, [&](const CsvRow& row) {
         const FieldPlace truth = targets.placeIn(rows, row);
         conditionNamed(rows, data, StudyRows::textIf(row, condition))
             .push_back({StudyRows::textIf(row, participant), StudyRows::textIf(row, stimulus), truth.x,
                         truth.y, rows.number(row, x, 0.0, 1.0), rows.number(row, y, 0.0, 1.0)});
     });
-    return taken;
 }
 
 std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
@@ -172,10 +163,7 @@ std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
         throw StudyFault{rows.table().name +
                          ": expected both columns target_y and y, or none of them, found " +
                          (y ? "y" : "target_y")};
-    data.isSimulated |= rows.isSimulated();
-    std::size_t taken = 0;
-    rows.each(AnswerKind::place, [&](const CsvRow& row) {
-        ++taken;
+    return rows.each(AnswerKind::place, [&](const CsvRow& row) {
         const auto number = [&](std::optional<std::size_t> column) {
             return column ? rows.number(row, *column, -farthest, farthest) : 0.0;
         };
@@ -186,7 +174,6 @@ std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
                      : numberText(trial.trueX) + (trueY ? "," + numberText(trial.trueY) : std::string{});
         conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back(std::move(trial));
     });
-    return taken;
 }
 
 /// "condition stimulus", or the stimulus alone if all trials have one condition, as in a trial file.
@@ -200,15 +187,11 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     const auto choice = named ? *named : rows.required("response");
     const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
                participant = rows.optional("participant");
-    data.isSimulated |= rows.isSimulated();
-    std::size_t taken = 0;
-    rows.each(AnswerKind::choice, [&](const CsvRow& row) {
-        ++taken;
+    return rows.each(AnswerKind::choice, [&](const CsvRow& row) {
         conditionNamed(rows, data, {})
             .push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition),
                         rows.text(row, choice)});
     });
-    return taken;
 }
 
 std::vector<std::size_t> scaleColumns(const CsvTable& table) {
@@ -229,15 +212,11 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     if (!ratings.scales.empty() && ratings.scales != names)
         throw StudyFault{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
-    ratings.data.isSimulated |= rows.isSimulated();
-    std::size_t taken = 0;
-    rows.each(AnswerKind::scores, [&](const CsvRow& row) {
-        ++taken;
+    return rows.each(AnswerKind::scores, [&](const CsvRow& row) {
         RatingTrial trial{StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), {}};
         for (const auto c : scales) trial.scores.push_back(rows.number(row, c, 0.0, 100.0));
         conditionNamed(rows, ratings.data, {}).push_back(std::move(trial));
     });
-    return taken;
 }
 
 /// The QUEST+ plan of a row; null for rows of other sessions.
@@ -281,7 +260,6 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
 }
 
 std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
-    data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
     const auto task = rows.optional(trialColumns::task);
     if (!task && !rows.optional("value")) rows.required("correct");
@@ -302,7 +280,6 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     const auto level = detail::FactorSource::of(rows.table(), columns.level);
     if (!level) rows.required(columns.level);
     const auto condition = rows.optional("condition"), participant = rows.optional("participant");
-    data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
     rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
         if (row.cells[measure].empty()) return;
@@ -337,10 +314,7 @@ std::vector<std::size_t> countColumns(const StudyRows& rows) {
 std::size_t takePercentCounts(const StudyRows& rows, StudyData<PercentCounts>& data) {
     const auto condition = rows.required("condition"), row = rows.required("row");
     const auto columns = countColumns(rows);
-    data.isSimulated |= rows.isSimulated();
-    std::size_t taken = 0;
-    rows.each(std::nullopt, [&](const CsvRow& r) {
-        ++taken;
+    return rows.each(std::nullopt, [&](const CsvRow& r) {
         auto& grids = conditionNamed(rows, data, rows.text(r, condition));
         if (grids.empty()) grids.push_back({r.cells[condition], 0, columns.size(), {}});
         PercentCounts& grid = grids.front();
@@ -354,7 +328,6 @@ std::size_t takePercentCounts(const StudyRows& rows, StudyData<PercentCounts>& d
             throw StudyFault{rows.table().fault(r, row, "row " + std::to_string(next) + " of the condition")};
         for (const auto c : columns) grid.percent.push_back(rows.number(r, c, 0.0, 100.0));
     });
-    return taken;
 }
 
 } // namespace

@@ -43,16 +43,19 @@ public:
     }
 
     /// Calls take(row) for each row that is not training and, if the table has tasks, has this kind of
-    /// answer. nullopt selects rows without a task.
+    /// answer. nullopt selects rows without a task. Returns the number of rows taken.
     template <class Take>
-    void each(std::optional<AnswerKind> answer, Take take) const {
+    std::size_t each(std::optional<AnswerKind> answer, Take take) const {
         const auto phase = optional(trialColumns::phase), tasks = optional(trialColumns::task);
+        std::size_t taken = 0;
         for (const CsvRow& row : table_.rows) {
             if (phase && row.cells[*phase] == trialColumns::training) continue;
             if (tasks && (answer ? answerOf(row.cells[*tasks]) != answer : !row.cells[*tasks].empty()))
                 continue;
             take(row);
+            ++taken;
         }
+        return taken;
     }
 
     const std::string& text(const CsvRow& row, std::size_t column) const {

@@ -82,7 +82,7 @@ void tellApparatus(ReportBuilder& report) {
                       "device,master_db,noise_db,version,trials,trials_with_the_limiter,most_limiter_db"};
     for (const auto& [kind, felt] : kinds) {
         for (const std::string& word : kind) table.cell(word);
-        table.cell(felt.trials).cell(felt.limited).cell(felt.mostLimitedDb).endRow();
+        table.row(felt.trials, felt.limited, felt.mostLimitedDb);
     }
     report.addTable("apparatus.csv", table.text());
     report.page.paragraph(

@@ -97,7 +97,7 @@ void tellOrders(ReportBuilder& report) {
     ExportTable table{"orders", report.isSimulated(), "participant,place,condition"};
     for (const auto& [participant, order] : orders)
         for (std::size_t place = 0; place < order.size(); ++place) {
-            table.cell(participant).cell(place + 1).cell(order[place]).endRow();
+            table.row(participant, place + 1, order[place]);
         }
     report.addTable("orders.csv", table.text());
     report.page.subheading("Orders of the conditions");
@@ -124,11 +124,8 @@ void tellPower(ReportBuilder& report) {
         ". A smaller difference that was not found is no evidence that there is none.");
     ExportTable table{"power", report.isSimulated(), "test,effect,power,power_corrected"};
     for (const double effect : {0.2, 0.3, 0.5, 0.8, 1.0, 1.2, 1.5, 2.0}) {
-        table.cell("paired t, d")
-            .cell(effect)
-            .cell(power.at(effect, 0.05))
-            .cell(power.at(effect, 0.05 / static_cast<double>(pairs)))
-            .endRow();
+        table.row("paired t, d", effect, power.at(effect, 0.05),
+                  power.at(effect, 0.05 / static_cast<double>(pairs)));
     }
     if (const std::size_t trials = choiceTrialsOf(report.trials.all); trials > 0) {
         const SharePower shares{people, trials};
@@ -140,7 +137,7 @@ void tellPower(ReportBuilder& report) {
                                    : std::string{"more than 95 %"}) +
                               " or more is found in 80 % of the studies. Participants who differ need more.");
         for (const double share : {0.52, 0.55, 0.6, 0.65, 0.7, 0.8}) {
-            table.cell("signed ranks, share").cell(share).cell(shares.at(share)).cell("").endRow();
+            table.row("signed ranks, share", share, shares.at(share), "");
         }
     }
     report.addTable("power.csv", table.text());

@@ -112,7 +112,7 @@ void tellCalls(ReportBuilder& report) {
     ExportTable table{"stimuli", report.isSimulated(), "condition,session,stimulus,trials,call"};
     for (const auto& [key, trials] : calls) {
         const auto& [condition, session, stimulus, call] = key;
-        table.cell(condition).cell(session).cell(stimulus).cell(trials).cell(call).endRow();
+        table.row(condition, session, stimulus, trials, call);
     }
     report.addTable("stimuli.csv", table.text());
     report.page.subheading("How stimuli were made");
@@ -174,13 +174,11 @@ void tellDoses(ReportBuilder& report) {
         for (const auto& [key, own] : values) {
             double sum = 0.0;
             for (const double value : own) sum += value;
-            table.cell(key.first).cell(key.second).cell(column).cell(own.size());
             // means of adaptive levels and accumulated exposure have no meaning
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
-            table.cell(*std::ranges::min_element(own))
-                .cell(hasMean ? std::optional{sum / static_cast<double>(own.size())} : std::nullopt)
-                .cell(*std::ranges::max_element(own))
-                .endRow();
+            table.row(key.first, key.second, column, own.size(), *std::ranges::min_element(own),
+                      hasMean ? std::optional{sum / static_cast<double>(own.size())} : std::nullopt,
+                      *std::ranges::max_element(own));
         }
     }
     report.page.subheading("Levels and exposure");
@@ -277,20 +275,13 @@ void tellParticipants(ReportBuilder& report) {
             (facts.people.empty() ? "" : ",age,sex,handedness,excluded")};
     std::size_t most = 0;
     for (const auto& [code, own] : people) {
-        table.cell(code)
-            .cell(own.number)
-            .cell(own.observer)
-            .cell(own.main)
-            .cell(own.training)
-            .cell(own.unanswered)
-            .cell(own.seconds.empty() ? std::nullopt : std::optional{median(own.seconds)});
+        table.cells(code, own.number, own.observer, own.main, own.training, own.unanswered,
+                    own.seconds.empty() ? std::nullopt : std::optional{median(own.seconds)});
         if (!facts.people.empty()) {
             const PersonFacts* const person = facts.person(code);
             const PersonFacts one = person != nullptr ? *person : PersonFacts{};
-            table.cell(one.ageYears ? numberText(*one.ageYears) : std::string{})
-                .cell(one.sex)
-                .cell(one.handedness)
-                .cell(one.excluded);
+            table.cells(one.ageYears ? numberText(*one.ageYears) : std::string{}, one.sex, one.handedness,
+                        one.excluded);
         }
         table.endRow();
         if (!facts.isExcluded(code)) most = std::max(most, own.main - own.adaptive);

@@ -8,17 +8,40 @@
 namespace physvib {
 
 /// Body `repetition` (from 0) of a spawn: "stone 3" where the input has several times, else "stone".
-BodyDescription spawnedBody(const SpawnAction& spawn, int repetition, int times);
+inline BodyDescription spawnedBody(const SpawnAction& spawn, int repetition, int times) {
+    BodyDescription body = spawn.body;
+    body.positionMetres.x += repetition * spawn.shiftMetres.x;
+    body.positionMetres.y += repetition * spawn.shiftMetres.y;
+    if (times > 1) body.name.append(1, ' ').append(std::to_string(repetition + 1));
+    return body;
+}
 
 /// Scene::bodies, then what the script spawns, in its order. The scene must be valid (or its repetitions
 /// few). Any thread.
-std::vector<BodyDescription> scriptedCast(const Scene& scene);
+inline std::vector<BodyDescription> scriptedCast(const Scene& scene) {
+    std::vector<BodyDescription> cast = scene.bodies;
+    for (const ScriptInput& input : scene.script)
+        if (const auto* spawn = std::get_if<SpawnAction>(&input.action))
+            for (int i = 0; i < input.times; ++i) cast.push_back(spawnedBody(*spawn, i, input.times));
+    return cast;
+}
 
 /// The same and what live inputs spawn or change, in their order. Fixture numbers in events count through the
 /// fixtures of this list.
-std::vector<BodyDescription> sceneCast(const Scene& scene);
+inline std::vector<BodyDescription> sceneCast(const Scene& scene) {
+    std::vector<BodyDescription> cast = scriptedCast(scene);
+    for (const LiveInput& input : scene.inputs)
+        if (const BodyDescription* body = bodyPutBy(input.action)) cast.push_back(*body);
+    return cast;
+}
 
 /// Index of the body that has this fixture number; cast.size() if none has. Any thread.
-std::size_t bodyOfFixture(const std::vector<BodyDescription>& cast, int fixture) noexcept;
+inline std::size_t bodyOfFixture(const std::vector<BodyDescription>& cast, int fixture) noexcept {
+    if (fixture < 0) return cast.size();
+    auto left = static_cast<std::size_t>(fixture);
+    std::size_t body = 0;
+    while (body < cast.size() && left >= cast[body].fixtures.size()) left -= cast[body++].fixtures.size();
+    return body;
+}
 
 } // namespace physvib

@@ -6,9 +6,12 @@
 #include "Host/Music/BeatStrikes.h"
 #include "Live/Session/Session.h"
 #include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <thread>
+#include <vector>
 
 namespace physvib {
 
@@ -21,16 +24,59 @@ public:
     static constexpr double knownAfterSeconds = BeatDetector::mostDelaySeconds + 0.010;
 
     /// Both references outlive this object. Message thread.
-    LiveBeats(Session& session, InputTap& inputs, const BeatVoices& voices, double sensitivity);
-    ~LiveBeats();
+    LiveBeats(Session& session, InputTap& inputs, const BeatVoices& voices, double sensitivity)
+        : session_{session}
+        , inputs_{inputs}
+        , voices_{voices}
+        , sensitivity_{sensitivity}
+        , thread_{[this] { run(); }} {}
+    ~LiveBeats() {
+        stop_ = true;
+        thread_.join();
+    }
 
     std::uint64_t beats() const noexcept { return beats_.load(std::memory_order_relaxed); } ///< Any thread.
 
 private:
-    void run();
-    void take(const HeardPiece& piece);
-    void begin(const HeardPiece& piece);
-    void strike(const BandOnset& onset);
+    static constexpr std::chrono::milliseconds pause{1};
+    static constexpr std::int64_t nsPerSecond = 1'000'000'000;
+    static std::int64_t nsOf(std::int64_t frames, int rateHz) {
+        return frames / rateHz * nsPerSecond + frames % rateHz * nsPerSecond / rateHz;
+    }
+
+    void run() {
+        HeardPiece piece;
+        while (!stop_) {
+            while (inputs_.next(piece)) take(piece);
+            std::this_thread::sleep_for(pause);
+        }
+    }
+    // Restarts the detector if session time jumps, because input was lost or the device returned.
+    void take(const HeardPiece& piece) {
+        const std::int64_t expectedNs = beginNs_ + (detector_ ? nsOf(heardFrames_, rateHz_) : 0);
+        if (!detector_ || piece.rateHz != rateHz_ ||
+            std::abs(piece.sessionNs - expectedNs) > nsPerSecond / piece.rateHz)
+            begin(piece);
+        heardFrames_ += piece.count;
+        detector_->take(piece.sound(), [this](const BandOnset& onset) { strike(onset); });
+    }
+    void begin(const HeardPiece& piece) {
+        if (!detector_ || piece.rateHz != rateHz_)
+            detector_ = std::make_unique<BeatDetector>(piece.rateHz, sensitivity_);
+        else
+            detector_->reset();
+        rateHz_ = piece.rateHz;
+        beginNs_ = piece.sessionNs;
+        heardFrames_ = 0;
+    }
+    void strike(const BandOnset& onset) {
+        const PhantomPanner panner = session_.panner();
+        std::vector<CollisionEvent> strikes;
+        strikeBeat(onset, beginNs_ + nsOf(onset.frame, rateHz_), voices_, panner.layout(),
+                   panner.fieldWidthMetres(), panner.fieldHeightMetres(),
+                   [&](const CollisionEvent& e) { strikes.push_back(e); });
+        if (session_.take({Strikes{strikes}, 0})) ++beats_;
+    }
 
     Session& session_;
     InputTap& inputs_;

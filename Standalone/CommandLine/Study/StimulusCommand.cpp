@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib stimulus`: renders a stimulus to a WAV file and a picture.
-#include "CommandLine/Study/StimulusCommand.h"
+#include "Calls/StimulusOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"
@@ -124,8 +124,6 @@ int list(const StimulusOptions& o) {
     return exitDone;
 }
 
-} // namespace
-
 int runStimulus(const OptionTable& command, const StimulusOptions& o) {
     if (command.isCalled("list")) return list(o);
     const auto layout = layoutNamed(o.job.layout);
@@ -142,6 +140,8 @@ int runStimulus(const OptionTable& command, const StimulusOptions& o) {
     made.sound = std::move(sound.value);
     return write(made, o, layout.value);
 }
+
+} // namespace
 
 Command stimulusCommand() {
     return commandOf("stimulus", "a single stimulus of a study", declareStimulus, runStimulus);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib study`: runs studies with simulated observers or in the mixer, and checks them.
-#include "CommandLine/Study/StudyCommand.h"
+#include "Calls/RenderJob.h"
 #include "Calls/RenderWords.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
@@ -14,10 +14,27 @@
 #include "Studies/StudyCheck.h"
 #include "System/Process.h"
 #include <chrono>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace physvib {
 namespace {
+
+/// Command-line options.
+struct StudyOptions {
+    std::string protocol;    ///< name of a built-in protocol, or path of a protocol file
+    std::string observer;    ///< name of the simulated observer
+    std::string participant; ///< code; empty: P and the number
+    int number = 1;          ///< of the first participant: selects the row of the Latin squares
+    int participants = 1;
+    std::string folder = ".";
+    RecordedSounds sounds;           ///< replace the protocol's recordings of that frequency
+    std::vector<std::string> trials; ///< levels: trial files of the adjustments
+    std::string levelsPath;          ///< levels: output file
+    std::string pagePath;            ///< check: HTML output; empty: none
+    double paceSeconds = 0.0;        ///< delay per trial, to watch or interrupt it
+};
 
 int list() {
     for (const Protocol& protocol : knownProtocols())
@@ -164,8 +181,6 @@ int levels(const StudyOptions& o) {
     return exitDone;
 }
 
-} // namespace
-
 void declareStudy(OptionTable& command, StudyOptions& o) {
     command.addCommand("list", "the built-in protocols, one per line");
     OptionTable& show = command.addCommand("show", "a protocol as JSON, to start your own from");
@@ -205,6 +220,8 @@ int runStudy(const OptionTable& command, const StudyOptions& o) {
     std::cout << protocolJson(protocol.value);
     return exitDone;
 }
+
+} // namespace
 
 Command studyCommand() {
     return commandOf("study", "whole studies, from a protocol", declareStudy, runStudy);

@@ -6,6 +6,7 @@
 #include "System/ExitCode.h"
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,17 @@ struct StudyFile {
 };
 
 /// Writes all files or none. Returns an exit code.
-int writeStudyFiles(const std::vector<StudyFile>& files);
+inline int writeStudyFiles(const std::vector<StudyFile>& files) {
+    std::vector<std::unique_ptr<AtomicFile>> open;
+    for (const StudyFile& file : files) {
+        if (file.path.empty()) continue;
+        open.push_back(std::make_unique<AtomicFile>(file.path));
+        if (const auto& error = open.back()->write(file.bytes()); !error.empty())
+            return leave(exitFailed, error);
+    }
+    for (const auto& file : open)
+        if (const auto& error = file->commit(); !error.empty()) return leave(exitFailed, error);
+    return exitDone;
+}
 
 } // namespace physvib
