@@ -10,7 +10,7 @@
 #include "Core/Actuators/BoardGuard.h"
 #include "Core/Actuators/GainRamp.h"
 #include "Core/BoardEvent.h"
-#include "Core/Modes/MovingLegs.h"
+#include "Core/Modes/MovingSegments.h"
 #include "Core/Modes/PhasorBank.h"
 #include "Core/TimeOrdered.h"
 #include <array>

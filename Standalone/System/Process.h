@@ -36,7 +36,7 @@ void endBySignal(int signal);
 enum class KeepIgnored {
     all,
     hangUp
-}; ///< which ignored signals stay ignored: all, or only SIGHUP, as `nohup` needs
+}; ///< which ignored signals stay ignored: all, or only that of a closed terminal, as `nohup` needs
 /// Calls `handler` on signals that ask the program to end (Ctrl-C, `kill`, a closed terminal). Message
 /// thread.
 void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept;
