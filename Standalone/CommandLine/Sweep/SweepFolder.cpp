@@ -10,7 +10,9 @@
 #include "Lab/Files/StudyFileLimits.h"
 #include "Scene/SceneFileLimits.h"
 #include <algorithm>
+#include <chrono>
 #include <limits>
+#include <thread>
 
 namespace physvib {
 namespace {
@@ -35,10 +37,17 @@ bool isWavWhole(const std::string& path) {
 
 } // namespace
 
+// Calls that begin together all find no design. One of them writes it, and the others wait for it.
 std::string SweepFolder::prepare(const std::string& designText) const {
     if (auto fault = makeFolderOf(folder_ / "tasks" / "of all"); !fault.empty()) return fault;
-    const auto kept = readFile(design(), limits::maxSweepFileBytes);
-    return kept && kept.value == designText ? std::string{} : writeFile(design(), designText);
+    constexpr int mostTries = 500; // five seconds
+    for (int tries = 1;; ++tries) {
+        const auto kept = readFile(design(), limits::maxSweepFileBytes);
+        if (kept && kept.value == designText) return {};
+        AtomicFile file{design()};
+        if (!file.isTaken() || tries == mostTries) return file.write(designText), file.commit();
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
 }
 
 std::string SweepFolder::makeFolderOf(const fs::path& file) const {
