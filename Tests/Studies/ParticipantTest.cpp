@@ -581,7 +581,8 @@ TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
               std::string::npos);
     EXPECT_NE(refusal("render drop --method SV --sound 80=gone.wav").find("gone.wav: cannot be read"),
               std::string::npos);
-    EXPECT_NE(refusal("render drop --method SV --sound 81=synthetic-1").find("expected a --sound for 80 Hz"),
+    EXPECT_NE(refusal("render drop --method SV --sound 81=synthetic-1")
+                  .find("expected a --sound for concrete block or 80 Hz"),
               std::string::npos);
     EXPECT_NE(refusal("devices").find("call: expected render or stimulus"), std::string::npos);
     EXPECT_EQ(p->screen(), nullptr);
