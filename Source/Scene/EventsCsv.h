@@ -51,9 +51,8 @@ std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumn
 void appendEventRow(std::string& text, CollisionEvent event, OptionalColumns columns,
                     const SoundNames& names);
 
-/// The events with every column that they need. readEventsCsv restores them bit for bit if they are playable,
-/// in time order, and their sounds have names; it refuses them if they are not playable or in order. Any
-/// thread.
+/// The events with every column that they need. readEventsCsv restores them bit for bit if they are playable
+/// and in time order, and refuses them otherwise. Any thread.
 std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance,
                       const SoundNames& names = {});
 

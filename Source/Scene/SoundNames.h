@@ -11,14 +11,18 @@
 
 namespace physvib {
 
-inline constexpr std::string_view clipNamePrefix = "clip-"; // and its number, from 1 on
+inline constexpr std::string_view clipNamePrefix = "clip-";   // and its number, from 1 on
+inline constexpr std::string_view soundNamePrefix = "sound-"; // and the number of a material without a name
 
 /// The number of the sound that a list calls `name`; 0 if it has none. Any thread.
 inline SoundNumber soundNamed(std::string_view name) noexcept {
     if (name.empty()) return 0;
-    if (name.starts_with(clipNamePrefix))
-        if (const auto clip = parseNumber<SoundNumber>(name.substr(clipNamePrefix.size())))
-            if (isClip(*clip)) return *clip;
+    const auto after = [name](std::string_view prefix) {
+        return name.starts_with(prefix) ? parseNumber<SoundNumber>(name.substr(prefix.size())).value_or(0)
+                                        : SoundNumber{0};
+    };
+    if (const SoundNumber clip = after(clipNamePrefix); isClip(clip)) return clip;
+    if (const SoundNumber material = after(soundNamePrefix); material > mostClips) return material;
     return soundOfMaterial(name);
 }
 
@@ -46,18 +50,19 @@ public:
         for (const auto& material : materials) add(material.name);
     }
 
-    /// A list has no quotes, so a name that would not be read again as it is stays unwritten.
+    /// A list has no quotes: a material whose name would not be read again as it is stays without one.
     void add(std::string_view name) {
-        const SoundNumber sound = soundNamed(name);
-        if (sound != 0 && !isClip(sound) && isPlain(name)) names_.try_emplace(sound, name);
+        const SoundNumber sound = soundOfMaterial(name);
+        if (soundNamed(name) == sound && isPlain(name)) names_.try_emplace(sound, name);
     }
     bool has(SoundNumber sound) const { return names_.contains(sound); }
 
-    /// What a list writes: the material's name, clip-1 and so on, or nothing.
+    /// What a list writes: the material's name or else its number (sound-923368111), clip-1 and so on, or
+    /// nothing for 0.
     std::string of(SoundNumber sound) const {
-        if (isClip(sound)) return std::string{clipNamePrefix} + std::to_string(sound);
-        const auto known = names_.find(sound);
-        return known == names_.end() ? std::string{} : known->second;
+        if (sound == 0) return {};
+        if (const auto known = names_.find(sound); known != names_.end()) return known->second;
+        return std::string{isClip(sound) ? clipNamePrefix : soundNamePrefix} + std::to_string(sound);
     }
 
     bool operator==(const SoundNames&) const = default;

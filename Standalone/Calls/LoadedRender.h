@@ -213,8 +213,8 @@ inline std::string takeRecordings(LoadedRender& job, const std::vector<Collision
         const auto isItsOwn = [&](const ContactRecording& r) { return plays(e, r); };
         if (!job.options.playsRecordings || isClip(e.sound) || std::ranges::any_of(job.recordings, isItsOwn))
             continue;
-        const std::string material = job.names().of(e.sound);
-        return source + ": expected a --sound for " + (material.empty() ? "" : material + " or ") +
+        const SoundNames names = job.names();
+        return source + ": expected a --sound for " + (names.has(e.sound) ? names.of(e.sound) + " or " : "") +
                numberText(e.frequencyHz) + " Hz, found none";
     }
     return {};
