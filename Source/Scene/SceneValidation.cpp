@@ -9,7 +9,6 @@
 #include "Scene/World/PlacedBodies.h"
 #include "Scene/World/ShapeGeometry.h"
 #include <cmath>
-#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -97,11 +96,15 @@ std::string checkUnique(const std::string& list, const std::vector<T>& all) {
 /// Events carry the number of a material's name, so two names must not share one.
 std::string checkMaterialNames(const std::vector<Material>& all) {
     if (std::string fault = checkUnique("materials", all); !fault.empty()) return fault;
-    std::map<SoundNumber, std::string_view> names;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (const auto [known, isNew] = names.emplace(soundOfMaterial(all[i].name), all[i].name); !isNew)
+    std::vector<SoundNumber> sounds;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const SoundNumber sound = soundOfMaterial(all[i].name);
+        const auto same = static_cast<std::size_t>(std::ranges::find(sounds, sound) - sounds.begin());
+        if (same < i)
             return itemPath("materials", i) + ".name: expected another name: \"" + all[i].name + "\" and \"" +
-                   std::string{known->second} + "\" have the same number by chance";
+                   all[same].name + "\" have the same number by chance";
+        sounds.push_back(sound);
+    }
     return {};
 }
 

@@ -5,9 +5,9 @@
 #include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace physvib {
 
@@ -53,15 +53,17 @@ public:
     /// A list has no quotes: a material whose name would not be read again as it is stays without one.
     void add(std::string_view name) {
         const SoundNumber sound = soundOfMaterial(name);
-        if (soundNamed(name) == sound && isPlain(name)) names_.try_emplace(sound, name);
+        const auto next = placeOf(sound);
+        if (names_.size() < mostNames && !isAt(next, sound) && soundNamed(name) == sound && isPlain(name))
+            names_.insert(next, {sound, std::string{name}});
     }
-    bool has(SoundNumber sound) const { return names_.contains(sound); }
+    bool has(SoundNumber sound) const { return isAt(placeOf(sound), sound); }
 
     /// What a list writes: the material's name or else its number (sound-923368111), clip-1 and so on, or
     /// nothing for 0.
     std::string of(SoundNumber sound) const {
         if (sound == 0) return {};
-        if (const auto known = names_.find(sound); known != names_.end()) return known->second;
+        if (const auto known = placeOf(sound); isAt(known, sound)) return known->name;
         return std::string{isClip(sound) ? clipNamePrefix : soundNamePrefix} + std::to_string(sound);
     }
 
@@ -75,7 +77,19 @@ private:
         return std::ranges::none_of(name, breaks) && name.front() != ' ' && name.back() != ' ';
     }
 
-    std::map<SoundNumber, std::string> names_;
+    struct Entry {
+        SoundNumber sound;
+        std::string name;
+        bool operator==(const Entry&) const = default;
+    };
+    using Place = std::vector<Entry>::const_iterator;
+    Place placeOf(SoundNumber sound) const {
+        return std::ranges::lower_bound(names_, sound, {}, &Entry::sound);
+    }
+    bool isAt(Place place, SoundNumber sound) const { return place != names_.end() && place->sound == sound; }
+
+    static constexpr std::size_t mostNames = 4096; // so that an untrusted list is still read quickly
+    std::vector<Entry> names_;                     // sorted by number
 };
 
 } // namespace physvib
