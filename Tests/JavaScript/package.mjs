@@ -55,7 +55,7 @@ test('a ball that falls is felt as from C', () => {
     const events = drop();
     assert.ok(events.length > 3);
     assert.ok(events[0].timeNs > 403.8e6 && events[0].timeNs < 404e6, `onset ${events[0].timeNs}`);
-    assert.deepEqual({ ...events[0], timeNs: 0, amplitude: 0, impulse: 0 }, { timeNs: 0, durationNs: 0, frequencyHz: 200, decayPerSecond: 30, amplitude: 0, x: events[0].x, y: 0, impulse: 0, massKg: 0.2, fixture: 1, other: 0, kind: 'hit' });
+    assert.deepEqual({ ...events[0], timeNs: 0, amplitude: 0, impulse: 0 }, { timeNs: 0, durationNs: 0, frequencyHz: 200, decayPerSecond: 30, amplitude: 0, x: events[0].x, y: 0, impulse: 0, massKg: 0.2, fixture: 1, other: 0, kind: 'hit', sound: 0 });
 });
 
 for (const scene of ['shake-the-box', 'marbles', 'driving']) test(`${scene}: samples equal to native, to the bit`, async () => {
