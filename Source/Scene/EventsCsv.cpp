@@ -228,10 +228,10 @@ Result<EventList> loadEventsCsv(const std::filesystem::path& path) {
     return reader().read(found.value);
 }
 
-OptionalColumns columnsOf(std::span<const CollisionEvent> events, const SoundNames& names) {
+OptionalColumns columnsOf(std::span<const CollisionEvent> events) {
     const auto hasKind = [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; };
-    const auto hasName = [&](const CollisionEvent& e) { return !names.of(e.sound).empty(); };
-    return {std::ranges::any_of(events, hasKind), std::ranges::any_of(events, hasName)};
+    const auto hasSound = [](const CollisionEvent& e) { return e.sound != 0; };
+    return {std::ranges::any_of(events, hasKind), std::ranges::any_of(events, hasSound)};
 }
 
 std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumns columns) {
@@ -251,7 +251,7 @@ void appendEventRow(std::string& text, CollisionEvent event, OptionalColumns col
 
 std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance,
                       const SoundNames& names) {
-    const OptionalColumns columns = columnsOf(events, names);
+    const OptionalColumns columns = columnsOf(events);
     std::string text = eventsCsvHead(provenance, field, columns);
     constexpr std::size_t usualRowBytes = 160;
     text.reserve(text.size() + events.size() * usualRowBytes);

@@ -43,7 +43,7 @@ struct OptionalColumns {
 };
 
 /// Those that these events need. Any thread.
-OptionalColumns columnsOf(std::span<const CollisionEvent> events, const SoundNames& names);
+OptionalColumns columnsOf(std::span<const CollisionEvent> events);
 
 /// Comment with header line, and the line of one event: the parts of eventsCsv. `field` is written if known.
 /// Any thread.

@@ -171,13 +171,16 @@ inline std::string fixedLevelFault(const LoadedRender& job) {
     return {};
 }
 
+/// True if the event is one of those that a --sound names.
+inline bool isNamedBy(const RecordingFile& file, const CollisionEvent& event) {
+    return file.material.empty() ? event.frequencyHz == file.frequencyHz : event.sound == file.sound();
+}
+
 /// What a --sound is for: its file, with the frequency and decay that its events have.
 inline Result<RecordingFile> recordingOf(const RecordedSound& sound, const LoadedRender& job,
                                          const std::vector<CollisionEvent>& events) {
     RecordingFile file{sound.frequencyHz, sound.path, 0.0, job.options.matchesStrength, {}, sound.material};
-    const auto isMeant = [&](const CollisionEvent& e) {
-        return sound.material.empty() ? e.frequencyHz == sound.frequencyHz : e.sound == file.sound();
-    };
+    const auto isMeant = [&](const CollisionEvent& e) { return isNamedBy(file, e); };
     if (const auto struck = std::ranges::find_if(events, isMeant); struck != events.end()) {
         file.frequencyHz = struck->frequencyHz;
         file.decayPerSecond = struck->decayPerSecond;
@@ -206,11 +209,8 @@ inline std::string takeRecordings(LoadedRender& job, const std::vector<Collision
         if (!contact) return contact.error;
         job.recordings.push_back(std::move(contact.value));
     }
-    const auto plays = [](const CollisionEvent& e, const ContactRecording& r) {
-        return r.file.material.empty() ? r.frequencyHz == e.frequencyHz : r.file.sound() == e.sound;
-    };
     for (const CollisionEvent& e : events) {
-        const auto isItsOwn = [&](const ContactRecording& r) { return plays(e, r); };
+        const auto isItsOwn = [&](const ContactRecording& r) { return isNamedBy(r.file, e); };
         if (!job.options.playsRecordings || isClip(e.sound) || std::ranges::any_of(job.recordings, isItsOwn))
             continue;
         const SoundNames names = job.names();

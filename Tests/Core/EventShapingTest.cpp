@@ -64,17 +64,26 @@ TEST(EventShaping, CutsADecayWhereItsEnvelopeFallsToGamma) {
     EXPECT_EQ(shaping(e), e) << "what does not decay stays";
 }
 
+/// Gives all impacts one level that is held; false if there is no such method.
+bool holdLevel(EventShaping& shaping) {
+    shaping.method.holdsLevel = true;
+    return renderingMethodNamed("AF-FV-DRV", shaping.method);
+}
+
+CollisionEvent hitOf(std::int64_t durationNs) {
+    return {.timeNs = 7,
+            .frequencyHz = 349,
+            .decayPerSecond = 107,
+            .amplitude = 0.3,
+            .durationNs = durationNs,
+            .source = {1, 2, 3, 4}};
+}
+
 TEST(EventShaping, AClipStaysAsItIsAloneAndAmongTheHitsOfAWorld) {
     EventShaping shaping{
         .method = {}, .remap = {{180, 230}}, .gain = 0.5, .perceived = {true}, .truncation = 0.1};
-    ASSERT_TRUE(renderingMethodNamed("AF-FV-DRV", shaping.method));
-    shaping.method.holdsLevel = true;
-    const CollisionEvent hit{.timeNs = 7,
-                             .frequencyHz = 349,
-                             .decayPerSecond = 107,
-                             .amplitude = 0.3,
-                             .durationNs = 9,
-                             .source = {1, 2, 3, 4}};
+    ASSERT_TRUE(holdLevel(shaping));
+    const CollisionEvent hit = hitOf(9);
     CollisionEvent clip = hit;
     clip.sound = soundOfClip(mostClips - 1);
     EventShaper shaper{shaping};
@@ -110,14 +119,8 @@ TEST(EventShaping, DoesNotCutWhatHardlyDecays) {
 
 TEST(EventShaper, ForgetsTheImpactsThatStillSound) {
     EventShaping shaping;
-    ASSERT_TRUE(renderingMethodNamed("AF-FV-DRV", shaping.method));
-    shaping.method.holdsLevel = true;
-    const CollisionEvent hit{.timeNs = 7,
-                             .frequencyHz = 349,
-                             .decayPerSecond = 107,
-                             .amplitude = 0.3,
-                             .durationNs = 0,
-                             .source = {1, 2, 3, 4}};
+    ASSERT_TRUE(holdLevel(shaping));
+    const CollisionEvent hit = hitOf(0);
     EventShaper shaper{shaping};
     const double first = shaper(hit).amplitude;
     EXPECT_LT(shaper(hit).amplitude, first) << "only what the first one leaves free";
