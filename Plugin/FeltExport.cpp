@@ -2,8 +2,8 @@
 // Exports played events as MIDI, an event list or a haptic file; the format follows from the file name's
 // ending.
 #include "FeltExport.h"
-#include "Host/Recordings/HitExport.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Live/Recordings/HitExport.h"
 #include "PluginSettings.h"
 #include "Scene/EventsCsv.h"
 #include <algorithm>

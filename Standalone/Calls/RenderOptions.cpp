@@ -3,8 +3,8 @@
 #include "Calls/RenderOptions.h"
 #include "Calls/RenderWords.h"
 #include "Core/EventShaping.h"
-#include "Host/Devices/AudioOutput.h"
 #include "Io/Text/NameList.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Scene/World/Simulation.h"
 
 namespace physvib {

@@ -2,8 +2,8 @@
 // Creates a movie of a session: first its events, then its samples, then the pictures.
 #include "Calls/SessionMovie.h"
 #include "Calls/MovieOutput.h"
-#include "Host/Recordings/LoadRecordings.h"
 #include "Io/Disk/FileClash.h"
+#include "Live/Recordings/LoadRecordings.h"
 #include "Live/Session/SessionRender.h"
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Audio devices of this machine, for the list of `devices` and the suggestion of `play`.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
-#include <juce_events/juce_events.h>
+#include "Live/Devices/AudioDevices.h"
+#include "Live/Devices/SystemDrivers.h"
 #include <ostream>
 #include <string>
 #include <vector>
@@ -10,10 +10,7 @@
 namespace physvib {
 
 /// Available devices in the system's order. Message thread; queries the system.
-inline std::vector<AudioDeviceName> devicesOfThisMachine() {
-    const juce::ScopedJuceInitialiser_GUI juce;
-    return listAudioDevices();
-}
+inline std::vector<AudioDeviceName> devicesOfThisMachine() { return listAudioDevices(systemAudioDrivers); }
 
 /// One line per device: the name for --device, and its number of outputs.
 inline void printDevices(std::ostream& out, const std::vector<AudioDeviceName>& devices) {

@@ -62,6 +62,12 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments);
 /// True if a window can be opened. Any thread but the render thread.
 bool hasDisplay() noexcept;
 
+/// Name of this computer in its network. Any thread but the render thread.
+std::string computerName();
+
+/// Path of this program. Message thread.
+std::string ownPath();
+
 /// Path of another program of PhysVib: beside this one, else by the system's search path. Message thread.
 std::string ownProgram(const std::string& name);
 

@@ -94,9 +94,20 @@ bool hasDisplay() noexcept {
 #endif
 }
 
+std::string computerName() {
+    std::array<char, 256> name{};
+    gethostname(name.data(), name.size() - 1);
+    return name.data();
+}
+
+std::string ownPath() {
+    std::error_code none;
+    return std::filesystem::read_symlink("/proc/self/exe", none).string();
+}
+
 std::string ownProgram(const std::string& name) {
     std::error_code none;
-    const auto beside = std::filesystem::read_symlink("/proc/self/exe", none).replace_filename(name);
+    const auto beside = std::filesystem::path{ownPath()}.replace_filename(name);
     return !none && std::filesystem::exists(beside, none) ? beside.string() : name;
 }
 

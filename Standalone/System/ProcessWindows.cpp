@@ -4,6 +4,7 @@
 #include "Io/Disk/SystemFile.h"
 #include "Io/Disk/SystemWindows.h"
 #include "System/Process.h"
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -82,6 +83,18 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
 bool hasDisplay() noexcept { return true; }
 
 // Windows searches the folder of the running program first.
+std::string computerName() {
+    std::array<char, 256> name{};
+    DWORD size = name.size();
+    return GetComputerNameA(name.data(), &size) != 0 ? name.data() : "";
+}
+
+std::string ownPath() {
+    std::array<char, 32768> path{};
+    GetModuleFileNameA(nullptr, path.data(), path.size());
+    return path.data();
+}
+
 std::string ownProgram(const std::string& name) { return name; }
 
 } // namespace physvib

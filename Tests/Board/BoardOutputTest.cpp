@@ -2,9 +2,9 @@
 // One session on a device and a board: each hit leaves the device and the board's converters at the same
 // moment.
 #include "Live/Session/BoardOutput.h"
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/SimulationDriver.h"
 #include "Host/FakeAudioDevice.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Devices/SimulationDriver.h"
 #include "Session/WallsScene.h"
 #include "VirtualBoard.h"
 #include <cmath>
@@ -105,7 +105,7 @@ protected:
     BoardOutput output{board.port(), setup.panner, latency};
     Session session{setup};
     test::FakeInterface interface;
-    AudioOutput device{session, test::fakeTypes({&interface})};
+    AudioOutput device{session, test::fakeDrivers({&interface})};
     std::optional<Following> together;
     std::optional<Hands> hands;
     std::optional<ThreadDriver> driver;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boards that answer as none should, and one whose counter is over: what the link makes of them.
-#include "Host/Devices/AudioOutput.h"
 #include "Host/FakeAudioDevice.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Live/Session/BoardOutput.h"
 #include "Session/WallsScene.h"
 #include "VirtualBoard.h"
@@ -162,7 +162,7 @@ TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
     session.sinks().attach(onBoard);
     std::atomic<bool> interrupt{false};
     test::FakeInterface hands;
-    AudioOutput output{session, test::fakeTypes({&hands}), &interrupt};
+    AudioOutput output{session, test::fakeDrivers({&hands}), &interrupt};
     output.setLevel(0.5f);
     const Following together{session.sinks(), output};
     const int half = limits::board::amplitudeUnit / 2;
@@ -185,7 +185,7 @@ BoardLinkStatus playPath(FakeBoard& board) {
     session.sinks().attach(onBoard);
     test::FakeInterface hands;
     hands.block = 480;
-    AudioOutput output{session, test::fakeTypes({&hands})};
+    AudioOutput output{session, test::fakeDrivers({&hands})};
     EXPECT_EQ(output.open({"hands", {}, 0, 0, 0.5f}), "");
     const Following together{session.sinks(), output};
     auto due = std::chrono::steady_clock::now(); // a device that keeps time, whatever else runs here

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // AudioOutput on interfaces that vanish, change and misbehave: no other device, no loud moment, no event
 // missing.
-#include "Host/Devices/AudioOutput.h"
+#include "Live/Devices/AudioOutput.h"
 #include "FakeAudioDevice.h"
 #include "Scene/World/SceneRun.h"
 #include "Session/FakeHost.h"
@@ -73,7 +73,7 @@ struct Rig {
     SessionSetup setup;
     Session session{setup};
     std::atomic<bool> interrupt{false};
-    AudioOutput output{session, fakeTypes({&speakers, &interface}), &interrupt};
+    AudioOutput output{session, fakeDrivers({&speakers, &interface}), &interrupt};
     std::vector<CollisionEvent> log;
     SessionLog made;
 };
@@ -170,9 +170,9 @@ TEST(AudioOutput, AnotherDriverWithADeviceOfThatNameIsAnotherDevice) {
     FakeInterface ours, theirs;
     Session session{eightHands()};
     AudioOutput output{session, [&] {
-                           auto types = fakeTypes({&ours}, "Ours")();
-                           types.push_back(std::move(fakeTypes({&theirs}, "Mine")().front()));
-                           return types;
+                           auto drivers = fakeDrivers({&ours}, "Ours")();
+                           drivers.push_back(std::move(fakeDrivers({&theirs}, "Mine")().front()));
+                           return drivers;
                        }};
     ASSERT_EQ(output.open({"hands"}), "");
     ours.unplug(true);
@@ -357,7 +357,7 @@ TEST(AudioOutput, EnchantersGoWhereTheMapSaysThoughUnconnectedOutputsAreLeftOut)
     rig.interface.unconnected = {1, 6};
     ASSERT_EQ(rig.open({7, 1, 3, 2}), ""); // enchanter 1 on output 8, ... ; outputs 2 and 7 are not connected
     ASSERT_EQ(plain.open(), "");
-    EXPECT_EQ(rig.interface.opened.toInteger(), 0b10001110) << "no output is opened that nobody wants";
+    EXPECT_EQ(rig.interface.opened, (ChannelSet{1, 2, 3, 7})) << "no output is opened that nobody wants";
     EXPECT_EQ(rig.output.maintain(), "Fake:hands: 5 of 8 actuators have no output there");
     const auto mapped = rig.play(8.0, 64), all = plain.play(8.0, 64);
     ASSERT_EQ(mapped.size(), 3u); // outputs 3, 4, 8

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drivers that hang, however long: nobody waits longer than he said, and what comes late is taken up or
 // closed.
-#include "Host/Devices/DeviceKeeper.h"
+#include "Live/Devices/DeviceKeeper.h"
 #include "FakeAudioDevice.h"
-#include "Host/Devices/AudioOutput.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Session/FakeHost.h"
 #include <gtest/gtest.h>
 #include <thread>
@@ -18,18 +18,17 @@ constexpr auto noTime = 5ms, muchTime = std::chrono::milliseconds{60s};
 
 DeviceWish wishOf(const std::string& name) {
     DeviceWish wish{.name = name};
-    wish.outputs.setRange(0, 4, true);
+    wish.outputs = {0, 1, 2, 3};
     return wish;
 }
 
-struct Counted final : juce::AudioIODeviceCallback {
-    void audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outputs,
-                                          int frames, const juce::AudioIODeviceCallbackContext&) override {
+struct Counted final : DeviceUser {
+    void block(const float* const*, int, float* const* out, int outputs, int frames) noexcept override {
         ++blocks;
         for (int k = 0; k < outputs; ++k) std::fill_n(out[k], frames, 0.5f);
     }
-    void audioDeviceAboutToStart(juce::AudioIODevice*) override { ++starts; }
-    void audioDeviceStopped() override { ++stops; }
+    void aboutToStart(AudioDevice&) override { ++starts; }
+    void stopped() override { ++stops; }
     int blocks = 0, starts = 0, stops = 0;
 };
 
@@ -54,7 +53,7 @@ std::string openAtLast(DeviceKeeper& keeper, const DeviceWish& wish) {
 
 TEST(DeviceKeeper, NobodyWaitsForADriverThatHangsAndWhatItOpensLateIsTakenUp) {
     FakeInterface thing;
-    DeviceKeeper keeper{fakeTypes({&thing}), nullptr};
+    DeviceKeeper keeper{fakeDrivers({&thing}), nullptr};
     thing.hangsIn = FakeInterface::Call::open;
     EXPECT_EQ(keeper.open(wishOf("hands"), noTime), noAnswer);
     EXPECT_EQ(keeper.open(wishOf("hands"), muchTime), noAnswer)
@@ -68,11 +67,11 @@ TEST(DeviceKeeper, NobodyWaitsForADriverThatHangsAndWhatItOpensLateIsTakenUp) {
 
 TEST(DeviceKeeper, WhatIsOpenedLateAndNoLongerWantedIsClosed) {
     FakeInterface thing;
-    DeviceKeeper keeper{fakeTypes({&thing}), nullptr};
+    DeviceKeeper keeper{fakeDrivers({&thing}), nullptr};
     thing.hangsIn = FakeInterface::Call::open;
     EXPECT_EQ(keeper.open(wishOf("hands"), noTime), noAnswer);
     auto other = wishOf("hands");
-    other.outputs.setBit(6);
+    other.outputs.insert(6);
     thing.goOn();
     EXPECT_EQ(openAtLast(keeper, other), "");
     EXPECT_EQ(thing.timesOpened, 2);
@@ -84,7 +83,7 @@ TEST(DeviceKeeper, WhatIsOpenedLateAndNoLongerWantedIsClosed) {
 TEST(DeviceKeeper, HurryEndsTheWaiting) {
     FakeInterface thing;
     std::atomic<bool> hurry{true};
-    DeviceKeeper keeper{fakeTypes({&thing}), &hurry};
+    DeviceKeeper keeper{fakeDrivers({&thing}), &hurry};
     thing.hangsIn = FakeInterface::Call::open;
     EXPECT_EQ(keeper.open(wishOf("hands"), muchTime), noAnswer) << "else this test takes a minute";
     thing.goOn();
@@ -92,7 +91,7 @@ TEST(DeviceKeeper, HurryEndsTheWaiting) {
 
 TEST(DeviceKeeper, WhoIsLetGoIsCalledNoMoreAndTheDeviceHearsSilence) {
     FakeInterface thing;
-    DeviceKeeper keeper{fakeTypes({&thing}), nullptr};
+    DeviceKeeper keeper{fakeDrivers({&thing}), nullptr};
     Counted owner;
     ASSERT_EQ(keeper.open(wishOf("hands"), muchTime), "");
     keeper.start(owner);
@@ -110,7 +109,7 @@ TEST(DeviceKeeper, ADeviceThatDoesNotCloseIsLeftAndAnotherCanBeOpened) {
     other.name = "feet";
     const int before = DeviceThread::threadsLeft();
     {
-        DeviceKeeper keeper{fakeTypes({&hung, &other}), nullptr};
+        DeviceKeeper keeper{fakeDrivers({&hung, &other}), nullptr};
         Counted owner;
         ASSERT_EQ(keeper.open(wishOf("hands"), muchTime), "");
         keeper.start(owner);
@@ -133,7 +132,7 @@ TEST(DeviceKeeper, ADeviceThatDoesNotCloseIsLeftAndAnotherCanBeOpened) {
 struct Rig {
     FakeInterface interface;
     Session session{shakeTheBoxSetup(0.02)};
-    AudioOutput output{session, fakeTypes({&interface})};
+    AudioOutput output{session, fakeDrivers({&interface})};
 };
 
 TEST(AudioOutput, ADriverThatHangsIsToldAndPlayedOnAgainWhenItAnswers) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is heard beside what is felt: on its outputs, at its level, in sync, and nowhere else.
 #include "FakeAudioDevice.h"
-#include "Host/Devices/AudioOutput.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Session/FakeHost.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ struct Rig {
     }
     FakeInterface interface;
     Session session;
-    AudioOutput output{session, fakeTypes({&interface})};
+    AudioOutput output{session, fakeDrivers({&interface})};
 };
 
 double rmsDb(const std::vector<float>& x, std::size_t from) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An enchanter that rings while it gets another output is never cut off, and never heard with another one.
-#include "Host/Devices/OutputMap.h"
+#include "Live/Devices/OutputMap.h"
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ class Player {
 public:
     explicit Player(int frames)
         : frames_{frames} {
-        everything_.setRange(0, outputs, true);
+        for (int k = 0; k < outputs; ++k) everything_.insert(k);
         EXPECT_EQ(map_.want(2, {0, 1}), "");
         map_.place(everything_);
         map_.settle(rate);
@@ -50,7 +50,7 @@ public:
 
 private:
     OutputMap map_;
-    juce::BigInteger everything_;
+    ChannelSet everything_;
     const int frames_;
     bool hasBegun_ = false;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings from files that nobody vouches for.
-#include "Host/Recordings/ReadRecording.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Support/WavBytes.h"
 #include <algorithm>
 #include <cmath>

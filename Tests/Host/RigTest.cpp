@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One rig from its beginning to its end: what it plays, keeps and says.
-#include "Host/Rig/Rig.h"
-#include "Host/Devices/NoDevice.h"
+#include "Live/Rig/Rig.h"
+#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/SystemDrivers.h"
 #include "Live/Documents/SessionFile.h"
 #include "MessageLoop.h"
 #include "Session/FakeHost.h"
@@ -30,7 +31,7 @@ TEST_F(RigTest, PlaysAndKeepsASessionAndItsRecording) {
     RigSettings wanted = settings();
     wanted.recordPath = (folder / "felt.wav").string();
     wanted.savePath = (folder / "felt.json").string();
-    Rig rig{wanted, audioDeviceTypesAndNone};
+    Rig rig{wanted, withNoDevice(systemAudioDrivers)};
     ASSERT_EQ(rig.open(), "");
     EXPECT_EQ(rig.inputs(), nullptr) << "nothing is heard";
     rig.start();
@@ -58,7 +59,7 @@ TEST_F(RigTest, ThatDoesNotOpenKeepsNothing) {
     wanted.output.device = "None:of this name";
     wanted.savePath = (folder / "felt.json").string();
     {
-        Rig rig{wanted, audioDeviceTypesAndNone};
+        Rig rig{wanted, withNoDevice(systemAudioDrivers)};
         EXPECT_NE(rig.open(), "");
     }
     EXPECT_FALSE(std::filesystem::exists(wanted.savePath));
@@ -68,11 +69,11 @@ TEST_F(RigTest, WaitsForASinkOrNamesItLater) {
     RigSettings wanted = settings();
     wanted.sinks = {{"BOARD", "/nowhere/port"}};
     {
-        Rig rig{wanted, audioDeviceTypesAndNone};
+        Rig rig{wanted, withNoDevice(systemAudioDrivers)};
         EXPECT_NE(rig.open(), "") << "a sink that is awaited has to come";
     }
     wanted.awaitsSinks = false;
-    Rig rig{wanted, audioDeviceTypesAndNone};
+    Rig rig{wanted, withNoDevice(systemAudioDrivers)};
     ASSERT_EQ(rig.open(), "");
     rig.start();
     EXPECT_EQ(rig.trouble(), "") << "it may still come";

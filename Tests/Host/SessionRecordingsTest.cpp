@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recorded contacts: at a level that is known, in a live session, and in the session that is rendered again
 // from its file.
-#include "Host/Recordings/LoadContact.h"
-#include "Host/Recordings/LoadRecordings.h"
-#include "Host/Recordings/ReadRecording.h"
-#include "Host/Recordings/SessionWav.h"
 #include "Io/Wav/WavSink.h"
+#include "Live/Recordings/LoadContact.h"
+#include "Live/Recordings/LoadRecordings.h"
+#include "Live/Recordings/ReadRecording.h"
+#include "Live/Recordings/SessionWav.h"
 #include "Live/Session/SessionJournal.h"
 #include "Session/FakeHost.h"
 #include <cmath>

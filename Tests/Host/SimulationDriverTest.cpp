@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drivers take over from each other at any moment, and from blocks that step the world themselves: nothing is
 // missing.
-#include "Host/Devices/SimulationDriver.h"
-#include "Host/MessageLoop.h"
+#include "Live/Devices/SimulationDriver.h"
 #include "Scene/World/SceneRun.h"
 #include "Session/FakeHost.h"
 #include <atomic>
+#include <chrono>
 #include <gtest/gtest.h>
+#include <optional>
 #include <thread>
 
 namespace physvib {
@@ -14,14 +15,17 @@ namespace {
 
 using namespace test;
 
-std::unique_ptr<SimulationDriver> make(int kind, Session& session) {
-    if (kind == 0) return std::make_unique<MessageTimerDriver>(session);
-    if (kind == 1) return std::make_unique<ThreadDriver>(session, 100);
-    return nullptr; // the render call
+/// Steps the session for that time: as a message thread, a thread of its own, or not at all (the render
+/// call).
+void drive(int kind, Session& session, std::chrono::milliseconds time) {
+    std::optional<ThreadDriver> driver;
+    if (kind == 1) driver.emplace(session, 100);
+    for (const auto end = std::chrono::steady_clock::now() + time; std::chrono::steady_clock::now() < end;
+         std::this_thread::sleep_for(std::chrono::milliseconds{kind == 0 ? 10 : 1}))
+        if (kind == 0) session.advance();
 }
 
 TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
-    const juce::ScopedJuceInitialiser_GUI juce;
     constexpr int frames = 480;
     const auto setup = shakeTheBoxSetup(0.1);
     Session session{setup};
@@ -41,8 +45,7 @@ TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
     for (int i = 0; i < 40; ++i) {
         const int kind = random.below(3);
         offline = kind == 2;
-        const auto driver = make(kind, session);
-        runFor(0.001 * (20 + random.below(100)));
+        drive(kind, session, std::chrono::milliseconds{20 + random.below(100)});
     }
     stop = true;
     device.join();
@@ -54,25 +57,19 @@ TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
 }
 
 TEST(SimulationDriver, NoStepIsMadeOnceAllShallEnd) {
-    const juce::ScopedJuceInitialiser_GUI juce;
-    for (const bool hasThread : {false, true}) {
-        Session session{shakeTheBoxSetup(0.1)};
-        session.prepare(hostRate, 480);
-        session.advance();
-        std::atomic<bool> ends{true};
-        std::unique_ptr<SimulationDriver> driver;
-        if (hasThread)
-            driver = std::make_unique<ThreadDriver>(session, 100, &ends);
-        else
-            driver = std::make_unique<MessageTimerDriver>(session, &ends);
+    Session session{shakeTheBoxSetup(0.1)};
+    session.prepare(hostRate, 480);
+    session.advance();
+    const std::atomic<bool> ends{true};
+    {
+        const ThreadDriver driver{session, 100, &ends};
         Block block;
         for (int i = 0; i < 10; ++i) {
             session.render(block.at.data(), 480, RenderMode::realtime);
-            runFor(0.02);
+            std::this_thread::sleep_for(std::chrono::milliseconds{20});
         }
-        driver.reset();
-        EXPECT_GT(session.advance(), 0) << "what was due was left";
     }
+    EXPECT_GT(session.advance(), 0) << "what was due was left";
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How what is played beside a device is named.
-#include "Host/Devices/SinkTable.h"
+#include "Live/Devices/SinkTable.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -11,17 +11,20 @@ set(Lab_may "Lab/|Stimuli/|Scene/|Io/|Core/|Eigen/|boost/|nlohmann/")
 set(Formats_may "Formats/|Io/|Core/|nlohmann/")
 set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Io/(Result|Text/NumberText)\\.h|Contacts/(Grains|Texture)\\.h|Core/") # one line of words for what a recording lacks
 set(Api_may "Api/C/|Scene/|Io/|Contacts/|Core/")
-set(Api/Live_may "Api/|Host/|Live/|Scene/|Io/|Core/|juce_")
+set(Api/Live_may "Api/|Live/|Scene/|Io/|Contacts/|Core/")
 set(Api/JavaScript_may "Api/(C|JavaScript)/|Members\\.inc|Formats/|Scene/|Io/|Core/")
 set(Live/Documents_may "Live/Documents/|Scene/|Io/|Core/|nlohmann/")
 set(Live/Session_may "Live/(Documents|Messages|Session)/|Stimuli/|Scene/|Io/|Physics/|Contacts/|Wire/|Core/")
 set(Live/Messages_may "${Live/Session_may}")
 set(Live/Pads_may "Live/|SDL2/|Scene/|Io/|Core/")
+set(Live/Devices_may "Live/|Stimuli/|Scene/|Io/|Core/|portaudio")
+set(Live/Recordings_may "Live/|Wire/|Stimuli/|Formats/|Measure/(HitExcerpt|LoudestChannel|RecordingFaults|SlowPart)\\.h|Scene/|Io/|Core/|FLAC/|vorbis/")
+set(Live/Rig_may "Live/|Core/")
 set(Standalone/Web_may "Page(File|World)\\.h|Api/JavaScript/Exports\\.h|Formats/|Measure/|box2d/|Scene/|Io/|Physics/|Contacts/|Core/")
 set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Live/Session/OfflineRender\\.h|Scene/|Io/|Physics/|Contacts/|Core/")
 set(Standalone/Options_may "Options/|Scene/|Io/")
 set(Pictures_may "Pictures/|Scene/|Io/|Core/|ft2build|png\\.h")
-set(Host_may "Host/|Live/|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Formats/|Measure/(HitExcerpt|LoudestChannel|RecordingFaults|SlowPart)\\.h|Stimuli/|Scene/|Io/|Physics/|Contacts/|Wire/|Core/|juce_")
+set(Host_may "Host/|Live/|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Scene/|Io/|Physics/|Contacts/|Core/|juce_")
 set(Host/Osc_may "Host/Osc/|Live/|Scene/|Io/|Physics/|Core/|lo/")
 set(Plugin_may "Host/|Live/|Scene/|Io/|Physics/|Contacts/|Stimuli/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
 # The mixer's desk is what plays: without studies.
@@ -30,7 +33,7 @@ set(Standalone/Mixer/Desk_may "Mixer/(Desk|Strips)/|Host/|Live/|Stimuli/|Scene/|
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Io Contacts Physics Scene Stimuli Formats Measure Pictures Lab Api Api/JavaScript Api/Live Live/Documents Live/Messages Live/Session Live/Pads Host Host/Osc Plugin
+foreach(room Core Wire Io Contacts Physics Scene Stimuli Formats Measure Pictures Lab Api Api/JavaScript Api/Live Live/Documents Live/Messages Live/Session Live/Pads Live/Devices Live/Recordings Live/Rig Host Host/Osc Plugin
              Standalone/Mixer/Desk Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # Live: a room of its own, under another licence; JavaScript: with Formats; Engines: headers for engines of the user
@@ -43,7 +46,7 @@ foreach(room Core Wire Io Contacts Physics Scene Stimuli Formats Measure Picture
         foreach(line ${includes})
             if(line MATCHES "include *\"" AND NOT line MATCHES "\"(${${room}_may})")
                 list(APPEND bad "${file}: ${line}")
-            elseif(line MATCHES "<(aubio/|lo/|SDL2/|box2d|juce_|nlohmann|Eigen/|unsupported/|boost/|ft2build|png\\.h)" AND NOT line MATCHES "<(${${room}_may})")
+            elseif(line MATCHES "<(aubio/|lo/|SDL2/|portaudio|FLAC/|vorbis/|box2d|juce_|nlohmann|Eigen/|unsupported/|boost/|ft2build|png\\.h)" AND NOT line MATCHES "<(${${room}_may})")
                 list(APPEND bad "${file}: ${line}")
             elseif(room STREQUAL "Core" AND line MATCHES "${Core_never}")
                 list(APPEND bad "${file}: ${line}")

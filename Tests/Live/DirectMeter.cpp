@@ -2,8 +2,9 @@
 // Measures how long after a message its strike comes out of a JACK server where the session is direct. Prints
 // a line; fails unless each is heard one block and the limiter after the session frame at which it came, and
 // what was played is what the log renders. Usage: physvib-direct-meter MESSAGES
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/SimulationDriver.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Devices/SimulationDriver.h"
+#include "Live/Devices/SystemDrivers.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Live/Session/SessionRender.h"
 #include "MeterClient.h"
@@ -40,11 +41,10 @@ std::vector<Asked> ask(Session& session, int times) {
 int main(int argc, char** argv) {
     if (argc != 2) return 2;
     const int messages = std::atoi(argv[1]);
-    const juce::ScopedJuceInitialiser_GUI juce;
     SessionSetup setup = test::setupOfWalls();
     setup.direct = Direct::told;
     Session session{setup};
-    AudioOutput output{session};
+    AudioOutput output{session, systemAudioDrivers};
     if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty())
         return std::puts(error.c_str()), 1;
     std::vector<Asked> asked;

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measures how long after its contact a collision comes out of a JACK server: a session on it, and in the
 // same process a client that records what it plays and notes which frame of the session each cycle is. Prints
-// a row of a table. Usage: physvib-latency-meter message|thread SECONDS
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/SimulationDriver.h"
+// a row of a table. Usage: physvib-latency-meter message|thread SECONDS [juce], through the drivers of JUCE
+// then
+#include "Host/Devices/JuceDrivers.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Devices/RepeatEvery.h"
+#include "Live/Devices/SimulationDriver.h"
+#include "Live/Devices/SystemDrivers.h"
 #include "MeterClient.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/SceneRun.h"
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <juce_events/juce_events.h>
+#include <optional>
 #include <string>
 
 using namespace physvib;
@@ -26,28 +33,27 @@ SessionSetup setupFor(const std::string& driver) {
     return s;
 }
 
-std::unique_ptr<SimulationDriver> start(const std::string& driver, Session& session, int stepsPerSecond) {
-    if (driver == "thread") return std::make_unique<ThreadDriver>(session, stepsPerSecond);
-    return std::make_unique<MessageTimerDriver>(session);
-}
-
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 3) return 2;
+    if (argc != 3 && argc != 4) return 2;
     const std::string driverName = argv[1];
     const double seconds = std::atof(argv[2]);
-    const juce::ScopedJuceInitialiser_GUI juce;
+    const juce::ScopedJuceInitialiser_GUI juce; // its drivers want a message thread
     const SessionSetup setup = setupFor(driverName);
     Session session{setup};
-    AudioOutput output{session};
+    AudioOutput output{session, argc == 4 ? juceAudioDrivers : systemAudioDrivers};
     if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty())
         return std::puts(error.c_str()), 1;
-    const auto driver = start(driverName, session, setup.stepsPerSecond);
+    std::optional<ThreadDriver> driver;
+    if (driverName == "thread") driver.emplace(session, setup.stepsPerSecond);
     test::MeterClient client{session, seconds};
-    juce::Timer::callAfterDelay(static_cast<int>(seconds * 1000) + 200,
-                                [] { juce::MessageManager::getInstance()->stopDispatchLoop(); });
-    juce::MessageManager::getInstance()->runDispatchLoop();
+    const auto end =
+        std::chrono::steady_clock::now() + std::chrono::milliseconds(std::llround(seconds * 1e3) + 200);
+    repeatEvery(std::chrono::milliseconds{10}, [&] { // as `physvib play` without a thread for its world
+        if (!driver) session.advance();
+        return std::chrono::steady_clock::now() < end;
+    });
     client.stop();
     SessionLog log; // stalls, if there were any
     session.readLog(log);
@@ -57,11 +63,13 @@ int main(int argc, char** argv) {
     if (!result.isAligned) return std::puts("the recording is not the render"), 1;
     const auto ms = [&](std::int64_t frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
     const std::int64_t measured = client.firstFrame + result.offset, law = session.timeline().playOutFrames();
-    std::printf("| `%s` | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu |\n",
+    std::printf("| `%s` | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu | "
+                "%lld of %lld |\n",
                 driverName.c_str(), client.block, static_cast<long long>(law), ms(law),
                 static_cast<long long>(measured), ms(measured), client.playbackLatencyFrames(),
                 ms(client.playbackLatencyFrames()), ms(measured + client.playbackLatencyFrames()),
                 static_cast<unsigned long long>(session.status().render.late),
-                static_cast<unsigned long long>(session.status().render.played));
+                static_cast<unsigned long long>(session.status().render.played),
+                static_cast<long long>(result.equal), static_cast<long long>(result.blocks));
     return measured == law ? 0 : 1;
 }

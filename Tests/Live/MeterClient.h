@@ -35,9 +35,14 @@ public:
             },
             this);
         jack_activate(client_);
-        for (int j = 0; j < channels; ++j)
-            jack_connect(client_, ("physvib:out_" + std::to_string(j + 1)).c_str(),
-                         jack_port_name(ports_[static_cast<std::size_t>(j)]));
+        for (int j = 0; j < channels; ++j) { // what plays on each output, whatever its driver calls it
+            const auto* output =
+                jack_port_by_name(client_, ("system:playback_" + std::to_string(j + 1)).c_str());
+            const char** players = jack_port_get_all_connections(client_, output);
+            if (players != nullptr)
+                jack_connect(client_, players[0], jack_port_name(ports_[static_cast<std::size_t>(j)]));
+            jack_free(players);
+        }
         isConnected_ = true;
     }
     ~MeterClient() {

@@ -2,8 +2,9 @@
 // Measures how long after one's own push the hit comes out of a JACK server. A ball between two walls, 4 mm
 // of way: each push is a hit within the step. Prints a line; fails unless every hit is heard exactly L after
 // its contact. Usage: physvib-own-action-meter PUSHES
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/SimulationDriver.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Devices/SimulationDriver.h"
+#include "Live/Devices/SystemDrivers.h"
 #include "MeterClient.h"
 #include "Session/WallsScene.h"
 #include <cstdio>
@@ -31,10 +32,9 @@ std::vector<std::int64_t> push(Session& session, const test::MeterClient& client
 int main(int argc, char** argv) {
     if (argc != 2) return 2;
     const int pushes = std::atoi(argv[1]);
-    const juce::ScopedJuceInitialiser_GUI juce;
     const SessionSetup setup = test::setupOfWalls();
     Session session{setup};
-    AudioOutput output{session};
+    AudioOutput output{session, systemAudioDrivers};
     if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty())
         return std::puts(error.c_str()), 1;
     std::vector<std::int64_t> pushed;

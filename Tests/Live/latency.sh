@@ -1,17 +1,17 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Prints the table of latencies in Docs/live.md, measured through JACK servers without hardware; fails if L is not kept.
-# Usage: latency.sh [BIN_FOLDER] [SECONDS]
+# Usage: latency.sh [BIN_FOLDER] [SECONDS] [BLOCKS] [juce]: through the drivers of the mixer then
 set -eu
-bin=${1:-$(dirname "$0")/../../build/release/bin} seconds=${2:-6}
+bin=${1:-$(dirname "$0")/../../build/release/bin} seconds=${2:-6} blocks=${3:-64 128 512} drivers=${4:-}
 . "$(dirname "$0")/jack.sh"
-echo "| driver | block | L, by the law | contact to port, measured | the device's own | sum | late events |"
-echo "| --- | --- | --- | --- | --- | --- | --- |"
+echo "| driver | block | L, by the law | contact to port, measured | the device's own | sum | late events | equal blocks |"
+echo "| --- | --- | --- | --- | --- | --- | --- | --- |"
 failed=0
 for driver in message thread; do
-    for block in 64 128 512; do
+    for block in $blocks; do
         serve 48000 "$block" 8
-        "$bin/physvib-latency-meter" "$driver" "$seconds" || failed=1
+        "$bin/physvib-latency-meter" "$driver" "$seconds" $drivers || failed=1
         close_server
     done
 done

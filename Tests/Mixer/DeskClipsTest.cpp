@@ -2,7 +2,7 @@
 // A file that is dropped on the field, a badge or a strip: felt there, saved with the session, or refused in
 // one line.
 #include "Core/SoundNumber.h"
-#include "Host/Recordings/LoadRecordings.h"
+#include "Live/Recordings/LoadRecordings.h"
 #include "MixerTesting.h"
 
 namespace physvib {

@@ -163,7 +163,7 @@ TEST(Desk, ARecordingThatRunsWhenTheDeskIsClosedIsKept) {
 
 TEST(Desk, ADeviceThatVanishesIsToldAndTakenUpAgain) {
     FakeInterface hands;
-    Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}};
+    Desk desk{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
     hands.unplug(true);
     EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("no such device"); }))
@@ -178,7 +178,7 @@ TEST(Desk, ADeviceThatVanishesIsToldAndTakenUpAgain) {
 
 TEST(Desk, TheMonitorIsHeardWhereNoEnchanterIsAndGivesWayToOne) {
     FakeInterface hands;
-    Desk desk{fakeTypes({&hands}), {.name = "Fake:hands", .monitor = {2, 3}, .marker = 1}};
+    Desk desk{fakeDrivers({&hands}), {.name = "Fake:hands", .monitor = {2, 3}, .marker = 1}};
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble() << ": an enchanter is there, and is felt";
     EXPECT_TRUE(desk.device().listening().settings().contacts.empty());
     EXPECT_TRUE(desk.device().listening().settings().marks.empty());
@@ -194,7 +194,7 @@ TEST(Desk, TheMonitorIsHeardWhereNoEnchanterIsAndGivesWayToOne) {
 
 TEST(Desk, TheMonitorIsChosenHeardSavedWithTheDeviceAndUndoneForHands) {
     FakeInterface hands;
-    Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}};
+    Desk desk{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
     ASSERT_EQ(desk.device().listening().monitor({4, 5}, 0.0), "");
     ASSERT_EQ(desk.device().listening().mark(7), "");
     EXPECT_EQ(desk.device().choice().monitor, (std::vector{4, 5}));
@@ -232,7 +232,7 @@ TEST(Desk, TheMonitorIsChosenHeardSavedWithTheDeviceAndUndoneForHands) {
 TEST(Desk, OnTwoOutputsOneListensInsteadOfFeeling) {
     FakeInterface speakers;
     speakers.outputs = 2;
-    Desk desk{fakeTypes({&speakers}), {"Fake:hands", 0, 0}};
+    Desk desk{fakeDrivers({&speakers}), {"Fake:hands", 0, 0}};
     EXPECT_EQ(desk.device().listening().monitor({0, 1}, -20.0),
               "output 1 is an actuator's; expected another one to listen to");
     ASSERT_EQ(desk.monitorInstead({0, 1}, -20.0), "");
@@ -246,7 +246,7 @@ TEST(Desk, OnTwoOutputsOneListensInsteadOfFeeling) {
 
 TEST(Desk, WhatFindsNoRoomInTheSessionIsToldWhenThereIsRoom) {
     FakeInterface hands;
-    Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}}; // which calls for nothing yet
+    Desk desk{fakeDrivers({&hands}), {"Fake:hands", 0, 0}}; // which calls for nothing yet
     const auto lastGain = [&] {
         float gain = 1.0f;
         for (const auto& c : desk.saved().log.channels)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing by mouse and keys, and the first start, in the mixer's view: what they do is in the world, in the
 // saved session, and comes back by undo.
-#include "Host/Devices/LikelyDevices.h"
+#include "Live/Devices/LikelyDevices.h"
 #include "Mixer/Desk/PaceWatch.h"
 #include "Mixer/Window/FirstStart.h"
 #include "MixerTesting.h"

@@ -3,7 +3,7 @@
 // enchanters that are there.
 #include "Mixer/Output/EventsTab.h"
 #include "Core/SoundNumber.h"
-#include "Host/Recordings/ReadRecording.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "MixerTesting.h"
 #include <cmath>
 #include <numbers>

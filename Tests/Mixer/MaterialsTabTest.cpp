@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The materials: edited and taken back, measured from recordings, felt at a spot, saved and rendered again.
 #include "Mixer/Materials/MaterialsTab.h"
-#include "Host/Recordings/SessionWav.h"
 #include "Io/Wav/WavSink.h"
 #include "Live/Documents/SessionFile.h"
+#include "Live/Recordings/SessionWav.h"
 #include "Mixer/Knock.h"
 #include "MixerTesting.h"
 

@@ -144,7 +144,7 @@ TEST_F(Scope, TelemetrySaysWhatTheSessionCounts) {
 
 TEST(Telemetry, ADeviceThatHasGoneIsNoClock) {
     FakeInterface hands;
-    Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}};
+    Desk desk{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
     EXPECT_TRUE(valueOf(telemetryFacts(desk, desk.look(), 0.0f), "Clock").startsWith("Fake:hands"));
     hands.unplug(true);
     ASSERT_TRUE(runUntil([&] { return !desk.look().device.isRunning; }));

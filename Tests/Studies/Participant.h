@@ -27,9 +27,9 @@ inline CsvTable shortTrials(const juce::File& folder) {
 /// The mixer in a window of its own.
 class Participant {
 public:
-    explicit Participant(AudioDeviceTypes types = onlyNoDevice(),
+    explicit Participant(AudioDrivers drivers = onlyNoDevice(),
                          const std::string& device = std::string{noDeviceType} + ":" + noDeviceName)
-        : desk{std::move(types), {device, 48000, 128}} {
+        : desk{std::move(drivers), {device, 48000, 128}} {
         view.setSize(1440, 900);
         view.addToDesktop(juce::ComponentPeer::windowHasTitleBar);
         view.setVisible(true);

@@ -2,9 +2,9 @@
 // A scripted participant takes shortened versions of the thesis' studies 5.2 and 5.3: sees the world move,
 // drags, tilts, chooses, rates; the log of every trial renders to what came out of the device, bit for bit.
 #include "Host/FakeAudioDevice.h"
-#include "Host/Recordings/ReadRecording.h"
 #include "Io/Text/CsvTable.h"
 #include "Live/Documents/SessionFile.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Participant.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
@@ -27,13 +27,7 @@ public:
         stop_ = true;
         thread_.join();
     }
-    AudioDeviceTypes types() {
-        return [this] {
-            std::vector<std::unique_ptr<juce::AudioIODeviceType>> types;
-            types.push_back(std::make_unique<test::FakeDeviceType>(std::vector{&thing_}, "Fake"));
-            return types;
-        };
-    }
+    AudioDrivers drivers() { return test::fakeDrivers({&thing_}); }
     std::vector<float> felt() {
         const std::lock_guard lock{mutex_};
         return felt_;
@@ -137,7 +131,7 @@ protected:
 
     juce::File folder = juce::File::createTempFile("physvib-worlds");
     Hands hands;
-    test::Participant p{hands.types(), "Fake:hands"};
+    test::Participant p{hands.drivers(), "Fake:hands"};
 };
 
 constexpr const char* fallingObjects =

@@ -9,6 +9,7 @@
 #include "Core/LatestValue.h"
 #include <atomic>
 #include <mutex>
+#include <unordered_map>
 #include <vector>
 
 namespace physvib::api {
@@ -35,6 +36,9 @@ struct World {
     std::mutex mutex;
     ContactFeed feed;
     std::vector<CollisionEvent> taken; // events not yet handed out
+    // of bodies that are felt elsewhere than on the first device; their last events may come after they are
+    // removed
+    std::unordered_map<int, int> devices;
 };
 
 inline Handles<Renderer, 1>& renderers() {

@@ -149,8 +149,21 @@ int physvib_world_set_body(physvib_world name, int body, const physvib_body* val
         if (!take(values, taken, physvib_body_init)) return PHYSVIB_ERROR_ARGUMENT;
         if (taken.voice < PHYSVIB_VOICE_OWN || taken.voice > PHYSVIB_VOICE_BOTH)
             return fail(PHYSVIB_ERROR_ARGUMENT, "voice: expected one of PHYSVIB_VOICE_...");
-        return resultOf(world.feed.set(body, {taken.mass_kg, taken.inertia_kg_m2, taken.gravity_scale},
-                                       fixtureOf(taken)));
+        if (taken.device < 0) return fail(PHYSVIB_ERROR_ARGUMENT, "device: expected 0 or more");
+        const std::string_view fault =
+            world.feed.set(body, {taken.mass_kg, taken.inertia_kg_m2, taken.gravity_scale}, fixtureOf(taken));
+        if (fault.empty() && taken.device != 0)
+            world.devices[body] = taken.device;
+        else if (fault.empty())
+            world.devices.erase(body);
+        return resultOf(fault);
+    });
+}
+
+int physvib_world_device(physvib_world name, int body) {
+    return in(name, [&](World& world) {
+        const auto known = world.devices.find(body);
+        return known == world.devices.end() ? 0 : known->second;
     });
 }
 

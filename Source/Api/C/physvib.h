@@ -182,6 +182,7 @@ typedef struct physvib_body {
     double roughness; /**< strength of its grains, 0 to 1000 (1) */
     double rolling;   /**< amplitude of rolling, as a share of that of sliding, 0 to 1 (0.2) */
     int is_ridged;    /**< 1: grains at equal distances, a tone (0) */
+    int device; /**< number of the device on which it is felt, see physvib_live_send_each (0: the first) */
 } physvib_body;
 
 #define PHYSVIB_POINT_NONE (-1) /**< of point_id: the points of a pair are not distinguished */
@@ -368,6 +369,8 @@ PHYSVIB_API int physvib_world_configure(physvib_world world, const physvib_world
 
 /** Adds a body, or changes its values. */
 PHYSVIB_API int physvib_world_set_body(physvib_world world, int body, const physvib_body* values);
+/** `device` of a body, also after it was removed; 0: of one that was never added. */
+PHYSVIB_API int physvib_world_device(physvib_world world, int body);
 /** Removes a body; not within a step. */
 PHYSVIB_API int physvib_world_remove_body(physvib_world world, int body);
 /** Sets centre of mass, velocity and spin before the engine's solver. */

@@ -1,46 +1,12 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// The message thread of the live library: runs JUCE's message loop and owns the device.
+// SPDX-License-Identifier: MIT
+// The message thread of the live library, which owns the device.
 #include "Api/Live/Live.h"
-#include "Host/Devices/NoDevice.h"
+#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/RepeatEvery.h"
+#include "Live/Devices/SystemDrivers.h"
 #include <utility>
 
 namespace physvib::api {
-
-// Passes on played events, supervises the device, and ends the message loop.
-class Live::Watch final : private juce::Timer {
-public:
-    explicit Watch(Live& live)
-        : live_{live} {
-        timerCallback();
-        startTimer(milliseconds);
-    }
-    ~Watch() override { stopTimer(); }
-
-private:
-    static constexpr int milliseconds = 20;
-
-    void timerCallback() override {
-        Rig& rig = *live_.rig_;
-        rig.takePlayed([](const PlayedEvent&) {});
-        if (ticks_++ % (1000 / milliseconds) == 0) {
-            rig.maintain();
-            trouble_ = rig.trouble();
-        }
-        LiveStatus now{rig.output().status(),
-                       rig.session().status().render,
-                       rig.output().sampleRateHz(),
-                       rig.output().blockFrames(),
-                       rig.sinkStates(),
-                       trouble_};
-        const std::lock_guard lock{live_.statusMutex_};
-        live_.status_ = std::move(now);
-        if (live_.isEnding_) juce::MessageManager::getInstance()->stopDispatchLoop();
-    }
-
-    Live& live_;
-    int ticks_ = 0;
-    std::string trouble_;
-};
 
 std::string Live::open() {
     std::promise<std::string> opened;
@@ -61,21 +27,36 @@ LiveStatus Live::status() const {
 }
 
 void Live::run(std::promise<std::string> opened) {
-    const juce::ScopedJuceInitialiser_GUI juce;
-    rig_.emplace(std::move(settings_), audioDeviceTypesAndNone);
+    rig_.emplace(std::move(settings_), withNoDevice(systemAudioDrivers));
     if (std::string error = rig_->open(); error.empty()) {
         rig_->start();
-        {
-            const Watch watch{*this};
-            opened.set_value({});
-            juce::MessageManager::getInstance()->runDispatchLoop();
-        }
+        watch();
+        opened.set_value({});
+        repeatEvery(std::chrono::milliseconds{1000 / watchesPerSecond}, [this] { return watch(); });
         rig_->stop([](const PlayedEvent&) {});
         unsaved_ = rig_->finish(false); // before closing the device, which may hang
     } else {
         opened.set_value(std::move(error));
     }
-    rig_.reset(); // before JUCE shuts down
+    rig_.reset(); // on the thread that opened the device
+}
+
+bool Live::watch() {
+    rig_->takePlayed([](const PlayedEvent&) {});
+    if (ticks_++ % watchesPerSecond == 0) {
+        rig_->maintain();
+        trouble_ = rig_->trouble();
+    }
+    LiveStatus now{rig_->output().status(),
+                   rig_->session().status().render,
+                   rig_->output().sampleRateHz(),
+                   rig_->output().blockFrames(),
+                   rig_->output().device(),
+                   rig_->sinkStates(),
+                   trouble_};
+    const std::lock_guard lock{statusMutex_};
+    status_ = std::move(now);
+    return !isEnding_;
 }
 
 } // namespace physvib::api

@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // A live rig for programs without a message loop: session, audio device and sinks, with a message thread of
 // their own. The session has no world of its own.
 #pragma once
-#include "Host/Rig/Rig.h"
+#include "Live/Rig/Rig.h"
 #include <atomic>
 #include <future>
 #include <mutex>
@@ -17,11 +17,12 @@ struct LiveStatus {
     AudioOutputStatus output;
     RenderStatus render;
     int rateHz = 0, blockFrames = 0;
+    std::string device; // driver:name
     std::vector<SinkState> sinks;
     std::string trouble;
 };
 
-/// At most one per process. Created and ended on any thread, one call at a time.
+/// Created and ended on any thread, one call at a time.
 class Live {
 public:
     explicit Live(RigSettings settings)
@@ -44,8 +45,9 @@ public:
     double longestGapSeconds() const noexcept { return rig_->settings().setup.longestGapSeconds; }
 
 private:
-    class Watch;
+    static constexpr int watchesPerSecond = 50;
     void run(std::promise<std::string> opened);
+    bool watch();
 
     RigSettings settings_;   // until the rig is created
     std::optional<Rig> rig_; // owned by the message thread, which outlives every call
@@ -53,6 +55,8 @@ private:
     mutable std::mutex statusMutex_;
     LiveStatus status_;
     std::string unsaved_; // written by the message thread; read after it has ended
+    int ticks_ = 0;       // the message thread's, as the next
+    std::string trouble_;
     std::thread messages_;
 };
 

@@ -1,9 +1,11 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The functions of physvib-live.h that act on an open device: events, levels, silence and status.
 #include "Api/Live/Lives.h"
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <iterator>
+#include <span>
 
 using namespace physvib;
 using namespace physvib::api;
@@ -39,6 +41,20 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
     return live.session().take({Strikes{events, true}, 0})
                ? PHYSVIB_OK
                : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");
+}
+
+/// Takes all events of a world, in parts; returns their number, or the first error.
+template <class Play>
+physvib_int64 takeAll(physvib_world world, int atOnce, Play play) {
+    std::array<physvib_event, 128> part;
+    for (physvib_int64 sent = 0;;) {
+        const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), atOnce);
+        if (count < 0) return fail(static_cast<int>(count), physvib_error());
+        if (const int code = play(std::span{part}.first(static_cast<std::size_t>(count))); code != PHYSVIB_OK)
+            return code;
+        sent += count;
+        if (count < static_cast<physvib_int64>(part.size())) return sent;
+    }
 }
 
 } // namespace
@@ -83,16 +99,33 @@ physvib_int64 physvib_live_send(physvib_live name, physvib_world world, physvib_
     return in(name, [&](Live& live) -> physvib_int64 {
         if (startNs < -limits::maxTimeNs / 4 || startNs > limits::maxTimeNs / 4)
             return nothingThere("start: expected at most 2.5 * 10^16 ns from 0");
-        std::array<physvib_event, 128> part;
-        for (physvib_int64 sent = 0;;) {
-            const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), atOnce);
-            if (count < 0) return fail(static_cast<int>(count), physvib_error());
-            if (const int code = strike(live, {part.data(), static_cast<std::size_t>(count)}, startNs);
-                code != PHYSVIB_OK)
+        return takeAll(world, atOnce,
+                       [&](std::span<const physvib_event> part) { return strike(live, part, startNs); });
+    });
+}
+
+physvib_int64 physvib_live_send_each(const physvib_live* names, int count, physvib_world world,
+                                     physvib_int64* startsNs) {
+    return guarded([&]() -> physvib_int64 {
+        if (names == nullptr || startsNs == nullptr || count < 1)
+            return nothingThere("devices: expected one or more, found none");
+        for (int k = 0; k < count; ++k)
+            if (const int code = physvib_live_align(names[k], world, startsNs + k); code != PHYSVIB_OK)
                 return code;
-            sent += count;
-            if (count < static_cast<physvib_int64>(part.size())) return sent;
-        }
+        std::vector<physvib_event> own;
+        return takeAll(world, 0, [&](std::span<const physvib_event> part) {
+            int code = PHYSVIB_OK;
+            for (int k = 0; k < count && code == PHYSVIB_OK; ++k) {
+                own.clear();
+                std::ranges::copy_if(part, std::back_inserter(own), [&](const physvib_event& event) {
+                    const int device = physvib_world_device(world, event.fixture);
+                    return (device < count ? device : 0) == k;
+                });
+                if (!own.empty())
+                    code = in(names[k], [&](Live& live) { return strike(live, own, startsNs[k]); });
+            }
+            return code;
+        });
     });
 }
 
@@ -128,8 +161,8 @@ int physvib_live_silence(physvib_live name, int isSilent) {
         return PHYSVIB_OK;
     };
     const int code = in(name, act);
-    if (code != PHYSVIB_OK && isSilent != 0)
-        in(openLive(), act); // without its handle, the caller can only mean the open device
+    if (code != PHYSVIB_OK && isSilent != 0) // without its handle, the caller may mean any of them
+        for (const std::uintptr_t open : openLives()) in(reinterpret_cast<physvib_live>(open), act);
     return code;
 }
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Handles, checks and conversions that the functions of physvib-live.h share.
 #pragma once
 #include "Api/C/Convert.h"
@@ -7,6 +7,7 @@
 #include "Api/Live/physvib-live.h"
 #include "Core/Decibels.h"
 #include <cmath>
+#include <vector>
 
 namespace physvib::api {
 
@@ -17,8 +18,8 @@ inline Handles<Live, 3>& lives() {
 
 inline std::uintptr_t nameOf(physvib_live live) noexcept { return reinterpret_cast<std::uintptr_t>(live); }
 
-/// The open device; null: none. Any thread.
-physvib_live openLive() noexcept;
+/// The open devices. Any thread.
+std::vector<std::uintptr_t> openLives();
 
 /// Calls `call(live)`, or returns the error for an unknown handle.
 template <class Call>

@@ -1,10 +1,11 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Opens and closes a device and its sinks: physvib_live_open, physvib_live_close.
 #include "Api/Live/Lives.h"
+#include "Live/Devices/NoDevice.h"
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <numeric>
 #include <physvib/Version.h>
 
 using namespace physvib;
@@ -12,29 +13,59 @@ using namespace physvib::api;
 
 namespace {
 
+/// One device is opened or closed at a time. Opening may wait for a driver.
 std::mutex& openMutex() {
-    static std::mutex mutex;
-    return mutex;
+    static auto* const mutex = new std::mutex; // never destroyed, as the next: they are needed at exit
+    return *mutex;
 }
-std::atomic<std::uintptr_t> openName{0}; // written under openMutex()
+
+/// A device that is open, and which of its outputs are in use.
+struct Open {
+    std::uintptr_t name;
+    std::string device;
+    int firstOutput, outputs;
+
+    bool overlaps(const Open& other) const {
+        return device == other.device && firstOutput < other.firstOutput + other.outputs &&
+               other.firstOutput < firstOutput + outputs;
+    }
+};
+struct Opened {
+    std::mutex mutex; // never held for long: silence needs the list at once
+    std::vector<Open> all;
+};
+Opened& opened() {
+    static auto* const one = new Opened;
+    return *one;
+}
 
 int closeNamed(std::uintptr_t name) noexcept {
     return guarded([&] {
         const std::lock_guard lock{openMutex()};
         const auto live = lives().take(name);
         if (!live) return unknownHandle();
-        openName = 0;
+        {
+            const std::lock_guard listed{opened().mutex};
+            std::erase_if(opened().all, [name](const Open& open) { return open.name == name; });
+        }
         return resultOf(live->end(), PHYSVIB_ERROR_FILE);
     });
 }
 
-// JUCE has static objects. The exit handler is registered after they are created, so it runs before they are
-// destroyed.
+// Libraries of devices have static objects. The exit handler is registered after they are created, so it runs
+// before they are destroyed.
 void closeAtExit() {
     static const int registered = std::atexit([] {
-        if (openName != 0) closeNamed(openName);
+        for (const std::uintptr_t name : openLives()) closeNamed(name);
     });
     static_cast<void>(registered);
+}
+
+/// Two on one output would add up behind their limiters.
+bool areOutputsInUse(const Open& wanted) {
+    if (wanted.device == std::string(noDeviceType) + ":" + noDeviceName) return false;
+    const std::lock_guard lock{opened().mutex};
+    return std::ranges::any_of(opened().all, [&](const Open& other) { return other.overlaps(wanted); });
 }
 
 std::string_view faultOf(const physvib_live_settings& s) noexcept {
@@ -43,6 +74,7 @@ std::string_view faultOf(const physvib_live_settings& s) noexcept {
         return "block: expected 0 to 8192 frames";
     if (s.steps_per_s < 20 || s.steps_per_s > 1000) return "steps: expected 20 to 1000 per second";
     if (!(s.longest_gap_s >= 0.0 && s.longest_gap_s <= 1.0)) return "longest gap: expected 0 to 1 s";
+    if (s.first_output < 0 || s.first_output >= 65536) return "first output: expected 0 to 65535";
     if (!isLevel(s.level_db)) return "level: expected -90 to 0 dB";
     if (std::memchr(s.save, '\0', sizeof s.save) == nullptr)
         return "save: expected a path of at most 1023 bytes";
@@ -64,7 +96,12 @@ SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& ren
 
 } // namespace
 
-physvib_live api::openLive() noexcept { return reinterpret_cast<physvib_live>(openName.load()); }
+std::vector<std::uintptr_t> api::openLives() {
+    const std::lock_guard lock{opened().mutex};
+    std::vector<std::uintptr_t> names;
+    for (const Open& open : opened().all) names.push_back(open.name);
+    return names;
+}
 
 int physvib_live_settings_init(physvib_live_settings* settings, size_t size) {
     auto values = zeroed<physvib_live_settings>();
@@ -92,8 +129,6 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
             return nothingThere(fault);
 
         const std::lock_guard lock{openMutex()};
-        if (openName != 0)
-            return fail(PHYSVIB_ERROR_FULL, "live: expected the one that is open to be closed before");
         RigSettings all{.setup = setupOf(taken, wanted), .sinks = outputs.sinks, .savePath = taken.save};
         all.provenance = {PHYSVIB_VERSION, {{"session", all.savePath}}};
         all.output.device = outputs.device;
@@ -101,11 +136,24 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
         all.output.blockFrames = taken.block_frames;
         all.output.level = gainOf(taken.level_db);
         all.output.enchanters = wanted.panner.channels();
+        all.output.channelMap.resize(static_cast<std::size_t>(wanted.outputs()));
+        std::iota(all.output.channelMap.begin(), all.output.channelMap.end(), taken.first_output);
         auto live = std::make_unique<Live>(std::move(all));
         if (const std::string error = live->open(); !error.empty()) return fail(PHYSVIB_ERROR_DEVICE, error);
-        openName = lives().add(std::move(live));
+        Open open{0, live->status().device, taken.first_output, wanted.outputs()};
+        if (areOutputsInUse(open)) {
+            live->end();
+            return fail(PHYSVIB_ERROR_FULL, open.device + ": these outputs are open already; expected others "
+                                                          "(first_output), or that device to be closed");
+        }
+        if ((open.name = lives().add(std::move(live))) == 0)
+            return fail(PHYSVIB_ERROR_FULL, "live: expected at most 256 open devices");
+        {
+            const std::lock_guard listed{opened().mutex};
+            opened().all.push_back(open);
+        }
         closeAtExit();
-        *name = openLive();
+        *name = reinterpret_cast<physvib_live>(open.name);
         return PHYSVIB_OK;
     });
 }

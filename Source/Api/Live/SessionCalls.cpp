@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The session functions of physvib-live.h: load, create from events, save, render.
 #include "Api/Live/Lives.h"
-#include "Host/Recordings/LoadRecordings.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/SessionFile.h"
+#include "Live/Recordings/LoadRecordings.h"
 #include "Live/Session/SessionRender.h"
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,9 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /** @file
- * PhysVib on an audio device or a board, for any language: events and contacts in, vibration out; and session
- * files. C89 and later, C++.
+ * PhysVib on audio devices, game controllers and boards, for any language: events and contacts in, vibration
+ * out; and session files. C89 and later, C++.
  *
- * Link libphysvib-live, which is GPL (it has JUCE in it), and libphysvib. Results, units and the words "any
+ * Link libphysvib-live (MIT) and libphysvib. Results, units and the words "any
  * thread" and "one at a time" are those of physvib.h; physvib_live_error() returns the text of an error. No
  * function here is for an audio callback: the library has one of its own, which never allocates, locks or
  * waits.
@@ -21,7 +21,7 @@ extern "C" {
 
 #define PHYSVIB_ERROR_DEVICE (-9) /**< a device or board is missing or does not start */
 
-typedef struct physvib_live_name* physvib_live;       /**< an open device, a board or both */
+typedef struct physvib_live_name* physvib_live;       /**< an open device, controller or board, or several */
 typedef struct physvib_session_name* physvib_session; /**< a session that can be rendered; it does not change
                                                        */
 
@@ -34,8 +34,10 @@ typedef struct physvib_live_settings {
     double longest_gap_s; /**< longest pause of the thread that plays events during which events are still on
                              time: 0 to 1 (0.026) */
     double level_db;      /**< of all channels: -90 to 0 (-12) */
-    char save[1024]; /**< a session file (.json, UTF-8) of all events, written while it plays, a list of its
-                        events beside it; "": none ("") */
+    char save[1024];  /**< a session file (.json, UTF-8) of all events, written while it plays, a list of its
+                         events beside it; "": none ("") */
+    int first_output; /**< actuator j is output first_output + j of the device, from 0 (0) */
+    int unused;       /**< 0 */
 } physvib_live_settings;
 
 #define PHYSVIB_BOARD_NONE 0   /**< no board was opened */
@@ -65,6 +67,19 @@ typedef struct physvib_live_status {
                                  cannot play them */
 } physvib_live_status;
 
+#define PHYSVIB_DEVICE_SOUND 0 /**< an output of sound */
+#define PHYSVIB_DEVICE_PAD 1   /**< a game controller */
+#define PHYSVIB_DEVICE_BOARD 2 /**< a board, or a serial port that may be one */
+
+/** Something that can be opened. */
+typedef struct physvib_device {
+    size_t size;     /**< sizeof(physvib_device) of the caller */
+    char name[256];  /**< for physvib_live_open(): "JACK:system", "PAD:Xbox Controller" */
+    char about[256]; /**< what is known of it, for users; "": nothing */
+    int kind;        /**< PHYSVIB_DEVICE_SOUND and so on */
+    int channels;    /**< outputs, or motors; 0: the driver could not be asked */
+} physvib_device;
+
 /** As physvib_error(), for the functions of this header. Any thread. */
 PHYSVIB_API const char* physvib_live_error(void);
 
@@ -73,13 +88,21 @@ PHYSVIB_API int physvib_live_settings_init(physvib_live_settings* settings, size
 /** Empty; `size`: sizeof *status. Any thread. */
 PHYSVIB_API int physvib_live_status_init(physvib_live_status* status, size_t size);
 
+/** Lists what can be opened now: the first `capacity` of it in `devices`, which may be NULL if that is 0.
+ * `size`: sizeof *devices. Returns how many there are. It asks the system each time, which takes up to
+ * seconds; what is disconnected or comes back while it is open is told by physvib_live_get_status(). Any
+ * thread. */
+PHYSVIB_API int physvib_live_devices(physvib_device* devices, int capacity, size_t size);
+
 /** Opens "JACK:system", for instance: that device and no other (`physvib devices` lists them); actuator j is
  * its output j. Or a four-channel board, "BOARD:auto" or "BOARD:/dev/ttyACM0"; or both, felt at the same
  * moment: "JACK:system+BOARD:auto". "None:no device" plays in time without a device. Of `renderer` the
  * layout, channels, law, exponent, field and limiter are taken; it and `settings` may be NULL: the defaults.
- * One device at a time. A device or board that is disconnected is opened again when it returns. An error
- * leaves `*live` as it was. PHYSVIB_ERROR_DEVICE, PHYSVIB_ERROR_FULL. Any thread; waits for the device, and
- * for a board that starts. */
+ * Several may be open, each with a layout, level, silence, status and time of its own; also on one device, on
+ * other outputs. "PAD:auto" and "BOARD:auto" take one that is free. A device or board that is disconnected is
+ * opened again when it returns. An error leaves `*live` as it was. PHYSVIB_ERROR_DEVICE; PHYSVIB_ERROR_FULL:
+ * these outputs are open, or 256 devices. Any thread, one after the other; waits for the device, and for a
+ * board that starts. */
 PHYSVIB_API int physvib_live_open(const char* device, const physvib_renderer_settings* renderer,
                                   const physvib_live_settings* settings, physvib_live* live);
 /** Silences the device within two blocks and closes it, also if it returns an error: PHYSVIB_ERROR_FILE, the
@@ -104,6 +127,13 @@ PHYSVIB_API int physvib_live_align(physvib_live live, physvib_world world, physv
 PHYSVIB_API physvib_int64 physvib_live_send(physvib_live live, physvib_world world, physvib_int64 start_ns,
                                             int at_once);
 
+/** As physvib_live_align() and physvib_live_send() for a world whose bodies are felt on several devices: the
+ * events of a body whose `device` is k are played on lives[k]; of any other number, on the first.
+ * starts_ns[k], at first 0, belongs to lives[k]. Returns the number of events. Any thread; one at a time per
+ * world. */
+PHYSVIB_API physvib_int64 physvib_live_send_each(const physvib_live* lives, int count, physvib_world world,
+                                                 physvib_int64* starts_ns);
+
 /** Sets the gain of a channel, 0 to 10,000, from session time on, so it is felt after the output latency;
  * with a ramp of 10 ms. PHYSVIB_ERROR_FULL: 256 changes are waiting. Any thread. */
 PHYSVIB_API int physvib_live_set_gain(physvib_live live, int channel, double gain);
@@ -116,7 +146,7 @@ PHYSVIB_API int physvib_live_set_layout(physvib_live live, const physvib_rendere
 /** Sets the level of all channels, -90 to 0 dB, at once, with a ramp. Any thread. */
 PHYSVIB_API int physvib_live_set_level(physvib_live live, double level_db);
 /** Silences the device within a block; 0 ends the silence with a ramp. An unknown `live` is an error, but
- * silences the open device all the same. Any thread. */
+ * silences all open devices all the same. Any thread. */
 PHYSVIB_API int physvib_live_silence(physvib_live live, int is_silent);
 
 /** The status, at most 20 ms old. Any thread. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options of `physvib board`: information on a four-channel board, a test, and playing an event list on it.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Scene/FieldSize.h"
 #include <string>
 

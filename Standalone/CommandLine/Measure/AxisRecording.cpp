@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks the channels of a recording, and measures their level or tone.
 #include "CommandLine/Measure/AxisRecording.h"
-#include "Host/Recordings/ReadRecording.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Measure/RecordingFaults.h"
 #include <cmath>
 #include <numbers>

@@ -4,13 +4,14 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "Core/Decibels.h"
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/SweepRecorder.h"
-#include "Host/Recordings/ReadRecording.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Devices/SweepRecorder.h"
+#include "Live/Devices/SystemDrivers.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Measure/ActuatorMeasurement.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/LayoutNamed.h"
@@ -65,9 +66,9 @@ Result<RecordedSweep> readPair(const CalibrateOptions& o) {
 
 Result<RecordedSweep> measure(const CalibrateOptions& o) {
     if (o.device.empty()) return readPair(o);
-    const juce::ScopedJuceInitialiser_GUI juce;
-    return recordSweep({o.device, o.channel - 1, o.input - 1, o.sampleRateHz},
-                       [&](double rateHz) { return sweepOf(sweepSettings(o), rateHz); });
+    return recordSweep(
+        {o.device, o.channel - 1, o.input - 1, o.sampleRateHz},
+        [&](double rateHz) { return sweepOf(sweepSettings(o), rateHz); }, systemAudioDrivers);
 }
 
 ActuatorProfile profileOf(const CalibrateOptions& o, const MeasuredActuator& m) {

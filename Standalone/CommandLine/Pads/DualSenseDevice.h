@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Finds the audio device of a DualSense controller, and switches its coils to audio.
 #pragma once
-#include "Host/Devices/AudioDevices.h"
 #include "Io/Result.h"
+#include "Live/Devices/AudioDevices.h"
 #include "Live/Pads/DualSense.h"
 #include "Live/Pads/GamePads.h"
 #include <chrono>

@@ -5,6 +5,7 @@
 #include "Core/Pads/PadMotors.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
+#include "Live/Devices/SystemDrivers.h"
 #include "Live/Pads/DualSense.h"
 #include "Live/Pads/PadTrial.h"
 #include "Scene/PadFile.h"
@@ -12,7 +13,6 @@
 #include "System/Process.h"
 #include <chrono>
 #include <iostream>
-#include <juce_events/juce_events.h>
 #include <thread>
 
 namespace physvib {
@@ -48,7 +48,6 @@ std::string abilitiesOf(const GamePadInfo& info, const std::vector<AudioDeviceNa
 }
 
 int list() {
-    const juce::ScopedJuceInitialiser_GUI juce;
     GamePads pads{GamePads::Driver::sdl}; // only SDL's drivers report accelerometers
     if (!pads.fault().empty()) return leave(exitFailed, pads.fault());
     for (const auto end = std::chrono::steady_clock::now() + lookFor;
@@ -56,7 +55,7 @@ int list() {
         realTime(pads).tick();
     const auto found = pads.list();
     const bool hasDualSense = std::ranges::any_of(found, &GamePadInfo::isDualSense);
-    const auto sounds = hasDualSense ? listAudioDevices() : std::vector<AudioDeviceName>{};
+    const auto sounds = hasDualSense ? listAudioDevices(systemAudioDrivers) : std::vector<AudioDeviceName>{};
     for (const GamePadInfo& info : found)
         std::cout << info.name << "  " << busName(info.bus) << ", " << abilitiesOf(info, sounds)
                   << "  profile " << info.profile << '\n';

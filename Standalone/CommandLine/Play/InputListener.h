@@ -2,7 +2,7 @@
 // Applies lines of standard input to a live session as they arrive; answers are lines on standard output.
 #pragma once
 #include "CommandLine/Play/LineCutter.h"
-#include "Host/Devices/AudioOutput.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Messages/ComplaintLimit.h"
 #include "Live/Messages/MessageRouter.h"

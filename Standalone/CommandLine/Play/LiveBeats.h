@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Detects beats in a device's audio input and plays them in a live session.
 #pragma once
-#include "Host/Devices/InputTap.h"
 #include "Host/Music/BeatDetector.h"
 #include "Host/Music/BeatStrikes.h"
+#include "Live/Devices/InputTap.h"
 #include "Live/Session/Session.h"
 #include <atomic>
 #include <chrono>

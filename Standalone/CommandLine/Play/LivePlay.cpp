@@ -6,9 +6,11 @@
 #include "CommandLine/Play/OscReport.h"
 #include "CommandLine/Play/SoundPlay.h"
 #include "CommandLine/Render/MarkWords.h"
-#include "Host/Devices/NoDevice.h"
-#include "Host/Recordings/ClipFolder.h"
 #include "Io/Text/NumberText.h"
+#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/RepeatEvery.h"
+#include "Live/Devices/SystemDrivers.h"
+#include "Live/Recordings/ClipFolder.h"
 #include "System/ExitCode.h"
 #include "System/Interrupt.h"
 #include "System/Process.h"
@@ -26,18 +28,19 @@ namespace physvib {
 
 namespace {
 
-// Work of the message thread during the session: empties queues, maintains device and journal, and ends the
-// call.
-class Watch final : private juce::Timer {
+// Work of the message thread during the session: steps the world, empties queues, maintains device and
+// journal, and ends the call.
+class Watch {
 public:
     Watch(Rig& rig, OscPort* osc, const InputListener* listener, double seconds)
         : rig_{rig}
         , osc_{osc}
         , listener_{listener}
-        , endNs_{std::llround(seconds * 1e9)} {
-        startTimer(milliseconds);
+        , endNs_{std::llround(seconds * 1e9)} {}
+
+    void run() {
+        repeatEvery(std::chrono::milliseconds{milliseconds}, [this] { return tick(); });
     }
-    ~Watch() override { stopTimer(); }
 
     /// Stops playback; returns the number of collisions played.
     std::uint64_t stop() {
@@ -46,15 +49,15 @@ public:
     }
 
 private:
-    static constexpr int milliseconds = 20;
+    static constexpr int milliseconds = 10; // well below messageTimerGapSeconds
 
-    void timerCallback() override {
+    bool tick() {
+        rig_.step();
         rig_.takePlayed([this](const PlayedEvent&) { ++played_; });
         const SessionStatus status = rig_.session().status();
         if (++ticks_ % (1000 / milliseconds) == 0) everySecond(status);
         const bool hasEnded = listener_ && listener_->hasEnded();
-        if (interrupted || hasEnded || status.sessionNs >= endNs_ || isLeft())
-            juce::MessageManager::getInstance()->stopDispatchLoop();
+        return !(interrupted || hasEnded || status.sessionNs >= endNs_ || isLeft());
     }
 
     /// True if the duration is over by the system clock and session time has not advanced for long, i.e. the
@@ -176,10 +179,9 @@ std::unique_ptr<OscPort> makeOsc(const LivePlay& wanted, Rig& rig, MessageRouter
 } // namespace
 
 std::string playLive(LivePlay wanted) {
-    const juce::ScopedJuceInitialiser_GUI juce; // for the message loop
     heedInterrupts();
     sayWithoutWaiting();
-    Rig rig{wanted.rig, audioDeviceTypesAndNone, &interrupted};
+    Rig rig{wanted.rig, withNoDevice(systemAudioDrivers), &interrupted};
     if (auto error = rig.open(); !error.empty()) return interrupted ? "" : error;
     MessageRouter messages{rig.session()};
     if (wanted.sound)
@@ -198,7 +200,7 @@ std::string playLive(LivePlay wanted) {
         if (osc && !osc->error().empty()) return "OSC: " + osc->error();
         {
             Watch watch{rig, osc.get(), listener ? &*listener : nullptr, wanted.seconds};
-            juce::MessageManager::getInstance()->runDispatchLoop();
+            watch.run();
             played = watch.stop();
         }
         if (osc) told = osc->status();

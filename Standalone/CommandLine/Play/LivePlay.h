@@ -4,8 +4,8 @@
 #pragma once
 #include "Host/Music/BeatStrikes.h"
 #include "Host/Osc/OscPort.h"
-#include "Host/Rig/Rig.h"
 #include "Live/Messages/ClipSource.h"
+#include "Live/Rig/Rig.h"
 #include "Live/Session/Session.h"
 #include <optional>
 #include <string>

@@ -12,9 +12,10 @@
 #include "CommandLine/Play/SoundPlay.h"
 #include "CommandLine/Study/NumberList.h"
 #include "Core/Decibels.h"
-#include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/FileClash.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Devices/SystemDrivers.h"
 #include "Live/Pads/DualSense.h"
 #include "Live/Session/SerialLine.h"
 #include "Scene/SceneEdits.h"
@@ -95,8 +96,7 @@ int takeDualSense(AudioOutputSettings& settings, int channels) {
         return leave(exitUsage, "--device " + settings.device + ": it has two coils, this layout " +
                                     std::to_string(channels) + "; try --layout dualsense, or --map");
     if (settings.device == dualSenseDeviceName) {
-        const juce::ScopedJuceInitialiser_GUI juce;
-        auto device = dualSenseDevice(listAudioDevices());
+        auto device = dualSenseDevice(listAudioDevices(systemAudioDrivers));
         if (!device) return leave(exitFailed, device.error);
         settings.device = std::move(device.value);
     }

@@ -3,7 +3,7 @@
 // a single one in the middle of all.
 #include "CommandLine/Render/ClipInput.h"
 #include "Formats/ClipSound.h"
-#include "Host/Recordings/ReadRecording.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Scene/ActuatorFile.h"
 
 namespace physvib {

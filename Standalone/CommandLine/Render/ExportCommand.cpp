@@ -4,9 +4,9 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
-#include "Host/Recordings/HitExport.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/NameEnding.h"
+#include "Live/Recordings/HitExport.h"
 #include <algorithm>
 #include <filesystem>
 #include <string>

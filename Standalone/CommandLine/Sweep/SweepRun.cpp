@@ -13,7 +13,6 @@
 #include "System/Process.h"
 #include <chrono>
 #include <exception>
-#include <juce_core/juce_core.h>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -26,8 +25,7 @@ namespace {
 class WorkerLog {
 public:
     explicit WorkerLog(const SweepFolder& folder) {
-        const auto path = folder.log(juce::SystemStats::getComputerName().toStdString() + '-' +
-                                     std::to_string(processNumber()));
+        const auto path = folder.log(computerName() + '-' + std::to_string(processNumber()));
         // the log is optional
         if (folder.makeFolderOf(path).empty()) file_.open(path);
     }

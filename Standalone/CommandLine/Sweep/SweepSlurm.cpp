@@ -3,7 +3,6 @@
 #include "CommandLine/Sweep/SweepSlurm.h"
 #include "System/Process.h"
 #include <algorithm>
-#include <juce_core/juce_core.h>
 
 namespace physvib {
 namespace {
@@ -35,11 +34,8 @@ std::string slurmScript(const SlurmSweep& sweep) {
     text += "#SBATCH --chdir=" + inShellQuotes(fs::current_path()) +
             "\n#SBATCH --output=" + inShellQuotes(sweep.folder / "slurm" / "%A_%a.txt") + '\n';
     for (const std::string& word : sweep.words) text += "#SBATCH " + word + '\n';
-    text +=
-        "exec " +
-        inShellQuotes(
-            juce::File::getSpecialLocation(juce::File::hostApplicationPath).getFullPathName().toStdString()) +
-        " sweep " + inShellQuotes(sweep.design) + " --out " + inShellQuotes(sweep.folder);
+    text += "exec " + inShellQuotes(ownPath()) + " sweep " + inShellQuotes(sweep.design) + " --out " +
+            inShellQuotes(sweep.folder);
     text += " --part \"$SLURM_ARRAY_TASK_ID/" + jobs + '"';
     return text + (sweep.keepsWavs ? " --wav" : "") + (sweep.keepsEvents ? " --events" : "") + '\n';
 }

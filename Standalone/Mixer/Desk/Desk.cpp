@@ -62,10 +62,10 @@ private:
     Mix before_, after_;
 };
 
-Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
+Desk::Desk(AudioDrivers drivers, const DeviceChoice& device, Mix mix)
     : mix_{std::move(mix)}
-    , rig_{rigOf(mix_, device), types}
-    , device_{rig_, std::move(types), mix_, [this] { sendChangeMessage(); }}
+    , rig_{rigOf(mix_, device), drivers}
+    , device_{rig_, std::move(drivers), mix_, [this] { sendChangeMessage(); }}
     , recording_{session(), output(), mix_, [this] { sendChangeMessage(); }}
     , undo_{1000, 30}
     , world_{session(), mix_, undo_, [this](bool isShown) { edited(isShown); }}

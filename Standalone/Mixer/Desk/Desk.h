@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Model of the mixer's window: a live session on a device, the mixer state, and the undo history.
 #pragma once
-#include "Host/Rig/Rig.h"
 #include "Live/Documents/SessionFile.h"
+#include "Live/Rig/Rig.h"
 #include "Mixer/Desk/DeskDevice.h"
 #include "Mixer/Desk/DeskExposure.h"
 #include "Mixer/Desk/DeskInputs.h"
@@ -30,7 +30,7 @@ public:
 
     /// Plays `mix` on `device`, one of `types`; trouble() reports a failure. Sample rate and block size stay
     /// until another device is opened.
-    Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix = firstMix());
+    Desk(AudioDrivers drivers, const DeviceChoice& device, Mix mix = firstMix());
     static Mix firstMix(); ///< *Shake the box* on PHONE4 at a safe level
     ~Desk() override;
 

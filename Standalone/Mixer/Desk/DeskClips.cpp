@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Converts a dropped clip to a message, and reports its result on the message thread.
 #include "Mixer/Desk/DeskClips.h"
-#include "Host/Recordings/ClipFolder.h"
+#include "Live/Recordings/ClipFolder.h"
 #include <utility>
 
 namespace physvib {

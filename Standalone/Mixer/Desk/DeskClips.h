@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays clips dropped on the mixer: a background thread reads them and posts them like messages.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Live/Messages/MessageRouter.h"
 #include <functional>
 #include <juce_core/juce_core.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The chosen output device of the mixer, its additional sinks, and their errors.
 #pragma once
-#include "Host/Rig/Rig.h"
+#include "Live/Rig/Rig.h"
 #include "Mixer/Desk/DeskListening.h"
+#include <juce_core/juce_core.h>
 
 namespace physvib {
 
@@ -10,9 +11,9 @@ namespace physvib {
 class DeskDevice {
 public:
     /// Both references outlive it. `onChange` as for DeskListening.
-    DeskDevice(Rig& rig, AudioDeviceTypes types, const Mix& mix, std::function<void()> onChange)
+    DeskDevice(Rig& rig, AudioDrivers drivers, const Mix& mix, std::function<void()> onChange)
         : rig_{rig}
-        , types_{std::move(types)}
+        , drivers_{std::move(drivers)}
         , mix_{mix}
         , listening_{rig.output(), mix, choice_, std::move(onChange)} {}
 
@@ -21,7 +22,7 @@ public:
 
     /// The chosen device and the available ones. outputs(): number of its outputs.
     const DeviceChoice& choice() const noexcept { return choice_; }
-    const AudioDeviceTypes& types() const noexcept { return types_; }
+    const AudioDrivers& drivers() const noexcept { return drivers_; }
     int outputs() const { return rig_.output().deviceOutputs(); }
 
     DeskListening& listening() noexcept { return listening_; }
@@ -49,7 +50,7 @@ private:
     std::vector<int> outputMap() const;
 
     Rig& rig_;
-    AudioDeviceTypes types_;
+    AudioDrivers drivers_;
     const Mix& mix_;
     DeviceChoice choice_;
     DeskListening listening_;

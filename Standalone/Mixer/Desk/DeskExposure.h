@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Vibration exposure of the mixer's output in g, from sums in full scales and the current layout.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Scene/LayoutFile.h"
 #include "Stimuli/FeltLevel.h"
 

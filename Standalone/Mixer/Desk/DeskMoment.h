@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Snapshot of the mixer for display, and the choice of its device.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/ChannelMeters.h"
-#include "Host/Devices/SinkTable.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Devices/ChannelMeters.h"
+#include "Live/Devices/SinkTable.h"
 #include "Live/Session/SessionSetup.h"
 #include <array>
 #include <cstdint>

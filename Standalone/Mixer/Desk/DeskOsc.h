@@ -2,8 +2,8 @@
 // OSC of the mixer: input from no computer, this computer or any computer, and reports of played events to a
 // receiver.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Live/Documents/InputLine.h"
 #include <functional>
 #include <juce_events/juce_events.h>

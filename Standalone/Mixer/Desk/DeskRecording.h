@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Records the mixer's actuator channels as WAV, with their events.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Recordings/Recording.h"
+#include "Live/Devices/AudioOutput.h"
 #include "Live/Documents/Mix.h"
+#include "Live/Recordings/Recording.h"
 #include "Live/Session/Session.h"
 #include <functional>
 #include <memory>

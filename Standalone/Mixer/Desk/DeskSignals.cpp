@@ -4,6 +4,7 @@
 #include "Mixer/Desk/DeskWords.h"
 #include <algorithm>
 #include <cmath>
+#include <juce_audio_basics/juce_audio_basics.h>
 
 namespace physvib {
 namespace {

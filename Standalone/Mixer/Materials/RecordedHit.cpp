@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scales the measured excerpt for display.
 #include "Mixer/Materials/RecordedHit.h"
-#include "Host/Recordings/ReadRecording.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Measure/LoudestChannel.h"
 #include "Measure/PartialFit.h"
 #include "Measure/Spectrum.h"

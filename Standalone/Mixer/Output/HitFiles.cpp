@@ -2,7 +2,7 @@
 // Hits by the door of `physvib export`, or as samples.
 #include "Mixer/Output/HitFiles.h"
 #include "Core/SoundNumber.h"
-#include "Host/Recordings/HitExport.h"
+#include "Live/Recordings/HitExport.h"
 #include <algorithm>
 #include <filesystem>
 

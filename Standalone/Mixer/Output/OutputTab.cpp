@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls for the device, and its status text.
 #include "Mixer/Output/OutputTab.h"
-#include "Host/Devices/NoDevice.h"
+#include "Live/Devices/NoDevice.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {
@@ -100,7 +100,7 @@ void OutputTab::visibilityChanged() {
 }
 
 void OutputTab::scan() {
-    found_ = listAudioDevices(desk_.device().types());
+    found_ = listAudioDevices(desk_.device().drivers());
     for (const auto& sink : sinks_) list(*sink);
     isScanned_ = true;
     takeMix();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mixer tab that selects and checks a study, and opens its screens.
 #include "Mixer/Studies/StudiesTab.h"
-#include "Host/Devices/NoDevice.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
+#include "Live/Devices/NoDevice.h"
 #include "Mixer/Studies/StudyLooks.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"

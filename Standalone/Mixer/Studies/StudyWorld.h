@@ -2,8 +2,8 @@
 // A world that a participant sees, feels and can act in: a session of its own on the mixer's output, saved as
 // a file that renders exactly what was felt.
 #pragma once
-#include "Host/Devices/SimulationDriver.h"
 #include "Host/Views/WorldView.h"
+#include "Live/Devices/SimulationDriver.h"
 #include "Live/Session/SessionJournal.h"
 #include "Mixer/Desk/Desk.h"
 #include "Studies/StudyCalls.h"
@@ -56,7 +56,7 @@ private:
     SessionSetup setup_;
     std::unique_ptr<Session> session_;
     std::unique_ptr<SessionJournal> journal_;
-    std::unique_ptr<SimulationDriver> driver_;
+    std::unique_ptr<ThreadDriver> driver_;
     std::string fault_;
     double seconds_ = 0.0;                                  // of a world without user input
     std::int64_t feltNs_ = 0, seenNs_ = 0, stoppedNs_ = -1; // stoppedNs_: session time of the stop

@@ -3,8 +3,8 @@
 // actuators.
 #include "Mixer/Window/FirstStart.h"
 #include "Core/Limits.h"
-#include "Host/Devices/LikelyDevices.h"
-#include "Host/Devices/NoDevice.h"
+#include "Live/Devices/LikelyDevices.h"
+#include "Live/Devices/NoDevice.h"
 #include <algorithm>
 #include <optional>
 
@@ -36,8 +36,8 @@ std::vector<SinkOffer> likelySinks() {
     return offers;
 }
 
-std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<SinkOffer>& offers) {
-    const auto devices = byLikelihood(listAudioDevices(types));
+std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vector<SinkOffer>& offers) {
+    const auto devices = byLikelihood(listAudioDevices(drivers));
     std::vector<FeltChoice> many, few, all;
     for (const auto& device : devices) {
         if (device.type == noDeviceType) continue;

@@ -30,7 +30,7 @@ std::vector<SinkOffer> likelySinks();
 
 /// Choices of audio devices, sinks, and no device, the most likely one first. Message thread. As slow as
 /// likelySinks().
-std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<SinkOffer>& offers);
+std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vector<SinkOffer>& offers);
 
 /// Reduces the layout to a preset with at most that number of actuators. Message thread.
 void keepTo(int outputs, Mix& mix);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opens and saves sessions, scenes and layouts; records and renders; asks before unsaved changes are lost.
 #include "Calls/SessionMovie.h"
-#include "Host/Recordings/SessionWav.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Live/Recordings/SessionWav.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/FileKind.h"

@@ -2,9 +2,9 @@
 // The mixer's window: document, settings, keys and menu.
 #include "Mixer/Window/MixerWindow.h"
 #include "Core/Limits.h"
-#include "Host/Devices/LikelyDevices.h"
-#include "Host/Devices/NoDevice.h"
 #include "Host/Views/DisplayScale.h"
+#include "Live/Devices/LikelyDevices.h"
+#include "Live/Devices/NoDevice.h"
 #include "Mixer/Window/Parts.h"
 #include <algorithm>
 #include <array>
@@ -28,10 +28,10 @@ constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::Modi
 
 } // namespace
 
-MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file,
+MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const juce::File& file,
                          const juce::File& folder)
     : juce::DocumentWindow{"PhysVib mixer", palette::ground, allButtons, false}
-    , types_{std::move(types)}
+    , drivers_{std::move(drivers)}
     , files_{folder} {
     auto& settings = files_.settings();
     device_ = {
@@ -95,7 +95,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
     clearContentComponent();
     view_.reset();
     desk_.reset();
-    desk_ = std::make_unique<Desk>(types_, device_, std::move(mix));
+    desk_ = std::make_unique<Desk>(drivers_, device_, std::move(mix));
     if (wasSilent) desk_->setSilent(true);
     desk_->exposure().goOnFrom(exposure);
     view_ = std::make_unique<MixerView>(*desk_);
@@ -151,7 +151,7 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
 
 // ---- the first start, and messages on devices that replace missing ones
 
-void MixerWindow::showFirstStart() { addFirstStart(feltChoices(types_, likelySinks())); }
+void MixerWindow::showFirstStart() { addFirstStart(feltChoices(drivers_, likelySinks())); }
 
 FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
     auto card = std::make_unique<FirstStart>(*desk_, std::move(choices));
@@ -176,7 +176,7 @@ void MixerWindow::testBeside(int outputs) { addFirstStart({}).test(outputs); }
 void MixerWindow::tellInstead() {
     const auto& wanted = device_.name;
     if (desk_->trouble().isEmpty() || wanted.starts_with(std::string{noDeviceType} + ":")) return;
-    for (const auto& there : byLikelihood(listAudioDevices(types_)))
+    for (const auto& there : byLikelihood(listAudioDevices(drivers_)))
         if (there.type != noDeviceType && there.type + ":" + there.name != wanted)
             return desk_->report(desk_->trouble() + "; there is " + utf8(there.type + ": " + there.name) +
                                  " (" + juce::String{there.channels} + " outputs) instead, under Output");

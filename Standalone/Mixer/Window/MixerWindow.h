@@ -16,7 +16,7 @@ class MixerWindow final : public juce::DocumentWindow,
 public:
     /// `file` is opened (see openFile), or created when saving; none: a new session. `device` overrides the
     /// device of the settings.
-    MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file,
+    MixerWindow(AudioDrivers drivers, const juce::String& device, const juce::File& file,
                 const juce::File& folder = mixerFolder());
     ~MixerWindow() override;
 
@@ -95,7 +95,7 @@ private:
     juce::String documentName() const;
     void make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work);
 
-    AudioDeviceTypes types_;
+    AudioDrivers drivers_;
     MixerFiles files_;
     juce::SharedResourcePointer<DraggedFiles> dragged_;
     DeviceChoice device_;

@@ -65,7 +65,7 @@ struct Listening {
     static constexpr const char* heldUp = "{\"message\": \"clip\", \"file\": \"a.wav\", \"place\": \"A\"}\n";
 
     Session session{test::shakeTheBoxSetup(0.05)};
-    AudioOutput output{session};
+    AudioOutput output{session, [] { return std::vector<std::unique_ptr<AudioDriver>>{}; }};
     MessageRouter messages{session};
     std::atomic<bool> isHeldUp{false}, goesOn{false};
     int ends[2]{}, before = 0;

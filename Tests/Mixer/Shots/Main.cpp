@@ -2,11 +2,11 @@
 // physvib-mixer-shots FILE.png STATE [WIDTHxHEIGHT]: a picture of the mixer's window in a state, without a
 // display;
 // --states lists the states. They are reached as a person would reach them, with a clock instead of a device.
-#include "Host/Devices/NoDevice.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/StripGroups.h"
 #include "Mixer/Knock.h"
 #include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Shots/StudyShots.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
@@ -25,14 +25,6 @@ struct State {
     std::function<void(Desk&, MixerView&)> reach;
     std::vector<SinkName> sinks{}; // beside the device
 };
-
-AudioDeviceTypes onlyNoDevice() {
-    return [] {
-        std::vector<std::unique_ptr<juce::AudioIODeviceType>> types;
-        types.push_back(std::make_unique<NoDeviceType>());
-        return types;
-    };
-}
 
 juce::Component* find(juce::Component& root, const juce::String& title) {
     if (root.getTitle() == title) return &root;
@@ -197,7 +189,8 @@ juce::String takeShot(const juce::File& file, const juce::String& name, const ju
     const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
     if (state == states().end())
         return "expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
-    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->sinks}};
+    Desk desk{test::onlyNoDevice(),
+              {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->sinks}};
     MixerView view{desk};
     view.setSize(size.isEmpty() ? state->width : wide, size.isEmpty() ? state->height : high);
     state->reach(desk, view);

@@ -126,7 +126,7 @@ TEST(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
     FakeInterface speakers;
     speakers.outputs = 2;
     {
-        MixerWindow window{fakeTypes({&speakers}), "Fake:hands", folder("hands.json"), folder("config")};
+        MixerWindow window{fakeDrivers({&speakers}), "Fake:hands", folder("hands.json"), folder("config")};
         EXPECT_TRUE(window.desk().device().choice().monitor.empty());
         ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains("headphones"); }))
             << window.desk().trouble();
@@ -134,7 +134,7 @@ TEST(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
         window.save(); // or the next one would ask for it
         runFor(0.7);   // the settings are written twice a second
     }
-    MixerWindow again{fakeTypes({&speakers}), "", {}, folder("config")};
+    MixerWindow again{fakeDrivers({&speakers}), "", {}, folder("config")};
     EXPECT_EQ(again.desk().device().choice().monitor, (std::vector{0, 1}));
     EXPECT_EQ(again.desk().device().choice().monitorDb, -30.0);
     EXPECT_EQ(again.desk().device().listening().settings().contacts, (std::vector{0, 1}))

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Scans drivers for their output devices.
+#include "Live/Devices/AudioDevices.h"
+#include "Io/Text/CleanText.h"
+#include <algorithm>
+
+namespace physvib {
+
+std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers) {
+    std::vector<AudioDeviceName> devices;
+    for (const auto& driver : drivers()) {
+        driver->scan();
+        for (const std::string& name : driver->deviceNames(false)) {
+            const auto device = driver->create(name, false);
+            devices.push_back({driver->name(), name, device ? device->outputs() : 0});
+        }
+    }
+    return devices;
+}
+
+FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& wanted, bool withInputs) {
+    auto all = drivers();
+    const auto prefix = [](const auto& driver) { return driver->name() + ":"; };
+    const auto isNamed = [&](const auto& driver) { return wanted.starts_with(prefix(driver)); };
+    const bool hasDriver = std::ranges::any_of(all, isNamed);
+    for (auto& driver : all) {
+        if (hasDriver && !isNamed(driver)) continue;
+        driver->scan();
+        const std::string name = cleanLine(wanted.substr(hasDriver ? prefix(driver).size() : 0));
+        const auto has = [&](bool inputs) {
+            const auto names = driver->deviceNames(inputs);
+            return std::ranges::find(names, name) != names.end();
+        };
+        if (!has(false)) continue;
+        auto device = driver->create(name, withInputs && has(true));
+        if (device) return {std::move(driver), std::move(device)};
+    }
+    return {};
+}
+
+} // namespace physvib

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Plays a session on a multichannel audio device. A missing device means silence and a message, never another
+// device, because the outputs drive actuators on a person's skin. Levels rise in a ramp, and one switch
+// silences everything within a block.
+//
+// No manager of devices chooses for it: one that opens the default device (the loudspeakers) when the chosen
+// device disappears would play there what is meant for skin.
+#pragma once
+#include "Core/Actuators/ExposureMeter.h"
+#include "Core/Actuators/GainRamp.h"
+#include "Core/Nonblocking.h"
+#include "Live/Devices/AudioOutputSettings.h"
+#include "Live/Devices/DeviceGuard.h"
+#include "Live/Devices/DeviceKeeper.h"
+#include "Live/Devices/DeviceWatch.h"
+#include "Live/Devices/HeardSignals.h"
+#include "Live/Devices/LoadMeter.h"
+#include "Live/Devices/OnOffMotors.h"
+#include "Live/Devices/PlayedSession.h"
+#include "Live/Session/FeltOutput.h"
+#include <atomic>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+class AudioOutput final : public FeltOutput, private DeviceUser {
+public:
+    using Clock = DeviceWatch::Clock;
+
+    /// `session` outlives the output; `drivers` are searched; `isEnded` as for FeltOutput. M.
+    AudioOutput(Session& session, AudioDrivers drivers, const std::atomic<bool>* isEnded = nullptr);
+    ~AudioOutput() override;
+
+    /// Opens that device and no other. Returns empty, or one line with the reason. The first device prepares
+    /// the session; later ones resume it. M.
+    std::string open(const AudioOutputSettings& settings);
+
+    /// Changes the assignment of outputs and the number of actuators, without interruption if the device's
+    /// outputs are open. Returns empty, or one line with the reason, in which case nothing changes. M.
+    std::string assign(const std::vector<int>& channelMap, int enchanters);
+
+    /// Changes what plays on the listening outputs, without interruption as in assign(). Returns empty, or
+    /// one line with the reason, in which case nothing changes. M.
+    std::string hear(const ListeningSettings& listening);
+
+    /// Plays `other` from its beginning, from the next block on, while the output's own session pauses; null
+    /// returns to the own session. `other` has no more channels and outputs than the own session and no
+    /// contact sound; this call prepares it. When the call returns, the render thread no longer uses the
+    /// session that was playing, and its modes are cut off. Returns false and changes nothing while no device
+    /// has run. M.
+    bool lend(Session* other);
+
+    /// Silent within two blocks. Afterwards the render thread no longer uses session, recorder and taps,
+    /// though the device may go on. M.
+    void stop();
+
+    /// Does what stop() does and closes the device, or abandons it to a driver that hangs. The session keeps
+    /// its state. M.
+    void close();
+
+    /// Reopens a device that has gone, and adapts to a changed block size or sample rate. Returns empty if
+    /// all is well, else one line that says what is missing or changed. M, about once a second.
+    std::string maintain(Clock::time_point now = Clock::now());
+
+    /// The wanted device, as type:name once it was found; empty: none. M.
+    const std::string& device() const noexcept { return settings_.device; }
+
+    /// Whether a session borrowed through lend() is playing. Any thread.
+    bool isLent() const noexcept { return played_.isLent(); }
+
+    /// Exposure of the session's channels as played: after ceilings, master level, silence and guard. M.
+    const ExposureSums& exposure() noexcept { return exposure_.read(); }
+    std::uint32_t restartLevels() noexcept { return exposure_.restart(); } ///< see ExposureMeter. M
+
+    /// M.
+    AudioOutputStatus status();
+    int sampleRateHz() const noexcept { return played_.sampleRateHz(); }
+    int blockFrames() const noexcept { return played_.blockFrames(); }
+    int deviceLatencyFrames() const;
+    int deviceOutputs() const; ///< number of outputs the device has; 0: no device
+
+private:
+    void block(const float* const* in, int inputs, float* const* out, int outputs,
+               int frames) noexcept override;
+    void aboutToStart(AudioDevice& device) override;
+    void stopped() override { running_ = false; }
+
+    std::string remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening);
+    std::string listeningFault() const;
+    DeviceWish wish() const;
+    std::string openDevice(DeviceKeeper::Limit limit);
+    void fadeOut();
+    bool hasGone(Clock::time_point now);
+    std::string follow();
+    void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
+    void renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept;
+
+    PlayedSession played_;
+    AudioOutputSettings settings_;
+    std::atomic<bool> running_{false}, ending_{false};
+    std::atomic<int> largestBlock_{0}; // largest block that the device has asked for
+    LoadMeter load_;
+
+    // M
+    DeviceWatch watch_;
+    bool wasConnected_ = false; // since the device was opened
+
+    // R, set while the device is stopped
+    InputTap* inputTap_ = nullptr;
+    OutputMap map_;
+    GainRamp master_;
+    HeardSignals heard_{map_};
+    ExposureMeter exposure_;
+    OnOffMotors motors_;
+    DeviceGuard guard_;
+    DeviceKeeper keeper_; // last: its thread calls the members above
+};
+
+} // namespace physvib

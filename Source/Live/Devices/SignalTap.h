@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Ring buffer that copies the output signals of a live session from the render thread to meters, scopes and
+// files.
+#pragma once
+#include "Core/Nonblocking.h"
+#include "Live/Session/Sink.h"
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+class SignalTap final : public Sink {
+public:
+    /// `frames`: capacity of each channel. M.
+    SignalTap(int channels, int frames)
+        : ring_(static_cast<std::size_t>(channels), std::vector<float>(static_cast<std::size_t>(frames)))
+        , frames_{static_cast<std::size_t>(frames)}
+        , heard_{channels} {}
+
+    int channels() const noexcept { return static_cast<int>(ring_.size()); }
+
+    /// Copies only the first `channels` from now on; the others keep their old samples. Any thread.
+    void hear(int channels) noexcept {
+        heard_.store(std::clamp(channels, 0, this->channels()), std::memory_order_relaxed);
+    }
+
+    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
+        take(block.channels, block.frames);
+    }
+
+    /// Frames that find the ring full are lost and counted. R, wait-free.
+    void take(const float* const* channels, int frames) noexcept PHYSVIB_NONBLOCKING {
+        const std::size_t written = written_.load(std::memory_order_relaxed),
+                          wanted = static_cast<std::size_t>(frames),
+                          room = frames_ - (written - read_.load(std::memory_order_acquire));
+        const Parts parts = partsOf(written, std::min(room, wanted));
+        const auto heard = static_cast<std::size_t>(heard_.load(std::memory_order_relaxed));
+        for (std::size_t j = 0; j < heard; ++j) {
+            std::copy_n(channels[j], parts.first, ring_[j].data() + parts.begin);
+            std::copy_n(channels[j] + parts.first, parts.rest, ring_[j].data());
+        }
+        written_.store(written + parts.first + parts.rest, std::memory_order_release);
+        const std::size_t missing = wanted - parts.first - parts.rest;
+        lost_.store(lost_.load(std::memory_order_relaxed) + missing, std::memory_order_relaxed);
+    }
+
+    /// Calls `use(const float* const* channels, int frames)` with all unread frames, in one or two parts. One
+    /// reader.
+    template <class Use>
+    void read(Use use) {
+        const std::size_t read = read_.load(std::memory_order_relaxed);
+        const Parts parts = partsOf(read, written_.load(std::memory_order_acquire) - read);
+        std::vector<const float*> at(ring_.size());
+        for (const auto& [start, size] :
+             {std::pair{parts.begin, parts.first}, {std::size_t{0}, parts.rest}}) {
+            if (size == 0) continue;
+            for (std::size_t j = 0; j < ring_.size(); ++j) at[j] = ring_[j].data() + start;
+            use(at.data(), static_cast<int>(size));
+        }
+        read_.store(read + parts.first + parts.rest, std::memory_order_release);
+    }
+
+    std::uint64_t framesLost() const noexcept { return lost_.load(std::memory_order_relaxed); }
+
+private:
+    struct Parts {
+        std::size_t begin, first, rest; // `first` frames from `begin` on, `rest` from the ring's start
+    };
+    Parts partsOf(std::size_t from, std::size_t count) const noexcept {
+        const std::size_t begin = from % frames_, first = std::min(count, frames_ - begin);
+        return {begin, first, count - first};
+    }
+
+    std::vector<std::vector<float>> ring_;
+    const std::size_t frames_;
+    std::atomic<std::size_t> written_{0}, read_{0}; // frames so far
+    std::atomic<int> heard_;
+    std::atomic<std::uint64_t> lost_{0};
+};
+
+} // namespace physvib

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Steps the world of a live session on a thread of its own.
+#pragma once
+#include "Live/Session/Session.h"
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace physvib {
+
+/// A thread with absolute deadlines, one per step, so that delays do not add up (driverThreadGapSeconds). It
+/// runs at realtime priority where the system permits, because an ordinary thread is sometimes late on a
+/// loaded machine. It steps the session from construction to destruction, or until `ends` (may be null) is
+/// true; then at most one more step follows. One driver at a time per session. Created and destroyed on M.
+class ThreadDriver {
+public:
+    /// `stepsPerSecond` up to 1000.
+    ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* ends = nullptr);
+    ~ThreadDriver();
+    ThreadDriver(const ThreadDriver&) = delete;
+    ThreadDriver& operator=(const ThreadDriver&) = delete;
+
+private:
+    void run();
+    bool isOver() const noexcept { return isDestroyed_ || (ends_ != nullptr && *ends_); }
+
+    Session& session_;
+    const std::chrono::nanoseconds step_;
+    const std::atomic<bool>* const ends_;
+    std::atomic<bool> isDestroyed_{false};
+    std::thread thread_;
+};
+
+} // namespace physvib

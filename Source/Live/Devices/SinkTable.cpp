@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The table of sinks, and the parser of output names such as DEVICE+BOARD:auto.
+#include "Live/Devices/SinkTable.h"
+#include "Core/Limits.h"
+#include "Live/Devices/NoDevice.h"
+#include "Live/Pads/PadOutput.h"
+#include "Live/Session/BoardOutput.h"
+#include <algorithm>
+#include <array>
+
+namespace physvib {
+namespace {
+
+std::vector<SinkPlace> serialPorts() {
+    std::vector<SinkPlace> places;
+    for (const SerialPortName& port : listSerialPorts())
+        places.push_back({port.path, port.description, port.isLikelyBoard});
+    return places;
+}
+
+std::vector<SinkPlace> gamePads() {
+    std::vector<SinkPlace> places;
+    for (const GamePadInfo& pad : GamePads{}.list())
+        if (std::ranges::find(places, pad.name, &SinkPlace::where) == places.end())
+            places.push_back({pad.name, {}, pad.hasMotors});
+    return places;
+}
+
+const std::array kinds{
+    SinkKind{
+        "BOARD", "Four-channel board", "It plays the first four actuators beside the device (Docs/board.md)",
+        "board", anyBoard, "the first that answers", "Serial port", limits::board::channels,
+        "board: expected at most four actuators", true, serialPorts,
+        [](const std::string& where, const PhantomPanner& panner, bool isAwaited) -> std::unique_ptr<Sink> {
+            return std::make_unique<BoardOutput>(where, panner,
+                                                 isAwaited ? 0.0 : BoardOutput::usualLatencySeconds);
+        }},
+    SinkKind{"PAD",
+             "Game controller",
+             "Its two motors follow all hits, felt together with the device (Docs/pads.md)",
+             "controller",
+             anyPad,
+             "the first that is there",
+             {},
+             2,
+             {},
+             false,
+             gamePads,
+             [](const std::string& where, const PhantomPanner& panner, bool) -> std::unique_ptr<Sink> {
+                 return std::make_unique<PadOutput>(where, panner);
+             }},
+};
+
+// Position where the last sink of `text` starts; npos: there is none.
+std::size_t lastSink(std::string_view text, const SinkKind*& kind) {
+    std::size_t last = text.npos;
+    for (const SinkKind& one : kinds) {
+        const std::string mark = std::string(one.name) + ":";
+        const std::size_t behind = text.rfind("+" + mark),
+                          at = behind == text.npos && text.starts_with(mark) ? 0 : behind;
+        if (at != text.npos && (last == text.npos || at >= last)) last = at, kind = &one;
+    }
+    return last;
+}
+
+} // namespace
+
+std::span<const SinkKind> sinkKinds() noexcept { return kinds; }
+
+const SinkKind& kindOf(const SinkName& sink) noexcept {
+    return *std::ranges::find(kinds, std::string_view{sink.kind}, &SinkKind::name);
+}
+
+OutputNames::OutputNames(std::string_view text) {
+    const SinkKind* kind = nullptr;
+    bool hasSinks = false;
+    for (std::size_t at = lastSink(text, kind); at != text.npos; at = lastSink(text, kind)) {
+        const auto where = text.substr(text.find(':', at) + 1);
+        if (!where.empty()) sinks.insert(sinks.begin(), {std::string(kind->name), std::string(where)});
+        text = text.substr(0, at);
+        hasSinks = true;
+    }
+    device = hasSinks && text.empty() ? std::string(noDeviceType) + ":" + noDeviceName : std::string(text);
+}
+
+std::string channelFault(const std::vector<SinkName>& sinks, int channels) {
+    for (const SinkName& sink : sinks)
+        if (const SinkKind& kind = kindOf(sink); !kind.tooMany.empty() && channels > kind.actuators)
+            return std::string(kind.tooMany);
+    return {};
+}
+
+std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
+                      const std::function<bool()>& goesOn, Sinks& opened) {
+    if (wanted.size() > mostNamedSinks)
+        return "expected at most " + std::to_string(mostNamedSinks) + " outputs beside the device, found " +
+               std::to_string(wanted.size());
+    for (const SinkName& sink : wanted) {
+        opened.push_back(kindOf(sink).make(sink.where, panner, goesOn != nullptr));
+        if (!goesOn) continue;
+        if (auto fault = opened.back()->awaitReady(goesOn); !fault.empty()) return fault;
+    }
+    return {};
+}
+
+} // namespace physvib

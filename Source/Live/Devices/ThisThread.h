@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The system's rules for threads that drive devices and worlds.
+#pragma once
+
+namespace physvib {
+
+/// Realtime priority for the calling thread, where the system permits; otherwise nothing changes.
+void raiseThreadPriority() noexcept;
+
+/// Whether the thread that creates a driver must make all its calls.
+bool areDriversBoundToTheirThread() noexcept;
+
+} // namespace physvib

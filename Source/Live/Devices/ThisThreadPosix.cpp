@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Thread priority on POSIX, by the round-robin scheduler.
+#if !defined(_WIN32)
+#include "Live/Devices/ThisThread.h"
+#include <pthread.h>
+#include <sched.h>
+
+namespace physvib {
+
+void raiseThreadPriority() noexcept {
+    // half of the range, as other programs that play sound: below the threads of audio servers
+    const int lowest = sched_get_priority_min(SCHED_RR), highest = sched_get_priority_max(SCHED_RR);
+    sched_param wanted{};
+    wanted.sched_priority = (lowest + highest) / 2;
+    pthread_setschedparam(pthread_self(), SCHED_RR, &wanted); // fails without the privilege
+}
+
+bool areDriversBoundToTheirThread() noexcept { return false; }
+
+} // namespace physvib
+#endif

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Converts hits to clip channels, panned as they were played; each channel's device data come from its
+// actuator's profile.
+#include "Live/Recordings/HitExport.h"
+#include "Core/Modes/ModeIncrements.h"
+#include "Formats/ClipLimits.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Text/NumberText.h"
+#include "Io/Wav/WavSink.h"
+#include "Live/Session/OfflineRender.h"
+#include "Scene/ActuatorFile.h"
+#include "Wire/BoardSteps.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <list>
+
+namespace physvib {
+namespace {
+
+constexpr double maxWavBytes = 500e6; // the file is written while the user waits for a drag to start
+
+/// Replaces each moving event by a series of stationary ones, as the board does, because other formats have
+/// no moving events.
+std::vector<CollisionEvent> stillStrikes(std::span<const CollisionEvent> events) {
+    std::vector<CollisionEvent> still;
+    for (const CollisionEvent& event : events) {
+        if (event.course.travelNs == 0)
+            still.push_back(event);
+        else
+            for (BoardSteps steps{event}; !steps.isOver();) still.push_back(steps.take());
+    }
+    std::ranges::stable_sort(still, {}, &CollisionEvent::timeNs);
+    return still;
+}
+
+/// Data of an actuator's profile; without one ("none"), only its full scale.
+Result<ClipDevice> deviceOf(const HitExport& hits, const EnchanterDescription& enchanter) {
+    const ClipDevice device{0.0, 0.0, 0.0, enchanter.fullScaleG};
+    const std::string& name = hits.actuator.empty() ? enchanter.actuator : hits.actuator;
+    if (name == "none") return device;
+    const auto profile = findActuator(name);
+    if (!profile) return Failure{hits.layoutName + ": actuator " + enchanter.label + ": " + profile.error};
+    const FrequencyBand band = profile.value.bandOrNone();
+    return ClipDevice{band.lowHz, band.highHz, profile.value.resonanceHz.value_or(0.0), enchanter.fullScaleG};
+}
+
+/// The band of the channel's actuator, if known.
+FrequencyScale scaleOf(const Clip& clip, const FrequencyScale& usual) {
+    const ClipDevice& device = clip.channels.front().device;
+    return device.highHz > device.lowHz ? FrequencyScale{device.lowHz, device.highHz} : usual;
+}
+
+std::string summary(const ClipPart& part, std::size_t bytes) {
+    return part.path + "  " + counted(part.clip.channels.size(), "channel") + ", " +
+           fixedNumber(part.clip.seconds(), 2) + " s, " + counted(part.clip.points(), "keyframe") + ", " +
+           fixedNumber(static_cast<double>(bytes) * 1e-3, 1) + " kB\n";
+}
+
+/// Time until the last event has decayed.
+double secondsOf(std::span<const CollisionEvent> events, int rate) {
+    double end = 0.0;
+    for (const CollisionEvent& event : events) {
+        const auto life =
+            static_cast<double>(lifeFramesOf(decayIncrementOf(event.decayPerSecond, rate))) / rate;
+        const double gate = event.durationNs > 0 ? 1e-9 * static_cast<double>(event.durationNs) : life;
+        end = std::max(end, 1e-9 * static_cast<double>(event.timeNs) + std::min(life, gate));
+    }
+    return end;
+}
+
+} // namespace
+
+Result<Clip> clipOfHits(const HitExport& hits, const StrikeClipSettings& drawn) {
+    if (const std::size_t found = hits.events.size(); found > limits::maxClipStrikes)
+        return Failure{hits.source + ": expected at most " + std::to_string(limits::maxClipStrikes) +
+                       " hits, found " + std::to_string(found)};
+    Clip clip = clipOfStrikes(stillStrikes(hits.events), drawn);
+    clip.title = hits.title;
+    clip.extentWidthMetres = hits.layout.geometry.extentWidthMetres;
+    clip.extentHeightMetres = hits.layout.geometry.extentHeightMetres;
+    for (std::size_t j = 0; j < std::min(clip.channels.size(), hits.layout.enchanters.size()); ++j) {
+        const auto device = deviceOf(hits, hits.layout.enchanters[j]);
+        if (!device) return Failure{device.error};
+        clip.channels[j].label = hits.layout.enchanters[j].label;
+        clip.channels[j].place = hits.layout.geometry.places[j];
+        clip.channels[j].device = device.value;
+    }
+    if (auto fault = clipFault(clip); !fault.empty()) return Failure{hits.source + ": " + fault};
+    return clip;
+}
+
+std::vector<ClipPart> partsOf(const Clip& clip, const std::string& to, ClipFormat format) {
+    if (!isMono(format) || clip.channels.size() == 1) return {{to, clip}};
+    std::vector<ClipPart> parts;
+    const std::filesystem::path path{to};
+    for (std::size_t j = 0; j < clip.channels.size(); ++j) {
+        Clip one{clip.title, 0.0, 0.0, {clip.channels[j]}};
+        if (!(one.seconds() > 0.0)) continue;
+        std::string label = clip.channels[j].label.empty() ? std::to_string(j + 1) : clip.channels[j].label;
+        std::ranges::replace_if(
+            label, [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
+        parts.push_back(
+            {(path.parent_path() / (path.stem().string() + "-" + label + path.extension().string())).string(),
+             std::move(one)});
+    }
+    return parts;
+}
+
+Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat format,
+                               const FrequencyScale& usual) {
+    std::list<AtomicFile> files;
+    std::string told;
+    for (const ClipPart& part : parts) {
+        const auto bytes = clipBytes(part.clip, format, scaleOf(part.clip, usual));
+        if (!bytes) return Failure{part.path + ": " + bytes.error};
+        if (const std::string& error = files.emplace_back(part.path).error(); !error.empty())
+            return Failure{error};
+        if (const std::string& error = files.back().write(bytes.value); !error.empty()) return Failure{error};
+        told += summary(part, bytes.value.size());
+    }
+    for (AtomicFile& file : files)
+        if (const std::string& error = file.commit(); !error.empty()) return Failure{error};
+    return told;
+}
+
+std::vector<std::string> lossesOf(const std::vector<ClipPart>& parts, ClipFormat format,
+                                  const FrequencyScale& usual) {
+    std::vector<std::string> losses;
+    for (const ClipPart& part : parts)
+        for (const std::string& loss : clipLosses(part.clip, format, scaleOf(part.clip, usual)))
+            if (std::ranges::find(losses, loss) == losses.end()) losses.push_back(loss);
+    return losses;
+}
+
+std::string writeHitsWav(const HitExport& hits, const PhantomPanner& panner, int sampleRateHz,
+                         const std::string& path, const std::string& comment) {
+    const double seconds = secondsOf(hits.events, sampleRateHz);
+    if (!(seconds <= limits::maxClipSeconds))
+        return hits.source + ": expected at most " + plainNumber(limits::maxClipSeconds) +
+               " seconds, found " + fixedNumber(seconds, 0);
+    if (const double bytes = seconds * sampleRateHz * panner.channels() * sizeof(float); bytes > maxWavBytes)
+        return hits.source + ": expected at most " + plainNumber(1e-6 * maxWavBytes) +
+               " MB of samples, found " + fixedNumber(1e-6 * bytes, 0);
+    const RendererSettings renderer{.sampleRateHz = sampleRateHz, .panner = panner, .limiterEnabled = false};
+    WavSink wav{path, panner.channels(), sampleRateHz, comment};
+    if (!wav.error().empty()) return wav.error();
+    renderOffline(hits.events, {renderer, static_cast<std::int64_t>(std::ceil(seconds * sampleRateHz))},
+                  [&](const float* const* block, int frames) { return wav.write(block, frames); });
+    return wav.finish();
+}
+
+} // namespace physvib

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Exports hits to files of other programs, as curves of a haptic clip or as WAV samples. Levels are those of
+// the events, before gains, equaliser and limiter.
+#pragma once
+#include "Core/PhantomPanner.h"
+#include "Formats/ClipFile.h"
+#include "Formats/StrikeClip.h"
+#include "Scene/LayoutFile.h"
+#include <span>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// The hits to export, and the actuators that play them.
+struct HitExport {
+    std::string source;                     ///< where the hits come from, for messages
+    std::string title;                      ///< of the clip
+    std::span<const CollisionEvent> events; ///< playable, in time order
+    const LayoutDescription& layout;
+    std::string layoutName; ///< for messages
+    std::string actuator{}; ///< of all actuators; empty: each has its own
+};
+
+/// A clip with one channel per actuator, its place and device; `drawn` says how hits become curves. Or one
+/// line. M only.
+Result<Clip> clipOfHits(const HitExport& hits, const StrikeClipSettings& drawn);
+
+/// One file of an exported clip.
+struct ClipPart {
+    std::string path;
+    Clip clip;
+};
+
+/// One file; for single-channel formats, one file per channel that is not empty: NAME-A.haptic,
+/// NAME-B.haptic... Any thread.
+std::vector<ClipPart> partsOf(const Clip& clip, const std::string& to, ClipFormat format);
+
+/// Writes all files or none. `usual`: frequency range that the format's 0 to 1 stands for, where the
+/// channel's actuator has no known band. Returns one line per file with its length and size, or one line with
+/// the reason. M only.
+Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat format,
+                               const FrequencyScale& usual = {});
+
+/// What the format cannot express of the parts, each line once. Any thread.
+std::vector<std::string> lossesOf(const std::vector<ClipPart>& parts, ClipFormat format,
+                                  const FrequencyScale& usual = {});
+
+/// Writes one channel per actuator of the panner, from 0 s until all events have decayed. Returns empty, or
+/// one line with the reason. M only.
+std::string writeHitsWav(const HitExport& hits, const PhantomPanner& panner, int sampleRateHz,
+                         const std::string& path, const std::string& comment);
+
+} // namespace physvib

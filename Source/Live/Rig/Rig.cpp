@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Opens and closes the parts of a live rig in the order that their threads require.
+#include "Live/Rig/Rig.h"
+#include "Live/Devices/InputTap.h"
+#include <utility>
+
+namespace physvib {
+namespace {
+
+RigSettings withLog(RigSettings settings) {
+    if (!settings.savePath.empty()) settings.setup.log = LogUse::stream;
+    return settings;
+}
+
+void add(std::string& line, const std::string& more) {
+    if (more.empty()) return;
+    if (!line.empty()) line += "; ";
+    line += more;
+}
+
+} // namespace
+
+Rig::Rig(RigSettings settings, AudioDrivers drivers, const std::atomic<bool>* isEnded)
+    : settings_{withLog(std::move(settings))}
+    , isEnded_{isEnded}
+    , session_{settings_.setup}
+    , inputs_{settings_.output.inputs.empty() ? nullptr : std::make_unique<InputTap>()}
+    , output_{session_, std::move(drivers), isEnded} {
+    settings_.output.tap = inputs_.get();
+}
+
+Rig::~Rig() { close(); }
+
+std::string Rig::open() {
+    if (auto fault = connectSinks(); !fault.empty()) return fault;
+    if (auto fault = openDevice(settings_.output); !fault.empty()) return fault;
+    if (auto fault = beginRecording(); !fault.empty()) return fault;
+    return beginJournal();
+}
+
+std::string Rig::connectSinks() {
+    const auto goesOn = [this] { return this->goesOn(); };
+    connectedAt_ = std::chrono::steady_clock::now();
+    if (auto fault = openSinks(settings_.sinks, settings_.setup.panner,
+                               settings_.awaitsSinks ? std::function<bool()>{goesOn} : nullptr, sinks_);
+        !fault.empty())
+        return fault;
+    for (const auto& sink : sinks_) session_.sinks().attach(*sink);
+    return {};
+}
+
+std::string Rig::openDevice(const AudioOutputSettings& wanted) {
+    return deviceTrouble_ = output_.open(wanted);
+}
+
+std::string Rig::beginRecording() {
+    if (settings_.recordPath.empty()) return {};
+    recording_.emplace(settings_.recordPath, settings_.setup.channels, output_.sampleRateHz());
+    if (auto fault = recording_->error(); !fault.empty()) return fault;
+    recording_->tellBeginning(session_.timeline().playOutFrames());
+    session_.sinks().attach(*recording_);
+    return {};
+}
+
+std::string Rig::beginJournal() {
+    if (settings_.savePath.empty()) return {};
+    journal_.emplace(settings_.savePath, session_, settings_.setup, settings_.provenance);
+    return journal_->error();
+}
+
+void Rig::start() {
+    session_.sinks().follow(&output_);
+    if (settings_.ownThread) driver_.emplace(session_, settings_.setup.stepsPerSecond, isEnded_);
+}
+
+void Rig::step() {
+    if (!settings_.ownThread && goesOn()) session_.advance([this](auto) { return goesOn(); });
+}
+
+std::vector<SinkState> Rig::sinkStates() const {
+    std::vector<SinkState> states;
+    for (const auto& sink : sinks_) states.push_back(sink->state());
+    return states;
+}
+
+std::string Rig::trouble() const {
+    std::string line = deviceTrouble_;
+    const bool isPatient =
+        !settings_.awaitsSinks && std::chrono::steady_clock::now() - connectedAt_ < patience;
+    if (!isPatient)
+        for (const SinkState& sink : sinkStates()) add(line, sink.trouble);
+    if (journal_) add(line, journal_->news());
+    if (recording_) add(line, recording_->error());
+    return line;
+}
+
+std::string Rig::summary(std::string& trouble) const {
+    std::string lines;
+    for (const auto& sink : sinks_) {
+        lines += sink->summary([this] { return goesOn(); });
+        const SinkState state = sink->state();
+        if (trouble.empty() && !state.isReady)
+            trouble = state.trouble.empty() ? "the " + state.name + " is gone" : state.trouble;
+    }
+    return lines;
+}
+
+// The journal's pending lines come first, because the rest may take long or hang.
+void Rig::endFiles() {
+    if (journal_) journal_->end(session_.status().sessionNs);
+    if (recording_) recorded_ = recording_->finish();
+}
+
+std::string Rig::finish(bool isHurried) {
+    std::string saved;
+    if (journal_) saved = isHurried ? journal_->finish(SessionJournal::quickBytes) : journal_->finish();
+    driver_.reset();
+    session_.sinks().follow(nullptr);
+    return !saved.empty() ? saved : recorded_;
+}
+
+void Rig::close() {
+    driver_.reset();
+    session_.sinks().follow(nullptr);
+    output_.close();
+    for (const auto& sink : sinks_) session_.sinks().detach(*sink);
+    sinks_.clear();
+}
+
+} // namespace physvib
