@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Loads all SDL functions, or none.
 #include "Live/Pads/SdlLibrary.h"
+#include "Live/Pads/SharedLibrary.h"
 #include <initializer_list>
 
 namespace physvib {

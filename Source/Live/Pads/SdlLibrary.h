@@ -29,9 +29,4 @@ struct SdlLibrary {
 /// has one line. Any thread.
 const SdlLibrary* sdlLibrary(std::string& fault);
 
-/// System calls: opens the library of that name, and finds a function in it; null if there is none. Any
-/// thread.
-void* openLibrary(const char* name);
-void* functionIn(void* library, const char* name);
-
 } // namespace physvib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dynamic loading on POSIX systems.
 #ifndef _WIN32
-#include "Live/Pads/SdlLibrary.h"
+#include "Live/Pads/SharedLibrary.h"
 #include <dlfcn.h>
 
 namespace physvib {

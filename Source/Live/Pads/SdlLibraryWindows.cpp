@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dynamic loading on Windows.
 #ifdef _WIN32
-#include "Live/Pads/SdlLibrary.h"
+#include "Live/Pads/SharedLibrary.h"
 #include <windows.h>
 
 namespace physvib {

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Another client of the JACK server, such as "system", as a device: this program's ports are connected to
+// its.
+#pragma once
+#include "Live/Devices/JackClient.h"
+#include "Live/Devices/UserSlot.h"
+#include <atomic>
+
+namespace physvib {
+
+/// Its ports are out_1, out_2 ... in_1, in_2 ... of the client "physvib", one for each port of the device.
+/// The server sets rate and block. Outputs that nothing is connected to are not active.
+class JackDevice final : public AudioDevice {
+public:
+    JackDevice(const JackLibrary& jack, std::string name, bool withInputs);
+    ~JackDevice() override { close(); }
+
+    std::string name() const override { return name_; }
+    int outputs() override { return static_cast<int>(out_.ports.size()); }
+    int inputs() override { return static_cast<int>(in_.ports.size()); }
+    int defaultBlockFrames() override { return blockFrames(); }
+    std::string open(const ChannelSet& inputs, const ChannelSet& outputs, int sampleRateHz,
+                     int blockFrames) override;
+    void close() override;
+
+    /// Also follows the server's connections: if others have connected or disconnected outputs, the user is
+    /// stopped and started anew with those that are connected now. JACK reports this on a thread of its own,
+    /// where the user must not be called, so whoever looks after the device asks.
+    bool isOpen() override;
+
+    void start(DeviceUser& user) override;
+    void stop() override;
+    int sampleRateHz() override;
+    int blockFrames() override;
+    ChannelSet activeOutputs() const override;
+    int outputLatencyFrames() override;
+    int xruns() const override { return xruns_; }
+
+private:
+    struct Direction {
+        std::vector<std::string> remote;  // the device's ports
+        std::vector<jack_port_t*> ports;  // ours, connected to these
+        std::vector<jack_port_t*> active; // of ours, those that are connected
+        std::vector<float*> buffers;      // of these, for one block
+    };
+
+    bool isAlive() const { return client_.connected() && !isGone_; }
+    void addPorts(Direction& direction, const char* prefix, JackPortFlags flags);
+    void connect(const Direction& direction, const ChannelSet& wanted, bool isOutput);
+    std::vector<jack_port_t*> connectedPorts(const Direction& direction) const;
+    void process(jack_nframes_t frames) noexcept;                     // R
+    int locate(Direction& direction, jack_nframes_t frames) noexcept; // R
+    void silence(jack_nframes_t frames) noexcept;                     // R
+
+    const JackLibrary& jack_;
+    const std::string name_;
+    Direction in_, out_;
+    UserSlot slot_;
+    std::atomic<bool> isGone_{false};
+    std::atomic<int> xruns_{0};
+    bool isOpen_ = false;
+    JackClient client_; // closed first: until then JACK may call
+};
+
+} // namespace physvib

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The drivers whose libraries this machine has.
+#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AlsaDriver.h"
+#include "Live/Devices/JackDriver.h"
+
+namespace physvib {
+
+std::vector<std::unique_ptr<AudioDriver>> systemAudioDrivers() {
+    std::vector<std::unique_ptr<AudioDriver>> drivers;
+    if (const JackLibrary* jack = jackLibrary()) drivers.push_back(std::make_unique<JackDriver>(*jack));
+    if (const AlsaLibrary* alsa = alsaLibrary()) drivers.push_back(std::make_unique<AlsaDriver>(*alsa));
+    return drivers;
+}
+
+} // namespace physvib
