@@ -136,6 +136,10 @@ typedef struct physvib_renderer_status {
     physvib_int64 refused;  /**< because the queue was full */
 } physvib_renderer_status;
 
+/** Of full_scale_impulse_n_s: the hardest usual hit comes near half of full scale. The level rises at once,
+ * and falls by a time constant of 10 s; see Docs/gain.md. */
+#define PHYSVIB_AUTOMATIC (-1.0)
+
 /** How contacts become events; defaults in brackets. */
 typedef struct physvib_world_settings {
     size_t size;       /**< set by init */
@@ -154,6 +158,11 @@ typedef struct physvib_world_settings {
     double drive_gain;            /**< (1) */
     double threshold_m_per_s; /**< an impact that changes the velocity of the lighter body by less is ignored
                                  (0.15) */
+    double full_scale_impulse_n_s; /**< an impact of this impulse gives amplitude 1, whatever masses and A*
+                                      are; drive_gain and gains still multiply. PHYSVIB_AUTOMATIC: learned
+                                      from the world's hits. 0: off, Eq. 5.4 (0) */
+    double settling_s; /**< impacts before this time of the world are not felt, and are counted as muted (0)
+                        */
 } physvib_world_settings;
 
 #define PHYSVIB_VOICE_OWN 0   /**< the haptic source vibrates with its own values */
@@ -242,7 +251,7 @@ typedef struct physvib_world_counts {
                                  the last step */
 } physvib_world_counts;
 
-/** The version, "0.1.0". Any thread. */
+/** The version, "0.2.0". Any thread. */
 PHYSVIB_API const char* physvib_version(void);
 
 /** The name of a panning law, as options and files have it; they are numbered from 0 (PHYSVIB_LAW_...); NULL

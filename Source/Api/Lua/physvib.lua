@@ -15,7 +15,7 @@ typedef struct { double extent_width_m, extent_height_m, x_m[64], y_m[64]; int c
 typedef struct { size_t size; int rate_hz, channels, law, limiter; double exponent, field_width_m, field_height_m; physvib_layout layout; } physvib_renderer_settings;
 typedef struct { size_t size; int live_modes, pending; int64_t frames, played, late, rejected, refused; } physvib_renderer_status;
 typedef struct { size_t size; int is_muted, hits_per_step, at_body, drops_hits_of_removed; double field_width_m, field_x_m, field_y_m, field_radians,
-    normalisation_s_per_m, hand_mass_kg, drive_gain, threshold_m_per_s; } physvib_world_settings;
+    normalisation_s_per_m, hand_mass_kg, drive_gain, threshold_m_per_s, full_scale_impulse_n_s, settling_s; } physvib_world_settings;
 typedef struct { size_t size; int is_camera, voice, surface; double mass_kg, inertia_kg_m2, gravity_scale, frequency_hz, decay_per_s, static_mass_kg, gain,
     hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3], grain_m, roughness, rolling; int is_ridged; } physvib_body;
 typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, impulse_n_s, tangential_n_s, approach_m_per_s, restitution, effective_mass_kg,
@@ -99,7 +99,8 @@ int physvib_live_get_status(physvib_live, physvib_live_status *);
 ]]
 local library = os.getenv("PHYSVIB_LIBRARY") or "libphysvib.so.0"
 local c = ffi.load(library)
-local physvib = {c = c, version = ffi.string(c.physvib_version())}
+local physvib = {c = c, automatic = -1, -- of full_scale_impulse_n_s: learned from the hits, see Docs/gain.md
+    version = ffi.string(c.physvib_version())}
 
 -- `name(...)` of a library: a code or a count; of an error, a Lua error of one line.
 local function caller(from, prefix)

@@ -80,6 +80,10 @@ export interface WorldSettings {
     driveGain?: number;
     /** A hit changes the velocity of the lighter body by as much, m/s (0.15). */
     threshold?: number;
+    /** The impulse of amplitude 1, N s, whatever masses say; 'automatic': learned from the hits; 0: by masses (0). */
+    fullScaleImpulse?: number | 'automatic';
+    /** Hits before this time of the world are not felt, s (0). */
+    settling?: number;
 }
 
 /** How a body feels and sounds. */

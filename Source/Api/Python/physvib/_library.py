@@ -13,6 +13,8 @@ from typing import TypeVar
 import numpy as np
 
 UNKNOWN = -1.0e300
+#: Of `full_scale_impulse_n_s`: learned from the world's hits, see Docs/gain.md.
+AUTOMATIC = -1.0
 MAX_ENCHANTERS = 64
 
 #: A collision as it is felt, as numpy has it: fields as in physvib.h, times in whole nanoseconds.
@@ -49,7 +51,7 @@ class CRendererStatus(Structure):
 class CWorldSettings(Structure):
     _fields_ = [("size", c_size_t), ("is_muted", c_int), ("hits_per_step", c_int), ("at_body", c_int), ("drops_hits_of_removed", c_int),
                 *[(name, c_double) for name in ("field_width_m", "field_x_m", "field_y_m", "field_radians", "normalisation_s_per_m",
-                                                "hand_mass_kg", "drive_gain", "threshold_m_per_s")]]
+                                                "hand_mass_kg", "drive_gain", "threshold_m_per_s", "full_scale_impulse_n_s", "settling_s")]]
 
 
 class CBody(Structure):
