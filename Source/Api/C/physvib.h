@@ -313,6 +313,26 @@ PHYSVIB_API int physvib_wav_save(const char* path, const float* samples, int cha
 PHYSVIB_API int physvib_render(const physvib_renderer_settings* settings, const physvib_event* events,
                                physvib_int64 count, physvib_int64 frames, float* samples);
 
+/* ---- Materials by name, and single impacts. ---- */
+
+/** The name of a built-in material that vibrates, counted from 0; NULL after the last one. Any thread. */
+PHYSVIB_API const char* physvib_material_name(int index);
+/** Sets how a body vibrates to a built-in material: frequency, decay, overtones, grains. `body` must have
+ * been initialised; its other members stay. Any thread. */
+PHYSVIB_API int physvib_material(const char* name, physvib_body* body);
+/** The same from a file of materials (JSON, Docs/materials.md). `path` is UTF-8. Any thread; reads the file.
+ */
+PHYSVIB_API int physvib_material_load(const char* path, const char* name, physvib_body* body);
+/** The number (physvib_event.sound, above 0) of the sound of that name, such as a material's; Docs/events.md.
+ * Any name has one. Any thread. */
+PHYSVIB_API int physvib_sound(const char* name);
+
+/** Writes the event of one impact at time 0: at that place of the field, as strong as `strength`, 0 to 1 of
+ * full scale, with the vibration of a built-in material, or, if that is NULL, of 200 Hz and a decay of 30 per
+ * second. Any thread. */
+PHYSVIB_API int physvib_event_of(const char* material, double x_m, double y_m, double strength,
+                                 physvib_event* event);
+
 /* ---- A renderer: events in, samples out. ---- */
 
 /** Creates a renderer; it takes 13 to 25 MB, depending on its channels. PHYSVIB_ERROR_FULL: there are 256.
@@ -325,6 +345,12 @@ PHYSVIB_API int physvib_renderer_free(physvib_renderer renderer);
 /** Plays an event at its time, or at once if that has passed. PHYSVIB_ERROR_FULL: 8,192 events are waiting to
  * be pulled. One at a time. */
 PHYSVIB_API int physvib_renderer_strike(physvib_renderer renderer, const physvib_event* event);
+/** Plays one impact at the next pull: physvib_event_of(NULL, ...), then physvib_renderer_strike(). One at a
+ * time. */
+PHYSVIB_API int physvib_renderer_impact(physvib_renderer renderer, double x_m, double y_m, double strength);
+/** The same of a built-in material. One at a time. */
+PHYSVIB_API int physvib_renderer_impact_of(physvib_renderer renderer, const char* material, double x_m,
+                                           double y_m, double strength);
 
 /** The next `frames` (1 or more) of each channel, in channels[channel][0..frames). `channel_count`: the
  * renderer's. PHYSVIB_ERROR_BUSY. R. */
