@@ -17,7 +17,7 @@ const physvib = await load();
 const work = mkdtempSync(join(tmpdir(), 'physvib-'));
 
 /** A ball of 0.2 kg falls from 0.8 m onto a floor, as in Docs/c.md. */
-function drop(world = physvib.world({ driveGain: 0.5 })) {
+function drop(world = physvib.world({ fullScaleImpulse: 'automatic' })) {
     const g = 9.81, dt = 0.01, e = 0.6;
     let height = 0.8, speed = -0.5 * g * dt; // between two steps
     world.setBody(0); // the floor: no mass, so nothing moves it
