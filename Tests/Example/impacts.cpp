@@ -15,9 +15,7 @@ int main() {
     b2Fixture* ball = world.CreateBody(&body)->CreateFixture(&disc, 1.0f);
     ball->SetRestitution(0.6f);
 
-    physvib::ImpactSettings settings;
-    settings.fullScaleNewtonSeconds = settings.automatic; // the hardest usual hit: half of full scale
-    physvib::Attachment haptics(world, settings);         // PhysVib: attach, say how the ball vibrates, step
+    physvib::Attachment haptics(world); // PhysVib: attach, say how the ball vibrates, step
     if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return 1;
     std::vector<physvib::CollisionEvent> impacts;
     for (int step = 0; step < 200; ++step) haptics.step(0.01f);
