@@ -5,6 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -126,6 +127,26 @@ TEST(FullScale, WhatSettlesIsNeitherFeltNorLearned) {
     EXPECT_TRUE(hits.land(0.3, {1000.0}).empty());
     EXPECT_NEAR(hits.landOne(0.2, 4.0), FullScale::goal, 1.0e-9);
     EXPECT_EQ(hits.feed.counts().muted, 2U);
+}
+
+TEST(FullScale, GrainsDoNotRaiseTheLevelAndMutedSourcesDoNotCount) {
+    FixtureTable table;
+    const BodyFacts body{.body = 1, .massKg = 2.0, .isDynamic = true};
+    HapticFixture values{.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true};
+    const std::int32_t heard = table.set(table.know(1, body), values, {}, 0);
+    values.gain = 0.0;
+    const std::int32_t muted = table.set(table.know(2, body), values, {}, 1);
+    StepSpan step;
+    step.endNs = 10'000'000;
+    step.leastMetresPerSecond = 0.15;
+    const auto impact = [](std::int32_t source, double newtonSeconds, ContactKind kind) {
+        return Impact{source, FixtureTable::none, 0, newtonSeconds, {}, kind};
+    };
+    FullScale level;
+    level.learn(std::vector{impact(muted, 900.0, ContactKind::hit)}, step, table);
+    EXPECT_EQ(level.newtonSeconds(), 1.0); // as yet
+    level.learn(std::vector{impact(heard, 900.0, ContactKind::roll)}, step, table);
+    EXPECT_NEAR(level.newtonSeconds(), 2.0 * 1.5 / FullScale::goal, 1.0e-9); // the first guess
 }
 
 TEST(FullScale, RefusesWhatCannotBe) {
