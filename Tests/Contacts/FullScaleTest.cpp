@@ -133,9 +133,9 @@ TEST(FullScale, GrainsDoNotRaiseTheLevelAndMutedSourcesDoNotCount) {
     FixtureTable table;
     const BodyFacts body{.body = 1, .massKg = 2.0, .isDynamic = true};
     HapticFixture values{.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true};
-    const std::int32_t heard = table.set(table.know(1, body), values, {}, 0);
+    const std::int32_t heard = table.set(table.know(std::uint64_t{1}, body), values, {}, 0);
     values.gain = 0.0;
-    const std::int32_t muted = table.set(table.know(2, body), values, {}, 1);
+    const std::int32_t muted = table.set(table.know(std::uint64_t{2}, body), values, {}, 1);
     StepSpan step;
     step.endNs = 10'000'000;
     step.leastMetresPerSecond = 0.15;
