@@ -8,6 +8,10 @@ namespace physvib {
 
 namespace {
 
+// The exponent of a strength is 1.5: between 1, the sum of vibrations in phase, and 2, of those that are not.
+double powerOf(double strength) { return strength * std::sqrt(strength); }
+double strengthOf(double power) { return std::cbrt(power * power); }
+
 // Infinite if neither body can be moved: such an impact says nothing about speeds.
 double lighterMassKg(const Impact& impact, const FixtureTable& table) {
     const double own = table[impact.camera].movableMassKg();
@@ -17,19 +21,19 @@ double lighterMassKg(const Impact& impact, const FixtureTable& table) {
 } // namespace
 
 void FullScale::learn(std::span<const Impact> impacts, const StepSpan& step, const FixtureTable& table) {
-    double squares = 0.0, heaviestKg = 0.0;
+    double power = 0.0, heaviestKg = 0.0;
     bool isHeard = false;
     for (const Impact& impact : impacts) {
         if (table[impact.camera].values.gain == 0.0) continue;
         isHeard = true;
-        if (impact.kind == ContactKind::hit) squares += impact.newtonSeconds * impact.newtonSeconds;
+        if (impact.kind == ContactKind::hit) power += powerOf(impact.newtonSeconds);
         const double massKg = lighterMassKg(impact, table);
         if (std::isfinite(massKg)) heaviestKg = std::max(heaviestKg, massKg);
     }
     if (!isHeard) return;
     const double seconds = static_cast<double>(step.endNs - learnedNs_) * 1.0e-9;
     learnedNs_ = step.endNs;
-    sounding_ = std::hypot(sounding_ * std::exp(-fadePerSecond * seconds), std::sqrt(squares));
+    sounding_ = strengthOf(powerOf(sounding_ * std::exp(-fadePerSecond * seconds)) + power);
     const double fallen = level_ * std::exp(-std::min(seconds, longestPauseSeconds) / fallSeconds);
     const double thresholds = level_ > 0.0 ? leastThresholds : firstThresholds;
     level_ = std::max({fallen, sounding_, thresholds * step.leastMetresPerSecond * heaviestKg});

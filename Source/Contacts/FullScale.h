@@ -9,10 +9,10 @@ namespace physvib {
 
 /// Follows the strength of the hardest usual hit and puts it 6 dB below full scale.
 ///
-/// Strength is the root of the summed squares of the impulses that sound at once; it fades by 30 per second,
-/// as a usual vibration does. The level rises to it at once, so no hit is played above the goal. It falls by
-/// a time constant of 10 s, of which a pause counts 1 s at most: a quiet minute does not make the next touch
-/// loud.
+/// Strength is the impulse of what sounds at once: impulses are summed to the power of 1.5, between the sum
+/// of vibrations in phase and that of powers. It fades by 30 per second, as a usual vibration does. The level
+/// rises to it at once, so no hit is played above the goal. It falls by a time constant of 10 s, of which a
+/// pause counts 1 s at most: a quiet minute does not make the next touch loud.
 ///
 /// The speeds below are multiples of the threshold for impacts, which fits the scale of the world. At first
 /// the level is that of a change of the lighter body's velocity by 10 thresholds (1.5 m/s by default). It is
