@@ -16,6 +16,10 @@ namespace {
 // still held.
 constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectCollisions;
 
+bool isAutomatic(const ImpactSettings& settings) noexcept {
+    return settings.fullScaleNewtonSeconds == ImpactSettings::automatic;
+}
+
 const ImpactSettings& checked(const ImpactSettings& settings) {
     if (const std::string_view fault = faultOf(settings); !fault.empty())
         throw std::invalid_argument(std::string(fault));
@@ -33,6 +37,9 @@ std::string_view faultOf(const ImpactSettings& settings) noexcept {
     if (!isAmount(settings.driveGain)) return "drive gain: expected 0 or more";
     if (!isAmount(settings.thresholdMetresPerSecond)) return "threshold: expected 0 m/s or more";
     if (settings.hitsPerStep.value_or(0) < 0) return "hits per step: expected 0 or more";
+    if (!isAmount(settings.fullScaleNewtonSeconds) && !isAutomatic(settings))
+        return "full-scale impulse: expected 0 (off), more than 0 N s, or -1 (automatic)";
+    if (!isAmount(settings.settlingSeconds)) return "settling: expected 0 s or more";
     return {};
 }
 
@@ -124,7 +131,8 @@ void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double larges
     span_.gravityMetresPerSecond2 = gravity;
     model_ = {settings_.normalisation.value_or(defaultNormalisation(settings_.fieldWidthMetres)),
               settings_.handMassKg.value_or(std::max(largestMassKg, table_.largestStaticMassKg(bodies_))),
-              settings_.driveGain};
+              settings_.driveGain,
+              isAutomatic(settings_) ? fullScale_.newtonSeconds() : settings_.fullScaleNewtonSeconds};
     catcher_.beginStep(span_);
     isConcluded_ = false;
     counts_.hasStepped = true;
@@ -167,8 +175,19 @@ void ContactEvents::keepStrongest(std::size_t count) {
     impacts_.erase(impacts_.begin() + static_cast<std::ptrdiff_t>(count), impacts_.end());
 }
 
+void ContactEvents::leaveOutSettling() {
+    const double endNs = settings_.settlingSeconds * 1.0e9;
+    counts_.muted += std::erase_if(
+        impacts_, [endNs](const Impact& impact) { return static_cast<double>(impact.timeNs) < endNs; });
+}
+
 void ContactEvents::addImpacts() {
+    if (settings_.settlingSeconds > 0.0) leaveOutSettling();
     if (impacts_.empty()) return;
+    if (isAutomatic(settings_)) {
+        fullScale_.learn(impacts_, span_, table_);
+        model_.fullScaleNewtonSeconds = fullScale_.newtonSeconds();
+    }
     EventMaker maker{table_, pairs_, bodies_, model_, settings_, held_, counts_};
     for (const Impact& impact : impacts_) maker.add(impact);
 }

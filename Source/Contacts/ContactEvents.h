@@ -7,6 +7,7 @@
 #include "Contacts/ContactGraph.h"
 #include "Contacts/EventSorter.h"
 #include "Contacts/FixtureTable.h"
+#include "Contacts/FullScale.h"
 #include "Contacts/Impact.h"
 #include "Contacts/ImpactModel.h"
 #include "Contacts/ImpactSettings.h"
@@ -115,6 +116,7 @@ public:
 private:
     void finish();
     void addImpacts();
+    void leaveOutSettling();
     void keepStrongest(std::size_t count);
     void forget(std::int32_t slot, bool isWithdrawn, bool othersToo);
     static void name(std::vector<CollisionEvent>& events, std::size_t first);
@@ -131,6 +133,7 @@ private:
     EventSorter held_;
     StepSpan span_;
     std::vector<Impact> impacts_;
+    FullScale fullScale_;
     PairSounds pairs_;
     std::uint64_t overBudget_ = 0;
     ContactCounts counts_; // without the counts that other members keep

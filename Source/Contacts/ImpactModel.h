@@ -10,10 +10,13 @@ struct ImpactModel {
     double normalisation = 0.0; ///< A*, seconds per metre
     double handMassKg = 0.0;    ///< m_h, the mass of the hand or device that holds the vibrating object
     double driveGain = 1.0;
+    double fullScaleNewtonSeconds = 0.0; ///< above 0: the impulse of full scale, instead of Eq. 5.4
 
     /// A = driveGain A* |J| / (m_i + m_h), 1 = full scale; |J| in N s, m_i in kg. Any thread. With `onset`
-    /// timing |J| is the solver's whole impulse, without the spin term of Eq. 5.2.
+    /// timing |J| is the solver's whole impulse, without the spin term of Eq. 5.2. With
+    /// fullScaleNewtonSeconds A = driveGain |J| / fullScaleNewtonSeconds.
     double amplitude(double impulseNewtonSeconds, double massKg) const noexcept {
+        if (fullScaleNewtonSeconds > 0.0) return driveGain * impulseNewtonSeconds / fullScaleNewtonSeconds;
         return driveGain * normalisation * impulseNewtonSeconds / (massKg + handMassKg);
     }
 };

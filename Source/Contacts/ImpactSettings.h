@@ -47,6 +47,16 @@ struct ImpactSettings {
     /// the field. It may move at any time, like a scrolling camera.
     Vector2 fieldOrigin{};
     float fieldRadians = 0.0F; ///< counter-clockwise
+
+    /// The impulse that gives full scale, amplitude 1, instead of Eq. 5.4: masses, the hand and A* then have
+    /// no effect on amplitudes; driveGain and the gains of sources and pairs still do. `automatic`: it is
+    /// learned from the world's hits, see FullScale.
+    double fullScaleNewtonSeconds = 0.0;      ///< 0: off
+    static constexpr double automatic = -1.0; ///< of fullScaleNewtonSeconds
+
+    /// Impacts before this world time are not felt, nor learned from: bodies that are created in the air, or
+    /// in each other, come to rest first. They are counted as muted.
+    double settlingSeconds = 0.0;
 };
 
 /// The error of a setting, with what was expected; empty if all are valid. Any thread.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Validates a scene: ranges, totals, outlines and masses, then references.
 #include "Scene/SceneValidation.h"
-#include "Core/SoundNumber.h"
+#include "Scene/MaterialCheck.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneRanges.h"
 #include "Scene/SceneReferences.h"
+#include "Scene/UniqueNames.h"
 #include "Scene/World/BodyMass.h"
 #include "Scene/World/PlacedBodies.h"
 #include "Scene/World/ShapeGeometry.h"
 #include <cmath>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -83,31 +83,6 @@ std::string checkTotals(const Scene& scene) {
     return fault;
 }
 
-template <class T>
-std::string checkUnique(const std::string& list, const std::vector<T>& all) {
-    std::set<std::string_view> names;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (!names.insert(all[i].name).second)
-            return itemPath(list, i) + ".name: expected a name of its own, found \"" + all[i].name +
-                   "\" again";
-    return {};
-}
-
-/// Events carry the number of a material's name, so two names must not share one.
-std::string checkMaterialNames(const std::vector<Material>& all) {
-    if (std::string fault = checkUnique("materials", all); !fault.empty()) return fault;
-    std::vector<SoundNumber> sounds;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const SoundNumber sound = soundOfMaterial(all[i].name);
-        const auto same = static_cast<std::size_t>(std::ranges::find(sounds, sound) - sounds.begin());
-        if (same < i)
-            return itemPath("materials", i) + ".name: expected another name: \"" + all[i].name + "\" and \"" +
-                   all[same].name + "\" have the same number by chance";
-        sounds.push_back(sound);
-    }
-    return {};
-}
-
 std::string checkEdges(const std::vector<Vector>& v, bool isLoop) {
     for (std::size_t i = 0; i + (isLoop ? 0 : 1) < v.size(); ++i) {
         const Vector& next = v[(i + 1) % v.size()];
@@ -166,13 +141,6 @@ std::string sizeWarning(const std::string& path, const Shape& shape) {
 }
 
 } // namespace
-
-std::string validateMaterials(const std::vector<Material>& materials) {
-    for (std::size_t i = 0; i < materials.size(); ++i)
-        if (std::string fault = checkRanges(materials[i], itemPath("materials", i)); !fault.empty())
-            return fault;
-    return checkMaterialNames(materials);
-}
 
 std::string validate(const Scene& scene) {
     if (std::string fault = checkRanges(scene); !fault.empty()) return fault;

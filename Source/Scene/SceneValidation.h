@@ -11,9 +11,6 @@ namespace physvib {
 /// spell it, and what was expected. Any thread.
 std::string validate(const Scene& scene);
 
-/// The same of materials alone: ranges, and a name of its own for each. Any thread.
-std::string validateMaterials(const std::vector<Material>& materials);
-
 /// Warnings about a valid scene that is simulated badly: dynamic bodies outside of the 0.1 to 10 m that Box2D
 /// is made for. Any thread.
 std::vector<std::string> sceneWarnings(const Scene& scene);

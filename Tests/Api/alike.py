@@ -12,7 +12,8 @@ LEFT_OUT = {
     "Python": {"renderer_pull_interleaved", "events_save"},  # numpy arrays are a row per channel; lists are saved with their field or none
     "Lua": set(),
     "C#": {"renderer_pull"},  # Unity and Godot take frame by frame
-    "JavaScript": {"renderer_pull_interleaved", "layout_load", "layout_save", "events_load", "events_load_field", "events_save", "events_save_field", "wav_save"},  # an array per channel; a page has no files, but texts and bytes
+    "JavaScript": {"renderer_pull_interleaved", "layout_load", "layout_save", "events_load", "events_load_field", "events_save", "events_save_field", "wav_save",  # an array per channel; a page has no files, but texts and bytes
+                   "material_name", "material", "material_load", "sound", "event_of", "renderer_impact", "renderer_impact_of"},  # impact.js makes them of the same tables
 }
 UNUSED = {"size", "unused"}  # sizes are told, and what fills up is nobody's
 

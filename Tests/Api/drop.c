@@ -25,7 +25,7 @@ int main(void) {
     int step;
 
     physvib_world_settings_init(&how, sizeof how);
-    how.drive_gain = 0.5; /* the hardest hit stays below full scale */
+    how.full_scale_impulse_n_s = PHYSVIB_AUTOMATIC; /* the hardest usual hit: half of full scale */
     if (physvib_world_create(&how, &world) != PHYSVIB_OK) return failed("world");
     physvib_body_init(&body, sizeof body);
     physvib_world_set_body(world, 0, &body); /* the floor: no mass, so nothing moves it */

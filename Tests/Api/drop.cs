@@ -8,7 +8,7 @@ static class Drop {
         const double g = 9.81, dt = 0.01, e = 0.6;
         double height = 0.8, speed = -0.5 * g * dt; // between two steps
         var how = WorldSettings.Create();
-        how.DriveGain = 0.5; // the hardest hit stays below full scale
+        how.FullScaleImpulse_Ns = WorldSettings.Automatic; // the hardest usual hit: half of full scale
         var events = new Event[100];
         int count;
         using (var world = new World(how)) {

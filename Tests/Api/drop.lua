@@ -59,6 +59,23 @@ assert(haptics:explain():find("event"), haptics:explain())
 haptics:configure({is_muted = 1})
 for _ = 1, 300 do haptics:update(0.01) end
 assert(#haptics:take({}, true) == 0, "muted")
+-- Gain by itself: the hardest hit is half of full scale. What falls in the first second settles.
+haptics:configure({full_scale_impulse_n_s = physvib.automatic})
+falling.height, falling.speed = 0.8, 0
+for _ = 1, 100 do haptics:update(0.01) end
+local hardest = 0
+for _, event in ipairs(haptics:take({}, true)) do hardest = math.max(hardest, event.amplitude) end
+assert(math.abs(hardest - 0.5) < 1e-9, "automatic: " .. hardest)
+haptics:configure({settling_s = 1000})
+falling.height, falling.speed = 0.8, 0
+for _ = 1, 100 do haptics:update(0.01) end
+assert(#haptics:take({}, true) == 0, "settling")
+-- Materials and single impacts by name.
+assert(#physvib.materials() >= 3 and physvib.material("steel plate", {is_camera = true}).frequency_hz == 430)
+local impact = physvib.impact {x_m = 0.1, y_m = 0.2, strength = 0.3, material = "wooden board"}
+assert(impact.frequency_hz == 349 and impact.amplitude == 0.3 and impact.x_m == 0.1, "impact")
+local is_fine, why = pcall(physvib.impact, {material = "jam"})
+assert(not is_fine and why:find('found "jam"', 1, true), why)
 -- A hit at the top of the window, where y is 0: felt at the upper two of four, A and B.
 local top = require("ffi").new("physvib_event", {frequency_hz = 200, decay_per_s = 30, amplitude = 0.5, x_m = 0.5, y_m = 0, fixture = -1, other = -1})
 physvib.save_wav(arg[1], {top}, 0.1, {field_width_m = 1, field_height_m = 1})

@@ -4,7 +4,7 @@ import physvib
 
 g, dt, e, height = 9.81, 0.01, 0.6, 0.8
 speed = -0.5 * g * dt  # between two steps
-world = physvib.World(drive_gain=0.5)  # the hardest hit stays below full scale
+world = physvib.World(full_scale_impulse_n_s=physvib.AUTOMATIC)  # the hardest usual hit: half of full scale
 world.set_body(0)  # the floor: no mass, so nothing moves it
 world.set_body(1, mass_kg=0.2, is_camera=True, frequency_hz=200.0, decay_per_s=30.0)  # it feels
 for _ in range(300):  # your engine does this

@@ -35,17 +35,24 @@ static class LiveFromCSharp {
                 sent += live.Follow(world);
                 System.Threading.Thread.Sleep(10);
             }
+            live.Impact(0.0, 0.0, 0.5);
+            live.Impact(0.0, 0.0, 0.5, material: "wooden board");
             live.SetGain(0, 0.5);
             live.SetMute(1, true);
             live.SetLayout(RendererSettings.Create());
             live.Silence(false);
-            for (int wait = 0; wait < 500 && live.Status.Played == 0; ++wait) System.Threading.Thread.Sleep(10);
+            for (int wait = 0; wait < 500 && live.Status.Played < 3; ++wait) System.Threading.Thread.Sleep(10);
             var status = live.Status;
-            Demand(sent == 1 && status.Played == 1 && status.Trouble == "", "one strike is played: " + sent + " sent, " + status.Played + " played, " + status.Trouble);
+            Demand(sent == 1 && status.Played == 3 && status.Trouble == "", "one strike and two impacts are played: " + sent + " sent, " + status.Played + " played, " + status.Trouble);
             Demand(live.LatencyNs > 0 && live.NowNs > 0, "times");
             string refusal = "";
             try { live.SetLevel(7.0); } catch (PhysVibException error) { refusal = error.Message; }
             Demand(refusal == "level: expected -90 to 0 dB", "a refusal: " + refusal);
+            try { live.Impact(0.0, 0.0, 0.5, "jam"); } catch (PhysVibException error) { refusal = error.Message; }
+            Demand(refusal.StartsWith("material: expected one that vibrates (concrete block, ") && refusal.EndsWith(", found \"jam\""), "a refusal: " + refusal);
+            body.SetMaterial("steel plate");
+            Demand(body.FrequencyHz == 430.0 && body.MassKg == 1.0 && Body.Materials.Length >= 3, "a material");
+            Demand(Event.Impact(0.1, 0.2, 0.3, "wooden board").Sound == Event.SoundOf("wooden board"), "an event of a material");
         }
         return failures;
     }

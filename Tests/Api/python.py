@@ -2,6 +2,7 @@
 """The Python package, against the command line and by hand: python.py LIBRARY PHYSVIB, PYTHONPATH set to the package."""
 import inspect
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -124,6 +125,31 @@ class Package(unittest.TestCase):
                 world.touch(0, 1, impulse_n_s=1.0)
             self.assertEqual(world.send(renderer, physvib.play_out_s(), at_once=True), 1)
             self.assertGreater(np.abs(renderer.pull(9600)).max(), 0.1)
+
+    def test_materials_and_impacts_have_names(self) -> None:
+        self.assertIn("wooden board", physvib.materials())
+        with physvib.World(full_scale_impulse_n_s=physvib.AUTOMATIC, settling_s=0.015) as world:
+            world.set_body(0)
+            world.set_body(1, mass_kg=0.2, is_camera=True, **physvib.material("steel plate"))
+            for step in range(10):
+                with world.step(0.01):
+                    if step in (0, 5):
+                        world.touch(0, 1, impulse_n_s=7.0)
+            events = world.take(at_once=True)
+        self.assertEqual([(event["frequency_hz"], round(event["amplitude"], 9)) for event in events], [(430.0, 0.5)])
+        hit = physvib.impact(0.1, 0.2, 0.3, material="wooden board")
+        self.assertEqual((hit["frequency_hz"][0], hit["amplitude"][0], hit["sound"][0]), (349.0, 0.3, physvib.sound("wooden board")))
+        with physvib.Renderer(layout="phone1", limiter=False) as renderer:
+            renderer.pull(1000)
+            renderer.impact(0.0, 0.0, 0.5)
+            renderer.impact(0.0, 0.0, 0.1, material="steel plate")
+            self.assertAlmostEqual(np.abs(renderer.pull(4800)).max(), 0.55, delta=0.05)
+            self.assertEqual((renderer.status.played, renderer.status.late), (2, 0))
+            for wrong, words in ((lambda: renderer.impact(0.0, 0.0, 2.0), "strength: expected 0 to 1"), (lambda: renderer.impact(0.0, 0.0, 1.0, material="jam"), 'found "jam"'),
+                                 (lambda: physvib.material("jam"), 'found "jam"'), (lambda: physvib.material("ice", self.folder / "none.json"), "none.json"),
+                                 (lambda: physvib.World(full_scale_impulse_n_s=-3.0), "-1 (automatic)")):
+                with self.assertRaisesRegex(physvib.PhysVibError, re.escape(words)):
+                    wrong()
 
     def test_laws_are_those_of_the_program(self) -> None:
         shown = subprocess.run([program, "render", "--help"], capture_output=True, text=True, check=True).stdout

@@ -78,6 +78,23 @@ class Sessions(unittest.TestCase):
         self.assertEqual(session.events()["time_ns"].tolist(), now["time_ns"].tolist())
         self.assertEqual(session.render().tobytes(), physvib.render(now, session.seconds, field_m=(2.0, 1.0)).tobytes())
 
+    def test_an_impact_is_one_call(self) -> None:
+        with physvib.Live(NOWHERE, field_m=(2.0, 1.0), save=self.folder / "live.json") as live:
+            before = live.now_ns
+            live.impact(0.5, 0.25, 0.8)
+            live.impact(1.5, 0.75, 0.4, material="wooden board")
+            after = live.now_ns
+            for wrong, line in ((lambda: live.impact(0.0, 0.0, 1.5), "strength"), (lambda: live.impact(0.0, 0.0, 1.0, material="jam"), 'found "jam"')):
+                with self.assertRaisesRegex(physvib.PhysVibError, line):
+                    wrong()
+            while live.status.played < 2:
+                pass
+            self.assertEqual(live.status.late, 0)
+        events = physvib.Session.load(self.folder / "live.json").events()
+        self.assertEqual([(e["frequency_hz"], e["amplitude"], e["x_m"], e["y_m"], e["sound"]) for e in events],
+                         [(200.0, 0.8, 0.5, 0.25, 0), (349.0, 0.4, 1.5, 0.75, physvib.sound("wooden board"))])
+        self.assertTrue(all(before <= e["time_ns"] <= after for e in events))
+
     def test_a_world_goes_with_time_and_a_stall_is_told(self) -> None:
         with physvib.Live(NOWHERE, longest_gap_s=0.5) as live:
             world, start = physvib.World(), 0

@@ -13,23 +13,16 @@ int main(int count, char** words) {
     physvib_renderer_settings settings; /* four actuators, on the corners of a phone */
     physvib_live_status status;
     physvib_live live;
-    physvib_event hit = {0};
 
     physvib_renderer_settings_init(&settings, sizeof settings);
     settings.field_width_m = settings.field_height_m = 1.0;
     if (physvib_live_open(count > 1 ? words[1] : "JACK:system", &settings, NULL, &live) != PHYSVIB_OK)
         return failed("open");
 
-    hit.time_ns = physvib_live_now_ns(live) + 500000000; /* in half a second: the device starts with a ramp */
-    hit.frequency_hz = 200.0;
-    hit.decay_per_s = 30.0;
-    hit.amplitude = 0.5;
-    hit.x_m = 0.3;
-    hit.y_m = 0.5;
-    hit.fixture = hit.other = -1;
-    if (physvib_live_strike(live, &hit, 1) != PHYSVIB_OK) return failed("strike");
+    sleep(1); /* the device starts with a ramp */
+    if (physvib_live_impact_of(live, "wooden board", 0.3, 0.5, 0.5) != PHYSVIB_OK) return failed("impact");
 
-    sleep(2); /* it leaves L after its time, and rings; physvib_live_close would cut it off */
+    sleep(1); /* it leaves L after its time, and rings; physvib_live_close would cut it off */
     physvib_live_status_init(&status, sizeof status);
     physvib_live_get_status(live, &status);
     printf("%d played, felt %.1f ms after its time\n", (int)status.played,

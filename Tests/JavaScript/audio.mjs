@@ -101,6 +101,10 @@ test('two outputs: a stereo monitor, each actuator at its place; gains, mutes an
     output.strike([{ timeNs: 0, frequencyHz: 100, decayPerSecond: 20, amplitude: 0.5, x: 0.5, y: 0.5 }]);
     context.run(100);
     assert.ok(context.recorded[0].slice(1000).every(sample => sample === 0) && context.recorded[1].some(sample => sample !== 0));
+    const before = context.recorded[1].length;
+    output.impact({ x: 1, y: 0.5, strength: 0.8, material: 'wooden board' });
+    context.run(100);
+    assert.ok(Math.max(...context.recorded[1].slice(before)) > 0.1);
     output.silence();
     context.run(20);
     assert.ok(context.recorded[1].slice(-quantum).every(sample => sample === 0));

@@ -12,12 +12,12 @@ import { Worker } from 'node:worker_threads';
 
 const [folder, native] = process.argv.slice(2).map(path => resolve(path));
 const installed = name => createRequire(join(folder, 'index.js')).resolve(name);
-const { load, PhysVib, PhysVibError } = await import(pathToFileURL(installed('physvib')));
+const { load, material, materials, PhysVib, PhysVibError } = await import(pathToFileURL(installed('physvib')));
 const physvib = await load();
 const work = mkdtempSync(join(tmpdir(), 'physvib-'));
 
 /** A ball of 0.2 kg falls from 0.8 m onto a floor, as in Docs/c.md. */
-function drop(world = physvib.world({ driveGain: 0.5 })) {
+function drop(world = physvib.world({ fullScaleImpulse: 'automatic' })) {
     const g = 9.81, dt = 0.01, e = 0.6;
     let height = 0.8, speed = -0.5 * g * dt; // between two steps
     world.setBody(0); // the floor: no mass, so nothing moves it
@@ -151,6 +151,25 @@ test('errors are exceptions with the library\'s line, and nothing is lost by the
     world.free();
     refused(() => world.setBody(1), 'handle');
     assert.ok(drop().length > 3);
+});
+
+test('materials and impacts have names, and a world learns its level', () => {
+    assert.ok(materials.includes('wooden board'));
+    assert.throws(() => material('jam'), /found "jam"/);
+    const renderer = physvib.renderer({ layout: 'phone1', limiter: false });
+    renderer.pull(1000);
+    renderer.impact({ strength: 0.5, material: 'steel plate' });
+    const [samples] = renderer.pull(4800);
+    assert.ok(Math.abs(Math.max(...samples) - 0.5) < 0.01 && renderer.status.late === 0);
+    assert.throws(() => renderer.impact({ strength: 2 }), /strength: expected 0 to 1/);
+    renderer.free();
+    const world = physvib.world({ fullScaleImpulse: 'automatic', settling: 0.015 });
+    world.setBody(0);
+    world.setBody(1, { massKg: 0.2, isSource: true, ...material('steel plate') });
+    for (let step = 0; step < 10; ++step) world.step(0.01, 9.81, step % 5 === 0 ? () => world.touch(0, 1, { impulse: 7 }) : undefined);
+    const events = world.take(true);
+    assert.deepEqual(events.map(({ frequencyHz, amplitude }) => [frequencyHz, amplitude.toFixed(9)]), [[430, '0.500000000']]);
+    world.free();
 });
 
 test('many worlds at once, and as many again', () => {

@@ -49,6 +49,8 @@ bool convert(const physvib_world_settings* from, ImpactSettings& to) {
     if (taken.hits_per_step != -1) to.hitsPerStep = taken.hits_per_step;
     to.fieldOrigin = {static_cast<float>(taken.field_x_m), static_cast<float>(taken.field_y_m)};
     to.fieldRadians = static_cast<float>(taken.field_radians);
+    to.fullScaleNewtonSeconds = taken.full_scale_impulse_n_s;
+    to.settlingSeconds = taken.settling_s;
     return true;
 }
 

@@ -136,6 +136,10 @@ typedef struct physvib_renderer_status {
     physvib_int64 refused;  /**< because the queue was full */
 } physvib_renderer_status;
 
+/** Of full_scale_impulse_n_s: the hardest usual hit comes near half of full scale. The level rises at once,
+ * and falls by a time constant of 10 s; see Docs/gain.md. */
+#define PHYSVIB_AUTOMATIC (-1.0)
+
 /** How contacts become events; defaults in brackets. */
 typedef struct physvib_world_settings {
     size_t size;       /**< set by init */
@@ -154,6 +158,11 @@ typedef struct physvib_world_settings {
     double drive_gain;            /**< (1) */
     double threshold_m_per_s; /**< an impact that changes the velocity of the lighter body by less is ignored
                                  (0.15) */
+    double full_scale_impulse_n_s; /**< an impact of this impulse gives amplitude 1, whatever masses and A*
+                                      are; drive_gain and gains still multiply. PHYSVIB_AUTOMATIC: learned
+                                      from the world's hits. 0: off, Eq. 5.4 (0) */
+    double settling_s; /**< impacts before this time of the world are not felt, and are counted as muted (0)
+                        */
 } physvib_world_settings;
 
 #define PHYSVIB_VOICE_OWN 0   /**< the haptic source vibrates with its own values */
@@ -243,7 +252,7 @@ typedef struct physvib_world_counts {
                                  the last step */
 } physvib_world_counts;
 
-/** The version, "0.1.0". Any thread. */
+/** The version, "0.2.0". Any thread. */
 PHYSVIB_API const char* physvib_version(void);
 
 /** The name of a panning law, as options and files have it; they are numbered from 0 (PHYSVIB_LAW_...); NULL
@@ -305,6 +314,26 @@ PHYSVIB_API int physvib_wav_save(const char* path, const float* samples, int cha
 PHYSVIB_API int physvib_render(const physvib_renderer_settings* settings, const physvib_event* events,
                                physvib_int64 count, physvib_int64 frames, float* samples);
 
+/* ---- Materials by name, and single impacts. ---- */
+
+/** The name of a built-in material that vibrates, counted from 0; NULL after the last one. Any thread. */
+PHYSVIB_API const char* physvib_material_name(int index);
+/** Sets how a body vibrates to a built-in material: frequency, decay, overtones, grains. `body` must have
+ * been initialised; its other members stay. Any thread. */
+PHYSVIB_API int physvib_material(const char* name, physvib_body* body);
+/** The same from a file of materials (JSON, Docs/materials.md). `path` is UTF-8. Any thread; reads the file.
+ */
+PHYSVIB_API int physvib_material_load(const char* path, const char* name, physvib_body* body);
+/** The number (physvib_event.sound, above 0) of the sound of that name, such as a material's; Docs/events.md.
+ * Any name has one. Any thread. */
+PHYSVIB_API int physvib_sound(const char* name);
+
+/** Writes the event of one impact at time 0: at that place of the field, as strong as `strength`, 0 to 1 of
+ * full scale, with the vibration of a built-in material, or, if that is NULL, of 200 Hz and a decay of 30 per
+ * second. Any thread. */
+PHYSVIB_API int physvib_event_of(const char* material, double x_m, double y_m, double strength,
+                                 physvib_event* event);
+
 /* ---- A renderer: events in, samples out. ---- */
 
 /** Creates a renderer; it takes 13 to 25 MB, depending on its channels. PHYSVIB_ERROR_FULL: there are 256.
@@ -317,6 +346,12 @@ PHYSVIB_API int physvib_renderer_free(physvib_renderer renderer);
 /** Plays an event at its time, or at once if that has passed. PHYSVIB_ERROR_FULL: 8,192 events are waiting to
  * be pulled. One at a time. */
 PHYSVIB_API int physvib_renderer_strike(physvib_renderer renderer, const physvib_event* event);
+/** Plays one impact at the next pull: physvib_event_of(NULL, ...), then physvib_renderer_strike(). One at a
+ * time. */
+PHYSVIB_API int physvib_renderer_impact(physvib_renderer renderer, double x_m, double y_m, double strength);
+/** The same of a built-in material. One at a time. */
+PHYSVIB_API int physvib_renderer_impact_of(physvib_renderer renderer, const char* material, double x_m,
+                                           double y_m, double strength);
 
 /** The next `frames` (1 or more) of each channel, in channels[channel][0..frames). `channel_count`: the
  * renderer's. PHYSVIB_ERROR_BUSY. R. */

@@ -16,6 +16,15 @@ public struct Event {
     public int Fixture, Other;
     public Kind Kind;
     public int Sound;
+
+    /// <summary>One impact at time 0; strength: 0 to 1 of full scale. Of a built-in material, or else of 200 Hz.</summary>
+    public static Event Impact(double x_m, double y_m, double strength, string material = null) {
+        Event made;
+        Native.Check(Native.physvib_event_of(Native.Utf8OrNull(material), x_m, y_m, strength, out made));
+        return made;
+    }
+    /// <summary>The number that events of a sound of that name have.</summary>
+    public static int SoundOf(string name) { return (int)Native.Check(Native.physvib_sound(Native.Utf8(name))); }
 }
 
 /// <summary>Where the enchanters sit; see physvib_layout.</summary>
@@ -77,7 +86,9 @@ public struct RendererStatus {
 public struct WorldSettings {
     UIntPtr size;
     public int IsMuted, HitsPerStep, AtBody, DropsHitsOfRemoved;
-    public double FieldWidth_m, FieldX_m, FieldY_m, FieldRadians, NormalisationSPerM, HandMassKg, DriveGain, ThresholdMPerS;
+    public double FieldWidth_m, FieldX_m, FieldY_m, FieldRadians, NormalisationSPerM, HandMassKg, DriveGain, ThresholdMPerS, FullScaleImpulse_Ns, SettlingS;
+    /// <summary>Of FullScaleImpulse_Ns: learned from the world's hits, see Docs/gain.md.</summary>
+    public const double Automatic = -1;
     public static WorldSettings Create() {
         var made = new WorldSettings();
         Native.Check(Native.physvib_world_settings_init(ref made, Native.SizeOf(made)));
@@ -96,6 +107,18 @@ public struct Body {
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneAmplitude;
     public double Grain_m, Roughness, Rolling;
     public int IsRidged;
+    /// <summary>The names of the built-in materials that vibrate.</summary>
+    public static string[] Materials {
+        get {
+            var names = new System.Collections.Generic.List<string>();
+            for (IntPtr name; (name = Native.physvib_material_name(names.Count)) != IntPtr.Zero;) names.Add(Marshal.PtrToStringAnsi(name));
+            return names.ToArray();
+        }
+    }
+    /// <summary>Vibrates as that built-in material, or as one of a file of materials.</summary>
+    public void SetMaterial(string name, string path = null) {
+        Native.Check(path == null ? Native.physvib_material(Native.Utf8(name), ref this) : Native.physvib_material_load(Native.Utf8(path), Native.Utf8(name), ref this));
+    }
     public static Body Create() {
         var made = new Body();
         Native.Check(Native.physvib_body_init(ref made, Native.SizeOf(made)));
@@ -205,6 +228,10 @@ public sealed class Renderer : IDisposable {
         GC.SuppressFinalize(this);
     }
     public void Strike(Event what) { Native.Check(Native.physvib_renderer_strike(name, ref what)); }
+    /// <summary>One impact at the next pull; strength: 0 to 1 of full scale. Of a built-in material, or else of 200 Hz.</summary>
+    public void Impact(double x_m, double y_m, double strength, string material = null) {
+        Native.Check(material == null ? Native.physvib_renderer_impact(name, x_m, y_m, strength) : Native.physvib_renderer_impact_of(name, Native.Utf8(material), x_m, y_m, strength));
+    }
     /// <summary>Frame by frame; in the audio callback. An error code, and no exception.</summary>
     public int Pull(float[] samples, int channels) { return Native.physvib_renderer_pull_interleaved(name, samples, channels, samples.Length / channels); }
     public void SetGain(long timeNs, int channel, double gain) { Native.Check(Native.physvib_renderer_set_gain(name, timeNs, channel, gain)); }
@@ -312,6 +339,7 @@ static class Native {
         return result;
     }
     internal static UIntPtr SizeOf<T>(T what) { return (UIntPtr)(uint)Marshal.SizeOf(typeof(T)); }
+    internal static byte[] Utf8OrNull(string text) { return text == null ? null : Utf8(text); }
     internal static byte[] Utf8(string text) { return System.Text.Encoding.UTF8.GetBytes(text + "\0"); }
 
     [DllImport(Library)] internal static extern IntPtr physvib_version();
@@ -338,6 +366,13 @@ static class Native {
     [DllImport(Library)] internal static extern int physvib_renderer_create(ref RendererSettings settings, out IntPtr renderer);
     [DllImport(Library)] internal static extern int physvib_renderer_free(IntPtr renderer);
     [DllImport(Library)] internal static extern int physvib_renderer_strike(IntPtr renderer, ref Event what);
+    [DllImport(Library)] internal static extern IntPtr physvib_material_name(int index);
+    [DllImport(Library)] internal static extern int physvib_material(byte[] name, ref Body body);
+    [DllImport(Library)] internal static extern int physvib_material_load(byte[] path, byte[] name, ref Body body);
+    [DllImport(Library)] internal static extern int physvib_sound(byte[] name);
+    [DllImport(Library)] internal static extern int physvib_event_of(byte[] material, double x, double y, double strength, out Event made);
+    [DllImport(Library)] internal static extern int physvib_renderer_impact(IntPtr renderer, double x, double y, double strength);
+    [DllImport(Library)] internal static extern int physvib_renderer_impact_of(IntPtr renderer, byte[] material, double x, double y, double strength);
     [DllImport(Library)] internal static extern int physvib_renderer_pull_interleaved(IntPtr renderer, [Out] float[] samples, int channels, int frames);
     [DllImport(Library)] internal static extern int physvib_renderer_set_gain(IntPtr renderer, long timeNs, int channel, double gain);
     [DllImport(Library)] internal static extern int physvib_renderer_set_mute(IntPtr renderer, long timeNs, int channel, int isMuted);

@@ -73,6 +73,10 @@ public sealed class Live : IDisposable {
     public long LatencyNs { get { return LiveNative.Check(LiveNative.physvib_live_latency_ns(name)); } }
     /// <summary>Events at session times; those that are over, at once.</summary>
     public void Strike(params Event[] events) { LiveNative.Check(LiveNative.physvib_live_strike(name, events, events.Length)); }
+    /// <summary>One impact now; strength: 0 to 1 of full scale. Of a built-in material, or else of 200 Hz.</summary>
+    public void Impact(double x_m, double y_m, double strength, string material = null) {
+        LiveNative.Check(material == null ? LiveNative.physvib_live_impact(name, x_m, y_m, strength) : LiveNative.physvib_live_impact_of(name, Native.Utf8(material), x_m, y_m, strength));
+    }
     /// <summary>The events of a world whose time 0 is session time startNs. How many.</summary>
     public int Send(World world, long startNs, bool atOnce = false) { return (int)LiveNative.Check(LiveNative.physvib_live_send(name, world.name, startNs, atOnce ? 1 : 0)); }
     /// <summary>For a world that is stepped as time goes on, after each step: sends what is final. How many.</summary>
@@ -115,6 +119,8 @@ static class LiveNative {
     [DllImport(Library)] internal static extern long physvib_live_now_ns(IntPtr live);
     [DllImport(Library)] internal static extern long physvib_live_latency_ns(IntPtr live);
     [DllImport(Library)] internal static extern int physvib_live_strike(IntPtr live, Event[] events, long count);
+    [DllImport(Library)] internal static extern int physvib_live_impact(IntPtr live, double x, double y, double strength);
+    [DllImport(Library)] internal static extern int physvib_live_impact_of(IntPtr live, byte[] material, double x, double y, double strength);
     [DllImport(Library)] internal static extern int physvib_live_align(IntPtr live, IntPtr world, ref long startNs);
     [DllImport(Library)] internal static extern long physvib_live_send(IntPtr live, IntPtr world, long startNs, int atOnce);
     [DllImport(Library)] internal static extern int physvib_live_set_gain(IntPtr live, int channel, double gain);

@@ -118,6 +118,12 @@ PHYSVIB_API physvib_int64 physvib_live_latency_ns(physvib_live live);
  * output latency has passed too. If one event cannot be played, none is. PHYSVIB_ERROR_FULL: 65,536 events
  * are waiting for their time. Any thread. */
 PHYSVIB_API int physvib_live_strike(physvib_live live, const physvib_event* events, physvib_int64 count);
+/** Plays one impact now: at that place of the field, as strong as `strength`, 0 to 1 of full scale, with the
+ * default vibration of physvib_event_of(). As physvib_live_strike() of that event. Any thread. */
+PHYSVIB_API int physvib_live_impact(physvib_live live, double x_m, double y_m, double strength);
+/** The same of a built-in material, see physvib_material_name(). Any thread. */
+PHYSVIB_API int physvib_live_impact_of(physvib_live live, const char* material, double x_m, double y_m,
+                                       double strength);
 /** For a world that is stepped as time goes on: `*start_ns`, at first 0, becomes the session time of the
  * world's time 0, and stays so for as long as the world is within `longest_gap_s` of session time. If the
  * world lags behind or runs ahead, it is set again. Any thread; one at a time per world. */

@@ -15,7 +15,7 @@ typedef struct { double extent_width_m, extent_height_m, x_m[64], y_m[64]; int c
 typedef struct { size_t size; int rate_hz, channels, law, limiter; double exponent, field_width_m, field_height_m; physvib_layout layout; } physvib_renderer_settings;
 typedef struct { size_t size; int live_modes, pending; int64_t frames, played, late, rejected, refused; } physvib_renderer_status;
 typedef struct { size_t size; int is_muted, hits_per_step, at_body, drops_hits_of_removed; double field_width_m, field_x_m, field_y_m, field_radians,
-    normalisation_s_per_m, hand_mass_kg, drive_gain, threshold_m_per_s; } physvib_world_settings;
+    normalisation_s_per_m, hand_mass_kg, drive_gain, threshold_m_per_s, full_scale_impulse_n_s, settling_s; } physvib_world_settings;
 typedef struct { size_t size; int is_camera, voice, surface; double mass_kg, inertia_kg_m2, gravity_scale, frequency_hz, decay_per_s, static_mass_kg, gain,
     hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3], grain_m, roughness, rolling; int is_ridged; } physvib_body;
 typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, impulse_n_s, tangential_n_s, approach_m_per_s, restitution, effective_mass_kg,
@@ -45,6 +45,13 @@ int physvib_render(const physvib_renderer_settings *, const physvib_event *, int
 int physvib_renderer_create(const physvib_renderer_settings *, physvib_renderer *);
 int physvib_renderer_free(physvib_renderer);
 int physvib_renderer_strike(physvib_renderer, const physvib_event *);
+const char *physvib_material_name(int);
+int physvib_material(const char *, physvib_body *);
+int physvib_material_load(const char *, const char *, physvib_body *);
+int physvib_sound(const char *);
+int physvib_event_of(const char *, double, double, double, physvib_event *);
+int physvib_renderer_impact(physvib_renderer, double, double, double);
+int physvib_renderer_impact_of(physvib_renderer, const char *, double, double, double);
 int physvib_renderer_pull(physvib_renderer, float *const *, int, int);
 int physvib_renderer_pull_interleaved(physvib_renderer, float *, int, int);
 int physvib_renderer_set_gain(physvib_renderer, int64_t, int, double);
@@ -89,6 +96,8 @@ int physvib_live_close(physvib_live);
 int64_t physvib_live_now_ns(physvib_live);
 int64_t physvib_live_latency_ns(physvib_live);
 int physvib_live_strike(physvib_live, const physvib_event *, int64_t);
+int physvib_live_impact(physvib_live, double, double, double);
+int physvib_live_impact_of(physvib_live, const char *, double, double, double);
 int physvib_live_align(physvib_live, physvib_world, int64_t *);
 int physvib_live_set_gain(physvib_live, int, double);
 int physvib_live_set_mute(physvib_live, int, int);
@@ -99,7 +108,8 @@ int physvib_live_get_status(physvib_live, physvib_live_status *);
 ]]
 local library = os.getenv("PHYSVIB_LIBRARY") or "libphysvib.so.0"
 local c = ffi.load(library)
-local physvib = {c = c, version = ffi.string(c.physvib_version())}
+local physvib = {c = c, automatic = -1, -- of full_scale_impulse_n_s: learned from the hits, see Docs/gain.md
+    version = ffi.string(c.physvib_version())}
 
 -- `name(...)` of a library: a code or a count; of an error, a Lua error of one line.
 local function caller(from, prefix)
@@ -128,6 +138,31 @@ function physvib.rendered(values)
     local layout = made.layout
     for j = 0, layout.count - 1 do layout.y_m[j] = layout.extent_height_m - layout.y_m[j] end
     return made
+end
+
+-- How a body of that material vibrates, as `set` takes it; `path`: of a file of materials, else a built-in one. `values` are added to it:
+-- haptics:set(fixture, physvib.material("steel plate", {is_camera = true})).
+function physvib.material(name, values, path)
+    local body = filled("body")
+    if path then call("material_load", path, name, body) else call("material", name, body) end
+    local made = {}
+    for _, field in ipairs {"frequency_hz", "decay_per_s", "grain_m", "roughness", "rolling", "is_ridged"} do made[field] = body[field] end
+    for field, value in pairs(values or {}) do made[field] = value end
+    return made
+end
+
+-- The names of the built-in materials that vibrate.
+function physvib.materials()
+    local names = {}
+    while c.physvib_material_name(#names) ~= nil do names[#names + 1] = ffi.string(c.physvib_material_name(#names)) end
+    return names
+end
+
+-- One impact as an event at time 0: {x_m = 0.3, y_m = 0.5, strength = 0.8, material = "wooden board"}.
+function physvib.impact(hit)
+    local event = ffi.new("physvib_event")
+    call("event_of", hit.material, hit.x_m or 0, hit.y_m or 0, hit.strength or 0.5, event)
+    return event
 end
 
 -- Events (a Lua list of physvib_event) to a sound file: 48 kHz, a channel per enchanter.
@@ -370,6 +405,11 @@ end
 
 -- One event, at a session time.
 function Live:strike(event) self.call("strike", self.name, event, 1) end
+-- One impact now: live:impact {x_m = 0.3, y_m = 0.5, strength = 0.8, material = "wooden board"}; strength 0 to 1 of full scale (0.5).
+function Live:impact(hit)
+    local x, y, strength = hit.x_m or 0, hit.y_m or 0, hit.strength or 0.5
+    if hit.material then self.call("impact_of", self.name, hit.material, x, y, strength) else self.call("impact", self.name, x, y, strength) end
+end
 -- Session time and L, in nanoseconds.
 function Live:now_ns() return tonumber(self.c.physvib_live_now_ns(self.name)) end
 function Live:latency_ns() return tonumber(self.c.physvib_live_latency_ns(self.name)) end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import type { HapticEvent, Nanoseconds, PhysVib, RendererSettings, RendererStatus } from 'physvib';
+import type { HapticEvent, Impact, Nanoseconds, PhysVib, RendererSettings, RendererStatus } from 'physvib';
 import type { Haptics } from './attach.js';
 
 export interface AudioOptions extends RendererSettings {
@@ -30,6 +30,8 @@ export interface Output {
     playSamples(channels: readonly Float32Array[], seconds?: number): AudioBufferSourceNode;
     follow(haptics: Haptics): () => void;
     strike(events: readonly HapticEvent[], laterNs?: Nanoseconds): void;
+    /** One impact now. */
+    impact(hit?: Impact): void;
     setGain(channel: number, gain: number): void;
     setMute(channel: number, isMuted: boolean): void;
     setLevel(gain: number): void;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // On the device of a page: a renderer in an AudioWorklet, each actuator on its own output where there are as many, else a stereo monitor.
 import { Clock, followed } from './clock.js';
+import { impactOf } from './impact.js';
 import { PhysVibError } from './physvib.js';
 
 const nsPerSecond = 1e9;
@@ -89,6 +90,9 @@ class Output {
         const bytes = this.#physvib.eventBytes(events.map(event => ({ ...event, timeNs: Math.max(0, event.timeNs + laterNs) })));
         this.#tell({ events: bytes });
     }
+
+    /** One impact now: { x, y, strength, material }. */
+    impact(hit) { this.strike([impactOf(hit)]); }
 
     /** Samples of yours, a channel per actuator, at the context's rate, from that time of the context (s) on. */
     playSamples(channels, seconds = this.#context.currentTime) {

@@ -15,7 +15,7 @@ export const names = {
     physvib_world_settings: {
         is_muted: 'isMuted', hits_per_step: 'hitsPerStep', at_body: 'atBody', drops_hits_of_removed: 'dropsHitsOfRemoved', field_width_m: 'fieldWidth',
         field_x_m: 'fieldX', field_y_m: 'fieldY', field_radians: 'fieldAngle', normalisation_s_per_m: 'normalisation', hand_mass_kg: 'handMassKg',
-        drive_gain: 'driveGain', threshold_m_per_s: 'threshold',
+        drive_gain: 'driveGain', threshold_m_per_s: 'threshold', full_scale_impulse_n_s: 'fullScaleImpulse', settling_s: 'settling',
     },
     physvib_body: {
         is_camera: 'isSource', voice: 'voice', surface: 'surface', mass_kg: 'massKg', inertia_kg_m2: 'inertia', gravity_scale: 'gravityScale',
@@ -40,4 +40,5 @@ export const words = {
     voice: new Map([['own', 0], ['other', 1], ['both', 2]]),
     point: new Map([['none', -1], ['place', -2]]),
     isSoft: new Map([['whole', 2]]), // PHYSVIB_SOFT_WHOLE
+    fullScaleImpulse: new Map([['automatic', -1]]), // PHYSVIB_AUTOMATIC
 };

@@ -80,6 +80,10 @@ export interface WorldSettings {
     driveGain?: number;
     /** A hit changes the velocity of the lighter body by as much, m/s (0.15). */
     threshold?: number;
+    /** The impulse of amplitude 1, N s, whatever masses say; 'automatic': learned from the hits; 0: by masses (0). */
+    fullScaleImpulse?: number | 'automatic';
+    /** Hits before this time of the world are not felt, s (0). */
+    settling?: number;
 }
 
 /** How a body feels and sounds. */
@@ -177,10 +181,28 @@ export interface World {
     free(): void;
 }
 
+/** One impact, without a world. */
+export interface Impact {
+    /** In the field, from its lower left corner (0). */
+    x?: number;
+    y?: number;
+    /** 0 to 1 of full scale (0.5). */
+    strength?: number;
+    /** A built-in one; left out: a vibration of 200 Hz and a decay of 30 per second. */
+    material?: string;
+}
+/** The names of the built-in materials that vibrate. */
+export const materials: readonly string[];
+/** How a body of a built-in material vibrates: values of setBody. */
+export function material(name: string): HapticValues;
+
 /** Events in, samples out. Time 0 is its first frame. */
 export interface Renderer {
     readonly channels: number;
+    readonly rate: number;
     strike(event: HapticEvent): void;
+    /** One impact at the next pull. */
+    impact(hit?: Impact): void;
     pull(frames: number): Float32Array[];
     pull<Arrays extends Float32Array[]>(into: Arrays): Arrays;
     setGain(timeNs: Nanoseconds, channel: number, gain: number): void;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // PhysVib: contacts of any physics engine in, vibration on several actuators out. Units are SI; times are nanoseconds, as Numbers.
 import * as files from './files.js';
+import { material, materials } from './impact.js';
 import { Module, PhysVibError } from './module.js';
 import { Pad } from './pad.js';
 import { Renderer } from './renderer.js';
 import { channelsOf, lawsOf, layoutAt, withSettings } from './settings.js';
 import { World } from './world.js';
 
-export { PhysVibError };
+export { PhysVibError, material, materials };
 
 /** The library: one instance of the WebAssembly, one thread. Worlds and renderers go when they are freed, or collected. */
 export class PhysVib {

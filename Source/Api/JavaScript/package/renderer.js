@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Events in, samples out.
+import { impactOf } from './impact.js';
 import { channelsOf, withSettings } from './settings.js';
 
 const nsOf = time => BigInt(Math.round(time));
@@ -9,7 +10,7 @@ export class Renderer {
 
     constructor(module, registry, settings = {}) {
         this.#module = module;
-        const made = withSettings(module, settings, at => ({ channels: channelsOf(module, at), name: module.handleOf(to => module.call('renderer_create', at, to)) }));
+        const made = withSettings(module, settings, at => ({ channels: channelsOf(module, at), rate: module.get('renderer_settings', at).rate, name: module.handleOf(to => module.call('renderer_create', at, to)) }));
         Object.assign(this, made); // name: of this renderer in the module
         const { name } = made, memory = this.#memory;
         this.#forget = registry(this, () => {
@@ -19,6 +20,9 @@ export class Renderer {
     }
 
     strike(event) { this.#module.withEvents([event], at => this.#module.call('renderer_strike', this.name, at)); }
+
+    /** One impact at the next pull: { x, y, strength, material }. */
+    impact(hit) { this.strike({ ...impactOf(hit), timeNs: Math.ceil(this.status.frames * 1e9 / this.rate) }); }
 
     /** The next samples: so many frames, a Float32Array per channel; or into arrays of yours, which allocates nothing. */
     pull(into) {

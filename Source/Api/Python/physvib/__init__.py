@@ -6,14 +6,15 @@
 >>> samples = physvib.render(hit, seconds=1.0, layout="phone4")  # float32, shape (4, 48000)
 >>> physvib.save_wav("hit.wav", samples)
 """
-from ._library import EVENT, HIT, ROLL, SLIDE, PhysVibError, version
+from ._library import AUTOMATIC, EVENT, HIT, ROLL, SLIDE, PhysVibError, version
 from .files import EventList, events, events_of, frame, load_events, parse_events, render, save_events, save_wav
 from .layout import Layout
 from .live import Live, LiveStatus
+from .material_table import Material, impact, material, materials, sound
 from .renderer import Renderer, Status, play_out_s
 from .session import Session
 from .space import SpaceHaptics, attach
 from .world import POINT_BY_PLACE, SOFT_WHOLE, Counts, World
 
 __version__ = version()
-__all__ = ["Counts", "EVENT", "EventList", "HIT", "Layout", "Live", "LiveStatus", "POINT_BY_PLACE", "PhysVibError", "ROLL", "Renderer", "SLIDE", "SOFT_WHOLE", "Session", "SpaceHaptics", "Status", "World", "attach", "events", "events_of", "frame", "load_events", "parse_events", "play_out_s", "render", "save_events", "save_wav"]
+__all__ = ["AUTOMATIC", "Counts", "EVENT", "EventList", "HIT", "Layout", "Live", "LiveStatus", "Material", "POINT_BY_PLACE", "PhysVibError", "ROLL", "Renderer", "SLIDE", "SOFT_WHOLE", "Session", "SpaceHaptics", "Status", "World", "attach", "events", "events_of", "frame", "impact", "load_events", "material", "materials", "parse_events", "play_out_s", "render", "save_events", "save_wav", "sound"]

@@ -13,6 +13,8 @@ from typing import TypeVar
 import numpy as np
 
 UNKNOWN = -1.0e300
+#: Of `full_scale_impulse_n_s`: learned from the world's hits, see Docs/gain.md.
+AUTOMATIC = -1.0
 MAX_ENCHANTERS = 64
 
 #: A collision as it is felt, as numpy has it: fields as in physvib.h, times in whole nanoseconds.
@@ -49,7 +51,7 @@ class CRendererStatus(Structure):
 class CWorldSettings(Structure):
     _fields_ = [("size", c_size_t), ("is_muted", c_int), ("hits_per_step", c_int), ("at_body", c_int), ("drops_hits_of_removed", c_int),
                 *[(name, c_double) for name in ("field_width_m", "field_x_m", "field_y_m", "field_radians", "normalisation_s_per_m",
-                                                "hand_mass_kg", "drive_gain", "threshold_m_per_s")]]
+                                                "hand_mass_kg", "drive_gain", "threshold_m_per_s", "full_scale_impulse_n_s", "settling_s")]]
 
 
 class CBody(Structure):
@@ -111,6 +113,8 @@ _signatures = {
     "render": (c_int, POINTER(CRendererSettings), _events, c_int64, c_int64, _samples),
     "renderer_create": (c_int, POINTER(CRendererSettings), POINTER(_handle)), "renderer_free": (c_int, _handle),
     "renderer_strike": (c_int, _handle, _events),
+    "material_name": (c_char_p, c_int), "material": (c_int, c_char_p, POINTER(CBody)), "material_load": (c_int, c_char_p, c_char_p, POINTER(CBody)), "sound": (c_int, c_char_p),
+    "event_of": (c_int, c_char_p, *[c_double] * 3, _events), "renderer_impact": (c_int, _handle, *[c_double] * 3), "renderer_impact_of": (c_int, _handle, c_char_p, *[c_double] * 3),
     "renderer_pull": (c_int, _handle, POINTER(POINTER(c_float)), c_int, c_int),
     "renderer_set_gain": (c_int, _handle, _time, c_int, c_double), "renderer_set_mute": (c_int, _handle, _time, c_int, c_int),
     "renderer_set_level": (c_int, _handle, _time, c_double), "renderer_set_layout": (c_int, _handle, _time, POINTER(CRendererSettings)),
@@ -126,7 +130,7 @@ _signatures = {
     "world_time_ns": (c_int64, _handle), "world_take": (c_int64, _handle, _events, c_int64, c_int),
     "world_send": (c_int64, _handle, _handle, c_int64, c_int), "world_drops": (c_int64, _handle), "world_thinned": (c_int64, _handle),
 }
-_long = frozenset({"layout_load", "layout_save", "events_load", "events_load_field", "events_save_field", "wav_save", "render", "renderer_create", "renderer_pull"})
+_long = frozenset({"material_load", "layout_load", "layout_save", "events_load", "events_load_field", "events_save_field", "wav_save", "render", "renderer_create", "renderer_pull"})
 library = load(_path(), _signatures, _long)
 
 

@@ -27,6 +27,7 @@ _signatures = {
     "live_error": (c_char_p,), "live_settings_init": (c_int, POINTER(CLiveSettings), c_size_t), "live_status_init": (c_int, POINTER(CLiveStatus), c_size_t),
     "live_open": (c_int, c_char_p, POINTER(CRendererSettings), POINTER(CLiveSettings), POINTER(_handle)), "live_close": (c_int, _handle),
     "live_now_ns": (c_int64, _handle), "live_latency_ns": (c_int64, _handle), "live_strike": (c_int, _handle, c_void_p, c_int64),
+    "live_impact": (c_int, _handle, *[c_double] * 3), "live_impact_of": (c_int, _handle, c_char_p, *[c_double] * 3),
     "live_align": (c_int, _handle, _handle, POINTER(c_int64)), "live_send": (c_int64, _handle, _handle, c_int64, c_int),
     "live_set_gain": (c_int, _handle, c_int, c_double), "live_set_mute": (c_int, _handle, c_int, c_int),
     "live_set_layout": (c_int, _handle, POINTER(CRendererSettings)), "live_set_level": (c_int, _handle, c_double), "live_silence": (c_int, _handle, c_int),

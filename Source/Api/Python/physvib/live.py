@@ -75,6 +75,13 @@ class Live:
         array = checked(events)
         live_call("live_strike", self._handle, array.ctypes.data, len(array))
 
+    def impact(self, x_m: float, y_m: float, strength: float, *, material: str | None = None) -> None:
+        """One impact now: at that place of the field, 0 to 1 of full scale; of a built-in material (see `materials`), else of 200 Hz."""
+        if material is None:
+            live_call("live_impact", self._handle, x_m, y_m, strength)
+        else:
+            live_call("live_impact_of", self._handle, material.encode(), x_m, y_m, strength)
+
     def send(self, world: World, start_ns: int, at_once: bool = False) -> int:
         """The events of a world whose time 0 is session time start_ns. How many."""
         return live_call("live_send", self._handle, world._handle, start_ns, int(at_once))

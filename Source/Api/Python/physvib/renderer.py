@@ -43,6 +43,13 @@ class Renderer(Owned):
         for i in range(len(array)):
             call("renderer_strike", self._handle, array.ctypes.data + i * array.itemsize)
 
+    def impact(self, x_m: float, y_m: float, strength: float, *, material: str | None = None) -> None:
+        """One impact at the next pull: at that place of the field, 0 to 1 of full scale; of a built-in material (see `materials`), else of 200 Hz."""
+        if material is None:
+            call("renderer_impact", self._handle, x_m, y_m, strength)
+        else:
+            call("renderer_impact_of", self._handle, material.encode(), x_m, y_m, strength)
+
     def pull(self, frames: int, out: NDArray[np.float32] | None = None) -> NDArray[np.float32]:
         """The next frames: float32, shape (channels, frames). `out`: such an array, to be written to."""
         if out is None:

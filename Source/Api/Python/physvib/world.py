@@ -42,12 +42,12 @@ class World(Owned):
     def __init__(self, *, field_width_m: float | None = None, field_x_m: float | None = None, field_y_m: float | None = None, field_radians: float | None = None,
                  normalisation_s_per_m: float | None = None, hand_mass_kg: float | None = None, drive_gain: float | None = None,
                  threshold_m_per_s: float | None = None, hits_per_step: int | None = None, at_body: bool = False, is_muted: bool = False,
-                 drops_hits_of_removed: bool = False) -> None:
+                 drops_hits_of_removed: bool = False, full_scale_impulse_n_s: float | None = None, settling_s: float | None = None) -> None:
         self._handle = c_void_p()
         self._chosen = {"field_width_m": field_width_m, "field_x_m": field_x_m, "field_y_m": field_y_m, "field_radians": field_radians,
                         "normalisation_s_per_m": normalisation_s_per_m, "hand_mass_kg": hand_mass_kg, "drive_gain": drive_gain,
                         "threshold_m_per_s": threshold_m_per_s, "hits_per_step": hits_per_step, "at_body": int(at_body), "is_muted": int(is_muted),
-                        "drops_hits_of_removed": int(drops_hits_of_removed)}
+                        "drops_hits_of_removed": int(drops_hits_of_removed), "full_scale_impulse_n_s": full_scale_impulse_n_s, "settling_s": settling_s}
         call("world_create", ctypes.byref(filled(CWorldSettings, "world_settings_init", **self._chosen)), ctypes.byref(self._handle))
 
     def configure(self, **changed: float | bool | None) -> None:
