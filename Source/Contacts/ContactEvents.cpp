@@ -127,7 +127,10 @@ void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double larges
               settings_.driveGain};
     catcher_.beginStep(span_);
     isConcluded_ = false;
-    counts_.hasStepped = true;
+    ContactCounts& tally = catcher_.tally();
+    ++tally.steps;
+    tally.zeroSteps += span_.endNs == span_.startNs ? 1 : 0;
+    tally.longestStepSeconds = std::max(tally.longestStepSeconds, span_.seconds());
 }
 
 void ContactEvents::conclude() {
@@ -145,7 +148,7 @@ void ContactEvents::finish() {
     catcher_.settle();
     for (const Collision& collision : catcher_.collisions())
         if (!span_.isStrike(collision.impulse(), collision.lighterMassKg, collision.gravityScale))
-            catcher_.passOver(collision.a, collision.b);
+            catcher_.passOver(collision.a, collision.b, collision.impulse() / collision.lighterMassKg);
     impacts_.clear();
     if (settings_.timing == ImpactTiming::onset)
         onset_.collect(span_, impacts_);
@@ -169,19 +172,32 @@ void ContactEvents::keepStrongest(std::size_t count) {
 
 void ContactEvents::addImpacts() {
     if (impacts_.empty()) return;
-    EventMaker maker{table_, pairs_, bodies_, model_, settings_, held_, counts_};
+    EventMaker maker{table_, pairs_, bodies_, model_, settings_, held_, catcher_.tally()};
     for (const Impact& impact : impacts_) maker.add(impact);
 }
 
-ContactCounts ContactEvents::counts() const noexcept {
-    ContactCounts counts = counts_;
-    counts.contacts = catcher_.contacts();
-    counts.belowThreshold = catcher_.tooSlow();
-    counts.withoutSource = catcher_.withoutSource();
-    counts.dropped = drops() + overBudget_;
+ContactCounts ContactEvents::recent() const noexcept {
+    ContactCounts counts = catcher_.tally();
+    counts.dropped = drops() + overBudget_ - past_.dropped;
     counts.thresholdMetresPerSecond = span_.thresholdMetresPerSecond(1.0F);
     counts.hasSources = table_.hasCameras();
+    counts.gravityMetresPerSecond2 = static_cast<double>(span_.gravityMetresPerSecond2.length());
+    counts.wantedThreshold = settings_.thresholdMetresPerSecond;
+    counts.fieldWidthMetres = settings_.fieldWidthMetres;
+    counts.isMuted = settings_.isMuted;
     return counts;
+}
+
+ContactCounts ContactEvents::counts() const noexcept {
+    ContactCounts all = past_;
+    return all += recent();
+}
+
+ContactCounts ContactEvents::takeRecent() noexcept {
+    const ContactCounts now = recent();
+    past_ += now;
+    catcher_.tally() = {};
+    return now;
 }
 
 void ContactEvents::take(std::vector<CollisionEvent>& events) {

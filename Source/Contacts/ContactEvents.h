@@ -108,11 +108,14 @@ public:
 
     /// Counts of all contacts so far; see explain().
     ContactCounts counts() const noexcept;
+    /// Counts since the last call of this, or since the beginning.
+    ContactCounts takeRecent() noexcept;
 
     /// The constants of Eq. 5.4 in the current or last step.
     const ImpactModel& impactModel() const noexcept { return model_; }
 
 private:
+    ContactCounts recent() const noexcept;
     void finish();
     void addImpacts();
     void keepStrongest(std::size_t count);
@@ -133,7 +136,7 @@ private:
     std::vector<Impact> impacts_;
     PairSounds pairs_;
     std::uint64_t overBudget_ = 0;
-    ContactCounts counts_; // without the counts that other members keep
+    ContactCounts past_; // until takeRecent(); what came later is the catcher's tally
     bool isConcluded_ = true;
 };
 
