@@ -5,6 +5,7 @@
 #include "Contacts/OutputFacts.h"
 #include <algorithm>
 #include <string>
+#include <utility>
 
 using namespace physvib;
 using namespace physvib::api;
