@@ -15,11 +15,11 @@ struct Name {
 
 // Where a name is the beginning of another, the longer one comes first.
 constexpr std::array names{
-    Name{"physvib_world_set_body", "set", "a body"},
+    Name{"physvib_world_set_body", "ContactFeed::set", "a body"},
     Name{"physvib_world_begin_step", "beginStep", "a step"},
     Name{"physvib_world_end_step", "endStep", "its end"},
-    Name{"physvib_world_touch", "touch", "contacts"},
-    Name{"physvib_world_move", "move", "motions"},
+    Name{"physvib_world_touch", "ContactFeed::touch", "contacts"},
+    Name{"physvib_world_move", "ContactFeed::move", "motions"},
     Name{"threshold_m_per_s", "thresholdMetresPerSecond", "the threshold"},
     Name{"approach_m_per_s", "approachMetresPerSecond", "the approach"},
     Name{"static_mass_kg", "staticMassKg", "mass_kg"},
