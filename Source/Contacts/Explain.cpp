@@ -143,11 +143,11 @@ std::string felt(const ContactCounts& c, const OutputFacts* output) {
 
 std::string sentence(const ContactCounts& c, const OutputFacts* output) {
     if (c.steps == 0 && c.outsideSteps > 0)
-        return "No step has begun when contacts are reported: call physvib_world_begin_step before them and "
-               "physvib_world_end_step after them.";
+        return "No step has begun when contacts are reported: report them within a step "
+               "(physvib_world_begin_step and physvib_world_end_step).";
     if (c.steps == 0)
-        return "No step has been made: call physvib_world_begin_step and physvib_world_end_step around each "
-               "step of the engine.";
+        return "No step has been made: make one for each step of the engine (physvib_world_begin_step and "
+               "physvib_world_end_step).";
     return c.events > 0 ? felt(c, output) : noEvents(c);
 }
 

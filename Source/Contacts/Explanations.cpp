@@ -16,8 +16,8 @@ struct Name {
 // Where a name is the beginning of another, the longer one comes first.
 constexpr std::array names{
     Name{"physvib_world_set_body", "ContactFeed::set", "a body"},
-    Name{"physvib_world_begin_step", "beginStep", "a step"},
-    Name{"physvib_world_end_step", "endStep", "its end"},
+    Name{"physvib_world_begin_step", "beginStep", "--steps"},
+    Name{"physvib_world_end_step", "endStep", "--steps"},
     Name{"physvib_world_touch", "ContactFeed::touch", "contacts"},
     Name{"physvib_world_move", "ContactFeed::move", "motions"},
     Name{"threshold_m_per_s", "thresholdMetresPerSecond", "the threshold"},
