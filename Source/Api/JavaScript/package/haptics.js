@@ -116,12 +116,12 @@ export class Haptics {
         return this.world.explain(output);
     }
     #noteOf(body) {
-        const { look, bodies } = this.engine;
+        const { keyOf, look, bodies } = this.engine;
         if (look === undefined) return undefined;
         const { isEnabled = true, isSensor, isAsleep, filters } = look(body);
         if (!isEnabled) return 'disabled';
         if (isSensor) return 'sensor';
-        const others = [...bodies()].filter(other => other !== body).flatMap(other => look(other).filters);
+        const others = [...bodies()].filter(other => keyOf(other) !== keyOf(body)).flatMap(other => look(other).filters);
         if (others.length > 0 && filters.every(a => others.every(b => !mayTouch(a, b)))) return 'filtered';
         return isAsleep ? 'asleep' : undefined;
     }
