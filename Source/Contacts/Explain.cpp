@@ -17,7 +17,7 @@ constexpr double frameSeconds = 0.05; // the longest step that a game takes
 std::string metres(double value) { return threeDigits(value) + " m"; }
 std::string speed(double value) { return threeDigits(value) + " m/s"; }
 
-constexpr const char* divide = "tell metres: divide lengths by the pixels of a metre (100, say).";
+constexpr const char* divide = "report metres: divide lengths by the pixels of a metre (100, say).";
 
 std::string places(const ContactCounts& c) {
     return "at x " + threeDigits(c.leastX) + " to " + threeDigits(c.mostX) + " m, y " +
