@@ -25,7 +25,7 @@ std::string places(const ContactCounts& c) {
 }
 
 std::string noted(const ContactCounts& c) {
-    const auto* const most = std::ranges::max_element(c.notes, {}, &ContactCounts::Noted::count);
+    const auto most = std::ranges::max_element(c.notes, {}, &ContactCounts::Noted::count);
     if (most->count == 0) return {};
     const std::string who =
         "No contact of a haptic source has begun: body " + std::to_string(most->body) +

@@ -51,7 +51,7 @@ std::string counted(std::uint64_t count, std::string_view what) {
 std::string inNames(std::string sentence, Names wanted) {
     std::string made;
     for (std::string_view rest = sentence; !rest.empty();) {
-        const auto* const known =
+        const auto known =
             std::ranges::find_if(names, [&](const Name& name) { return rest.starts_with(name.inC); });
         const bool isWord = known != names.end();
         if (isWord)
