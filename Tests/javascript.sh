@@ -16,7 +16,7 @@ cd "$work"
 echo '{ "private": true }' >package.json
 npm install --silent --no-audit --no-fund "$package"
 cd "$OLDPWD"
-for test in package pads audio; do node "Tests/JavaScript/$test.mjs" "$work" "$physvib"; done
+for test in package pads audio silent; do node "Tests/JavaScript/$test.mjs" "$work" "$physvib"; done
 for test in insecure link; do node "Tests/JavaScript/$test.mjs"; done
 say "taking the engines from npm"
 (cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 box2d3-wasm@5.2 phaser@4 jspsych@8 typescript@5)

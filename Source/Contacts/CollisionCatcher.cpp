@@ -2,6 +2,7 @@
 // Sorts an engine's contact reports into collisions and resting loads.
 #include "Contacts/CollisionCatcher.h"
 #include <algorithm>
+#include <cmath>
 
 namespace physvib {
 
@@ -79,6 +80,15 @@ ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
     return &end;
 }
 
+void CollisionCatcher::passOver(std::int32_t a, std::int32_t b, double metresPerSecond) noexcept {
+    if (!isFelt(a, b)) return;
+    ++tally_.belowThreshold;
+    if (std::isfinite(std::min(table_.mobility(a).movableMassKg, table_.mobility(b).movableMassKg)))
+        tally_.strongestBelow = std::max(tally_.strongestBelow, metresPerSecond);
+    else
+        ++tally_.immovable;
+}
+
 double CollisionCatcher::aftermath(std::int32_t pair) const noexcept {
     const std::int32_t last = pairs_[pair].last;
     return last == TouchingPairs::none
@@ -89,6 +99,7 @@ double CollisionCatcher::aftermath(std::int32_t pair) const noexcept {
 Collision* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachMetresPerSecond) {
     hasHeard_ = true;
     const auto [a, b, number] = pair;
+    tally_.fastestApproach = std::max(tally_.fastestApproach, approachMetresPerSecond);
     const bool isDirect = isFelt(a, b);
     const std::size_t count = isDirect ? directCollisions_ : collisions_.size() - directCollisions_;
     const FixtureTable::Mobility &ofA = table_.mobility(a), &ofB = table_.mobility(b);

@@ -3,6 +3,7 @@
 // catcher, 5.1.3).
 #pragma once
 #include "Contacts/ChainLoads.h"
+#include "Contacts/ContactCounts.h"
 #include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
@@ -54,11 +55,16 @@ public:
 
     /// Counts a new contact point of two fixtures that the engine distinguishes from the pair's other points.
     void meet(std::int32_t a, std::int32_t b) noexcept {
-        ++contacts_;
-        withoutSource_ += isFelt(a, b) ? 0 : 1;
+        ++tally_.contacts;
+        tally_.withoutSource += isFelt(a, b) ? 0 : 1;
     }
-    /// Counts a contact of a haptic source that was too slow for a collision.
-    void passOver(std::int32_t a, std::int32_t b) noexcept { tooSlow_ += isFelt(a, b) ? 1 : 0; }
+    /// Counts a contact of a haptic source that was too slow for a collision. It would have been one with a
+    /// threshold of `metresPerSecond`.
+    void passOver(std::int32_t a, std::int32_t b, double metresPerSecond) noexcept;
+
+    /// Counts since the owner last cleared them.
+    ContactCounts& tally() noexcept { return tally_; }
+    const ContactCounts& tally() const noexcept { return tally_; }
 
     /// The number of a pair of known fixtures, which the following methods use. It may be kept: see
     /// TouchingPairs.
@@ -121,10 +127,6 @@ public:
 
     /// Collisions dropped so far because the arrays were full.
     std::uint64_t drops() const noexcept { return drops_; }
-    /// Contacts so far; those without a haptic source; those of haptic sources that were too slow.
-    std::uint64_t contacts() const noexcept { return contacts_; }
-    std::uint64_t withoutSource() const noexcept { return withoutSource_; }
-    std::uint64_t tooSlow() const noexcept { return tooSlow_; }
 
 private:
     struct Aftermath { // impulse in this step of a pair that collided in the last one
@@ -146,7 +148,8 @@ private:
     std::size_t directCollisions_ = 0;
     std::int32_t order_ = 0;
     bool isStepping_ = false, hasHeard_ = false;
-    std::uint64_t drops_ = 0, contacts_ = 0, withoutSource_ = 0, tooSlow_ = 0;
+    std::uint64_t drops_ = 0;
+    ContactCounts tally_;
 };
 
 } // namespace physvib

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Counts of what happened to a world's contacts, to diagnose why no vibration, or too little, is played.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 
 namespace physvib {
 
-/// Counts since the world was made.
+struct OutputFacts;
+
+/// Why the physics engine lets a haptic source touch nothing: a look at its bodies says so.
+enum class EngineNote : std::uint8_t { sensor, filtered, disabled, asleep };
+
+/// Counts of a period: since the world was made, or since the last explanation.
 struct ContactCounts {
     std::uint64_t contacts = 0;       ///< pairs that began to touch, and new contact points that the engine
                                       ///< distinguishes
@@ -14,24 +20,60 @@ struct ContactCounts {
                                       ///< of jittering contacts
     std::uint64_t withoutSource = 0;  ///< contacts of which neither body is a haptic source
     std::uint64_t unplayable = 0; ///< impacts whose sound has no frequency or is outside the playable range
-    std::uint64_t muted = 0;   ///< impacts while everything is muted, or of a haptic source with a gain of 0
-    std::uint64_t dropped = 0; ///< more than there is room for, or than ImpactSettings::hitsPerStep
-    std::uint64_t events = 0;  ///< events created
+    std::uint64_t muted = 0;    ///< impacts while everything is muted, or of a haptic source with a gain of 0
+    std::uint64_t settling = 0; ///< impacts in the first ImpactSettings::settlingSeconds
+    std::uint64_t dropped = 0;  ///< more than there is room for, or than ImpactSettings::hitsPerStep
+    std::uint64_t events = 0;   ///< events created
     double leastX = 0.0, leastY = 0.0, mostX = 0.0, mostY = 0.0; ///< bounds of the events' places, m of the
                                                                  ///< field
     double thresholdMetresPerSecond = 0.0; ///< effective value: at least 1.5 g dt of the last step
-    bool hasStepped = false;               ///< true after the first step
     bool hasSources = false;               ///< a body is a haptic source now
+
+    std::uint64_t steps = 0;         ///< steps begun
+    std::uint64_t zeroSteps = 0;     ///< of these: 0 s long
+    double longestStepSeconds = 0.0; ///< the longest of them
+    std::uint64_t outsideSteps = 0;  ///< contacts refused because no step had begun
+    std::uint64_t unknownBodies = 0; ///< contacts refused because they name a body that was never set
+    std::int32_t unknownBody = -1;   ///< the last such body
+    std::uint64_t immovable = 0;     ///< of belowThreshold: both masses are 0
+    std::uint64_t parting = 0;       ///< of belowThreshold: the surfaces part along the normal
+    std::uint64_t motionless = 0;    ///< of belowThreshold: neither speed nor impulse nor motion was reported
+    double strongestBelow = 0.0;     ///< threshold that would let the strongest of belowThreshold pass, m/s
+    double fastestParting = 0.0;     ///< speed of the fastest of `parting`, m/s
+    double fastestApproach = 0.0;    ///< of all collisions, m/s
+    double gravityMetresPerSecond2 = 0.0; ///< of the last step
+    double wantedThreshold = 0.0;         ///< ImpactSettings::thresholdMetresPerSecond
+    double fieldWidthMetres = 0.0;        ///< ImpactSettings::fieldWidthMetres
+    bool isMuted = false;                 ///< ImpactSettings::isMuted
+
+    /// What the engine says of haptic sources now: how many, by EngineNote, and the last body of each.
+    struct Noted {
+        std::uint32_t count = 0;
+        std::int32_t body = -1;
+    };
+    std::array<Noted, 4> notes{};
 
     /// Counts an event at a place of the field.
     void made(double x, double y) noexcept;
+
+    /// Notes what the engine says of a haptic source.
+    void note(EngineNote what, std::int32_t body) noexcept;
+
+    /// True if the world was stepped, or a contact was reported.
+    bool hasHappened() const noexcept { return steps + contacts + outsideSteps + unknownBodies > 0; }
 
     /// Adds the counts of another world, whose threshold is then shown.
     ContactCounts& operator+=(const ContactCounts& other) noexcept;
 };
 
-/// The most likely reason why nothing, or not everything, is felt, as one sentence. Any thread.
-std::string explain(const ContactCounts& counts);
+/// The most likely reason why nothing, or not everything, is felt, as one sentence with names of physvib.h.
+/// `since`: of the time since the last explanation; if nothing has happened since, the sentence is about
+/// `ever`, and says so. `output`: what plays the events; null: unknown. It is in C, see inNames(). Any
+/// thread.
+std::string explain(const ContactCounts& since, const ContactCounts& ever,
+                    const OutputFacts* output = nullptr);
+/// The same of one period. Any thread.
+inline std::string explain(const ContactCounts& counts) { return explain(counts, counts); }
 
 /// The output of `--explain`: the sentence, and a line per count. Any thread.
 std::string describe(const ContactCounts& counts);

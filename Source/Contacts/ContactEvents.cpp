@@ -135,7 +135,10 @@ void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double larges
               isAutomatic(settings_) ? fullScale_.newtonSeconds() : settings_.fullScaleNewtonSeconds};
     catcher_.beginStep(span_);
     isConcluded_ = false;
-    counts_.hasStepped = true;
+    ContactCounts& tally = catcher_.tally();
+    ++tally.steps;
+    tally.zeroSteps += span_.endNs == span_.startNs ? 1 : 0;
+    tally.longestStepSeconds = std::max(tally.longestStepSeconds, span_.seconds());
 }
 
 void ContactEvents::conclude() {
@@ -153,7 +156,7 @@ void ContactEvents::finish() {
     catcher_.settle();
     for (const Collision& collision : catcher_.collisions())
         if (!span_.isStrike(collision.impulse(), collision.lighterMassKg, collision.gravityScale))
-            catcher_.passOver(collision.a, collision.b);
+            catcher_.passOver(collision.a, collision.b, collision.impulse() / collision.lighterMassKg);
     impacts_.clear();
     if (settings_.timing == ImpactTiming::onset)
         onset_.collect(span_, impacts_);
@@ -177,7 +180,7 @@ void ContactEvents::keepStrongest(std::size_t count) {
 
 void ContactEvents::leaveOutSettling() {
     const double endNs = settings_.settlingSeconds * 1.0e9;
-    counts_.muted += std::erase_if(
+    catcher_.tally().settling += std::erase_if(
         impacts_, [endNs](const Impact& impact) { return static_cast<double>(impact.timeNs) < endNs; });
 }
 
@@ -188,19 +191,32 @@ void ContactEvents::addImpacts() {
         fullScale_.learn(impacts_, span_, table_);
         model_.fullScaleNewtonSeconds = fullScale_.newtonSeconds();
     }
-    EventMaker maker{table_, pairs_, bodies_, model_, settings_, held_, counts_};
+    EventMaker maker{table_, pairs_, bodies_, model_, settings_, held_, catcher_.tally()};
     for (const Impact& impact : impacts_) maker.add(impact);
 }
 
-ContactCounts ContactEvents::counts() const noexcept {
-    ContactCounts counts = counts_;
-    counts.contacts = catcher_.contacts();
-    counts.belowThreshold = catcher_.tooSlow();
-    counts.withoutSource = catcher_.withoutSource();
-    counts.dropped = drops() + overBudget_;
+ContactCounts ContactEvents::recent() const noexcept {
+    ContactCounts counts = catcher_.tally();
+    counts.dropped = drops() + overBudget_ - past_.dropped;
     counts.thresholdMetresPerSecond = span_.thresholdMetresPerSecond(1.0F);
     counts.hasSources = table_.hasCameras();
+    counts.gravityMetresPerSecond2 = static_cast<double>(span_.gravityMetresPerSecond2.length());
+    counts.wantedThreshold = settings_.thresholdMetresPerSecond;
+    counts.fieldWidthMetres = settings_.fieldWidthMetres;
+    counts.isMuted = settings_.isMuted;
     return counts;
+}
+
+ContactCounts ContactEvents::counts() const noexcept {
+    ContactCounts all = past_;
+    return all += recent();
+}
+
+ContactCounts ContactEvents::takeRecent() noexcept {
+    const ContactCounts now = recent();
+    past_ += now;
+    catcher_.tally() = {};
+    return now;
 }
 
 void ContactEvents::take(std::vector<CollisionEvent>& events) {

@@ -109,11 +109,14 @@ public:
 
     /// Counts of all contacts so far; see explain().
     ContactCounts counts() const noexcept;
+    /// Counts since the last call of this, or since the beginning.
+    ContactCounts takeRecent() noexcept;
 
     /// The constants of Eq. 5.4 in the current or last step.
     const ImpactModel& impactModel() const noexcept { return model_; }
 
 private:
+    ContactCounts recent() const noexcept;
     void finish();
     void addImpacts();
     void leaveOutSettling();
@@ -136,7 +139,7 @@ private:
     FullScale fullScale_;
     PairSounds pairs_;
     std::uint64_t overBudget_ = 0;
-    ContactCounts counts_; // without the counts that other members keep
+    ContactCounts past_; // until takeRecent(); what came later is the catcher's tally
     bool isConcluded_ = true;
 };
 

@@ -59,8 +59,14 @@ std::string_view faultOf(const FedContact& contact) noexcept {
 }
 
 std::string_view faultOf(FedContacts& contacts, const FedContact& contact) {
-    if (!contacts.isStepping()) return outsideStep;
-    if (!contacts.bodies().has(contact.a) || !contacts.bodies().has(contact.b)) return unknownBody;
+    ContactCounts& tally = contacts.events().catcher().tally();
+    if (!contacts.isStepping()) return ++tally.outsideSteps, outsideStep;
+    for (const std::int32_t body : {contact.a, contact.b})
+        if (!contacts.bodies().has(body)) {
+            ++tally.unknownBodies;
+            tally.unknownBody = body;
+            return unknownBody;
+        }
     return faultOf(contact);
 }
 
@@ -166,6 +172,16 @@ std::uint64_t ContactFeed::drops() const noexcept { return contacts_->events().d
 std::uint64_t ContactFeed::overBudget() const noexcept { return contacts_->events().overBudget(); }
 std::uint64_t ContactFeed::thinned() const noexcept { return contacts_->events().thinned(); }
 ContactCounts ContactFeed::counts() const noexcept { return contacts_->events().counts(); }
+ContactCounts ContactFeed::takeRecent() noexcept { return contacts_->events().takeRecent(); }
+
+std::string_view ContactFeed::note(std::int32_t id, EngineNote what) {
+    if (!contacts_->bodies().has(id)) return unknownBody;
+    ContactEvents& events = contacts_->events();
+    if (events.fixtures().isCamera(events.fixtures().find(FedBodies::nameOf(id))))
+        events.catcher().tally().note(what, id);
+    return {};
+}
+
 const ImpactModel& ContactFeed::impactModel() const noexcept { return contacts_->events().impactModel(); }
 
 } // namespace physvib

@@ -21,6 +21,25 @@ double FedContacts::speedOf(const FedContact& contact) const {
         bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
 }
 
+// Only counts. A threshold is passed if two thirds of it are approached and all of it is the change of the
+// lighter body's velocity. Surfaces that part no faster than resting bodies do are at rest.
+void FedContacts::passOver(const TouchingPairs::Name& pair, const FedContact& contact, double speed,
+                           double impulse) {
+    CollisionCatcher& catcher = events_.catcher();
+    const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
+    const double lighter = std::min(a.movableMassKg(), b.movableMassKg());
+    const double change = std::isfinite(impulse) ? impulse / lighter : 0.0;
+    catcher.passOver(pair.a, pair.b, std::max(0.0, std::min(1.5 * speed, change)));
+    if (!std::isfinite(lighter) || !catcher.isFelt(pair.a, pair.b)) return;
+    ContactCounts& tally = catcher.tally();
+    if (catcher.isCollision(std::max(a.gravityScale(), b.gravityScale()), -speed)) {
+        ++tally.parting;
+        tally.fastestParting = std::max(tally.fastestParting, -speed);
+    } else if (speed == 0.0 && !contact.approachMetresPerSecond && !(impulse > 0.0)) {
+        ++tally.motionless;
+    }
+}
+
 void FedContacts::strike(const FedContact& contact, double pushed) {
     CollisionCatcher& catcher = events_.catcher();
     const TouchingPairs::Name pair = nameOf(contact);
@@ -34,7 +53,7 @@ void FedContacts::strike(const FedContact& contact, double pushed) {
     if (pushed > 0.0 && told > 0.0)
         impulse = supported(impulse, pushed, told * (1.0 + contact.restitution), fractionOf(contact, told));
     if (!(impulse > 0.0 && std::isfinite(impulse))) { // they separate, or neither can be moved
-        catcher.passOver(pair.a, pair.b);
+        passOver(pair, contact, told, 0.0);
         return contact.isSoft ? load(contact) : void();
     }
     // With an impulse alone, the speed is the change of the lighter body's velocity, which is at least the
@@ -42,7 +61,7 @@ void FedContacts::strike(const FedContact& contact, double pushed) {
     const bool isSpeedKnown = contact.approachMetresPerSecond || !isImpulseTold || told > 0.0;
     const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
     if (!catcher.isCollision(std::max(a.gravityScale(), b.gravityScale()), speed)) {
-        catcher.passOver(pair.a, pair.b);
+        passOver(pair, contact, speed, impulse);
         return load(contact);
     }
 

@@ -73,7 +73,9 @@ private:
     void drop(std::size_t pair);
     void dropAllOf(std::int32_t slot);
     void strike(const FedContact& contact, double pushed = 0.0);
+    void passOver(const TouchingPairs::Name& pair, const FedContact& contact, double speed, double impulse);
     void strikeTogether();
+    double fastestOfNew() const;
     void load(const FedContact& contact);
     void rub(const FedContact& contact, const TouchingPairs::Name& pair);
     double fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept;

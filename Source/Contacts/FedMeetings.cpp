@@ -3,6 +3,7 @@
 #include "Contacts/FedContacts.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace physvib {
 
@@ -80,6 +81,14 @@ void FedContacts::settle(const Pair& pair) {
     strikeTogether();
 }
 
+// Below 0: all of them part.
+double FedContacts::fastestOfNew() const {
+    double fastest = -std::numeric_limits<double>::infinity();
+    for (const Waiting* each : together_)
+        if (each->isNew) fastest = std::max(fastest, speedOf(each->contact));
+    return fastest;
+}
+
 // An impact at several points: place and impulse are those of all together, the time is that of the first.
 void FedContacts::strikeTogether() {
     CollisionCatcher& catcher = events_.catcher();
@@ -105,7 +114,7 @@ void FedContacts::strikeTogether() {
     const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : ofNew;
     const bool isCollision =
         impulse > 0.0 && std::isfinite(impulse) && catcher.isCollision(gravityScale, fastest);
-    if (!isCollision) catcher.passOver(pair.a, pair.b);
+    if (!isCollision) passOver(pair, first, fastest > 0.0 ? fastest : fastestOfNew(), impulse);
     if (!isCollision && first.isImpulseOfPair) return load(first);
     if (!isCollision) {
         for (const Waiting* each : together_)

@@ -2,7 +2,9 @@
 // Installs the listener in a world, runs the stages around each step, and restores the world.
 #include "Physics/Attachment.h"
 #include "Contacts/ContactEvents.h"
+#include "Contacts/Explanations.h"
 #include "Physics/BodySweeps.h"
+#include "Physics/SourceNotes.h"
 #include "Physics/WorldBodies.h"
 #include "Physics/WorldListener.h"
 #include "Physics/WorldNames.h"
@@ -151,6 +153,14 @@ void Attachment::flush(std::vector<CollisionEvent>& events) { parts_->events.flu
 std::uint64_t Attachment::drops() const noexcept { return parts_->events.drops(); }
 std::uint64_t Attachment::overBudget() const noexcept { return parts_->events.overBudget(); }
 ContactCounts Attachment::counts() const noexcept { return parts_->events.counts(); }
+
+std::string Attachment::explain(const OutputFacts* output) {
+    ContactEvents& events = parts_->events;
+    if (world_ != nullptr) noteSources(*world_, events.fixtures(), events.catcher().tally());
+    const ContactCounts recent = events.takeRecent();
+    return inNames(physvib::explain(recent, events.counts(), output), Names::cpp);
+}
+
 const ImpactModel& Attachment::impactModel() const noexcept { return parts_->events.impactModel(); }
 
 } // namespace physvib

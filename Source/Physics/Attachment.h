@@ -5,6 +5,7 @@
 #include "Contacts/HapticFixture.h"
 #include "Contacts/ImpactModel.h"
 #include "Contacts/ImpactSettings.h"
+#include "Contacts/OutputFacts.h"
 #include "Contacts/PairSounds.h"
 #include "Core/CollisionEvent.h"
 #include <box2d/box2d.h>
@@ -99,9 +100,12 @@ public:
     /// Impacts left out so far because they were more than ImpactSettings::hitsPerStep.
     std::uint64_t overBudget() const noexcept;
 
-    /// What became of all contacts so far; explain() says in a sentence why nothing is felt.
+    /// What became of all contacts so far.
     ContactCounts counts() const noexcept;
-    std::string explain() const { return physvib::explain(counts()); } ///< The most likely reason.
+    /// Why nothing, or not everything, is felt of what happened since the last call, in a sentence; see
+    /// physvib::explain. It looks at all fixtures of the world. `output`: what plays the events; null:
+    /// unknown.
+    std::string explain(const OutputFacts* output = nullptr);
 
     /// The constants of Eq. 5.4 in the last step begun.
     const ImpactModel& impactModel() const noexcept;

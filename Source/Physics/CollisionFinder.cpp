@@ -128,16 +128,17 @@ void CollisionFinder::look(const b2Contact& contact, const b2Manifold& before) {
     for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
         if (isIn(fresh, i))
             fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
-    if (!events_.catcher().isCollision(gravityScaleOf(contact), fastest)) return passOver(contact);
+    if (!events_.catcher().isCollision(gravityScaleOf(contact), fastest)) return passOver(contact, fastest);
     const Pair& pair = pairOf(know(contact));
     if (events_.catcher().collision(pair) != nullptr) return;
     if (Collision* collision = events_.catcher().strike(pair, fastest))
         describe(contact, manifold, fresh, *collision);
 }
 
-void CollisionFinder::passOver(const b2Contact& contact) {
+void CollisionFinder::passOver(const b2Contact& contact, double approachMetresPerSecond) {
     if (!events_.catcher().mayBeHeard(nameOf(*contact.GetFixtureA()), nameOf(*contact.GetFixtureB()))) return;
-    if (const Known* const known = find(contact)) events_.catcher().passOver(known->pair.a, known->pair.b);
+    if (const Known* const known = find(contact)) // two thirds of the threshold let it pass
+        events_.catcher().passOver(known->pair.a, known->pair.b, 1.5 * approachMetresPerSecond);
 }
 
 void CollisionFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,

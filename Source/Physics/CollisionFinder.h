@@ -52,7 +52,7 @@ private:
         if (!catcher.isKnown(known.pair)) known.pair.number = catcher.know(known.pair.a, known.pair.b);
         return known.pair;
     }
-    void passOver(const b2Contact& contact);
+    void passOver(const b2Contact& contact, double approachMetresPerSecond);
     std::int32_t know(const b2Fixture& fixture);
     Known& know(const b2Contact& contact);
     Known& remember(const b2Contact& contact, Pair pair);

@@ -8,8 +8,8 @@ local function fixture(kind, mass, motion)
                   getPosition = function() return 0.3 * metre, -(motion.height or 0) * metre end,
                   getWorldCenter = function() return 0.3 * metre, -(motion.height or 0) * metre end, getAngularVelocity = function() return 0 end,
                   getLinearVelocity = function() return 0, motion.speed * metre end,
-                  getLinearVelocityFromWorldPoint = function() return 0, motion.speed * metre end}
-    return {getBody = function() return body end, isSensor = function() return false end}
+                  getLinearVelocityFromWorldPoint = function() return 0, motion.speed * metre end, isActive = function() return true end, isAwake = function() return true end}
+    return {getBody = function() return body end, isSensor = function() return false end, isDestroyed = function() return false end}
 end
 local falling = {speed = 0, height = 0.8} -- downwards, as LÖVE counts
 floor, ball = fixture("static", 0, {speed = 0}), fixture("dynamic", 0.2, falling)
@@ -18,6 +18,7 @@ local contact = {getPositions = function() return 0.3 * metre, 0 end, getNormal 
 local callbacks, isTouching = {}, false
 function world:getCallbacks() return unpack(callbacks, 1, 4) end
 function world:setCallbacks(...) callbacks = {...} end
+function world:getBodies() return {} end
 function world:getGravity() return 0, 9.81 * metre end
 function world:update(dt)
     falling.speed = falling.speed + 9.81 * dt

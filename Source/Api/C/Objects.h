@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Objects behind the handles of the C library.
 #pragma once
+#include "Api/C/Calls.h"
 #include "Api/C/Handles.h"
 #include "Api/C/physvib.h"
 #include "Contacts/ContactFeed.h"
 #include "Core/EventQueue.h"
 #include "Core/HapticRenderer.h"
+#include "Core/LastChanges.h"
 #include "Core/LatestValue.h"
 #include <atomic>
 #include <mutex>
@@ -26,6 +28,7 @@ struct Renderer {
     Source source;
     int rateHz = 0, channels = 0;
     std::mutex producers, readers; // any thread but R
+    LastChanges changes;           // under `producers`
     LatestValue<RenderStatus> status;
     std::atomic_flag isPulled; // set while R renders
 };
@@ -39,6 +42,7 @@ struct World {
     // of bodies that are felt elsewhere than on the first device; their last events may come after they are
     // removed
     std::unordered_map<int, int> devices;
+    std::uint64_t late = 0, dropped = 0, rejected = 0; // of the output, at the last explanation
 };
 
 inline Handles<Renderer, 1>& renderers() {
@@ -55,6 +59,17 @@ inline auto use(physvib_renderer renderer) noexcept {
 }
 inline auto use(physvib_world world) noexcept {
     return worlds().use(reinterpret_cast<std::uintptr_t>(world));
+}
+
+/// Calls `call(World&)` with the world of that handle, under its mutex; returns its code or count.
+template <class Call>
+auto in(physvib_world name, Call call) noexcept -> decltype(call(std::declval<World&>())) {
+    return guarded([&]() -> decltype(call(std::declval<World&>())) {
+        const auto world = use(name);
+        if (!world) return unknownHandle();
+        const std::lock_guard lock{world->mutex};
+        return call(*world);
+    });
 }
 
 } // namespace physvib::api

@@ -25,9 +25,10 @@ int change(physvib_renderer name, const RenderControl& control) noexcept {
     if (control.panner.channels() > renderer->channels)
         return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected at most as many enchanters as channels");
     const std::lock_guard lock{renderer->producers};
-    return renderer->source.controls.push(control)
-               ? PHYSVIB_OK
-               : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
+    if (!renderer->source.controls.push(control))
+        return fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
+    renderer->changes.take(control);
+    return PHYSVIB_OK;
 }
 
 RenderControl controlOf(RenderControl::Kind kind, physvib_int64 timeNs, int channel, double value) {
@@ -86,6 +87,7 @@ int physvib_renderer_create(const physvib_renderer_settings* settings, physvib_r
             return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
         made->rateHz = wanted.sampleRateHz;
         made->channels = wanted.outputs();
+        made->changes.panner = wanted.panner;
         const std::uintptr_t name = renderers().add(std::move(made));
         if (name == 0) return fail(PHYSVIB_ERROR_FULL, "renderers: expected at most 256");
         *renderer = reinterpret_cast<physvib_renderer>(name);

@@ -12,17 +12,6 @@ namespace {
 
 constexpr double longestStepSeconds = 3600.0;
 
-/// Calls `call(World&)` with the world of that handle, under its mutex; returns its code or count.
-template <class Call>
-auto in(physvib_world name, Call call) noexcept -> decltype(call(std::declval<World&>())) {
-    return guarded([&]() -> decltype(call(std::declval<World&>())) {
-        const auto world = use(name);
-        if (!world) return unknownHandle();
-        const std::lock_guard lock{world->mutex};
-        return call(*world);
-    });
-}
-
 int inOrder(std::string_view fault) noexcept {
     return resultOf(fault,
                     fault.starts_with("step:") || fault.starts_with("contact:") || fault.starts_with("time:")
@@ -276,21 +265,10 @@ int physvib_world_get_counts(physvib_world name, physvib_world_counts* counts) {
         taken.below_threshold = number(now.belowThreshold);
         taken.no_source = number(now.withoutSource);
         taken.unplayable = number(now.unplayable);
-        taken.muted = number(now.muted);
+        taken.muted = number(now.muted + now.settling);
         taken.dropped = number(now.dropped);
         taken.events = number(now.events);
         taken.threshold_m_per_s = now.thresholdMetresPerSecond;
         return begin(counts, size, taken);
-    });
-}
-
-int physvib_world_explain(physvib_world name, char* text, size_t size) {
-    return in(name, [&](World& world) {
-        if (text == nullptr || size == 0) return nothingThere("text: expected a place for it");
-        const std::string sentence = explain(world.feed.counts());
-        const std::size_t length = std::min(sentence.size(), size - 1);
-        std::copy_n(sentence.data(), length, text);
-        text[length] = '\0';
-        return static_cast<int>(sentence.size());
     });
 }

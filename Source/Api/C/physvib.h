@@ -252,6 +252,29 @@ typedef struct physvib_world_counts {
                                  the last step */
 } physvib_world_counts;
 
+/** What plays a world's events, for physvib_world_explain_output; defaults in brackets. No pointer is kept.
+ */
+typedef struct physvib_output_facts {
+    size_t size;                  /**< set by init */
+    int is_missing;               /**< 1: no device asks for samples (0) */
+    int is_silent;                /**< 1: silence is held (0) */
+    int channels;                 /**< that the device has; 0: as many as the layout has actuators (0) */
+    int unused;                   /**< 0 */
+    double level;                 /**< gain of all channels (1) */
+    physvib_int64 muted_channels; /**< bit j: channel j is muted, or its gain is 0 (0) */
+    physvib_int64 late;           /**< events played after their time, so far (0) */
+    physvib_int64 dropped;        /**< events for which there was no room, so far (0) */
+    physvib_int64 rejected;       /**< events that cannot be played, so far (0) */
+    const char* silent_by;        /**< who holds the silence; NULL: unknown (NULL) */
+    const char* trouble;          /**< error of the device, in one line; NULL: none (NULL) */
+    const physvib_renderer_settings* renderer; /**< layout and field; NULL: unknown (NULL) */
+} physvib_output_facts;
+
+#define PHYSVIB_NOTE_SENSOR 0   /**< of physvib_world_note: it is a sensor, which touches nothing */
+#define PHYSVIB_NOTE_FILTERED 1 /**< of physvib_world_note: a filter lets it touch no other body */
+#define PHYSVIB_NOTE_DISABLED 2 /**< of physvib_world_note: the engine does not simulate it */
+#define PHYSVIB_NOTE_ASLEEP 3   /**< of physvib_world_note: it rests until something wakes it */
+
 /** The version, "0.2.0". Any thread. */
 PHYSVIB_API const char* physvib_version(void);
 
@@ -275,6 +298,8 @@ PHYSVIB_API int physvib_body_init(physvib_body* body, size_t size);
 PHYSVIB_API int physvib_contact_init(physvib_contact* contact, size_t size);
 /** Empty; `size`: sizeof *counts. */
 PHYSVIB_API int physvib_world_counts_init(physvib_world_counts* counts, size_t size);
+/** The defaults; `size`: sizeof *facts. */
+PHYSVIB_API int physvib_output_facts_init(physvib_output_facts* facts, size_t size);
 
 /* ---- Layouts and files. Any thread; they allocate, and read or write files. ---- */
 
@@ -451,9 +476,22 @@ PHYSVIB_API physvib_int64 physvib_world_send(physvib_world world, physvib_render
 PHYSVIB_API physvib_int64 physvib_world_drops(physvib_world world);
 /** Counts what became of all contacts so far. */
 PHYSVIB_API int physvib_world_get_counts(physvib_world world, physvib_world_counts* counts);
-/** Writes one sentence to `text`: the most likely reason why nothing, or not everything, is felt. `size` of
- * `text`: 1 or more, 256 are enough. Returns the length of the sentence. */
+/** Writes one sentence to `text`: the most likely reason why nothing, or not everything, is felt of what
+ * happened since the last explanation, and what to change. If nothing has happened since, the sentence is
+ * about all time, and says so. `size` of `text`: 1 or more, 512 are enough. Returns the length of the
+ * sentence.
+ */
 PHYSVIB_API int physvib_world_explain(physvib_world world, char* text, size_t size);
+/** The same, also of what the world cannot see: the output that plays its events. */
+PHYSVIB_API int physvib_world_explain_output(physvib_world world, const physvib_output_facts* facts,
+                                             char* text, size_t size);
+/** The same of a renderer that is pulled: its level, mutes, gains, layout, field and silence as they were set
+ * last, its queue and its late events. */
+PHYSVIB_API int physvib_renderer_explain(physvib_renderer renderer, physvib_world world, char* text,
+                                         size_t size);
+/** What the engine says of a body now, PHYSVIB_NOTE_...; call it before an explanation, which forgets it. It
+ * counts if the body is a haptic source. */
+PHYSVIB_API int physvib_world_note(physvib_world world, int body, int note);
 /** Grains left out so far because there were more than 2,000 a second at one contact, or 50,000 in all; the
  * others are stronger by as much power. */
 PHYSVIB_API physvib_int64 physvib_world_thinned(physvib_world world);

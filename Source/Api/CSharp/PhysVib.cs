@@ -203,16 +203,53 @@ public sealed class World : IDisposable {
             return counts;
         }
     }
-    /// <summary>Why nothing, or not everything, is felt: the most likely reason, one sentence.</summary>
-    public string Explain() {
-        var text = new byte[512];
-        Native.Check(Native.physvib_world_explain(name, text, (UIntPtr)(uint)text.Length));
-        return System.Text.Encoding.UTF8.GetString(text, 0, Array.IndexOf(text, (byte)0));
-    }
+    /// <summary>Why nothing, or not everything, is felt of what happened since the last call: the most likely reason, one sentence.</summary>
+    public string Explain() { return Explanation.Of((text, size) => Native.Check(Native.physvib_world_explain(name, text, size))); }
+    /// <summary>The same, also of a renderer that is pulled.</summary>
+    public string Explain(Renderer renderer) { return Explanation.Of((text, size) => Native.Check(Native.physvib_renderer_explain(renderer.name, name, text, size))); }
+    /// <summary>The same, also of any output.</summary>
+    public string Explain(OutputFacts output) { return Explanation.Of((text, size) => Native.Check(Native.physvib_world_explain_output(name, ref output, text, size))); }
+    /// <summary>What the engine says of a body now; call it before Explain, which forgets it.</summary>
+    public void Note(int body, Note note) { Native.Check(Native.physvib_world_note(name, body, (int)note)); }
     /// <summary>Into an array of yours, so that nothing is allocated in a frame; how many.</summary>
     public int Take(Event[] events, bool atOnce = false) { return (int)Native.Check(Native.physvib_world_take(name, events, events.Length, atOnce ? 1 : 0)); }
     public int Send(Renderer renderer, long laterNs, bool atOnce = false) {
         return (int)Native.Check(Native.physvib_world_send(name, renderer.name, laterNs, atOnce ? 1 : 0));
+    }
+}
+
+/// <summary>Why an engine lets a body touch nothing; see physvib_world_note.</summary>
+public enum Note { Sensor, Filtered, Disabled, Asleep }
+
+/// <summary>What plays a world's events. Begin with Create(), and change what you like.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct OutputFacts {
+    UIntPtr size;
+    public int IsMissing, IsSilent, Channels;
+    int unused;
+    public double Level;
+    public long MutedChannels, Late, Dropped, Rejected;
+    IntPtr silentBy, trouble, renderer;
+    public static OutputFacts Create() {
+        var made = new OutputFacts();
+        Native.Check(Native.physvib_output_facts_init(ref made, Native.SizeOf(made)));
+        return made;
+    }
+}
+
+// Explanations with C#'s names: is_camera is IsCamera, physvib_world_set_body World.SetBody.
+static class Explanation {
+    internal static string Of(Action<byte[], UIntPtr> explain) {
+        var text = new byte[512];
+        explain(text, (UIntPtr)(uint)text.Length);
+        var sentence = System.Text.Encoding.UTF8.GetString(text, 0, Array.IndexOf(text, (byte)0));
+        return System.Text.RegularExpressions.Regex.Replace(sentence, @"(?<![\w/.])(physvib_([a-z]+)_)?([a-z]+(_[a-z0-9]+)+|[a-z]+)", match => {
+            var word = match.Groups[3].Value;
+            if (!match.Groups[1].Success && !word.Contains("_")) return match.Value;
+            var parts = Array.ConvertAll(word.Split('_'), part => char.ToUpperInvariant(part[0]) + part.Substring(1));
+            var owner = match.Groups[1].Success ? char.ToUpperInvariant(match.Groups[2].Value[0]) + match.Groups[2].Value.Substring(1) + "." : "";
+            return owner + string.Concat(parts).Replace("WidthM", "Width_m").Replace("HeightM", "Height_m").Replace("ImpulseNS", "Impulse_Ns");
+        });
     }
 }
 
@@ -403,6 +440,10 @@ static class Native {
     [DllImport(Library)] internal static extern long physvib_world_thinned(IntPtr world);
     [DllImport(Library)] internal static extern int physvib_world_get_counts(IntPtr world, ref WorldCounts counts);
     [DllImport(Library)] internal static extern int physvib_world_explain(IntPtr world, [Out] byte[] text, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_renderer_explain(IntPtr renderer, IntPtr world, [Out] byte[] text, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_output_facts_init(ref OutputFacts facts, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_world_explain_output(IntPtr world, ref OutputFacts facts, [Out] byte[] text, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_world_note(IntPtr world, int body, int note);
 }
 
 }

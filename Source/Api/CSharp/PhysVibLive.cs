@@ -89,6 +89,8 @@ public sealed class Live : IDisposable {
     public void SetLayout(RendererSettings renderer) { LiveNative.Check(LiveNative.physvib_live_set_layout(name, ref renderer)); }
     public void SetLevel(double levelDb) { LiveNative.Check(LiveNative.physvib_live_set_level(name, levelDb)); }
     public void Silence(bool isSilent = true) { LiveNative.Check(LiveNative.physvib_live_silence(name, isSilent ? 1 : 0)); }
+    /// <summary>As World.Explain, also of this device.</summary>
+    public string Explain(World world) { return Explanation.Of((text, size) => LiveNative.Check(LiveNative.physvib_live_explain(name, world.name, text, size))); }
     public LiveStatus Status {
         get {
             var status = LiveStatus.Create();
@@ -129,6 +131,7 @@ static class LiveNative {
     [DllImport(Library)] internal static extern int physvib_live_set_level(IntPtr live, double levelDb);
     [DllImport(Library)] internal static extern int physvib_live_silence(IntPtr live, int isSilent);
     [DllImport(Library)] internal static extern int physvib_live_get_status(IntPtr live, ref LiveStatus status);
+    [DllImport(Library)] internal static extern int physvib_live_explain(IntPtr live, IntPtr world, [Out] byte[] text, UIntPtr size);
 }
 
 }

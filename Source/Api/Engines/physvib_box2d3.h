@@ -214,11 +214,58 @@ PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double se
     return haptics->code;
 }
 
-/* Writes to `text` why nothing is felt, in one sentence. */
+PHYSVIB_UNUSED static int physvib_box2d3_may_touch(b2Filter a, b2Filter b) {
+    if (a.groupIndex == b.groupIndex && a.groupIndex != 0) return a.groupIndex > 0;
+    return (a.maskBits & b.categoryBits) != 0 && (a.categoryBits & b.maskBits) != 0;
+}
+
+/* True if a filter keeps the body from all other bodies that have numbers. */
+PHYSVIB_UNUSED static int physvib_box2d3_is_filtered(const physvib_box2d3* haptics, b2BodyId body) {
+    b2ShapeId own[PHYSVIB_BOX2D3_MOST], theirs[PHYSVIB_BOX2D3_MOST];
+    const int count = b2Body_GetShapes(body, own, PHYSVIB_BOX2D3_MOST);
+    int has_others = 0, i, a, b;
+    for (i = 1; i < haptics->capacity; ++i) {
+        const b2BodyId other = haptics->numbers[i].body;
+        int others;
+        if (!other.index1 || haptics->numbers[i].id < 0 || B2_ID_EQUALS(other, body) ||
+            !b2Body_IsValid(other))
+            continue;
+        others = b2Body_GetShapes(other, theirs, PHYSVIB_BOX2D3_MOST);
+        for (a = 0; a < count; ++a)
+            for (b = 0; b < others; ++b, has_others = 1)
+                if (physvib_box2d3_may_touch(b2Shape_GetFilter(own[a]), b2Shape_GetFilter(theirs[b])))
+                    return 0;
+    }
+    return has_others;
+}
+
+/* PHYSVIB_NOTE_..., or -1. */
+PHYSVIB_UNUSED static int physvib_box2d3_note(const physvib_box2d3* haptics, b2BodyId body) {
+    b2ShapeId shapes[PHYSVIB_BOX2D3_MOST];
+    const int count = b2Body_GetShapes(body, shapes, PHYSVIB_BOX2D3_MOST);
+    int sensors = 0, i;
+    if (!b2Body_IsEnabled(body)) return PHYSVIB_NOTE_DISABLED;
+    for (i = 0; i < count; ++i) sensors += b2Shape_IsSensor(shapes[i]) ? 1 : 0;
+    if (count > 0 && sensors == count) return PHYSVIB_NOTE_SENSOR;
+    if (physvib_box2d3_is_filtered(haptics, body)) return PHYSVIB_NOTE_FILTERED;
+    return b2Body_GetType(body) != b2_staticBody && !b2Body_IsAwake(body) ? PHYSVIB_NOTE_ASLEEP : -1;
+}
+
+/* Writes to `text` why nothing is felt since the last call, in one sentence: an error of this header, or what
+ * physvib_world_explain says after a look at all bodies that have numbers. */
 PHYSVIB_UNUSED static void physvib_box2d3_explain(const physvib_box2d3* haptics, char* text, size_t size) {
-    if (haptics->code == PHYSVIB_OK)
-        physvib_world_explain(haptics->world, text, size);
-    else if (size > 0)
+    int i, note;
+    if (size == 0) return;
+    if (haptics->code != PHYSVIB_OK) {
         strncpy(text, haptics->error, size - 1), text[size - 1] = 0;
+        return;
+    }
+    for (i = 1; i < haptics->capacity; ++i) {
+        const b2BodyId body = haptics->numbers[i].body;
+        if (!body.index1 || haptics->numbers[i].id < 0 || !b2Body_IsValid(body)) continue;
+        note = physvib_box2d3_note(haptics, body);
+        if (note >= 0) physvib_world_note(haptics->world, haptics->numbers[i].id, note);
+    }
+    physvib_world_explain(haptics->world, text, size);
 }
 #endif

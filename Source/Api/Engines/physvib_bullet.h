@@ -62,8 +62,38 @@ public:
         }
         check(physvib_world_end_step(name_));
     }
+    /// Why nothing is felt since the last call, in one sentence: error(), or what physvib_world_explain says
+    /// after a look at all bodies.
+    std::string explain(const btDynamicsWorld& world) const {
+        if (!error_.empty()) return error_;
+        for (int i = 0; i < world.getNumCollisionObjects(); ++i) {
+            const btCollisionObject& body = *world.getCollisionObjectArray()[i];
+            const int note = noteOf(world, body);
+            if (note >= 0 && body.getUserIndex() >= 0) physvib_world_note(name_, body.getUserIndex(), note);
+        }
+        char text[512] = "";
+        physvib_world_explain(name_, text, sizeof text);
+        return text;
+    }
 
 private:
+    // PHYSVIB_NOTE_..., or -1
+    static int noteOf(const btDynamicsWorld& world, const btCollisionObject& body) {
+        if (body.getActivationState() == DISABLE_SIMULATION) return PHYSVIB_NOTE_DISABLED;
+        if (!body.hasContactResponse()) return PHYSVIB_NOTE_SENSOR;
+        bool hasOthers = false, mayTouch = false;
+        const btBroadphaseProxy* const own = body.getBroadphaseHandle();
+        for (int i = 0; i < world.getNumCollisionObjects() && own != nullptr; ++i) {
+            const btBroadphaseProxy* const other = world.getCollisionObjectArray()[i]->getBroadphaseHandle();
+            if (other == nullptr || other == own) continue;
+            hasOthers = true;
+            mayTouch |= (own->m_collisionFilterGroup & other->m_collisionFilterMask) != 0 &&
+                        (other->m_collisionFilterGroup & own->m_collisionFilterMask) != 0;
+        }
+        if (hasOthers && !mayTouch) return PHYSVIB_NOTE_FILTERED;
+        return body.getActivationState() == ISLAND_SLEEPING && !body.isStaticObject() ? PHYSVIB_NOTE_ASLEEP
+                                                                                      : -1;
+    }
     static PhysVibBullet& self(btDynamicsWorld* world) {
         return *static_cast<PhysVibBullet*>(world->getWorldUserInfo());
     }

@@ -103,4 +103,50 @@ PHYSVIB_UNUSED static int physvib_chipmunk_step(cpSpace* space, physvib_world wo
     physvib_chipmunk_check(physvib_world_end_step(world), physvib_error());
     return physvib_chipmunk_code;
 }
+
+/* A shape that is looked at, and whether there are shapes that it may or may not touch. */
+typedef struct physvib_chipmunk_look_at {
+    physvib_world world;
+    cpSpace* space;
+    cpShape* shape;
+    int others, may_touch;
+} physvib_chipmunk_look_at;
+
+PHYSVIB_UNUSED static void physvib_chipmunk_compare(cpShape* other, void* data) {
+    physvib_chipmunk_look_at* at = (physvib_chipmunk_look_at*)data;
+    const cpShapeFilter a = cpShapeGetFilter(at->shape), b = cpShapeGetFilter(other);
+    if (cpShapeGetBody(other) == cpShapeGetBody(at->shape)) return;
+    at->others = 1;
+    if (!(a.group != 0 && a.group == b.group) && (a.categories & b.mask) != 0 && (b.categories & a.mask) != 0)
+        at->may_touch = 1;
+}
+
+PHYSVIB_UNUSED static void physvib_chipmunk_note(cpShape* shape, void* data) {
+    physvib_chipmunk_look_at at = *(physvib_chipmunk_look_at*)data;
+    int note = -1;
+    if (!physvib_chipmunk_is_numbered(shape)) return;
+    at.shape = shape;
+    cpSpaceEachShape(at.space, physvib_chipmunk_compare, &at);
+    if (cpShapeGetSensor(shape))
+        note = PHYSVIB_NOTE_SENSOR;
+    else if (at.others && !at.may_touch)
+        note = PHYSVIB_NOTE_FILTERED;
+    else if (cpBodyIsSleeping(cpShapeGetBody(shape)))
+        note = PHYSVIB_NOTE_ASLEEP;
+    if (note >= 0) physvib_world_note(at.world, physvib_chipmunk_id(shape), note);
+}
+
+/* Writes to `text` why nothing is felt since the last call, in one sentence: an error of this header, or what
+ * physvib_world_explain says after a look at all shapes. */
+PHYSVIB_UNUSED static void physvib_chipmunk_explain(cpSpace* space, physvib_world world, char* text,
+                                                    size_t size) {
+    physvib_chipmunk_look_at at = {world, space, NULL, 0, 0};
+    if (size == 0) return;
+    if (physvib_chipmunk_code != PHYSVIB_OK) {
+        strncpy(text, physvib_chipmunk_error, size - 1), text[size - 1] = 0;
+        return;
+    }
+    cpSpaceEachShape(space, physvib_chipmunk_note, &at);
+    physvib_world_explain(world, text, size);
+}
 #endif

@@ -113,4 +113,39 @@ PHYSVIB_UNUSED static int physvib_ode_step(physvib_ode* ode, dWorldID world, dou
     physvib_ode_check(ode, physvib_world_end_step(ode->world), physvib_error());
     return ode->code;
 }
+
+/* PHYSVIB_NOTE_..., or -1. */
+PHYSVIB_UNUSED static int physvib_ode_note(dSpaceID space, dGeomID geom) {
+    dBodyID body = dGeomGetBody(geom);
+    int i, others = 0, may_touch = 0;
+    if (!dGeomIsEnabled(geom)) return PHYSVIB_NOTE_DISABLED;
+    for (i = 0; i < dSpaceGetNumGeoms(space); ++i) {
+        dGeomID other = dSpaceGetGeom(space, i);
+        if (other == geom || dGeomIsSpace(other) || (body && dGeomGetBody(other) == body)) continue;
+        others = 1;
+        if ((dGeomGetCategoryBits(geom) & dGeomGetCollideBits(other)) ||
+            (dGeomGetCategoryBits(other) & dGeomGetCollideBits(geom)))
+            may_touch = 1;
+    }
+    if (others && !may_touch) return PHYSVIB_NOTE_FILTERED;
+    return body && !dBodyIsEnabled(body) ? PHYSVIB_NOTE_ASLEEP : -1;
+}
+
+/* Writes to `text` why nothing is felt since the last call, in one sentence: an error of this header, or what
+ * physvib_world_explain says after a look at the geoms of `space`. */
+PHYSVIB_UNUSED static void physvib_ode_explain(physvib_ode* ode, dSpaceID space, char* text, size_t size) {
+    int i, note;
+    if (size == 0) return;
+    if (ode->code != PHYSVIB_OK) {
+        strncpy(text, ode->error, size - 1), text[size - 1] = 0;
+        return;
+    }
+    for (i = 0; i < dSpaceGetNumGeoms(space); ++i) {
+        dGeomID geom = dSpaceGetGeom(space, i);
+        if (dGeomIsSpace(geom) || !physvib_ode_is_numbered(geom)) continue;
+        note = physvib_ode_note(space, geom);
+        if (note >= 0) physvib_world_note(ode->world, (int)(intptr_t)dGeomGetData(geom), note);
+    }
+    physvib_world_explain(ode->world, text, size);
+}
 #endif

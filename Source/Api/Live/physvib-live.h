@@ -157,6 +157,9 @@ PHYSVIB_API int physvib_live_silence(physvib_live live, int is_silent);
 
 /** The status, at most 20 ms old. Any thread. */
 PHYSVIB_API int physvib_live_get_status(physvib_live live, physvib_live_status* status);
+/** As physvib_world_explain(), also of this device: missing, silenced (by whom), level, muted channels,
+ * layout, field, late events. Any thread; one at a time per world. */
+PHYSVIB_API int physvib_live_explain(physvib_live live, physvib_world world, char* text, size_t size);
 
 /* ---- Session files: what the mixer, the plug-in, `physvib play --save` and `save` above write. No device is
  * needed. ---- */

@@ -21,6 +21,8 @@ typedef struct { size_t size; int is_camera, voice, surface; double mass_kg, ine
 typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, impulse_n_s, tangential_n_s, approach_m_per_s, restitution, effective_mass_kg,
     fraction, gap_m, gap_fraction, along_a_m_per_s, along_b_m_per_s; int is_soft, unused, point_id, is_impulse_of_pair; } physvib_contact;
 typedef struct { size_t size; int64_t contacts, below_threshold, no_source, unplayable, muted, dropped, events; double threshold_m_per_s; } physvib_world_counts;
+typedef struct { size_t size; int is_missing, is_silent, channels, unused; double level; int64_t muted_channels, late, dropped, rejected; const char *silent_by, *trouble;
+    const physvib_renderer_settings *renderer; } physvib_output_facts;
 const char *physvib_version(void);
 const char *physvib_error(void);
 int physvib_renderer_settings_init(physvib_renderer_settings *, size_t);
@@ -83,6 +85,10 @@ int64_t physvib_world_drops(physvib_world);
 int64_t physvib_world_thinned(physvib_world);
 int physvib_world_get_counts(physvib_world, physvib_world_counts *);
 int physvib_world_explain(physvib_world, char *, size_t);
+int physvib_output_facts_init(physvib_output_facts *, size_t);
+int physvib_world_explain_output(physvib_world, const physvib_output_facts *, char *, size_t);
+int physvib_renderer_explain(physvib_renderer, physvib_world, char *, size_t);
+int physvib_world_note(physvib_world, int, int);
 
 typedef struct physvib_live_name *physvib_live;
 typedef struct { size_t size; int rate_hz, block_frames, steps_per_s; double longest_gap_s, level_db; char save[1024]; } physvib_live_settings;
@@ -105,6 +111,7 @@ int physvib_live_set_layout(physvib_live, const physvib_renderer_settings *);
 int physvib_live_set_level(physvib_live, double);
 int physvib_live_silence(physvib_live, int);
 int physvib_live_get_status(physvib_live, physvib_live_status *);
+int physvib_live_explain(physvib_live, physvib_world, char *, size_t);
 ]]
 local library = os.getenv("PHYSVIB_LIBRARY") or "libphysvib.so.0"
 local c = ffi.load(library)
@@ -361,11 +368,60 @@ function Attachment:counts()
     call("world_get_counts", self.name, told)
     return told
 end
--- Why nothing, or not everything, is felt: one sentence.
-function Attachment:explain()
+
+-- An explanation with the names of this file: `explain(...)` writes the C functions'.
+local ours = {{"physvib_world_begin_step and physvib_world_end_step", "haptics:update"}, {"physvib_world_begin_step", "haptics:update"}, {"physvib_world_set_body", "haptics:set"},
+    {"physvib_world_touch", "the world's callbacks"}, {"physvib_live_silence", "silence(true)"},
+    {"divide lengths by the pixels of a metre %(100, say%)", "call love.physics.setMeter with the pixels of a metre (100, say)"}}
+local function explained(explain, ...)
     local text = ffi.new("char[512]")
-    call("world_explain", self.name, text, 512)
-    return ffi.string(text)
+    local values = {...}
+    values[#values + 1], values[#values + 2] = text, 512
+    explain(unpack(values))
+    local sentence = ffi.string(text)
+    for _, name in ipairs(ours) do sentence = sentence:gsub(name[1], name[2]) end
+    return sentence
+end
+
+-- As Box2D decides: categories and mask as LÖVE's 16 bits, and the group.
+local function may_touch(a, b)
+    local ca, ma, ga = a:getFilterData()
+    local cb, mb, gb = b:getFilterData()
+    if ga == gb and ga ~= 0 then return ga > 0 end
+    return bit.band(ma, cb) ~= 0 and bit.band(ca, mb) ~= 0
+end
+
+-- PHYSVIB_NOTE_..., or nil.
+function Attachment:note(fixture)
+    local body = fixture:getBody()
+    if not body:isActive() then return 2 end
+    if fixture:isSensor() then return 0 end
+    local others, touchable = 0, 0
+    for _, other in ipairs(self.world:getBodies()) do
+        for _, theirs in ipairs(other ~= body and other:getFixtures() or {}) do
+            others, touchable = others + 1, touchable + (may_touch(fixture, theirs) and 1 or 0)
+        end
+    end
+    if others > 0 and touchable == 0 then return 1 end
+    return body:getType() ~= "static" and not body:isAwake() and 3 or nil
+end
+
+function Attachment:look_at_sources()
+    for fixture in pairs(self.starts) do
+        local note = not fixture:isDestroyed() and self:note(fixture)
+        if note then call("world_note", self.name, self.ids[fixture], note) end
+    end
+end
+
+-- Why nothing, or not everything, is felt of what happened since the last call: one sentence. `output`: what is known of an output that plays the
+-- events, fields of physvib_output_facts (is_missing, is_silent, silent_by...); of an open device, see its explain.
+function Attachment:explain(output)
+    self:look_at_sources()
+    if output then
+        local facts = filled("output_facts", output)
+        return explained(function(...) call("world_explain_output", ...) end, self.name, facts)
+    end
+    return explained(function(...) call("world_explain", ...) end, self.name)
 end
 
 local room = ffi.new("physvib_event[256]")
@@ -423,6 +479,11 @@ function Live:status()
     local told = filled("live_status", nil, self.c)
     self.call("get_status", self.name, told)
     return told
+end
+-- Why nothing, or not everything, is felt of an attachment on this device: one sentence.
+function Live:explain(haptics)
+    haptics:look_at_sources()
+    return explained(function(...) self.call("explain", ...) end, self.name, haptics.name)
 end
 function Live:close()
     self.call("close", ffi.gc(self.name, nil))

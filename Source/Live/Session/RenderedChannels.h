@@ -2,6 +2,7 @@
 // The channels that a session renders: those of the actuators, then the audio of contacts, then the trigger
 // output.
 #pragma once
+#include "Core/LastChanges.h"
 #include "Core/SoundNumber.h"
 #include "Live/Session/HeardContacts.h"
 #include "Live/Session/OnsetMarks.h"
@@ -30,6 +31,9 @@ public:
         return ceilings_[static_cast<std::size_t>(channel)].load(std::memory_order_relaxed);
     }
 
+    /// Bit j: the actuator's channel j is muted, or its gain is 0, as it was set last. Any thread.
+    std::uint64_t mutedChannels() const noexcept { return muted_.load(std::memory_order_relaxed); }
+
 private:
     friend class Session;
     friend class Scheduler;
@@ -43,7 +47,11 @@ private:
         std::ranges::copy(setup.ceilings, ceilings_.begin());
     }
 
-    /// One thread at a time.
+    /// One thread at a time, as the next one.
+    void note(const RenderControl& control) noexcept {
+        last_.take(control);
+        muted_.store(last_.mutedChannels(), std::memory_order_relaxed);
+    }
     void raiseCeiling(int channel, float to) noexcept {
         if (channel < 0 || channel >= actuators_) return;
         auto& most = ceilings_[static_cast<std::size_t>(channel)];
@@ -85,6 +93,8 @@ private:
     const std::unique_ptr<HeardContacts> heard_;
     const std::unique_ptr<OnsetMarks> marks_;
     std::array<std::atomic<float>, limits::maxEnchanters> ceilings_;
+    LastChanges last_; // the scheduler's thread
+    std::atomic<std::uint64_t> muted_{0};
 };
 
 } // namespace physvib

@@ -74,6 +74,7 @@ bool Scheduler::post(RenderControl& control) {
     if (!controls_.push(control)) return false;
     lastControlNs_ = control.timeNs;
     sinks_.posted(control);
+    channels_.note(control);
     if (control.kind == RenderControl::Kind::ceiling) channels_.raiseCeiling(control.channel, control.value);
     if (control.kind == RenderControl::Kind::panner) panner_ = control.panner;
     if (control.kind == RenderControl::Kind::gain && control.channel >= 0 &&

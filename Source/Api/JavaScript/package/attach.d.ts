@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import type { FullHapticEvent, HapticValues, PhysVib, World, WorldCounts, WorldSettings } from 'physvib';
+import type { FullHapticEvent, HapticValues, OutputFacts, PhysVib, Renderer, World, WorldCounts, WorldSettings } from 'physvib';
 
 export interface AttachOptions extends WorldSettings {
     /** Of one unit of the engine's lengths (1; Matter 0.01). Lengths of the other options are metres. */
@@ -24,7 +24,8 @@ export interface Haptics<Body = any> {
     /** Events that nobody took, and that have made room for newer ones. */
     readonly forgotten: number;
     readonly counts: WorldCounts;
-    explain(): string;
+    /** As World.explain; it looks at all bodies of the engine. */
+    explain(output?: Renderer | OutputFacts): string;
     free(): void;
 }
 

@@ -2,12 +2,16 @@
 // What every attachment has: numbers of bodies, steps, events for who follows and for who takes. Inside, lengths are metres and y points up.
 const mostKept = 10000; // events that nobody takes
 
+// As Box2D and Matter decide.
+const mayTouch = (a, b) => (a.group === b.group && a.group !== 0 ? a.group > 0 : (a.mask & b.category) !== 0 && (a.category & b.mask) !== 0);
+
 export class Haptics {
     #known = new Map(); #next = 0; #followers = new Set(); #waiting = [];
     /** Events that nobody took, and that have made room for newer ones. */
     forgotten = 0;
 
-    /** `engine`: what tells of bodies: keyOf(body), massesOf(body), isThere(body). */
+    /** `engine`: what tells of bodies: keyOf(body), massesOf(body), isThere(body); to explain silence, look(body) (isEnabled, isSensor, isAsleep, and filters of
+     * category, mask and group) and bodies(). */
     constructor(physvib, engine, { metresPerUnit = 1, ...settings } = {}) {
         this.engine = engine;
         this.metresPerUnit = metresPerUnit;
@@ -103,7 +107,24 @@ export class Haptics {
         return atOnce ? [...events, ...this.world.take(true)] : events;
     }
 
-    explain() { return this.world.explain(); }
+    /** Why nothing is felt of what happened since the last call; see World.explain. */
+    explain(output) {
+        for (const known of this.#known.values()) {
+            const note = known.values.isSource && !known.isGone ? this.#noteOf(known.body) : undefined;
+            if (note !== undefined) this.world.note(known.id, note);
+        }
+        return this.world.explain(output);
+    }
+    #noteOf(body) {
+        const { keyOf, look, bodies } = this.engine;
+        if (look === undefined) return undefined;
+        const { isEnabled = true, isSensor, isAsleep, filters } = look(body);
+        if (!isEnabled) return 'disabled';
+        if (isSensor) return 'sensor';
+        const others = [...bodies()].filter(other => keyOf(other) !== keyOf(body)).flatMap(other => look(other).filters);
+        if (others.length > 0 && filters.every(a => others.every(b => !mayTouch(a, b)))) return 'filtered';
+        return isAsleep ? 'asleep' : undefined;
+    }
     get counts() { return this.world.counts; }
 
     /** Ends it: the engine is as it was. */

@@ -12,7 +12,8 @@ class MatterHaptics extends Haptics {
 
     constructor(physvib, engine, { metresPerUnit = 0.01, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
         const height = fieldHeight ?? fieldWidth;
-        super(physvib, { keyOf: body => body.parent ?? body, massesOf: massesOf(metresPerUnit), isThere: body => this.#there.has(body) },
+        super(physvib, { keyOf: body => body.parent ?? body, massesOf: massesOf(metresPerUnit), isThere: body => this.#there.has(body), bodies: () => this.#bodies(),
+            look: body => ({ isSensor: body.isSensor, isAsleep: body.isSleeping, filters: [body.collisionFilter] }) },
             { metresPerUnit, fieldWidth, fieldHeight: height, fieldY: -(fieldY ?? height), ...settings });
         this.#engine = engine;
         this.#handlers = { beforeUpdate: event => this.#begin(event), beforeSolve: () => this.#look(), afterUpdate: () => this.#end() };

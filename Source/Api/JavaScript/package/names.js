@@ -32,7 +32,20 @@ export const names = {
         contacts: 'contacts', below_threshold: 'belowThreshold', no_source: 'noSource', unplayable: 'unplayable', muted: 'muted', dropped: 'dropped',
         events: 'events', threshold_m_per_s: 'threshold',
     },
+    physvib_output_facts: {
+        is_missing: 'isMissing', is_silent: 'isSilent', channels: 'channels', level: 'level', muted_channels: 'mutedChannels', late: 'late', dropped: 'dropped', rejected: 'rejected',
+    },
 };
+
+/** What engines say of a body: PHYSVIB_NOTE_... */
+export const notes = ['sensor', 'filtered', 'disabled', 'asleep'];
+
+const members = new Map(Object.values(names).flatMap(Object.entries));
+const camel = name => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
+
+/** An explanation with the names that JavaScript has: is_camera is isSource, physvib_world_set_body is setBody. */
+export const inWords = sentence => sentence.replace('divide lengths by the pixels of a metre (100, say)', 'divide lengths by the pixels of a metre, or set metresPerUnit (0.01, say)')
+    .replace(/(?<![\w/.])(physvib_[a-z]+_)?([a-z]+(?:_[a-z0-9]+)*)\b/g, (word, isCall, name) => (isCall ? camel(name) : name.includes('_') ? members.get(name) ?? camel(name) : word));
 
 /** Numbers of physvib.h that are words here. */
 export const words = {

@@ -148,6 +148,22 @@ export interface Contact {
 
 export interface WorldCounts { contacts: number; belowThreshold: number; noSource: number; unplayable: number; muted: number; dropped: number; events: number; threshold: number }
 
+/** What is known of an output that plays a world's events. */
+export interface OutputFacts {
+    /** No device asks for samples. */
+    isMissing?: boolean;
+    isSilent?: boolean;
+    /** That the device has; 0: as many as the layout has actuators (0). */
+    channels?: number;
+    /** Gain of all channels (1). */
+    level?: number;
+    /** Bit j: channel j is muted. */
+    mutedChannels?: number;
+    late?: number;
+    dropped?: number;
+    rejected?: number;
+}
+
 /** Contacts of any engine in, events out. Bodies are numbers of yours, from 0 on. */
 export interface World {
     readonly fieldWidth: number;
@@ -176,8 +192,10 @@ export interface World {
     readonly drops: number;
     readonly thinned: number;
     readonly counts: WorldCounts;
-    /** Why nothing, or not everything, is felt: one sentence. */
-    explain(): string;
+    /** Why nothing, or not everything, is felt of what happened since the last call: one sentence. `output`: what plays the events. */
+    explain(output?: Renderer | OutputFacts): string;
+    /** What the engine says of a body now; call it before explain, which forgets it. */
+    note(body: number, note: 'sensor' | 'filtered' | 'disabled' | 'asleep'): void;
     free(): void;
 }
 

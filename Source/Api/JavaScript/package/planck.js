@@ -2,6 +2,12 @@
 // Planck 1: Box2D 2.4 in JavaScript. Its impulses are whole; in the first phase of a step those of a new pair have gravity's share in them.
 import { Haptics, motionAt } from './haptics.js';
 
+const listed = first => {
+    const all = [];
+    for (let each = first; each; each = each.getNext()) all.push(each);
+    return all;
+};
+
 class PlanckHaptics extends Haptics {
     #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #new = new Set(); #looks = new Map();
 
@@ -12,6 +18,12 @@ class PlanckHaptics extends Haptics {
             massesOf: body => (body.isDynamic() ? { massKg: body.getMass(), inertia: (body.getInertia() - body.getMass() * body.getLocalCenter().lengthSquared()) * unit * unit, gravityScale: body.getGravityScale() }
                 : { massKg: 0, inertia: 0, gravityScale: 1 }),
             isThere: body => !body.m_destroyed,
+            bodies: () => listed(engine.getBodyList()),
+            look: body => {
+                const fixtures = listed(body.getFixtureList());
+                return { isEnabled: body.isActive(), isSensor: fixtures.every(fixture => fixture.isSensor()), isAsleep: !body.isStatic() && !body.isAwake(),
+                    filters: fixtures.map(fixture => ({ category: fixture.getFilterCategoryBits(), mask: fixture.getFilterMaskBits(), group: fixture.getFilterGroupIndex() })) };
+            },
         }, options);
         this.#engine = engine;
         this.#handlers = {

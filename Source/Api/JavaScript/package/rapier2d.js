@@ -14,6 +14,12 @@ class RapierHaptics extends Haptics {
             keyOf: body => body.handle,
             massesOf: body => (body.isDynamic() ? { massKg: body.mass(), inertia: body.principalInertia() * unit * unit, gravityScale: body.gravityScale() } : { massKg: 0, inertia: 0, gravityScale: 1 }),
             isThere: body => engine.bodies.contains(body.handle),
+            bodies: () => engine.bodies.getAll(),
+            look: body => {
+                const colliders = Array.from({ length: body.numColliders() }, (_, i) => body.collider(i));
+                return { isEnabled: body.isEnabled(), isSensor: colliders.every(collider => collider.isSensor()), isAsleep: body.isDynamic() && body.isSleeping(),
+                    filters: colliders.map(collider => ({ category: collider.collisionGroups() >>> 16, mask: collider.collisionGroups() & 0xffff, group: 0 })) };
+            },
         }, options);
         this.#engine = engine;
     }

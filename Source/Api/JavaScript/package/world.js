@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Contacts in, events out.
+import { inWords, notes } from './names.js';
+import { Renderer } from './renderer.js';
+
 const eventsAtOnce = 64;
 
 export class World {
@@ -68,13 +71,17 @@ export class World {
             return this.#module.get('world_counts', at);
         });
     }
-    explain() {
-        const most = 512;
-        return this.#module.borrow(most, at => {
-            this.#module.call('world_explain', this.#name, at, most);
-            return this.#module.text(at);
+    /** `output`: a renderer that plays the events, or what is known of another output. */
+    explain(output) {
+        const most = 512, module = this.#module;
+        return module.borrow(most, at => {
+            if (output === undefined) module.call('world_explain', this.#name, at, most);
+            else if (output instanceof Renderer) module.call('renderer_explain', output.name, this.#name, at, most);
+            else module.filled('output_facts', output, facts => module.call('world_explain_output', this.#name, facts, at, most));
+            return inWords(module.text(at));
         });
     }
+    note(body, note) { this.#module.call('world_note', this.#name, body, notes.indexOf(note)); }
 
     free() { this.#forget(); }
 }

@@ -75,6 +75,12 @@ class CWorldCounts(Structure):
                 ("threshold_m_per_s", c_double)]
 
 
+class COutputFacts(Structure):
+    _fields_ = [("size", c_size_t), ("is_missing", c_int), ("is_silent", c_int), ("channels", c_int), ("unused", c_int), ("level", c_double),
+                *[(name, c_int64) for name in ("muted_channels", "late", "dropped", "rejected")], ("silent_by", c_char_p), ("trouble", c_char_p),
+                ("renderer", POINTER(CRendererSettings))]
+
+
 def load(path: str, signatures: dict[str, tuple], long: frozenset[str]) -> SimpleNamespace:
     """The functions of a library. Those that are `long` let other threads of Python run. The others take microseconds and keep the interpreter: to have it
     back from three busy threads takes up to 15 ms (sys.getswitchinterval for each), three times in every step of a world."""
@@ -102,7 +108,9 @@ _signatures = {
     "renderer_settings_init": (c_int, POINTER(CRendererSettings), c_size_t), "renderer_status_init": (c_int, POINTER(CRendererStatus), c_size_t),
     "world_settings_init": (c_int, POINTER(CWorldSettings), c_size_t), "body_init": (c_int, POINTER(CBody), c_size_t), "contact_init": (c_int, POINTER(CContact), c_size_t),
     "world_counts_init": (c_int, POINTER(CWorldCounts), c_size_t), "world_get_counts": (c_int, _handle, POINTER(CWorldCounts)),
-    "world_explain": (c_int, _handle, c_char_p, c_size_t), "layout_parse": (c_int, c_char_p, POINTER(CLayout)),
+    "world_explain": (c_int, _handle, c_char_p, c_size_t), "renderer_explain": (c_int, _handle, _handle, c_char_p, c_size_t),
+    "output_facts_init": (c_int, POINTER(COutputFacts), c_size_t), "world_note": (c_int, _handle, c_int, c_int),
+    "world_explain_output": (c_int, _handle, POINTER(COutputFacts), c_char_p, c_size_t), "layout_parse": (c_int, c_char_p, POINTER(CLayout)),
     "events_parse": (c_int64, c_char_p, _events, c_int64),
     "layout_preset": (c_int, c_char_p, POINTER(CLayout)), "layout_load": (c_int, c_char_p, POINTER(CLayout)),
     "layout_save": (c_int, c_char_p, c_char_p, POINTER(CLayout)),
@@ -185,3 +193,19 @@ def encoded(path: "str | os.PathLike[str]") -> bytes:
 
 def version() -> str:
     return library.physvib_version().decode()
+
+
+#: What explanations of the C functions name otherwise here.
+_names = {"physvib_world_begin_step and physvib_world_end_step": "World.step", "physvib_world_begin_step": "World.step", "physvib_world_": "World.",
+          "physvib_renderer_": "Renderer.", "physvib_live_": "Live.",
+          "divide lengths by the pixels of a metre (100, say)": "divide lengths by the pixels of a metre, or set metres_per_unit of attach (0.01, say)"}
+
+
+def explained(explain, *arguments) -> str:  # type: ignore[no-untyped-def]
+    """The sentence that `explain(*arguments, text, size)` writes, with Python's names."""
+    text = ctypes.create_string_buffer(512)
+    explain(*arguments, text, len(text))
+    sentence = text.value.decode(errors="replace")
+    for name, here in _names.items():
+        sentence = sentence.replace(name, here)
+    return sentence

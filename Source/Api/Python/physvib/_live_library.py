@@ -31,7 +31,7 @@ _signatures = {
     "live_align": (c_int, _handle, _handle, POINTER(c_int64)), "live_send": (c_int64, _handle, _handle, c_int64, c_int),
     "live_set_gain": (c_int, _handle, c_int, c_double), "live_set_mute": (c_int, _handle, c_int, c_int),
     "live_set_layout": (c_int, _handle, POINTER(CRendererSettings)), "live_set_level": (c_int, _handle, c_double), "live_silence": (c_int, _handle, c_int),
-    "live_get_status": (c_int, _handle, POINTER(CLiveStatus)),
+    "live_get_status": (c_int, _handle, POINTER(CLiveStatus)), "live_explain": (c_int, _handle, _handle, c_char_p, c_size_t),
     "session_load": (c_int, c_char_p, POINTER(_handle)), "session_free": (c_int, _handle), "session_save": (c_int, _handle, c_char_p),
     "session_create": (c_int, POINTER(CRendererSettings), c_void_p, c_int64, c_int64, POINTER(_handle)),
     "session_length_ns": (c_int64, _handle), "session_get_renderer": (c_int, _handle, POINTER(CRendererSettings)),

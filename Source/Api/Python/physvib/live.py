@@ -5,12 +5,13 @@ from __future__ import annotations
 import ctypes
 import os
 from ctypes import c_int64, c_void_p
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import PhysVibError, encoded
+from ._library import PhysVibError, encoded, explained
 from ._live_library import CLiveSettings, CLiveStatus, live_call
 from .files import checked
 from .layout import Layout, settings
@@ -124,6 +125,10 @@ class Live:
         values = {name: getattr(told, name) for name in LiveStatus._fields}
         values.update(is_running=bool(told.is_running), is_silent=bool(told.is_silent), trouble=told.trouble.decode(errors="replace"), board=BOARDS[told.board])
         return LiveStatus(**values)
+
+    def explain(self, world: World) -> str:
+        """As World.explain, also of this device."""
+        return explained(partial(live_call, "live_explain"), self._handle, world._handle)
 
     def close(self) -> None:
         """Silent within two blocks, then closed, also if it says that not all of the session is saved."""

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .renderer import Renderer
 from .world import POINT_BY_PLACE, World
 
 
@@ -67,9 +68,20 @@ class SpaceHaptics:
         """See World.take."""
         return self.world.take(at_once)
 
-    def explain(self) -> str:
-        """See World.explain."""
-        return self.world.explain()
+    def explain(self, renderer: Renderer | None = None, **output: float | str) -> str:
+        """See World.explain. It looks at all shapes of the space."""
+        for shape, number in self._ids.items():
+            if self._values[shape].get("is_camera") and (note := self._note(shape)):
+                self.world.note(number, note)
+        return self.world.explain(renderer, **output)
+
+    def _note(self, shape: Any) -> str | None:
+        if shape.sensor:
+            return "sensor"
+        own, others = shape.filter, [other.filter for other in self.space.shapes if other.body is not shape.body]
+        if others and all(own.group == other.group != 0 or not own.categories & other.mask or not other.categories & own.mask for other in others):
+            return "filtered"
+        return "asleep" if shape.body.is_sleeping else None
 
     def look(self, arbiter: Any) -> None:
         """Before the solver. If you have callbacks for a pair of collision types in pymunk 6, call this and `push` from yours."""

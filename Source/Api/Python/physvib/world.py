@@ -6,15 +6,17 @@ import contextlib
 import ctypes
 from collections.abc import Sequence
 from ctypes import c_void_p
+from functools import partial
 from typing import Iterator, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import EVENT, CBody, CContact, CWorldCounts, CWorldSettings, Owned, PhysVibError, call, filled
+from ._library import EVENT, CBody, CContact, COutputFacts, CWorldCounts, CWorldSettings, Owned, PhysVibError, call, explained, filled
 from .renderer import Renderer
 
 VOICES = ("own", "other", "both")
+NOTES = ("sensor", "filtered", "disabled", "asleep")
 
 #: Of `point_id`: the points of a pair are told apart by their places.
 POINT_BY_PLACE = -2
@@ -158,11 +160,22 @@ class World(Owned):
         call("world_get_counts", self._handle, ctypes.byref(told))
         return Counts(*[getattr(told, name) for name in Counts._fields])
 
-    def explain(self) -> str:
-        """Why nothing, or not everything, is felt: the most likely reason, one sentence."""
-        text = ctypes.create_string_buffer(512)
-        call("world_explain", self._handle, text, len(text))
-        return text.value.decode()
+    def explain(self, renderer: Renderer | None = None, **output: float | str) -> str:
+        """Why nothing, or not everything, is felt of what happened since the last call: the most likely reason, one sentence. `renderer`: the one that
+        plays the events, or `output`: what is known of another output (is_missing, is_silent, silent_by, trouble, channels, level, muted_channels, late,
+        dropped, rejected: see physvib_output_facts)."""
+        if renderer is not None:
+            return explained(partial(call, "renderer_explain"), renderer._handle, self._handle)
+        if output:
+            values = {name: value.encode() if isinstance(value, str) else value for name, value in output.items()}
+            return explained(partial(call, "world_explain_output"), self._handle, ctypes.byref(filled(COutputFacts, "output_facts_init", **values)))
+        return explained(partial(call, "world_explain"), self._handle)
+
+    def note(self, body: int, note: str) -> None:
+        """What the engine says of a body now, one of NOTES; call it before `explain`, which forgets it."""
+        if note not in NOTES:
+            raise PhysVibError(f"note: expected one of {', '.join(NOTES)}", -2)
+        call("world_note", self._handle, body, NOTES.index(note))
 
     @property
     def thinned(self) -> int:

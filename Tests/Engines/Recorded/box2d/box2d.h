@@ -75,6 +75,17 @@ inline b2BodyEvents b2World_GetBodyEvents(b2WorldId) {
     static b2BodyMoveEvent moved[] = {{recordedBall}};
     return {moved, 1};
 }
+struct b2Filter {
+    std::uint64_t categoryBits, maskBits;
+    int groupIndex;
+};
+inline bool b2Body_IsEnabled(b2BodyId) { return true; }
+inline bool b2Shape_IsSensor(b2ShapeId) { return false; }
+inline b2Filter b2Shape_GetFilter(b2ShapeId) { return {1, 1, 0}; }
+inline int b2Body_GetShapes(b2BodyId body, b2ShapeId* shapes, int) {
+    shapes[0] = {body.index1, 0, 1};
+    return 1;
+}
 inline int b2Body_GetContactCapacity(b2BodyId) { return 4; }
 inline int b2Body_GetContactData(b2BodyId body, b2ContactData* found, int) {
     if (!isBall(body) || recordedStep->isTouching == 0) return 0;

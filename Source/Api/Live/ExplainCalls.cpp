@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// physvib_live_explain: why nothing is felt of a world on an open device.
+#include "Api/Live/Lives.h"
+
+using namespace physvib;
+using namespace physvib::api;
+
+namespace {
+
+const char* holderOf(const SilenceHolders& silence) noexcept {
+    if (silence.isHeldBy(SilenceHolder::osc)) return "OSC (/physvib/silence)";
+    if (silence.isHeldBy(SilenceHolder::standardInput)) return "a line of standard input";
+    return "physvib_live_silence";
+}
+
+physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
+    physvib_renderer_settings settings;
+    physvib_renderer_settings_init(&settings, sizeof settings);
+    settings.law = static_cast<int>(panner.law());
+    settings.exponent = panner.exponent();
+    settings.field_width_m = panner.fieldWidthMetres();
+    settings.field_height_m = panner.fieldHeightMetres();
+    settings.layout = layoutOf(panner.layout());
+    return settings;
+}
+
+} // namespace
+
+int physvib_live_explain(physvib_live name, physvib_world world, char* text, size_t size) {
+    return in(name, [&](Live& live) {
+        const LiveStatus now = live.status();
+        const physvib_renderer_settings settings = settingsOf(live.session().panner());
+        physvib_output_facts facts;
+        physvib_output_facts_init(&facts, sizeof facts);
+        facts.is_missing = now.output.isRunning ? 0 : 1;
+        facts.is_silent = live.output().isSilent() ? 1 : 0;
+        facts.silent_by = holderOf(live.output().silence());
+        facts.trouble = now.trouble.c_str();
+        facts.level = static_cast<double>(live.output().level());
+        facts.muted_channels = static_cast<physvib_int64>(live.session().rendered().mutedChannels());
+        facts.late = static_cast<physvib_int64>(now.render.late);
+        facts.rejected = static_cast<physvib_int64>(now.render.rejected);
+        facts.renderer = &settings;
+        const int length = physvib_world_explain_output(world, &facts, text, size);
+        return length < 0 ? fail(length, physvib_error()) : length;
+    });
+}
