@@ -10,10 +10,11 @@ from ._library import EVENT, HIT, ROLL, SLIDE, PhysVibError, version
 from .files import EventList, events, events_of, frame, load_events, parse_events, render, save_events, save_wav
 from .layout import Layout
 from .live import Live, LiveStatus
+from .pads import Pads
 from .renderer import Renderer, Status, play_out_s
 from .session import Session
 from .space import SpaceHaptics, attach
 from .world import POINT_BY_PLACE, SOFT_WHOLE, Counts, World
 
 __version__ = version()
-__all__ = ["Counts", "EVENT", "EventList", "HIT", "Layout", "Live", "LiveStatus", "POINT_BY_PLACE", "PhysVibError", "ROLL", "Renderer", "SLIDE", "SOFT_WHOLE", "Session", "SpaceHaptics", "Status", "World", "attach", "events", "events_of", "frame", "load_events", "parse_events", "play_out_s", "render", "save_events", "save_wav"]
+__all__ = ["Counts", "EVENT", "EventList", "HIT", "Layout", "Live", "LiveStatus", "Pads", "POINT_BY_PLACE", "PhysVibError", "ROLL", "Renderer", "SLIDE", "SOFT_WHOLE", "Session", "SpaceHaptics", "Status", "World", "attach", "events", "events_of", "frame", "load_events", "parse_events", "play_out_s", "render", "save_events", "save_wav"]
