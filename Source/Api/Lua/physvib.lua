@@ -301,10 +301,11 @@ function Attachment:push(a, b, contact, n1, t1, n2, t2)
     told.a, told.b = ia, ib
     local nx, ny = contact:getNormal()
     told.normal_x, told.normal_y = nx, self.up * ny
+    -- LÖVE's tangent is its normal turned by a quarter to the right, PhysVib's to the left; upwards these are the same.
     told.point_id = -2 -- by place
     for i = 1, x2 and 2 or 1 do
         told.x_m, told.y_m = self:place(i == 1 and x or x2, i == 1 and y or y2)
-        told.impulse_n_s, told.tangential_n_s = (i == 1 and n1 or n2 or 0) / self.metre, (i == 1 and t1 or t2 or 0) / self.metre
+        told.impulse_n_s, told.tangential_n_s = (i == 1 and n1 or n2 or 0) / self.metre, -self.up * (i == 1 and t1 or t2 or 0) / self.metre
         told.approach_m_per_s = touch.approach and touch.approach[i] or -1e300
         told.fraction = touch.approach and touch.fraction or -1e300
         call(touch.is_new and "world_begin" or "world_push", self.name, told)
