@@ -82,6 +82,11 @@ public sealed class Live : IDisposable {
         LiveNative.Check(LiveNative.physvib_live_align(name, world.name, ref start[0]));
         return Send(world, start[0]);
     }
+    /// <summary>Session time of the time 0 of a followed world; 0: it is not followed yet.</summary>
+    public long StartNs(World world) {
+        long[] start;
+        return starts.TryGetValue(world, out start) ? start[0] : 0;
+    }
     public void SetGain(int channel, double gain) { LiveNative.Check(LiveNative.physvib_live_set_gain(name, channel, gain)); }
     public void SetMute(int channel, bool isMuted) { LiveNative.Check(LiveNative.physvib_live_set_mute(name, channel, isMuted ? 1 : 0)); }
     public void SetLayout(RendererSettings renderer) { LiveNative.Check(LiveNative.physvib_live_set_layout(name, ref renderer)); }
