@@ -41,7 +41,7 @@ static void draw(SDL_Renderer* to, double x, double y, double w, double h) {
 int main(int count, char** words) {
     const double seconds = count > 1 ? atof(words[1]) : INFINITY;
     double paddle[2] = {0.45, 0.45}, x = 0.8, y = 0.45, vx = 1.0, vy = 0.3, strongest[2] = {0, 0};
-    SDL_GameController* controllers[2];
+    SDL_GameController* controllers[2] = {NULL, NULL};
     int hits[2] = {0, 0}, j;
     physvib_world world;
     physvib_pads pads;
@@ -50,7 +50,6 @@ int main(int count, char** words) {
     if (SDL_Init(SDL_INIT_VIDEO | SDL_INIT_GAMECONTROLLER) != 0) failed("SDL");
     if (SDL_CreateWindowAndRenderer((int)(width * pixels), (int)(high * pixels), 0, &window, &to) != 0)
         failed("window");
-    for (j = left; j <= right; ++j) controllers[j] = SDL_GameControllerOpen(j); /* NULL: none */
     if (physvib_world_create(NULL, &world) || physvib_pads_create(2, 2 * reach, high, NULL, &pads))
         failed("world and pads");
     addBodies(world);
@@ -69,6 +68,7 @@ int main(int count, char** words) {
             const double speed = seconds < INFINITY ? 20.0 * (y - paddle[j])
                                  : j == left        ? stick(controllers[j], SDL_SCANCODE_W, SDL_SCANCODE_S)
                                              : stick(controllers[j], SDL_SCANCODE_UP, SDL_SCANCODE_DOWN);
+            if (controllers[j] == NULL) controllers[j] = SDL_GameControllerOpen(j);
             paddle[j] += 1.2 * dt * fmax(-1.0, fmin(1.0, speed));
             paddle[j] = fmax(reach, fmin(high - reach, paddle[j]));
             draw(to, face - 0.01 * away, paddle[j], 0.01, reach);
