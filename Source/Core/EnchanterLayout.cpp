@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Preset actuator layouts PHONE and RING with 1 to 4 actuators, and the validity check of any layout.
+// Preset actuator layouts: PHONE and RING with 1 to 4 actuators, and a pinball cabinet; and the validity
+// check of any layout.
 #include "Core/EnchanterLayout.h"
 #include <cmath>
 #include <cstddef>
@@ -18,13 +19,16 @@ constexpr std::array<EnchanterPlace, 2> sides{{{0.0, 0.5}, {1.0, 0.5}}};
 constexpr std::array<EnchanterPlace, 3> triangle{{{0.0, 1.0}, {1.0, 1.0}, {0.5, 0.0}}};
 constexpr std::array<EnchanterPlace, 4> corners{{{0.0, 1.0}, {1.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}};
 
+constexpr std::array nearFirst{corners[2], corners[3], corners[0], corners[1]};
+
 // The thesis gives no coordinates. Assumed: actuators on the back of a phone of about 138 x 69 mm, and on
 // fingers of two hands that hold a phone in landscape grip.
-constexpr EnchanterPlace phone{0.12, 0.06}, ring{0.16, 0.08};
-constexpr std::array presets{Preset{"phone1", phone, centre},   Preset{"phone2", phone, sides},
-                             Preset{"phone3", phone, triangle}, Preset{"phone4", phone, corners},
-                             Preset{"ring1", ring, centre},     Preset{"ring2", ring, sides},
-                             Preset{"ring3", ring, triangle},   Preset{"ring4", ring, corners}};
+// The inside of a virtual pinball cabinet of common size is assumed too; its first two are near the player.
+constexpr EnchanterPlace phone{0.12, 0.06}, ring{0.16, 0.08}, cabinet{0.56, 1.1};
+constexpr std::array presets{
+    Preset{"phone1", phone, centre},  Preset{"phone2", phone, sides}, Preset{"phone3", phone, triangle},
+    Preset{"phone4", phone, corners}, Preset{"ring1", ring, centre},  Preset{"ring2", ring, sides},
+    Preset{"ring3", ring, triangle},  Preset{"ring4", ring, corners}, Preset{"cabinet4", cabinet, nearFirst}};
 constexpr auto presetNames = [] {
     std::array<std::string_view, presets.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = presets[i].name;

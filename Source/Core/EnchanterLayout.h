@@ -30,7 +30,8 @@ extern const std::span<const std::string_view> layoutPresetNames;
 
 /// Fills `layout` with the preset of that name; false (and `layout` unchanged) if there is none. Any thread.
 /// PHONE4 and RING4 follow the thesis: A upper left, B upper right, C lower left, D lower right, at the
-/// corners. Extents and the presets with 1 to 3 actuators are assumptions (Docs/panning.md).
+/// corners. CABINET4: A front left, B front right, C back left, D back right. Extents and the presets with 1
+/// to 3 actuators are assumptions (Docs/panning.md).
 bool layoutPreset(std::string_view name, EnchanterLayout& layout) noexcept;
 
 } // namespace physvib

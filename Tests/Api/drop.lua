@@ -38,7 +38,8 @@ end
 local theirs = 0
 world:setCallbacks(function() theirs = theirs + 1 end)
 local physvib = require("physvib")
-local haptics = physvib.attach(world, {normalisation_s_per_m = 0.1, hand_mass_kg = 0})
+assert(select(2, pcall(physvib.attach, world, {})):find("field_height_m: expected"), "a height, as there is no window")
+local haptics = physvib.attach(world, {field_height_m = 2, normalisation_s_per_m = 0.1, hand_mass_kg = 0})
 local id = haptics:set(ball, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
 for _ = 1, 100 do haptics:update(0.01) end
 local events = haptics:take({}, true)
@@ -48,7 +49,7 @@ assert(#events > 0, "nothing was felt")
 assert(events[1].fixture == id and theirs > 0, "its callbacks were not called")
 assert(math.abs(tonumber(events[1].time_ns) * 1e-9 - 0.40) < 0.011, "onset " .. tonumber(events[1].time_ns))
 assert(math.abs(events[1].impulse_n_s - 0.2 * 1.7 * speed) < 0.05 * 0.2 * 1.7 * speed, "impulse " .. events[1].impulse_n_s)
-assert(math.abs(events[1].x_m - 0.3) < 1e-6, "place " .. events[1].x_m)
+assert(math.abs(events[1].x_m - 0.3) < 1e-6 and math.abs(events[1].y_m - 2) < 1e-6, "place " .. events[1].x_m .. ", " .. events[1].y_m)
 
 local later = 0
 world:setCallbacks(nil, nil, nil, function() later = later + 1 end) -- others, while it is attached
@@ -86,5 +87,52 @@ file:close()
 local peaks, felt = {0, 0, 0, 0}, require("ffi").cast("const float *", samples)
 for i = 0, #samples / 4 - 1 do peaks[i % 4 + 1] = math.max(peaks[i % 4 + 1], math.abs(felt[i])) end
 assert(peaks[1] > 0.1 and peaks[2] > 0.1 and peaks[3] < 1e-6 and peaks[4] < 1e-6, "upside down: " .. table.concat(peaks, " "))
+
+-- A hit at the top of the window, where LÖVE's y is 0, is felt at the upper two of four, A and B; also where places have LÖVE's y.
+local ffi = require("ffi")
+local still = {getCallbacks = function() end, setCallbacks = function() end}
+local function felt_at_top(height)
+    local x, y = physvib.attach(still, {field_height_m = height}):place(0.5 * metre, 0)
+    local top = ffi.new("physvib_event", {frequency_hz = 200, decay_per_s = 30, amplitude = 0.5, x_m = x, y_m = y, fixture = -1, other = -1})
+    physvib.save_wav(arg[1], {top}, 0.1, {field_width_m = 1, field_height_m = 1})
+    local file = assert(io.open(arg[1], "rb"))
+    local samples = file:read("*a"):match("data....(.*)")
+    file:close()
+    local peaks, felt = {0, 0, 0, 0}, ffi.cast("const float *", samples)
+    for i = 0, #samples / 4 - 1 do peaks[i % 4 + 1] = math.max(peaks[i % 4 + 1], math.abs(felt[i])) end
+    assert(peaks[1] > 0.1 and peaks[2] > 0.1 and peaks[3] < 1e-6 and peaks[4] < 1e-6, "upside down: " .. table.concat(peaks, " "))
+    return y
+end
+assert(felt_at_top(1) == 1, "y upwards")
+physvib.y_down = true
+assert(felt_at_top(nil) == 0, "LÖVE's y")
+physvib.y_down = false
+
+-- Two controllers: the second one's left grip feels what hits at the left. Commands are sent when they change, and every 0.1 s.
+local now, sent = 100, {}
+local function joystick(pad)
+    return {setVibration = function(_, low, high, seconds) sent[#sent + 1] = {pad = pad, low = low, high = high, seconds = seconds} end}
+end
+local pads, joysticks = physvib.pads({count = 2, field_width_m = 1, field_height_m = 1, clock = function() return now end}), {joystick(1), joystick(2)}
+pads:rumble(joysticks)
+assert(#sent == 0, "at rest")
+pads:strike(2, ffi.new("physvib_event", {frequency_hz = 90, decay_per_s = 5, amplitude = 1, x_m = 0, fixture = -1, other = -1}))
+for _ = 1, 60 do
+    now = now + 1 / 60
+    pads:rumble(joysticks)
+end
+assert(#sent > 3 and #sent < 40 and sent[1].pad == 2 and sent[1].low > 0.5 and sent[3].low > sent[3].high and sent[1].seconds == 0.2, "controller 2, left")
+pads:stop()
+now = now + 1
+pads:rumble(joysticks)
+assert(sent[#sent].low == 0 and sent[#sent].high == 0, "stopped")
+haptics:configure({})
+for _ = 1, 500 do haptics:update(0.01) end
+isTouching, falling.height, falling.speed = false, 0.8, 0
+for _ = 1, 100 do haptics:update(0.01) end
+assert(pads:follow(haptics, 1) > 0, "a world's events")
+now = now + 1 / 60
+assert(pads:pull()[0].high > 0.3 and pads:pull()[1].high == 0, "controller 1 alone")
+assert(select(2, pcall(physvib.pads, {clock = os.clock})):find("field: expected"), "a field")
 physvib.save_wav(arg[1], events, 1.5, {field_width_m = 1, field_height_m = 1})
 print(#events .. " hits, the first at " .. tonumber(events[1].time_ns) * 1e-9 .. " s: " .. arg[1])

@@ -205,6 +205,37 @@ class Package(unittest.TestCase):
         events = physvib.parse_events("time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.5,200,30,0.5,0,0\n")
         self.assertEqual(list(events["time_ns"]), [500_000_000])
 
+    def test_motors_get_the_commands_of_the_program(self) -> None:
+        random = np.random.default_rng(2)
+        events = physvib.events(np.cumsum(random.uniform(0.0, 0.08, 1000)) + 1.0, frequency_hz=random.uniform(20.0, 500.0, 1000), decay_per_s=random.uniform(5.0, 100.0, 1000),
+                                amplitude=random.uniform(0.0, 1.0, 1000), x_m=random.uniform(0.0, 1.0, 1000))
+        self.saved(events, field_m=(1.0, 1.0))
+        seconds = int(events["time_ns"][-1] * 1e-9) + 2
+        subprocess.run([program, "render", "--from-events", self.folder / "events.csv", "--pad", "pad-xbox", "--out", self.folder / "motors.csv", "--seconds", str(seconds)],
+                       check=True, capture_output=True)
+        lines = (self.folder / "motors.csv").read_text().splitlines()
+        written = [(float(time_s), (float(low), float(high))) for time_s, low, high in (line.split(",") for line in lines if line[0].isdigit())]
+        self.assertGreater(len(written), 1000)
+        with physvib.Pads(2, field_m=(1.0, 1.0), profile="pad-xbox") as pads:
+            pulled, last, told, frame_ns = [], (0.0, 0.0), 0, 4_000_000  # at most one command a frame
+            for now_ns in range(0, seconds * 1_000_000_000, frame_ns):
+                while told < 1000 and events["time_ns"][told] < now_ns + 100_000_000:
+                    pads.strike(1, events[told:told + 1])
+                    told += 1
+                still, motors = pads.pull(now_ns)
+                self.assertEqual(still, (0.0, 0.0))
+                if motors != last:
+                    pulled.append((now_ns * 1e-9, motors))
+                    last = motors
+            self.assertEqual([(0.0, 0.0)] + [motors for _, motors in pulled], [motors for _, motors in written])
+            self.assertLess(max(abs(a[0] - b[0]) for a, b in zip(pulled, written[1:])), frame_ns * 1e-9)
+            self.assertRaisesRegex(physvib.PhysVibError, "time: expected none before", pads.pull, 0)
+            pads.stop()
+            self.assertEqual(pads.pull(0), [(0.0, 0.0)] * 2)
+            pads.set_level(0.5)
+            self.assertEqual(pads.send(0, physvib.World()), 0)
+        self.assertRaisesRegex(physvib.PhysVibError, "pad-dualshock", physvib.Pads, profile="none")
+
     def test_every_public_name_is_described_and_has_types(self) -> None:
         functions = {name: getattr(physvib, name) for name in physvib.__all__ if callable(getattr(physvib, name))}
         for owner, what in list(functions.items()):

@@ -48,6 +48,10 @@ TEST(EnchanterLayout, FourSitOnTheCornersUpperLeftFirst) {
     expectPlaces("ring4", {{0.0, 0.08}, {0.16, 0.08}, {0.0, 0.0}, {0.16, 0.0}});
 }
 
+TEST(EnchanterLayout, ACabinetHasItsFrontBelowAndFirst) {
+    expectPlaces("cabinet4", {{0.0, 0.0}, {0.56, 0.0}, {0.0, 1.1}, {0.56, 1.1}});
+}
+
 TEST(EnchanterLayout, OneTwoAndThreeAreCentreSidesAndTriangle) {
     expectPlaces("phone1", {{0.06, 0.03}});
     expectPlaces("phone2", {{0.0, 0.03}, {0.12, 0.03}});

@@ -3,6 +3,7 @@
 #pragma once
 #include "Api/C/Calls.h"
 #include "Api/C/Handles.h"
+#include "Api/C/Pad.h"
 #include "Api/C/physvib.h"
 #include "Contacts/ContactFeed.h"
 #include "Core/EventQueue.h"
@@ -45,12 +46,25 @@ struct World {
     std::uint64_t late = 0, dropped = 0, rejected = 0; // of the output, at the last explanation
 };
 
+/// Controllers of a program that sends the motor commands itself.
+struct Pads {
+    std::mutex mutex;
+    std::vector<Pad> pads; // 1 or more
+    double level = 1.0;
+    bool has(int pad) const noexcept { return pad >= 0 && pad < std::ssize(pads); }
+    Pad& at(int pad) noexcept { return pads[static_cast<std::size_t>(pad)]; }
+};
+
 inline Handles<Renderer, 1>& renderers() {
     static auto* const all = new Handles<Renderer, 1>; // never destroyed: threads may outlive main
     return *all;
 }
 inline Handles<World, 2>& worlds() {
     static auto* const all = new Handles<World, 2>;
+    return *all;
+}
+inline Handles<Pads, 7>& allPads() {
+    static auto* const all = new Handles<Pads, 7>;
     return *all;
 }
 
@@ -60,6 +74,7 @@ inline auto use(physvib_renderer renderer) noexcept {
 inline auto use(physvib_world world) noexcept {
     return worlds().use(reinterpret_cast<std::uintptr_t>(world));
 }
+inline auto use(physvib_pads pads) noexcept { return allPads().use(reinterpret_cast<std::uintptr_t>(pads)); }
 
 /// Calls `call(World&)` with the world of that handle, under its mutex; returns its code or count.
 template <class Call>

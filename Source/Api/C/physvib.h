@@ -67,6 +67,7 @@ extern "C" {
 
 typedef struct physvib_renderer_name* physvib_renderer; /**< events in, samples out */
 typedef struct physvib_world_name* physvib_world;       /**< contacts in, events out */
+typedef struct physvib_pads_name* physvib_pads;         /**< events in, motor commands out */
 
 #define PHYSVIB_HIT 0   /**< kind of an event: two bodies met */
 #define PHYSVIB_ROLL 1  /**< a body rolled over a grain of a surface */
@@ -495,6 +496,43 @@ PHYSVIB_API int physvib_world_note(physvib_world world, int body, int note);
 /** Grains left out so far because there were more than 2,000 a second at one contact, or 50,000 in all; the
  * others are stronger by as much power. */
 PHYSVIB_API physvib_int64 physvib_world_thinned(physvib_world world);
+
+/* ---- Game controllers: events in, commands of their motors out. One at a time. ----
+ * For programs that have a rumble call of their own; Docs/pads-engines.md shows the calls of some engines.
+ * Times are those of any clock of the program's that never goes back, such as physvib_world_time_ns. */
+
+/** Commands of the two motors of a game controller. */
+typedef struct physvib_motors {
+    double low;  /**< of the heavy motor, in the left grip, 0 to 1 in steps of 0.01 */
+    double high; /**< of the light motor, in the right grip, 0 to 1 in steps of 0.01 */
+} physvib_motors;
+
+/** Creates `count` controllers (1 to 64), numbered from 0, whose left and right grips are the left and right
+ * ends of a field of that size. `profile`: NULL for "pad-generic", or the name or file of another
+ * (Docs/pads.md). PHYSVIB_ERROR_FILE: there is no such profile. Any thread. */
+PHYSVIB_API int physvib_pads_create(int count, double field_width_m, double field_height_m,
+                                    const char* profile, physvib_pads* pads);
+/** Frees them; waits for a call that is running on another thread. Any thread. */
+PHYSVIB_API int physvib_pads_free(physvib_pads pads);
+
+/** An event for a controller, at the time at which it is to be felt. Motors are slow, so the model wants it
+ * 0.03 s (`lead_s` of the profile) before that; a later one begins at the next pull and is felt as strong.
+ * PHYSVIB_ERROR_FULL: 256 are waiting. */
+PHYSVIB_API int physvib_pads_strike(physvib_pads pads, int pad, const physvib_event* event);
+/** Takes a world's events, as physvib_world_take does, for one controller, `later_ns` after their times.
+ * Returns how many; those for which there is no room are lost. */
+PHYSVIB_API physvib_int64 physvib_pads_send(physvib_pads pads, int pad, physvib_world world,
+                                            physvib_int64 later_ns, int at_once);
+/** The commands to send now, once per frame: motors[j] is that of controller j. `until_ns`: the time now.
+ * Per motor it is the strongest command since the last pull, so that a hit between two frames is not lost.
+ * `capacity` of `motors`: at least the number of controllers, which is returned. PHYSVIB_ERROR_ORDER: the
+ * time goes back. It does not allocate. */
+PHYSVIB_API int physvib_pads_pull(physvib_pads pads, physvib_int64 until_ns, physvib_motors* motors,
+                                  int capacity);
+/** For a pause, or a new level: discards all events; the next pull gives 0, and its time may be any. */
+PHYSVIB_API int physvib_pads_stop(physvib_pads pads);
+/** A gain of all events, 0 to 10,000 (1); 0 stops the motors. */
+PHYSVIB_API int physvib_pads_set_level(physvib_pads pads, double gain);
 
 #ifdef __cplusplus
 }

@@ -286,6 +286,39 @@ public sealed class Renderer : IDisposable {
     }
 }
 
+/// <summary>Commands of a controller's motors, 0 to 1: the heavy one in the left grip, the light one in the right grip.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct Motors {
+    public double Low, High;
+}
+
+/// <summary>Game controllers, for an engine that has a rumble call of its own: events in, motor commands out. One thread at a time.</summary>
+public sealed class Pads : IDisposable {
+    IntPtr name;
+    /// <summary>Controllers are numbered from 0. profile: a name or a file of Docs/pads.md.</summary>
+    public Pads(int count, double fieldWidth_m, double fieldHeight_m, string profile = "pad-generic") {
+        Native.Check(Native.physvib_pads_create(count, fieldWidth_m, fieldHeight_m, Native.Utf8(profile), out name));
+    }
+    ~Pads() { Dispose(); }
+    public void Dispose() {
+        if (name != IntPtr.Zero) Native.physvib_pads_free(name);
+        name = IntPtr.Zero;
+        GC.SuppressFinalize(this);
+    }
+    /// <summary>An event at the time at which it is to be felt; one that is over, at the next pull.</summary>
+    public void Strike(int pad, Event what) { Native.Check(Native.physvib_pads_strike(name, pad, ref what)); }
+    /// <summary>A world's events for one controller. How many.</summary>
+    public int Send(int pad, World world, long laterNs, bool atOnce = false) {
+        return (int)Native.Check(Native.physvib_pads_send(name, pad, world.name, laterNs, atOnce ? 1 : 0));
+    }
+    /// <summary>The commands to send now, into an array of yours with a place per controller: the strongest since the last pull.</summary>
+    public void Pull(long untilNs, Motors[] motors) { Native.Check(Native.physvib_pads_pull(name, untilNs, motors, motors.Length)); }
+    /// <summary>For a pause, or a new level: discards all events, and times may begin again.</summary>
+    public void Stop() { Native.Check(Native.physvib_pads_stop(name)); }
+    /// <summary>Of all events; 0 stops the motors.</summary>
+    public void SetLevel(double gain) { Native.Check(Native.physvib_pads_set_level(name, gain)); }
+}
+
 public static class Haptics {
     public static string Version { get { return Marshal.PtrToStringAnsi(Native.physvib_version()); } }
     public static long PlayOutNs(int rateHz, int blockFrames, int stepsPerS, double longestGapS) {
@@ -444,6 +477,13 @@ static class Native {
     [DllImport(Library)] internal static extern int physvib_output_facts_init(ref OutputFacts facts, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_world_explain_output(IntPtr world, ref OutputFacts facts, [Out] byte[] text, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_world_note(IntPtr world, int body, int note);
+    [DllImport(Library)] internal static extern int physvib_pads_create(int count, double fieldWidth, double fieldHeight, byte[] profile, out IntPtr pads);
+    [DllImport(Library)] internal static extern int physvib_pads_free(IntPtr pads);
+    [DllImport(Library)] internal static extern int physvib_pads_strike(IntPtr pads, int pad, ref Event what);
+    [DllImport(Library)] internal static extern long physvib_pads_send(IntPtr pads, int pad, IntPtr world, long laterNs, int atOnce);
+    [DllImport(Library)] internal static extern int physvib_pads_pull(IntPtr pads, long untilNs, [Out] Motors[] motors, int capacity);
+    [DllImport(Library)] internal static extern int physvib_pads_stop(IntPtr pads);
+    [DllImport(Library)] internal static extern int physvib_pads_set_level(IntPtr pads, double gain);
 }
 
 }

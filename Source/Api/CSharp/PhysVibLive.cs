@@ -52,7 +52,8 @@ public struct LiveStatus {
 /// <summary>A device ("JACK:system"), a board ("BOARD:auto"), or both ("JACK:system+BOARD:auto"). One at a time; strikes from any thread.</summary>
 public sealed class Live : IDisposable {
     IntPtr name;
-    long start;
+    // Session time of each followed world's time 0. A world that is collected leaves the table.
+    readonly System.Runtime.CompilerServices.ConditionalWeakTable<World, long[]> starts = new System.Runtime.CompilerServices.ConditionalWeakTable<World, long[]>();
     public Live(string device) : this(device, RendererSettings.Create(), LiveSettings.Create()) {}
     public Live(string device, RendererSettings renderer, LiveSettings settings) {
         LiveNative.Check(LiveNative.physvib_live_open(Native.Utf8(device), ref renderer, ref settings, out name));
@@ -79,10 +80,16 @@ public sealed class Live : IDisposable {
     }
     /// <summary>The events of a world whose time 0 is session time startNs. How many.</summary>
     public int Send(World world, long startNs, bool atOnce = false) { return (int)LiveNative.Check(LiveNative.physvib_live_send(name, world.name, startNs, atOnce ? 1 : 0)); }
-    /// <summary>For a world that is stepped as time goes on, after each step: sends what is final. How many.</summary>
+    /// <summary>For a world that is stepped as time goes on, after each step: sends what is final. How many. Each world keeps a rhythm of its own.</summary>
     public int Follow(World world) {
-        LiveNative.Check(LiveNative.physvib_live_align(name, world.name, ref start));
-        return Send(world, start);
+        var start = starts.GetValue(world, _ => new long[1]);
+        LiveNative.Check(LiveNative.physvib_live_align(name, world.name, ref start[0]));
+        return Send(world, start[0]);
+    }
+    /// <summary>Session time of the time 0 of a followed world; 0: it is not followed yet.</summary>
+    public long StartNs(World world) {
+        long[] start;
+        return starts.TryGetValue(world, out start) ? start[0] : 0;
     }
     public void SetGain(int channel, double gain) { LiveNative.Check(LiveNative.physvib_live_set_gain(name, channel, gain)); }
     public void SetMute(int channel, bool isMuted) { LiveNative.Check(LiveNative.physvib_live_set_mute(name, channel, isMuted ? 1 : 0)); }

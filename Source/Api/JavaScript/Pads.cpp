@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 // JavaScript exports for the two motors of a game controller, with the computation of the native sink.
 #include "Api/C/Convert.h"
+#include "Api/C/Pad.h"
 #include "Api/JavaScript/Exports.h"
-#include "Core/Pads/PadMotors.h"
 #include <array>
 #include <limits>
 
 namespace physvib::js {
 namespace {
 
-struct Pad {
-    Pad(const PadLaw& law, double width, double height)
-        : motors(law)
-        , commandsPerSecond(law.commandsPerSecond) {
-        EnchanterLayout field{width, height, 1, {}};
-        grips = PadMotors::gripsOf({field, PanningLaw::linear, 1.0, width, height});
-    }
-    PadMotors motors;
-    PhantomPanner grips;
-    double commandsPerSecond;
+/// A controller, and the place where JavaScript reads its commands.
+struct ScriptPad : api::Pad {
+    using Pad::Pad;
     std::array<double, 3> command{}; // ns, low, high
 };
 
@@ -28,7 +21,7 @@ extern "C" {
 
 /// `law`: the numbers of a PadLaw: low and high motor (threshold, half, full, rise, fall), then the others.
 /// Returns 0 and sets physvib_error() if they are invalid.
-Pad* PHYSVIB_JS(pad_create)(const double* law, double widthMetres, double heightMetres) {
+ScriptPad* PHYSVIB_JS(pad_create)(const double* law, double widthMetres, double heightMetres) {
     if (!(widthMetres > 0.0 && widthMetres <= 1e9 && heightMetres > 0.0 && heightMetres <= 1e9))
         return api::nothingThere("field: expected more than 0 m, to 10^9 m"), nullptr;
     const auto motorAt = [](const double* at) { return PadMotor{at[0], at[1], at[2], at[3], at[4]}; };
@@ -45,35 +38,37 @@ Pad* PHYSVIB_JS(pad_create)(const double* law, double widthMetres, double height
           wanted.floor > 0.0 && wanted.exponent > 0.0))
         return api::nothingThere("pad: expected 1 to 1000 commands a second, and numbers as in Docs/pads.md"),
                nullptr;
-    return new Pad{wanted, widthMetres, heightMetres};
+    return new ScriptPad{wanted, widthMetres, heightMetres};
 }
 
-void PHYSVIB_JS(pad_free)(Pad* pad) { delete pad; }
+void PHYSVIB_JS(pad_free)(ScriptPad* pad) { delete pad; }
 
 /// Queues an event at the time at which it is to be felt. Returns 0, or an error.
-int PHYSVIB_JS(pad_strike)(Pad* pad, const physvib_event* event) {
+int PHYSVIB_JS(pad_strike)(ScriptPad* pad, const physvib_event* event) {
     if (const auto fault = api::faultOf({event, 1}); !fault.empty())
         return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
-    pad->motors.strike(api::eventOf(*event), pad->grips);
+    pad->strike(api::eventOf(*event));
     return PHYSVIB_OK;
 }
 
 /// Time of the next command, ns; infinity: the motors are at rest.
-double PHYSVIB_JS(pad_due)(const Pad* pad) {
-    const std::int64_t dueNs = pad->motors.dueNs();
+double PHYSVIB_JS(pad_due)(ScriptPad* pad) {
+    const std::int64_t dueNs = pad->motors().dueNs();
     return dueNs == PadMotors::never ? std::numeric_limits<double>::infinity() : static_cast<double>(dueNs);
 }
 
 /// The next command: ns, low, high.
-const double* PHYSVIB_JS(pad_next)(Pad* pad, double level) {
-    const PadCommand next = pad->motors.next(level);
+const double* PHYSVIB_JS(pad_next)(ScriptPad* pad, double level) {
+    const PadCommand next = pad->motors().next(level);
     pad->command = {static_cast<double>(next.timeNs), next.low, next.high};
     return pad->command.data();
 }
 
-void PHYSVIB_JS(pad_stop)(Pad* pad, double atNs) { pad->motors.stop(static_cast<std::int64_t>(atNs)); }
-double PHYSVIB_JS(pad_lost)(const Pad* pad) { return static_cast<double>(pad->motors.lost()); }
-double PHYSVIB_JS(pad_commands_per_second)(const Pad* pad) { return pad->commandsPerSecond; }
+void PHYSVIB_JS(pad_stop)(ScriptPad* pad, double atNs) {
+    pad->motors().stop(static_cast<std::int64_t>(atNs));
+}
+double PHYSVIB_JS(pad_lost)(ScriptPad* pad) { return static_cast<double>(pad->motors().lost()); }
+double PHYSVIB_JS(pad_commands_per_second)(ScriptPad* pad) { return pad->law().commandsPerSecond; }
 }
 
 } // namespace physvib::js

@@ -11,7 +11,8 @@ list(GET numbers 1 PROJECT_VERSION_MINOR)
 list(GET numbers 2 PROJECT_VERSION_PATCH)
 string(REPLACE ";" "." PROJECT_VERSION "${numbers}")
 configure_file(${physvib_root}/Source/Package/Version.h.in include/physvib/Version.h @ONLY)
-# JavaScript calls all functions of the header except those of files, which a page lacks, and of materials, for which it has materials.js; it reads all members of its structures.
+# JavaScript calls all functions of the header except those of files, which a page lacks, of materials, for which it has materials.js, and of pads (Pads.cpp);
+# it reads all members of its structures.
 set(header ${physvib_root}/Source/Api/C/physvib.h)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
 file(READ ${header} text)
@@ -27,7 +28,7 @@ foreach(line IN LISTS lines)
     elseif(line MATCHES "^}" AND structure)
         string(APPEND members "END(${structure})\n")
         unset(structure)
-    elseif(NOT line MATCHES "_(load|save|parse)(_field)?\\(|physvib_(material|material_name|sound|event_of|renderer_impact|renderer_impact_of)\\(" AND line MATCHES "^PHYSVIB_API .*(physvib_[a-z_]+)\\(")
+    elseif(NOT line MATCHES "_(load|save|parse)(_field)?\\(|physvib_(material|material_name|sound|event_of|renderer_impact|renderer_impact_of)\\(|physvib_pads_" AND line MATCHES "^PHYSVIB_API .*(physvib_[a-z_]+)\\(")
         list(APPEND exports -Wl,--export=${CMAKE_MATCH_1})
     endif()
 endforeach()

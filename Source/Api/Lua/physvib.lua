@@ -5,11 +5,13 @@
 --     haptics:set(ball_fixture, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
 --     function love.update(dt) haptics:update(dt) end       -- instead of world:update(dt)
 --
--- Lengths of LÖVE are pixels: love.physics.getMeter() of them are a metre. Numbers of this file are SI, as their names say.
+-- Lengths of LÖVE are pixels: love.physics.getMeter() of them are a metre. Numbers of this file are SI, as their names say. LÖVE's y points
+-- down; places of events have y upwards from the lower edge of the field, as everywhere in PhysVib (physvib.y_down = true: as LÖVE's).
 local ffi = require("ffi")
 ffi.cdef [[
 typedef struct physvib_renderer_name *physvib_renderer;
 typedef struct physvib_world_name *physvib_world;
+typedef struct physvib_pads_name *physvib_pads;
 typedef struct { int64_t time_ns, duration_ns; double frequency_hz, decay_per_s, amplitude, x_m, y_m, impulse_n_s, mass_kg; int fixture, other, kind, sound; } physvib_event;
 typedef struct { double extent_width_m, extent_height_m, x_m[64], y_m[64]; int count; } physvib_layout;
 typedef struct { size_t size; int rate_hz, channels, law, limiter; double exponent, field_width_m, field_height_m; physvib_layout layout; } physvib_renderer_settings;
@@ -89,6 +91,14 @@ int physvib_output_facts_init(physvib_output_facts *, size_t);
 int physvib_world_explain_output(physvib_world, const physvib_output_facts *, char *, size_t);
 int physvib_renderer_explain(physvib_renderer, physvib_world, char *, size_t);
 int physvib_world_note(physvib_world, int, int);
+typedef struct { double low, high; } physvib_motors;
+int physvib_pads_create(int, double, double, const char *, physvib_pads *);
+int physvib_pads_free(physvib_pads);
+int physvib_pads_strike(physvib_pads, int, const physvib_event *);
+int64_t physvib_pads_send(physvib_pads, int, physvib_world, int64_t, int);
+int physvib_pads_pull(physvib_pads, int64_t, physvib_motors *, int);
+int physvib_pads_stop(physvib_pads);
+int physvib_pads_set_level(physvib_pads, double);
 
 typedef struct physvib_live_name *physvib_live;
 typedef struct { size_t size; int rate_hz, block_frames, steps_per_s; double longest_gap_s, level_db; char save[1024]; } physvib_live_settings;
@@ -138,12 +148,13 @@ local function filled(kind, values, from)
 end
 physvib.filled = filled
 
--- Settings of a renderer that takes LÖVE's places: there y points down, in a layout up. So its layout is turned over: what hits at the
--- top of the window is felt at the upper actuators.
+-- Settings of a renderer for a world's events. Under physvib.y_down its layout is turned over, so that the top of the window is felt at the
+-- upper actuators either way. Set y_down once, before attach and open.
+physvib.y_down = false
 function physvib.rendered(values)
     local made = filled("renderer_settings", values)
     local layout = made.layout
-    for j = 0, layout.count - 1 do layout.y_m[j] = layout.extent_height_m - layout.y_m[j] end
+    for j = 0, physvib.y_down and layout.count - 1 or -1 do layout.y_m[j] = layout.extent_height_m - layout.y_m[j] end
     return made
 end
 
@@ -184,15 +195,33 @@ end
 local Attachment = {}
 Attachment.__index = Attachment
 
--- `world`: a love.physics world. Its callbacks go on being called: those that are there, and those set later.
+-- `world`: a love.physics world. Its callbacks go on being called: those that are there, and those set later. `settings` of
+-- physvib_world_settings, and field_height_m: the y (in metres) at which LÖVE's world ends below; without it that of the window.
 function physvib.attach(world, settings)
     local self = setmetatable({world = world, metre = love.physics.getMeter(), ids = {}, next = 0, touching = {}, starts = {}}, Attachment)
     local name = ffi.new("physvib_world[1]")
-    call("world_create", filled("world_settings", settings), name)
+    call("world_create", self:taken(settings), name)
     self.name = ffi.gc(name[0], c.physvib_world_free)
     self.contact = filled("contact")
     self:listen()
     return self
+end
+
+-- The settings of the library; the field's height is this file's.
+function Attachment:taken(settings)
+    local theirs = {}
+    for key, value in pairs(settings or {}) do theirs[key] = value end
+    local window = love.graphics and love.graphics.getHeight() / self.metre or 0
+    local height = theirs.field_height_m or self.height or (window > 0 and window)
+    if not (physvib.y_down or height) then error("physvib: field_height_m: expected the field's height in metres, as there is no window", 3) end
+    self.height, theirs.field_height_m = height, nil
+    self.up = physvib.y_down and 1 or -1
+    return filled("world_settings", theirs)
+end
+
+-- LÖVE's place as that of an event: metres, y upwards.
+function Attachment:place(x, y)
+    return x / self.metre, (self.up < 0 and self.height or 0) + self.up * y / self.metre
 end
 
 -- A fixture's values: frequency_hz, decay_per_s, is_camera..., see physvib_body; mass_kg is its body's.
@@ -298,9 +327,9 @@ end
 function Attachment:move(fixture)
     local body = fixture:getBody()
     if body:getType() == "static" then return end
-    local x, y = body:getWorldCenter()
+    local x, y = self:place(body:getWorldCenter())
     local vx, vy = body:getLinearVelocity()
-    call("world_move", self.name, self.ids[fixture], x / self.metre, y / self.metre, vx / self.metre, vy / self.metre, body:getAngularVelocity())
+    call("world_move", self.name, self.ids[fixture], x, y, vx / self.metre, self.up * vy / self.metre, self.up * body:getAngularVelocity())
 end
 
 -- LÖVE tells impulses in kg pixels/s: one or two points, normal and tangential. A point that was not there in the step before is a blow if it
@@ -312,11 +341,13 @@ function Attachment:push(a, b, contact, n1, t1, n2, t2)
     if not (touch and x) then return end
     local told = self.contact
     told.a, told.b = ia, ib
-    told.normal_x, told.normal_y = contact:getNormal()
+    local nx, ny = contact:getNormal()
+    told.normal_x, told.normal_y = nx, self.up * ny
+    -- LÖVE's tangent is its normal turned by a quarter to the right, PhysVib's to the left; upwards these are the same.
     told.point_id = -2 -- by place
     for i = 1, x2 and 2 or 1 do
-        told.x_m, told.y_m = (i == 1 and x or x2) / self.metre, (i == 1 and y or y2) / self.metre
-        told.impulse_n_s, told.tangential_n_s = (i == 1 and n1 or n2 or 0) / self.metre, (i == 1 and t1 or t2 or 0) / self.metre
+        told.x_m, told.y_m = self:place(i == 1 and x or x2, i == 1 and y or y2)
+        told.impulse_n_s, told.tangential_n_s = (i == 1 and n1 or n2 or 0) / self.metre, -self.up * (i == 1 and t1 or t2 or 0) / self.metre
         told.approach_m_per_s = touch.approach and touch.approach[i] or -1e300
         told.fraction = touch.approach and touch.fraction or -1e300
         call(touch.is_new and "world_begin" or "world_push", self.name, told)
@@ -356,7 +387,7 @@ function Attachment:update(dt)
 end
 
 -- Its settings from the next step on (is_muted, drive_gain...): all of them, those that are not given as at first.
-function Attachment:configure(settings) call("world_configure", self.name, filled("world_settings", settings)) end
+function Attachment:configure(settings) call("world_configure", self.name, self:taken(settings)) end
 -- How two kinds of surfaces (`surface` of their values, above 0) sound together.
 function Attachment:pair(surface, other, frequency_hz, decay_per_s, gain) call("world_pair", self.name, surface, other, frequency_hz, decay_per_s, gain or 1) end
 -- Hits lost so far because more came in a step than there is room for; grains left out, their power being in the others.
@@ -441,7 +472,7 @@ Live.__index = Live
 -- named by PHYSVIB_LIVE_LIBRARY. `settings` of physvib_live_settings, `renderer` of physvib_renderer_settings.
 function physvib.open(device, settings, renderer)
     local from = ffi.load(os.getenv("PHYSVIB_LIVE_LIBRARY") or (library:gsub("libphysvib%.so", "libphysvib-live.so")))
-    local self = setmetatable({c = from, call = caller(from, "physvib_live_"), start = ffi.new("int64_t[1]")}, Live)
+    local self = setmetatable({c = from, call = caller(from, "physvib_live_"), starts = setmetatable({}, {__mode = "k"})}, Live)
     local name = ffi.new("physvib_live[1]")
     self.call("open", device, physvib.rendered(renderer), filled("live_settings", settings, from), name)
     self.name = ffi.gc(name[0], from.physvib_live_close)
@@ -449,11 +480,13 @@ function physvib.open(device, settings, renderer)
 end
 
 -- After each update of a world that goes on with time: what is final is felt L after it happened. Appended to `events`, if they are given,
--- with their session times.
+-- with their session times. Each world has a session time of its own at which it began (`starts`), so it keeps its rhythm beside others.
 function Live:follow(haptics, events)
-    self.call("align", self.name, haptics.name, self.start)
+    local start = self.starts[haptics] or ffi.new("int64_t[1]")
+    self.starts[haptics] = start
+    self.call("align", self.name, haptics.name, start)
     for _, event in ipairs(haptics:take({})) do
-        event.time_ns = math.max(0, tonumber(event.time_ns + self.start[0])) -- before all began: at once
+        event.time_ns = math.max(0, tonumber(event.time_ns + start[0])) -- before all began: at once
         self:strike(event)
         if events then events[#events + 1] = event end
     end
@@ -489,5 +522,50 @@ function Live:close()
     self.call("close", ffi.gc(self.name, nil))
     self.name = nil
 end
+
+local Pads = {}
+Pads.__index = Pads
+
+-- Motors of game controllers, by love.joystick: no device of PhysVib's is needed. `settings`: field_width_m and field_height_m; count (1);
+-- profile ("pad-generic", see Docs/pads.md); clock (love.timer.getTime). Controllers are counted from 1, as LÖVE's.
+function physvib.pads(settings)
+    local self = setmetatable({count = settings.count or 1, clock = settings.clock or love.timer.getTime, sent = {}}, Pads)
+    local name = ffi.new("physvib_pads[1]")
+    call("pads_create", self.count, settings.field_width_m or 0, settings.field_height_m or 0, settings.profile, name)
+    self.name, self.motors = ffi.gc(name[0], c.physvib_pads_free), ffi.new("physvib_motors[?]", self.count)
+    return self
+end
+
+function Pads:now_ns() return self.clock() * 1e9 end
+-- An event that one controller feels now.
+function Pads:strike(pad, event)
+    local now = ffi.new("physvib_event", event)
+    now.time_ns = self:now_ns()
+    call("pads_strike", self.name, pad - 1, now)
+end
+-- After each update of a world: all that happened in it is felt by that controller, now.
+function Pads:follow(haptics, pad)
+    return call("pads_send", self.name, (pad or 1) - 1, haptics.name, self:now_ns() - tonumber(c.physvib_world_time_ns(haptics.name)), 1)
+end
+-- The commands of a frame: motors[0].low and .high, from 0 to 1, and so on.
+function Pads:pull()
+    call("pads_pull", self.name, self:now_ns(), self.motors, self.count)
+    return self.motors
+end
+-- Once per frame: sends them to LÖVE's joysticks, controller 1 to joysticks[1]. One lasts 0.2 s, so that motors stop soon if the game does.
+function Pads:rumble(joysticks)
+    local motors, now = self:pull(), self.clock()
+    for pad = 1, self.count do
+        local low, high, sent = motors[pad - 1].low, motors[pad - 1].high, self.sent[pad] or {low = 0, high = 0, at = now}
+        local isSame = sent.low == low and sent.high == high
+        if joysticks[pad] and not (isSame and (low + high == 0 or now < sent.at + 0.1)) then
+            joysticks[pad]:setVibration(low, high, 0.2)
+            self.sent[pad] = {low = low, high = high, at = now}
+        end
+    end
+end
+-- For a pause, or a new level: what was struck is discarded.
+function Pads:stop() call("pads_stop", self.name) end
+function Pads:set_level(gain) call("pads_set_level", self.name, gain) end
 
 return physvib

@@ -49,7 +49,7 @@ function onset()
         local world = love.physics.newWorld(0, 9.81 * metre)
         local floor = love.physics.newFixture(love.physics.newBody(world, 300, 590, "static"), love.physics.newRectangleShape(600, 20))
         local ball = love.physics.newFixture(love.physics.newBody(world, 300, 570 - height, "dynamic"), love.physics.newCircleShape(10))
-        local haptics = physvib.attach(world, {field_width_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
+        local haptics = physvib.attach(world, {field_width_m = 20, field_height_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
         haptics:set(ball, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
         local events, meets = {}, nil
         for step = 0, 150 do
@@ -72,7 +72,7 @@ function pole()
     local body = love.physics.newBody(world, 300, 560, "dynamic") -- its foot at 590
     local stick = love.physics.newFixture(body, love.physics.newRectangleShape(3, 2 * metre), 1)
     stick:setFriction(1) floor:setFriction(1)
-    local haptics = physvib.attach(world, {field_width_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
+    local haptics = physvib.attach(world, {field_width_m = 20, field_height_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
     haptics:set(stick, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
     for _ = 1, 30 do haptics:update(dt) end
     body:setAngularVelocity(0.6)
@@ -95,7 +95,7 @@ function love.load()
     local plain, felt = room(), room()
     listen(plain)
     listen(felt)
-    local haptics = physvib.attach(felt.world, {field_width_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
+    local haptics = physvib.attach(felt.world, {field_width_m = 20, field_height_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
     haptics:set(felt.balls[1], {frequency_hz = 200, decay_per_s = 30, is_camera = true})
     local events = {}
     for step = 1, steps do

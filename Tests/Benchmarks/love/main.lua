@@ -28,7 +28,7 @@ local function seconds(balls, hasCallbacks, isFelt)
     local world, ball = room(balls, hasCallbacks)
     local update = function() world:update(dt) end
     if isFelt then
-        local haptics, events = physvib.attach(world, {field_width_m = 20}), {}
+        local haptics, events = physvib.attach(world, {field_width_m = 20, field_height_m = 20}), {}
         haptics:set(ball, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
         update = function() haptics:update(dt) haptics:take(events) end
     end

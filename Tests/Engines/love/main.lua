@@ -34,7 +34,7 @@ function make.world(rate, restitution, mu, seconds)
         local _, vy = other:getLinearVelocity()
         if -vy > 0.01 * metre or -other:getY() < -platform:getY() + 0.05 * metre then contact:setEnabled(false) end
     end)
-    haptics = physvib.attach(world, {normalisation_s_per_m = 1, hand_mass_kg = 0})
+    haptics = physvib.attach(world, {field_height_m = 0, normalisation_s_per_m = 1, hand_mass_kg = 0})
 end
 function make.body(kind, id, x, y, angle, width, height, mass, vx, vy, spin, source)
     local body = love.physics.newBody(world, x * metre, -y * metre, mass > 0 and "dynamic" or "static")
@@ -84,7 +84,7 @@ function love.load(words)
         print_motions(step)
     end
     for _, e in ipairs(haptics:take({}, true)) do
-        print(("e %.9f %d %d %.7g %.7g %.7g"):format(tonumber(e.time_ns) * 1e-9, bodies.ids[e.fixture], bodies.ids[e.other] or -1, e.impulse_n_s, e.x_m, -e.y_m))
+        print(("e %.9f %d %d %.7g %.7g %.7g"):format(tonumber(e.time_ns) * 1e-9, bodies.ids[e.fixture], bodies.ids[e.other] or -1, e.impulse_n_s, e.x_m, e.y_m))
     end
     love.event.quit(0)
 end

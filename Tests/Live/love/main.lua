@@ -26,7 +26,7 @@ function love.load(arguments)
         if begun[contact] and (a == balls[1] or b == balls[1]) then blows[#blows + 1] = {step = #steps + 1, impulse = (impulse + (second_impulse or 0)) / metre} end
         begun[contact] = nil
     end)
-    haptics = physvib.attach(world, {field_width_m = 20, full_scale_impulse_n_s = physvib.automatic})
+    haptics = physvib.attach(world, {field_width_m = 20, field_height_m = 20, full_scale_impulse_n_s = physvib.automatic})
     haptics:set(balls[1], {frequency_hz = 200, decay_per_s = 30, is_camera = true})
     live = physvib.open("JACK:system", {level_db = 0, steps_per_s = 60, longest_gap_s = 0.3}, -- however busy the machine is
         {field_width_m = 20, field_height_m = 20})
@@ -66,7 +66,7 @@ local function ownClockAgrees(starts)
 end
 
 function finish()
-    local count, start = #told, tonumber(live.start[0])
+    local count, start = #told, tonumber(live.starts[haptics][0])
     while tonumber(live:status().played) < count do love.timer.sleep(0.005) end
     local stop = live:now_ns() + live:latency_ns() + 0.7 * second -- the last hit has rung out
     while live:now_ns() < stop do love.timer.sleep(0.005) end

@@ -81,6 +81,10 @@ class COutputFacts(Structure):
                 ("renderer", POINTER(CRendererSettings))]
 
 
+class CMotors(Structure):
+    _fields_ = [("low", c_double), ("high", c_double)]
+
+
 def load(path: str, signatures: dict[str, tuple], long: frozenset[str]) -> SimpleNamespace:
     """The functions of a library. Those that are `long` let other threads of Python run. The others take microseconds and keep the interpreter: to have it
     back from three busy threads takes up to 15 ms (sys.getswitchinterval for each), three times in every step of a world."""
@@ -137,6 +141,9 @@ _signatures = {
     "world_push": (c_int, _handle, POINTER(CContact)), "world_end": (c_int, _handle, c_int, c_int),
     "world_time_ns": (c_int64, _handle), "world_take": (c_int64, _handle, _events, c_int64, c_int),
     "world_send": (c_int64, _handle, _handle, c_int64, c_int), "world_drops": (c_int64, _handle), "world_thinned": (c_int64, _handle),
+    "pads_create": (c_int, c_int, c_double, c_double, c_char_p, POINTER(_handle)), "pads_free": (c_int, _handle), "pads_strike": (c_int, _handle, c_int, _events),
+    "pads_send": (c_int64, _handle, c_int, _handle, c_int64, c_int), "pads_pull": (c_int, _handle, _time, POINTER(CMotors), c_int),
+    "pads_stop": (c_int, _handle), "pads_set_level": (c_int, _handle, c_double),
 }
 _long = frozenset({"material_load", "layout_load", "layout_save", "events_load", "events_load_field", "events_save_field", "wav_save", "render", "renderer_create", "renderer_pull"})
 library = load(_path(), _signatures, _long)
