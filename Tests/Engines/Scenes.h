@@ -9,11 +9,9 @@
 
 namespace scenes {
 
-constexpr double radius = 0.1, massKg = 1.0;
+constexpr double massKg = 1.0;
 constexpr double allowedMs = 0.1, allowedPart = 0.02; ///< of onsets and of amplitudes, against pencil and
                                                       ///< paper and against its own motion
-
-inline double msOf(const physvib_event& event) { return static_cast<double>(event.time_ns) * 1e-6; }
 
 /// A drop of 0.8 m and the bounce after it.
 inline bool drop(const char* name, Engine& engine, int rate) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Box2D 3 through its adapter, in the scenes of the others. No Debian package has it: Tests/Engines/box2d3.sh
 // compiles it.
+#include "Falls.h"
 #include "Scenes.h"
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <physvib/engines/physvib_box2d3.h>
 
@@ -15,6 +17,11 @@ struct Box2d3 final : scenes::Engine {
         b2WorldDef def = b2DefaultWorldDef();
         def.gravity = {0, static_cast<float>(-g)};
         def.enableSleep = false;
+#if defined(b2_maxPolygonVertices)
+        def.enableContinous = isContinuous;
+#else
+        def.enableContinuous = isContinuous;
+#endif
         haptics = {};
         haptics.world = world;
         haptics.box2d = b2CreateWorld(&def);
@@ -48,6 +55,7 @@ struct Box2d3 final : scenes::Engine {
         def.rotation = b2MakeRot(static_cast<float>(from.angle));
         def.linearVelocity = {static_cast<float>(from.vx), static_cast<float>(from.vy)};
         def.angularVelocity = static_cast<float>(from.spin);
+        def.isBullet = from.isBullet;
         const double area =
             from.isBox ? from.width * from.height : 3.14159265358979 * from.width * from.width / 4;
         b2ShapeDef shape = b2DefaultShapeDef();
@@ -143,5 +151,6 @@ struct Box2d3 final : scenes::Engine {
 
 int main(int count, char** words) {
     Box2d3 engine;
+    if (count > 1 && std::strcmp(words[1], "falls") == 0) return scenes::falls("Box2D 3", engine) ? 0 : 1;
     return scenes::run("Box2D 3", engine, count, words);
 }
