@@ -26,22 +26,40 @@ inline double firstOnset(Engine& engine, double seconds, double dt) {
 /// Of two deviations the one that is farther from 0; NaN is farther than any number.
 inline double worse(double a, double b) { return std::fabs(a) >= std::fabs(b) || std::isnan(a) ? a : b; }
 
-/// How many ms late a ball, a box that lands flat and one that lands on its corner are felt: the worst.
+/// How far the lowest point of a box of 0.2 m lies below its centre.
+inline double reachOf(double angle) {
+    return 0.1 * (std::fabs(std::cos(angle)) + std::fabs(std::sin(angle)));
+}
+
+/// When a box that falls from so high and turns has its first corner on the floor.
+inline double meetsTurning(double height, double angle, double spin) {
+    const double y = height + reachOf(angle);
+    double t = 0.0;
+    while (y - 0.5 * gravity * t * t > reachOf(angle + spin * t)) t += 1e-6;
+    return t;
+}
+
+/// How many ms late a ball and three boxes are felt, which land flat, on a corner, and turning: the worst.
 inline double fall(Engine& engine, double height, int rate) {
     const double dt = 1.0 / rate;
     double off = 0.0;
+    struct Shape {
+        bool isBox;
+        double angle, spin;
+    };
     for (int phase = 0; phase < phases; ++phase)
-        for (const double angle : {-1.0, 0.0, 0.4}) { // -1: a ball
+        for (const auto& [isBox, angle, spin] :
+             {Shape{false, 0.0, 0.0}, Shape{true, 0.0, 0.0}, Shape{true, 0.4, 0.0}, Shape{true, 0.2, 3.0}}) {
             const double h = height + 0.3 * std::sqrt(2.0 * gravity * height) * dt * phase / phases,
-                         paper = std::sqrt(2.0 * h / gravity);
+                         paper = spin != 0.0 ? meetsTurning(h, angle, spin) : std::sqrt(2.0 * h / gravity);
             engine.world = plainWorld();
             engine.begin(dt, gravity, 0.5, 0.5);
             engine.floor();
-            const double reach = angle < 0.0 ? 0.1 : 0.1 * (std::cos(angle) + std::sin(angle));
-            engine.add({.isBox = angle >= 0.0,
-                        .y = reach + h,
-                        .angle = std::fmax(0.0, angle),
+            engine.add({.isBox = isBox,
+                        .y = h + (isBox ? reachOf(angle) : radius),
+                        .angle = angle,
                         .vy = 0.5 * gravity * dt / engine.subSteps, // ends of steps lie on the parabola
+                        .spin = spin,
                         .isSource = true});
             off = worse(firstOnset(engine, paper, dt) - 1e3 * paper, off);
         }

@@ -52,7 +52,8 @@ struct Box2d3 final : scenes::Engine {
         b2BodyDef def = b2DefaultBodyDef();
         def.type = from.massKg > 0 ? b2_dynamicBody : b2_staticBody;
         def.position = {static_cast<float>(from.x), static_cast<float>(from.y)};
-        def.rotation = b2MakeRot(static_cast<float>(from.angle));
+        // b2MakeRot of 3.1 is off by up to 0.1 degrees
+        def.rotation = {std::cos(static_cast<float>(from.angle)), std::sin(static_cast<float>(from.angle))};
         def.linearVelocity = {static_cast<float>(from.vx), static_cast<float>(from.vy)};
         def.angularVelocity = static_cast<float>(from.spin);
         def.isBullet = from.isBullet;

@@ -33,12 +33,13 @@
 
 /** A body of Box2D and its number. */
 typedef struct physvib_box2d3_number {
-    b2BodyId body;                        /**< the body when it got its number */
-    int id;                               /**< -1: removed, or it never had one */
-    int is_told;                          /**< its error was returned */
-    double x_m, y_m, vx, vy;              /**< before the step; after it: as the step left them */
-    double free_vx, free_vy;              /**< what the velocity becomes in the step if nothing is touched */
-    double lost_x_m, lost_y_m, lost_spin; /**< see physvib_box2d3_stop */
+    b2BodyId body;                       /**< the body when it got its number */
+    int id;                              /**< -1: removed, or it never had one */
+    int is_told;                         /**< its error was returned */
+    double x_m, y_m, vx, vy;             /**< before the step; after it: as the step left them */
+    double spin;                         /**< before the step */
+    double free_vx, free_vy;             /**< what the velocity becomes in the step if nothing is touched */
+    double lost_x_m, lost_y_m, lost_rad; /**< see physvib_box2d3_stop */
 } physvib_box2d3_number;
 
 /** State between two steps; zero it, and set `world` and `box2d`. */
@@ -54,7 +55,8 @@ typedef struct physvib_box2d3 {
     int capacity;                              /**< of `numbers` */
     b2ContactData* found;                      /**< contacts of one body */
     int found_capacity;                        /**< of `found` */
-    double last_seconds, h;                    /**< the last step's length; that of a sub-step of this one */
+    double sub_step_s;                         /**< length of a sub-step */
+    double last_step_s;                        /**< length of the step before */
 } physvib_box2d3;
 
 /* An error of this step; `number`: the body that made it, or NULL. What was not told before comes first. */
@@ -139,21 +141,29 @@ PHYSVIB_UNUSED static double physvib_box2d3_pull(b2WorldId world, b2BodyId body,
 }
 
 /* How far the last step would have moved a body's point on, along the normal: 0 unless continuous collision
- * stopped the body. */
+ * stopped the body. `arm`: from the centre of mass to the point. */
 PHYSVIB_UNUSED static double physvib_box2d3_lost(const physvib_box2d3* haptics, b2BodyId body, b2Vec2 normal,
-                                                 const physvib_contact* at) {
+                                                 b2Vec2 arm) {
     const physvib_box2d3_number* number = &haptics->numbers[body.index1];
-    return (number->lost_x_m - number->lost_spin * (at->y_m - number->y_m)) * normal.x +
-           (number->lost_y_m + number->lost_spin * (at->x_m - number->x_m)) * normal.y;
+    return (number->lost_x_m - number->lost_rad * arm.y) * normal.x +
+           (number->lost_y_m + number->lost_rad * arm.x) * normal.y;
 }
 
-/* When two surfaces meet, in steps after the start of this one; before 0: in the step before. Sub-steps
- * change the velocity before they move a body, so its path is that of a body that is faster by half a
- * sub-step's gravity. Box2D pushes up to a sub-step before they meet. */
+/* Acceleration of a body's point towards its centre, along the normal. */
+PHYSVIB_UNUSED static double physvib_box2d3_turn(const physvib_box2d3* haptics, b2BodyId body, b2Vec2 normal,
+                                                 b2Vec2 arm) {
+    const double spin = haptics->numbers[body.index1].spin;
+    return -spin * spin * (arm.x * normal.x + arm.y * normal.y);
+}
+
+/* When a gap closes, in steps after the start of this one; a gap below 0 has closed in the step before.
+ * Sub-steps change the velocity before they move a body, so its path is that of a body that is faster by half
+ * a sub-step's gravity. Box2D pushes up to a sub-step before they meet: then it closes after this step. */
 PHYSVIB_UNUSED static double physvib_box2d3_fraction(const physvib_box2d3* haptics, double gap, double speed,
                                                      double pull, double seconds) {
-    const double start = speed + 0.5 * pull * haptics->h, root = fmax(0, start * start + 2 * pull * gap),
-                 length = gap < 0 ? haptics->last_seconds : seconds;
+    const double start = fmax(0.5 * speed, speed + 0.5 * pull * haptics->sub_step_s),
+                 root = fmax(0, start * start + 2 * pull * gap),
+                 length = gap < 0 ? haptics->last_step_s : seconds;
     return length > 0 ? fmin(2, fmax(-1, 2 * gap / (start + sqrt(root)) / length)) : 0;
 }
 
@@ -197,9 +207,12 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
     if (speed > 0)
         contact.fraction = physvib_box2d3_fraction(
             haptics,
-            point->separation + fmin(0, physvib_box2d3_lost(haptics, b, normal, &contact) -
-                                            physvib_box2d3_lost(haptics, a, normal, &contact)),
-            speed, pull, seconds);
+            point->separation + fmin(0, physvib_box2d3_lost(haptics, b, normal, point->anchorB) -
+                                            physvib_box2d3_lost(haptics, a, normal, point->anchorA)),
+            speed,
+            pull + physvib_box2d3_turn(haptics, a, normal, point->anchorA) -
+                physvib_box2d3_turn(haptics, b, normal, point->anchorB),
+            seconds);
     else
         contact.gap_m = point->separation;
     physvib_box2d3_fail(haptics, &haptics->numbers[b.index1], physvib_world_touch(haptics->world, &contact),
@@ -241,30 +254,35 @@ PHYSVIB_UNUSED static void physvib_box2d3_before(physvib_box2d3* haptics, physvi
                             ? seconds * (double)b2Body_GetGravityScale(body)
                             : 0;
     if (number->x_m != x || number->y_m != y || number->vx != v.x || number->vy != v.y)
-        number->lost_x_m = number->lost_y_m = number->lost_spin = 0; /* the game has moved it */
+        number->lost_x_m = number->lost_y_m = number->lost_rad = 0; /* the game has moved it */
     number->x_m = x, number->y_m = y, number->vx = v.x, number->vy = v.y;
     number->free_vx = v.x + pull * (double)g.x, number->free_vy = v.y + pull * (double)g.y;
-    physvib_box2d3_fail(haptics, number,
-                        physvib_world_move(haptics->world, number->id, x, y, number->free_vx, number->free_vy,
-                                           b2Body_GetAngularVelocity(body)),
-                        physvib_error());
+    number->spin = b2Body_GetAngularVelocity(body);
+    physvib_box2d3_fail(
+        haptics, number,
+        physvib_world_move(haptics->world, number->id, x, y, number->free_vx, number->free_vy, number->spin),
+        physvib_error());
 }
 
 /* Continuous collision stops a body where it first touches, with the velocity that it would have had at the
- * step's end; it collides in the next step. `lost_` is what the step would have moved it on. Nothing is lost
- * by a body that was struck: its path within the step is unknown. */
-PHYSVIB_UNUSED static void physvib_box2d3_stop(physvib_box2d3_number* number, double seconds, int sub_steps) {
+ * step's end. It collides in the next step. What the step would have moved it on is lost;
+ * physvib_box2d3_point adds it to the overlap. A body that was struck within the step is left out: its path
+ * is unknown. */
+PHYSVIB_UNUSED static void physvib_box2d3_stop(const physvib_box2d3* haptics, physvib_box2d3_number* number,
+                                               double seconds) {
     const b2Vec2 v = b2Body_GetLinearVelocity(number->body);
     const double x = PHYSVIB_BOX2D3_CENTRE(number->body).x, y = PHYSVIB_BOX2D3_CENTRE(number->body).y,
-                 share = 0.5 * (sub_steps - 1) / sub_steps, /* velocities change before bodies move */
-        dx = seconds * (v.x - share * (v.x - number->vx)), dy = seconds * (v.y - share * (v.y - number->vy)),
-                 path = dx * dx + dy * dy, struck_x = v.x - number->free_vx, struck_y = v.y - number->free_vy;
-    const double lost =
-        path > 0 ? 1 - ((x - number->x_m) * dx + (y - number->y_m) * dy) / path : 0; /* share of the step */
-    const int is_stopped = lost > 0.005 && lost <= 1 && lost * sqrt(path) > 1e-6 * (fabs(x) + fabs(y)) &&
-                           16 * (struck_x * struck_x + struck_y * struck_y) < (double)(v.x * v.x + v.y * v.y);
-    number->lost_x_m = is_stopped ? lost * dx : 0, number->lost_y_m = is_stopped ? lost * dy : 0;
-    number->lost_spin = is_stopped ? lost * seconds * (double)b2Body_GetAngularVelocity(number->body) : 0;
+                 late = 0.5 * (seconds - haptics->sub_step_s); /* velocities change before bodies move */
+    const double to_x = seconds * v.x - late * (v.x - number->vx),
+                 to_y = seconds * v.y - late * (v.y - number->vy), path = to_x * to_x + to_y * to_y;
+    const double struck_x = v.x - number->free_vx, struck_y = v.y - number->free_vy;
+    const int is_struck =
+        16 * (struck_x * struck_x + struck_y * struck_y) > (double)v.x * v.x + (double)v.y * v.y;
+    double share = 0; /* of the step that is lost; below 0.5 % it is the solver's own noise */
+    if (path > 0 && !is_struck) share = 1 - ((x - number->x_m) * to_x + (y - number->y_m) * to_y) / path;
+    if (share < 0.005 || share > 1 || share * sqrt(path) < 1e-6 * (fabs(x) + fabs(y))) share = 0;
+    number->lost_x_m = share * to_x, number->lost_y_m = share * to_y;
+    number->lost_rad = share * seconds * (double)b2Body_GetAngularVelocity(number->body);
     number->x_m = x, number->y_m = y, number->vx = v.x, number->vy = v.y;
 }
 
@@ -290,7 +308,7 @@ PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double se
     b2BodyEvents moved;
     int i;
     haptics->code = PHYSVIB_OK, haptics->is_new = 0, haptics->error[0] = 0;
-    haptics->h = seconds / (sub_steps > 0 ? sub_steps : 1);
+    haptics->sub_step_s = seconds / (sub_steps > 0 ? sub_steps : 1);
     physvib_box2d3_fail(
         haptics, NULL,
         physvib_world_begin_step(haptics->world, seconds, sqrt((double)(g.x * g.x + g.y * g.y))),
@@ -307,8 +325,8 @@ PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double se
     for (i = 0; i < moved.moveCount; ++i) physvib_box2d3_body(haptics, moved.moveEvents[i].bodyId, seconds);
     for (i = 0; i < moved.moveCount; ++i) /* for the next step's contacts */
         if (physvib_box2d3_id(haptics, moved.moveEvents[i].bodyId) >= 0)
-            physvib_box2d3_stop(&haptics->numbers[moved.moveEvents[i].bodyId.index1], seconds, sub_steps);
-    haptics->last_seconds = seconds;
+            physvib_box2d3_stop(haptics, &haptics->numbers[moved.moveEvents[i].bodyId.index1], seconds);
+    haptics->last_step_s = seconds;
     physvib_box2d3_fail(haptics, NULL, physvib_world_end_step(haptics->world), physvib_error());
     return haptics->is_new ? haptics->code : PHYSVIB_OK;
 }
