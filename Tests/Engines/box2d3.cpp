@@ -150,8 +150,39 @@ struct Box2d3 final : scenes::Engine {
     b2BodyId platform{};
 };
 
+/// 150 balls fall onto a tray that moves, and one of them has no number for a second: its error is told once,
+/// and the others are felt.
+static bool tray(Box2d3& engine) {
+    constexpr int trayBody = 1, firstBall = 1000, balls = 150, second = 60;
+    engine.world = scenes::plainWorld();
+    engine.begin(1.0 / second, scenes::gravity, 0.0, 0.5);
+    engine.add({.id = trayBody, .isBox = true, .y = -0.5, .width = 40.0, .height = 1.0, .massKg = 0.0});
+    b2Body_SetType(engine.bodies[trayBody], b2_kinematicBody);
+    b2Body_SetLinearVelocity(engine.bodies[trayBody], {0.5F, 0.0F});
+    for (int i = 0; i < balls; ++i)
+        engine.add(
+            {.id = firstBall + i, .x = 0.25 * (i - balls / 2), .y = 0.3 + 0.002 * i, .isSource = true});
+    const b2BodyId odd = engine.bodies[firstBall];
+    physvib_box2d3_remove(&engine.haptics, odd);
+    int told = 0, lasting = 0;
+    for (int step = 0; step < 2 * second; ++step) {
+        if (step == second) engine.number(odd, firstBall, true);
+        told += physvib_box2d3_step(&engine.haptics, engine.dt, engine.subSteps) != PHYSVIB_OK ? 1 : 0;
+        lasting += engine.haptics.code != PHYSVIB_OK ? 1 : 0;
+    }
+    const bool isHealed = engine.haptics.code == PHYSVIB_OK && b2Body_IsValid(odd);
+    const auto events = engine.take();
+    physvib_world_free(engine.world);
+    const bool isFine = told == 1 && lasting > second / 2 && isHealed && events.size() >= balls - 1;
+    std::printf("Box2D 3,60,tray: %zu events of %d balls, an error of %d steps told %d times%s\n",
+                events.size(), balls, lasting, told, isFine ? "" : ",FAILED");
+    return isFine;
+}
+
 int main(int count, char** words) {
     Box2d3 engine;
     if (count > 1 && std::strcmp(words[1], "falls") == 0) return scenes::falls("Box2D 3", engine) ? 0 : 1;
-    return scenes::run("Box2D 3", engine, count, words);
+    if (count > 1) return scenes::run("Box2D 3", engine, count, words);
+    const bool isTrayFine = tray(engine);
+    return scenes::run("Box2D 3", engine, count, words) == 0 && isTrayFine ? 0 : 1;
 }
