@@ -10,6 +10,9 @@ namespace scenes {
 
 constexpr double gravity = 9.81;
 constexpr int floorBody = 100; ///< its number; others are below
+constexpr double radius = 0.1; ///< of balls, where nothing else is said
+
+inline double msOf(const physvib_event& event) { return static_cast<double>(event.time_ns) * 1e-6; }
 
 /// A ball or a box.
 struct Body {
@@ -20,7 +23,8 @@ struct Body {
     double massKg = 1.0;              ///< 0: it stands still
     double vx = 0, vy = 0, spin = 0;
     bool isSource = false;
-    double grain = 0.0; ///< m, of its surface, where the engine's program knows it
+    double grain = 0.0;    ///< m, of its surface, where the engine's program knows it
+    bool isBullet = false; ///< continuous collision with bodies that move, too, where the engine knows how
     double inertia() const {
         return isBox ? massKg * (width * width + height * height) / 12.0 : massKg * width * width / 8.0;
     }
@@ -74,8 +78,9 @@ struct Engine {
     double handedOnPart = 0.02; ///< of what a row hands on
     int subSteps = 1;           ///< in each of which gravity changes the velocity
     double restitution = 0.5;
-    bool isRigid = true; ///< a collision goes through a row at once, and not over many steps; boxes and
-                         ///< joints are asked for
+    bool isContinuous = true; ///< from the next begin() on, where the engine has the choice
+    bool isRigid = true;      ///< a collision goes through a row at once, and not over many steps; boxes and
+                              ///< joints are asked for
     physvib_world world = nullptr;
 };
 

@@ -8,9 +8,9 @@
 #include <box2d/box2d.h>
 #include <math.h>
 #include <physvib/physvib.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#define PHYSVIB_BOX2D3_MOST 64 /**< contacts of a body in a step; more are an error */
 
 /* Names that differ between versions. */
 #if defined(b2_maxPolygonVertices) /* 3.0 */
@@ -33,8 +33,13 @@
 
 /** A body of Box2D and its number. */
 typedef struct physvib_box2d3_number {
-    b2BodyId body; /**< the body when it got its number */
-    int id;        /**< -1: removed */
+    b2BodyId body;                       /**< the body when it got its number */
+    int id;                              /**< -1: removed, or it never had one */
+    int is_told;                         /**< its error was returned */
+    double x_m, y_m, vx, vy;             /**< before the step; after it: as the step left them */
+    double spin;                         /**< before the step */
+    double free_vx, free_vy;             /**< what the velocity becomes in the step if nothing is touched */
+    double lost_x_m, lost_y_m, lost_rad; /**< see physvib_box2d3_stop */
 } physvib_box2d3_number;
 
 /** State between two steps; zero it, and set `world` and `box2d`. */
@@ -43,16 +48,30 @@ typedef struct physvib_box2d3 {
     b2WorldId box2d;                           /**< Box2D's world */
     double restitution_threshold;              /**< of box2d, m/s; 0: 1, Box2D's default */
     double (*mix_restitution)(double, double); /**< of two shapes; NULL: the larger, Box2D's default */
-    int code;                                  /**< the first error so far, or PHYSVIB_OK */
-    char error[160];                           /**< text of that error */
+    int code;                                  /**< an error of the last step, or PHYSVIB_OK */
+    char error[160];                           /**< text of that error, or "" */
+    int is_new;                                /**< it was not told by an earlier step */
     physvib_box2d3_number* numbers;            /**< by Box2D's index, from 1 */
     int capacity;                              /**< of `numbers` */
+    b2ContactData* found;                      /**< contacts of one body */
+    int found_capacity;                        /**< of `found` */
+    double sub_step_s;                         /**< length of a sub-step */
+    double last_step_s;                        /**< length of the step before */
 } physvib_box2d3;
 
-PHYSVIB_UNUSED static void physvib_box2d3_fail(physvib_box2d3* haptics, int code, const char* line) {
-    if (haptics->code != PHYSVIB_OK || code >= 0) return;
-    haptics->code = code;
-    strncpy(haptics->error, line, sizeof haptics->error - 1);
+/* An error of this step; `number`: the body that made it, or NULL. What was not told before comes first. */
+PHYSVIB_UNUSED static void physvib_box2d3_fail(physvib_box2d3* haptics, physvib_box2d3_number* number,
+                                               int code, const char* line) {
+    const int is_new = !number || !number->is_told;
+    if (code >= 0 || haptics->is_new || (haptics->code != PHYSVIB_OK && !is_new)) return;
+    haptics->code = code, haptics->is_new = is_new;
+    if (number) number->is_told = 1;
+    if (!number)
+        snprintf(haptics->error, sizeof haptics->error, "%s", line);
+    else if (number->id < 0)
+        snprintf(haptics->error, sizeof haptics->error, "Box2D's body %d: %s", number->body.index1, line);
+    else
+        snprintf(haptics->error, sizeof haptics->error, "body %d: %s", number->id, line);
 }
 
 /* The number of a body, -1 if it has none. The body's user data are not used. */
@@ -62,21 +81,29 @@ PHYSVIB_UNUSED static int physvib_box2d3_id(const physvib_box2d3* haptics, b2Bod
     return haptics->numbers[body.index1].id;
 }
 
-PHYSVIB_UNUSED static int physvib_box2d3_grow(physvib_box2d3* haptics, int index) {
-    const int capacity = index < haptics->capacity ? haptics->capacity : 2 * index + 64;
-    physvib_box2d3_number* grown = haptics->numbers;
-    if (capacity == haptics->capacity) return 1;
-    grown = (physvib_box2d3_number*)realloc(grown, (size_t)capacity * sizeof *grown);
-    if (!grown) return 0;
-    memset(grown + haptics->capacity, 0, (size_t)(capacity - haptics->capacity) * sizeof *grown);
-    haptics->numbers = grown, haptics->capacity = capacity;
-    return 1;
+/* The entry of a body, new if it has none; NULL: no memory. */
+PHYSVIB_UNUSED static physvib_box2d3_number* physvib_box2d3_entry(physvib_box2d3* haptics, b2BodyId body) {
+    physvib_box2d3_number* numbers = haptics->numbers;
+    if (body.index1 >= haptics->capacity) {
+        const int capacity = 2 * body.index1 + 64;
+        numbers = (physvib_box2d3_number*)realloc(numbers, (size_t)capacity * sizeof *numbers);
+        if (!numbers) return NULL;
+        memset(numbers + haptics->capacity, 0, (size_t)(capacity - haptics->capacity) * sizeof *numbers);
+        haptics->numbers = numbers, haptics->capacity = capacity;
+    }
+    numbers += body.index1;
+    if (!B2_ID_EQUALS(numbers->body, body)) { /* perhaps the index of one that was destroyed */
+        memset(numbers, 0, sizeof *numbers);
+        numbers->body = body, numbers->id = -1;
+    }
+    return numbers;
 }
 
 /* Call at the end; freeing `world` is left to the caller. */
 PHYSVIB_UNUSED static void physvib_box2d3_free(physvib_box2d3* haptics) {
-    free(haptics->numbers);
+    free(haptics->numbers), free(haptics->found);
     haptics->numbers = NULL, haptics->capacity = 0;
+    haptics->found = NULL, haptics->found_capacity = 0;
 }
 
 /* Call before b2DestroyBody. */
@@ -92,14 +119,16 @@ PHYSVIB_UNUSED static int physvib_box2d3_remove(physvib_box2d3* haptics, b2BodyI
 PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3* haptics, b2BodyId body, int id,
                                              physvib_body values) {
     const int falls = b2Body_GetType(body) == b2_dynamicBody;
+    physvib_box2d3_number* number;
     int code;
     values.mass_kg = falls ? b2Body_GetMass(body) : 0;
     values.inertia_kg_m2 = falls ? PHYSVIB_BOX2D3_INERTIA(body) : 0;
     values.gravity_scale = b2Body_GetGravityScale(body);
     code = physvib_world_set_body(haptics->world, id, &values);
     if (code != PHYSVIB_OK) return code;
-    if (!physvib_box2d3_grow(haptics, body.index1)) return PHYSVIB_ERROR_MEMORY;
-    haptics->numbers[body.index1].body = body, haptics->numbers[body.index1].id = id;
+    number = physvib_box2d3_entry(haptics, body);
+    if (!number) return PHYSVIB_ERROR_MEMORY;
+    number->id = id, number->is_told = 0;
     return PHYSVIB_OK;
 }
 
@@ -109,6 +138,33 @@ PHYSVIB_UNUSED static double physvib_box2d3_pull(b2WorldId world, b2BodyId body,
     return b2Body_GetType(body) == b2_dynamicBody
                ? (double)b2Body_GetGravityScale(body) * (g.x * normal.x + g.y * normal.y)
                : 0;
+}
+
+/* How far the last step would have moved a body's point on, along the normal: 0 unless continuous collision
+ * stopped the body. `arm`: from the centre of mass to the point. */
+PHYSVIB_UNUSED static double physvib_box2d3_lost(const physvib_box2d3* haptics, b2BodyId body, b2Vec2 normal,
+                                                 b2Vec2 arm) {
+    const physvib_box2d3_number* number = &haptics->numbers[body.index1];
+    return (number->lost_x_m - number->lost_rad * arm.y) * normal.x +
+           (number->lost_y_m + number->lost_rad * arm.x) * normal.y;
+}
+
+/* Acceleration of a body's point towards its centre, along the normal. */
+PHYSVIB_UNUSED static double physvib_box2d3_turn(const physvib_box2d3* haptics, b2BodyId body, b2Vec2 normal,
+                                                 b2Vec2 arm) {
+    const double spin = haptics->numbers[body.index1].spin;
+    return -spin * spin * (arm.x * normal.x + arm.y * normal.y);
+}
+
+/* When a gap closes, in steps after the start of this one; a gap below 0 has closed in the step before.
+ * Sub-steps change the velocity before they move a body, so its path is that of a body that is faster by half
+ * a sub-step's gravity. Box2D pushes up to a sub-step before they meet: then it closes after this step. */
+PHYSVIB_UNUSED static double physvib_box2d3_fraction(const physvib_box2d3* haptics, double gap, double speed,
+                                                     double pull, double seconds) {
+    const double start = fmax(0.5 * speed, speed + 0.5 * pull * haptics->sub_step_s),
+                 root = fmax(0, start * start + 2 * pull * gap),
+                 length = gap < 0 ? haptics->last_step_s : seconds;
+    return length > 0 ? fmin(2, fmax(-1, 2 * gap / (start + sqrt(root)) / length)) : 0;
 }
 
 PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b2ContactData* found,
@@ -142,26 +198,42 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
     contact.impulse_n_s = impulse;
     contact.is_soft = PHYSVIB_SOFT_WHOLE;
     contact.point_id = point->id;
-    if (gap > 0 && speed + meets > 0)
-        contact.fraction = fmin(1, 2 * gap / (speed + meets) / seconds);
+    if (contact.a < 0 || contact.b < 0) {
+        physvib_box2d3_number* none = physvib_box2d3_entry(haptics, contact.a < 0 ? a : b);
+        physvib_box2d3_fail(haptics, none, none ? PHYSVIB_ERROR_ARGUMENT : PHYSVIB_ERROR_MEMORY,
+                            "expected a number (physvib_box2d3_set) of every body that touches");
+        return;
+    }
+    if (speed > 0)
+        contact.fraction = physvib_box2d3_fraction(
+            haptics,
+            point->separation + fmin(0, physvib_box2d3_lost(haptics, b, normal, point->anchorB) -
+                                            physvib_box2d3_lost(haptics, a, normal, point->anchorA)),
+            speed,
+            pull + physvib_box2d3_turn(haptics, a, normal, point->anchorA) -
+                physvib_box2d3_turn(haptics, b, normal, point->anchorB),
+            seconds);
     else
-        contact.gap_m = point->separation; /* they overlapped before the step */
-    if (contact.a < 0 || contact.b < 0)
-        physvib_box2d3_fail(haptics, PHYSVIB_ERROR_ARGUMENT,
-                            "body: expected a number (physvib_box2d3_set) of every body that touches");
-    else
-        physvib_box2d3_fail(haptics, physvib_world_touch(haptics->world, &contact), physvib_error());
+        contact.gap_m = point->separation;
+    physvib_box2d3_fail(haptics, &haptics->numbers[b.index1], physvib_world_touch(haptics->world, &contact),
+                        physvib_error());
 }
 
 /* Reports the contacts of an awake body. Each contact is reported once: with its second body, or with the
  * first if the second is static or asleep. */
 PHYSVIB_UNUSED static void physvib_box2d3_body(physvib_box2d3* haptics, b2BodyId body, double seconds) {
-    b2ContactData found[PHYSVIB_BOX2D3_MOST];
-    const int count = b2Body_GetContactData(body, found, PHYSVIB_BOX2D3_MOST);
-    int i, p;
-    if (b2Body_GetContactCapacity(body) > PHYSVIB_BOX2D3_MOST && count == PHYSVIB_BOX2D3_MOST)
-        physvib_box2d3_fail(haptics, PHYSVIB_ERROR_FULL,
-                            "contacts: expected at most PHYSVIB_BOX2D3_MOST of a body");
+    const int most = b2Body_GetContactCapacity(body);
+    b2ContactData* found = haptics->found;
+    int count, i, p;
+    if (most > haptics->found_capacity) {
+        found = (b2ContactData*)realloc(found, 2 * (size_t)most * sizeof *found);
+        if (!found) {
+            physvib_box2d3_fail(haptics, NULL, PHYSVIB_ERROR_MEMORY, "contacts: expected memory for them");
+            return;
+        }
+        haptics->found = found, haptics->found_capacity = 2 * most;
+    }
+    count = b2Body_GetContactData(body, found, most);
     for (i = 0; i < count; ++i) {
         const b2BodyId a = b2Shape_GetBody(found[i].shapeIdA), b = b2Shape_GetBody(found[i].shapeIdB);
         const int is_second = B2_ID_EQUALS(b, body),
@@ -172,46 +244,91 @@ PHYSVIB_UNUSED static void physvib_box2d3_body(physvib_box2d3* haptics, b2BodyId
     }
 }
 
-/* Call instead of b2World_Step. Returns PHYSVIB_OK, or the first error so far, with its text in
- * haptics->error. */
-PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double seconds, int sub_steps) {
-    const b2Vec2 g = b2World_GetGravity(haptics->box2d);
-    b2BodyEvents moved;
-    int i;
+/* Before the step: a body's motion, and its velocity as it would be without contacts. */
+PHYSVIB_UNUSED static void physvib_box2d3_before(physvib_box2d3* haptics, physvib_box2d3_number* number,
+                                                 double seconds) {
+    const b2BodyId body = number->body;
+    const b2Vec2 g = b2World_GetGravity(haptics->box2d), v = b2Body_GetLinearVelocity(body);
+    const double x = PHYSVIB_BOX2D3_CENTRE(body).x, y = PHYSVIB_BOX2D3_CENTRE(body).y,
+                 pull = b2Body_GetType(body) == b2_dynamicBody
+                            ? seconds * (double)b2Body_GetGravityScale(body)
+                            : 0;
+    if (number->x_m != x || number->y_m != y || number->vx != v.x || number->vy != v.y)
+        number->lost_x_m = number->lost_y_m = number->lost_rad = 0; /* the game has moved it */
+    number->x_m = x, number->y_m = y, number->vx = v.x, number->vy = v.y;
+    number->free_vx = v.x + pull * (double)g.x, number->free_vy = v.y + pull * (double)g.y;
+    number->spin = b2Body_GetAngularVelocity(body);
     physvib_box2d3_fail(
-        haptics, physvib_world_begin_step(haptics->world, seconds, sqrt((double)(g.x * g.x + g.y * g.y))),
+        haptics, number,
+        physvib_world_move(haptics->world, number->id, x, y, number->free_vx, number->free_vy, number->spin),
         physvib_error());
-    for (i = 1; i < haptics->capacity; ++i) { /* velocities as they would be without contacts */
-        const b2BodyId body = haptics->numbers[i].body;
-        b2Vec2 v;
-        double pull;
-        if (!body.index1 || haptics->numbers[i].id < 0 || !b2Body_IsValid(body) ||
-            b2Body_GetType(body) == b2_staticBody || !b2Body_IsAwake(body))
-            continue;
-        v = b2Body_GetLinearVelocity(body);
-        pull = b2Body_GetType(body) == b2_dynamicBody ? seconds * (double)b2Body_GetGravityScale(body) : 0;
-        physvib_box2d3_fail(haptics,
-                            physvib_world_move(haptics->world, haptics->numbers[i].id,
-                                               PHYSVIB_BOX2D3_CENTRE(body).x, PHYSVIB_BOX2D3_CENTRE(body).y,
-                                               v.x + pull * (double)g.x, v.y + pull * (double)g.y,
-                                               b2Body_GetAngularVelocity(body)),
-                            physvib_error());
-    }
-    b2World_Step(haptics->box2d, (float)seconds, sub_steps);
-    moved = b2World_GetBodyEvents(haptics->box2d);
-    /* Impulses are computed from changes of momentum, because Box2D's own differ between versions. */
-    for (i = 0; i < moved.moveCount; ++i) {
-        const b2BodyId body = moved.moveEvents[i].bodyId;
+}
+
+/* Continuous collision stops a body where it first touches, with the velocity that it would have had at the
+ * step's end. It collides in the next step. What the step would have moved it on is lost;
+ * physvib_box2d3_point adds it to the overlap. A body that was struck within the step is left out: its path
+ * is unknown. */
+PHYSVIB_UNUSED static void physvib_box2d3_stop(const physvib_box2d3* haptics, physvib_box2d3_number* number,
+                                               double seconds) {
+    const b2Vec2 v = b2Body_GetLinearVelocity(number->body);
+    const double x = PHYSVIB_BOX2D3_CENTRE(number->body).x, y = PHYSVIB_BOX2D3_CENTRE(number->body).y,
+                 late = 0.5 * (seconds - haptics->sub_step_s); /* velocities change before bodies move */
+    const double to_x = seconds * v.x - late * (v.x - number->vx),
+                 to_y = seconds * v.y - late * (v.y - number->vy), path = to_x * to_x + to_y * to_y;
+    const double struck_x = v.x - number->free_vx, struck_y = v.y - number->free_vy;
+    const int is_struck =
+        16 * (struck_x * struck_x + struck_y * struck_y) > (double)v.x * v.x + (double)v.y * v.y;
+    double share = 0; /* of the step that is lost; below 0.5 % it is the solver's own noise */
+    if (path > 0 && !is_struck) share = 1 - ((x - number->x_m) * to_x + (y - number->y_m) * to_y) / path;
+    if (share < 0.005 || share > 1 || share * sqrt(path) < 1e-6 * (fabs(x) + fabs(y))) share = 0;
+    number->lost_x_m = share * to_x, number->lost_y_m = share * to_y;
+    number->lost_rad = share * seconds * (double)b2Body_GetAngularVelocity(number->body);
+    number->x_m = x, number->y_m = y, number->vx = v.x, number->vy = v.y;
+}
+
+/* After the step. Impulses are computed from changes of momentum, because Box2D's own differ between
+ * versions. */
+PHYSVIB_UNUSED static void physvib_box2d3_after(physvib_box2d3* haptics, const b2BodyEvents* moved) {
+    int i;
+    for (i = 0; i < moved->moveCount; ++i) {
+        const b2BodyId body = moved->moveEvents[i].bodyId;
         const b2Vec2 v = b2Body_GetLinearVelocity(body);
         if (physvib_box2d3_id(haptics, body) < 0) continue;
-        physvib_box2d3_fail(haptics,
+        physvib_box2d3_fail(haptics, &haptics->numbers[body.index1],
                             physvib_world_moved(haptics->world, physvib_box2d3_id(haptics, body), v.x, v.y,
                                                 b2Body_GetAngularVelocity(body)),
                             physvib_error());
     }
+}
+
+/* Call instead of b2World_Step. Returns PHYSVIB_OK, or an error of this step that no step before has
+ * returned: that of a body is told once. haptics->code and haptics->error last as long as the error does. */
+PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double seconds, int sub_steps) {
+    const b2Vec2 g = b2World_GetGravity(haptics->box2d);
+    b2BodyEvents moved;
+    int i;
+    haptics->code = PHYSVIB_OK, haptics->is_new = 0, haptics->error[0] = 0;
+    haptics->sub_step_s = seconds / (sub_steps > 0 ? sub_steps : 1);
+    physvib_box2d3_fail(
+        haptics, NULL,
+        physvib_world_begin_step(haptics->world, seconds, sqrt((double)(g.x * g.x + g.y * g.y))),
+        physvib_error());
+    for (i = 1; i < haptics->capacity; ++i) {
+        const b2BodyId body = haptics->numbers[i].body;
+        if (body.index1 && haptics->numbers[i].id >= 0 && b2Body_IsValid(body) &&
+            b2Body_GetType(body) != b2_staticBody && b2Body_IsAwake(body))
+            physvib_box2d3_before(haptics, &haptics->numbers[i], seconds);
+    }
+    b2World_Step(haptics->box2d, (float)seconds, sub_steps);
+    moved = b2World_GetBodyEvents(haptics->box2d);
+    physvib_box2d3_after(haptics, &moved);
     for (i = 0; i < moved.moveCount; ++i) physvib_box2d3_body(haptics, moved.moveEvents[i].bodyId, seconds);
-    physvib_box2d3_fail(haptics, physvib_world_end_step(haptics->world), physvib_error());
-    return haptics->code;
+    for (i = 0; i < moved.moveCount; ++i) /* for the next step's contacts */
+        if (physvib_box2d3_id(haptics, moved.moveEvents[i].bodyId) >= 0)
+            physvib_box2d3_stop(haptics, &haptics->numbers[moved.moveEvents[i].bodyId.index1], seconds);
+    haptics->last_step_s = seconds;
+    physvib_box2d3_fail(haptics, NULL, physvib_world_end_step(haptics->world), physvib_error());
+    return haptics->is_new ? haptics->code : PHYSVIB_OK;
 }
 
 PHYSVIB_UNUSED static int physvib_box2d3_may_touch(b2Filter a, b2Filter b) {

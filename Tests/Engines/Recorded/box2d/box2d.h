@@ -20,7 +20,7 @@ struct b2ShapeId {
 };
 enum b2BodyType { b2_staticBody = 0, b2_kinematicBody = 1, b2_dynamicBody = 2 };
 struct b2ManifoldPoint {
-    b2Vec2 point;
+    b2Vec2 point, anchorA, anchorB;
     float separation, totalNormalImpulse, normalVelocity;
     std::uint16_t id;
 };
@@ -49,8 +49,9 @@ struct RecordedStep {
     float separation, normalVelocity, pushed;
     int id, shapeA;
 };
-extern const RecordedStep* recordedStep; ///< that is under way
+extern const RecordedStep* recordedStep; ///< that is under way; another one follows it
 extern bool hasRecordedStepped;          ///< and whether its solver is done
+extern int recordedCopies;               ///< how often Box2D lists the contact, each time as another point
 
 constexpr b2BodyId recordedFloor{1, 0, 1}, recordedBall{2, 0, 1};
 inline bool isBall(b2BodyId body) { return body.index1 == 2; }
@@ -61,7 +62,8 @@ inline float b2Body_GetGravityScale(b2BodyId) { return 1.0F; }
 inline bool b2Body_IsAwake(b2BodyId body) { return isBall(body); }
 inline bool b2Body_IsValid(b2BodyId body) { return body.generation == 1; }
 inline b2Vec2 b2Body_GetWorldCenterOfMass(b2BodyId body) {
-    return isBall(body) ? b2Vec2{0.25F, recordedStep->height} : b2Vec2{0.0F, -1.0F};
+    return isBall(body) ? b2Vec2{0.25F, recordedStep[hasRecordedStepped ? 1 : 0].height}
+                        : b2Vec2{0.0F, -1.0F};
 }
 inline b2Vec2 b2Body_GetLinearVelocity(b2BodyId body) {
     return {0.0F, !isBall(body) ? 0.0F : hasRecordedStepped ? recordedStep->after : recordedStep->before};
@@ -86,18 +88,22 @@ inline int b2Body_GetShapes(b2BodyId body, b2ShapeId* shapes, int) {
     shapes[0] = {body.index1, 0, 1};
     return 1;
 }
-inline int b2Body_GetContactCapacity(b2BodyId) { return 4; }
-inline int b2Body_GetContactData(b2BodyId body, b2ContactData* found, int) {
+inline int b2Body_GetContactCapacity(b2BodyId) { return recordedCopies; }
+inline int b2Body_GetContactData(b2BodyId body, b2ContactData* found, int capacity) {
     if (!isBall(body) || recordedStep->isTouching == 0) return 0;
-    found[0] = {{1, 0, 1},
-                {2, 0, 1},
-                {{0.0F, 1.0F},
-                 {{{0.25F, 0.0F},
-                   recordedStep->separation,
-                   recordedStep->pushed,
-                   recordedStep->normalVelocity,
-                   static_cast<std::uint16_t>(recordedStep->id)},
-                  {}},
-                 1}};
-    return 1;
+    const int count = recordedCopies < capacity ? recordedCopies : capacity;
+    for (int i = 0; i < count; ++i)
+        found[i] = {{1, 0, 1},
+                    {2, 0, 1},
+                    {{0.0F, 1.0F},
+                     {{{0.25F, 0.0F},
+                       {0.25F, 1.0F},
+                       {0.0F, -0.1F},
+                       recordedStep->separation,
+                       recordedStep->pushed,
+                       recordedStep->normalVelocity,
+                       static_cast<std::uint16_t>(recordedStep->id + i)},
+                      {}},
+                     1}};
+    return count;
 }
