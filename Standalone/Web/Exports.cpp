@@ -40,10 +40,11 @@ const char* PHYSVIB_PAGE(sceneList)() {
     return tell(std::move(lines));
 }
 
-/// Names of the panning laws, one per line.
+/// Names of the panning laws, one per line, without `auto`, which is the page's default.
 const char* PHYSVIB_PAGE(lawList)() {
     std::string lines;
-    for (const std::string_view name : panningLawNames) (lines += name) += '\n';
+    for (const auto& one : panningLaws)
+        if (one.law != PanningLaw::automatic) (lines += one.name) += '\n';
     return tell(std::move(lines));
 }
 
