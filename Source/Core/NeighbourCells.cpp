@@ -8,25 +8,28 @@
 namespace physvib {
 namespace {
 
-double shapeTolerance(const EnchanterLayout& layout) noexcept {
+using Layout = NeighbourCells::Layout;
+using Place = NeighbourCells::Place;
+
+double shapeTolerance(const Layout& layout) noexcept {
     return 1e-3 * (layout.extentWidthMetres + layout.extentHeightMetres);
 }
 
-EnchanterPlace difference(const EnchanterPlace& a, const EnchanterPlace& b) noexcept {
+Place difference(const Place& a, const Place& b) noexcept {
     return {a.xMetres - b.xMetres, a.yMetres - b.yMetres};
 }
 
-double crossProduct(const EnchanterPlace& a, const EnchanterPlace& b) noexcept {
+double crossProduct(const Place& a, const Place& b) noexcept {
     return a.xMetres * b.yMetres - a.yMetres * b.xMetres;
 }
 
 } // namespace
 
-const EnchanterPlace& NeighbourCells::place(const EnchanterLayout& layout, int k) const noexcept {
+const NeighbourCells::Place& NeighbourCells::place(const Layout& layout, int k) const noexcept {
     return layout.places[order_[static_cast<std::size_t>(k)]];
 }
 
-NeighbourCells::NeighbourCells(const EnchanterLayout& layout, Axis line) noexcept {
+NeighbourCells::NeighbourCells(const Layout& layout, Axis line) noexcept {
     if (layout.count < 2) return;
     std::iota(order_.begin(), order_.begin() + layout.count, std::uint8_t{0});
     if (findGrid(layout, line) || findGrid(layout, {}))
@@ -36,7 +39,7 @@ NeighbourCells::NeighbourCells(const EnchanterLayout& layout, Axis line) noexcep
 }
 
 // Sorting by rows, then within each row, puts the actuators of a grid in the order of reading from below.
-bool NeighbourCells::findGrid(const EnchanterLayout& layout, Axis axis) noexcept {
+bool NeighbourCells::findGrid(const Layout& layout, Axis axis) noexcept {
     axis_ = axis;
     const auto by = [&](auto coordinate) {
         return [&layout, coordinate](std::uint8_t a, std::uint8_t b) {
@@ -44,22 +47,22 @@ bool NeighbourCells::findGrid(const EnchanterLayout& layout, Axis axis) noexcept
         };
     };
     const auto begin = order_.begin(), end = begin + layout.count;
-    std::sort(begin, end, by([this](const EnchanterPlace& p) { return across(p); }));
+    std::sort(begin, end, by([this](const Place& p) { return across(p); }));
     const double tolerance = shapeTolerance(layout), lowest = across(place(layout, 0));
     columns_ = static_cast<int>(std::count_if(
         begin, end, [&](std::uint8_t j) { return across(layout.places[j]) - lowest <= tolerance; }));
     if (columns_ < 2 || layout.count % columns_ != 0) return false;
     rows_ = layout.count / columns_;
     for (auto row = begin; row != end; row += columns_)
-        std::sort(row, row + columns_, by([this](const EnchanterPlace& p) { return along(p); }));
+        std::sort(row, row + columns_, by([this](const Place& p) { return along(p); }));
     return isGrid(layout, tolerance);
 }
 
-bool NeighbourCells::isGrid(const EnchanterLayout& layout, double tolerance) const noexcept {
+bool NeighbourCells::isGrid(const Layout& layout, double tolerance) const noexcept {
     for (int k = 0; k < layout.count; ++k) {
         const int row = k / columns_, column = k % columns_;
-        const EnchanterPlace &p = place(layout, k), &inRow = place(layout, row * columns_),
-                             &inColumn = place(layout, column);
+        const Place &p = place(layout, k), &inRow = place(layout, row * columns_),
+                    &inColumn = place(layout, column);
         if (std::abs(across(p) - across(inRow)) > tolerance) return false;
         if (std::abs(along(p) - along(inColumn)) > tolerance) return false;
         if (column > 0 && along(p) - along(place(layout, k - 1)) <= tolerance) return false;
@@ -69,7 +72,7 @@ bool NeighbourCells::isGrid(const EnchanterLayout& layout, double tolerance) con
 }
 
 // A belt may be a circle, an ellipse or any other convex outline with nothing inside.
-bool NeighbourCells::findRing(const EnchanterLayout& layout) noexcept {
+bool NeighbourCells::findRing(const Layout& layout) noexcept {
     const int n = layout.count;
     if (n < 4) return false;
     centre_ = {};
@@ -78,16 +81,15 @@ bool NeighbourCells::findRing(const EnchanterLayout& layout) noexcept {
         centre_.yMetres += place(layout, k).yMetres / n;
     }
     const auto angle = [&](std::uint8_t j) {
-        const EnchanterPlace d = difference(layout.places[j], centre_);
+        const Place d = difference(layout.places[j], centre_);
         return std::atan2(d.yMetres, d.xMetres);
     };
     std::sort(order_.begin(), order_.begin() + n,
               [&](std::uint8_t a, std::uint8_t b) { return angle(a) < angle(b); });
     const double tolerance = shapeTolerance(layout);
     for (int k = 0; k < n; ++k) {
-        const EnchanterPlace &a = place(layout, k), &b = place(layout, (k + 1) % n),
-                             &c = place(layout, (k + 2) % n);
-        const EnchanterPlace chord = difference(c, a);
+        const Place &a = place(layout, k), &b = place(layout, (k + 1) % n), &c = place(layout, (k + 2) % n);
+        const Place chord = difference(c, a);
         const double inwards = crossProduct(chord, difference(b, a)); // times the chord's length
         if (inwards > tolerance * std::hypot(chord.xMetres, chord.yMetres)) return false;
         if (crossProduct(difference(a, centre_), difference(b, centre_)) <= tolerance * tolerance)
@@ -96,16 +98,14 @@ bool NeighbourCells::findRing(const EnchanterLayout& layout) noexcept {
     return true;
 }
 
-void NeighbourCells::sharesAt(const EnchanterLayout& layout, double x, double y,
-                              Shares& shares) const noexcept {
+void NeighbourCells::sharesAt(const Layout& layout, double x, double y, Shares& shares) const noexcept {
     if (shape_ == Shape::ring)
         ringShares(layout, {x, y}, shares);
     else
         gridShares(layout, {x, y}, shares);
 }
 
-void NeighbourCells::gridShares(const EnchanterLayout& layout, const EnchanterPlace& p,
-                                Shares& shares) const noexcept {
+void NeighbourCells::gridShares(const Layout& layout, const Place& p, Shares& shares) const noexcept {
     const auto between = [](int count, double at, auto coordinate) -> Between {
         if (count == 1) return {};
         int first = 0;
@@ -126,14 +126,13 @@ void NeighbourCells::gridShares(const EnchanterLayout& layout, const EnchanterPl
 
 // The two neighbours and the centre form a triangle. The centre has no actuator; all of the ring share its
 // part, and their mean place is the centre.
-void NeighbourCells::ringShares(const EnchanterLayout& layout, const EnchanterPlace& p,
-                                Shares& shares) const noexcept {
-    const EnchanterPlace out = difference(p, centre_);
+void NeighbourCells::ringShares(const Layout& layout, const Place& p, Shares& shares) const noexcept {
+    const Place out = difference(p, centre_);
     int sector = 0;
     double first = 0.0, second = 0.0, inside = -1.0; // parts of the two; the best sector's smaller part
     for (int k = 0; k < layout.count; ++k) {
-        const EnchanterPlace a = difference(place(layout, k), centre_),
-                             b = difference(place(layout, (k + 1) % layout.count), centre_);
+        const Place a = difference(place(layout, k), centre_),
+                    b = difference(place(layout, (k + 1) % layout.count), centre_);
         const double area = crossProduct(a, b);
         const double toA = crossProduct(out, b) / area, toB = crossProduct(a, out) / area;
         if (k > 0 && std::min(toA, toB) <= inside) continue;
