@@ -7,7 +7,7 @@
 namespace physvib {
 
 /// Cells of a layout whose shape is a row, a grid or a belt. The shares sum to one, and the actuators' places
-/// weighted by them give the place itself, anywhere within the shape. Docs/panning.md has the formulas.
+/// weighted by them give the place itself, anywhere within the shape. Docs/rows.md has the formulas.
 class NeighbourCells {
 public:
     using Layout = EnchanterLayout;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What travels is felt where it is: rendered, and compared with the table of Docs/panning.md.
+// What travels is felt where it is: rendered, and compared with the table of Docs/rows.md.
 #include "Support/Rendering.h"
 #include "TestPlaces.h"
 #include <cmath>
@@ -111,7 +111,7 @@ Travel travelOf(const Journey& journey, Kind kind, const PhantomPanner& panner, 
 }
 
 TEST(Travel, IsFeltWhereItIsByTheDefaultLawAndThePageSaysSo) {
-    std::ifstream file{PHYSVIB_SOURCE_DIR "/Docs/panning.md"};
+    std::ifstream file{PHYSVIB_SOURCE_DIR "/Docs/rows.md"};
     const std::string page{std::istreambuf_iterator<char>{file}, {}};
     for (const Journey& journey : journeys()) {
         PhantomPanner before{journey.layout, PanningLaw::linear, 1.0, 1.0, 1.0};
@@ -129,7 +129,7 @@ TEST(Travel, IsFeltWhereItIsByTheDefaultLawAndThePageSaysSo) {
             EXPECT_NEAR(found.speed, 1.0, 0.03) << entry;
             EXPECT_LE(found.worst, 0.1) << entry;
         }
-        EXPECT_NE(page.find(entry), std::string::npos) << "expected in Docs/panning.md: " << entry;
+        EXPECT_NE(page.find(entry), std::string::npos) << "expected in Docs/rows.md: " << entry;
     }
 }
 
