@@ -40,11 +40,10 @@ const char* PHYSVIB_PAGE(sceneList)() {
     return tell(std::move(lines));
 }
 
-/// Names of the panning laws, one per line, without `auto`, which is the page's default.
+/// Names of the panning laws, one per line.
 const char* PHYSVIB_PAGE(lawList)() {
     std::string lines;
-    for (const auto& one : panningLaws)
-        if (one.law != PanningLaw::automatic) (lines += one.name) += '\n';
+    for (const std::string_view name : panningLawNames) (lines += name) += '\n';
     return tell(std::move(lines));
 }
 
