@@ -12,10 +12,13 @@ namespace physvib {
 /// How a gain falls with the distance ratio u = d/D from an actuator, u in [0, 1]. Append new ones at the
 /// end: C programs use the numbers.
 enum class PanningLaw {
-    linear,   ///< 1 - u (Eq. 4.2)
-    log,      ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear
-    logOuter, ///< log2(2 - u): the other reconstruction, above linear
-    energy    ///< sqrt(1 - u): squares sum to one wherever linear gains do
+    linear,     ///< 1 - u (Eq. 4.2)
+    log,        ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear
+    logOuter,   ///< log2(2 - u): the other reconstruction, above linear
+    energy,     ///< sqrt(1 - u): squares sum to one wherever linear gains do
+    neighbours, ///< energy, shared by the actuators around the place only: two of a row or belt, four of a
+                ///< grid
+    automatic   ///< what one gets without naming a law; PhantomPanner chooses by the layout's shape
 };
 
 /// One panning law.
@@ -31,6 +34,8 @@ inline constexpr auto panningLaws = std::to_array<PanningLawDescription>({
     {PanningLaw::log, "log", [](double u) noexcept { return 1.0 - std::log2(1.0 + u); }},
     {PanningLaw::logOuter, "log-outer", [](double u) noexcept { return std::log2(2.0 - u); }},
     {PanningLaw::energy, "energy", [](double u) noexcept { return std::sqrt(1.0 - u); }},
+    {PanningLaw::neighbours, "neighbours", [](double u) noexcept { return std::sqrt(1.0 - u); }},
+    {PanningLaw::automatic, "auto", [](double u) noexcept { return 1.0 - u; }},
 });
 
 /// The law's table entry. Any thread.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Gains of a panning law for each arrangement of actuators: single, line, rectangle, triangle, scattered.
+// Gains of a panning law for each arrangement of actuators: single, line, rectangle, triangle, scattered;
+// and of the law `neighbours` for each cell.
 #include "Core/PhantomPanner.h"
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,15 @@ PhantomPanner::PhantomPanner(const EnchanterLayout& layout, PanningLaw law, doub
     , fieldHeightMetres_{fieldHeightMetres}
     , scaleX_{layout.extentWidthMetres / fieldWidthMetres}
     , scaleY_{layout.extentHeightMetres / fieldHeightMetres}
-    , arrangement_{classify()} {}
+    , arrangement_{classify()}
+    , cells_{layout, {lineDirection_.x, lineDirection_.y}} {
+    if (law_ == PanningLaw::automatic) resolveAutomatic();
+}
+
+void PhantomPanner::resolveAutomatic() noexcept {
+    law_ = hasCells() && exponent_ == 1.0 ? PanningLaw::neighbours : PanningLaw::linear;
+    if (law_ == PanningLaw::linear && exponent_ == 1.0) grains_ = grainSpread;
+}
 
 PhantomPanner::Vector PhantomPanner::place(int enchanter) const noexcept {
     const auto& p = layout_.places[static_cast<std::size_t>(enchanter)];
@@ -79,6 +88,7 @@ double PhantomPanner::factor(double distanceRatio) const noexcept {
 
 void PhantomPanner::gainsAt(double x, double y, Gains& gains) const noexcept {
     const Vector p{x * scaleX_, y * scaleY_};
+    if (law_ == PanningLaw::neighbours && cells_.areFound()) return cellGains(p, gains);
     switch (arrangement_) {
     case Arrangement::single: gains[0] = 1.0; break;
     case Arrangement::line: lineGains(p, gains); break;
@@ -90,6 +100,7 @@ void PhantomPanner::gainsAt(double x, double y, Gains& gains) const noexcept {
 
 void PhantomPanner::gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept {
     if (spread == Spread::layout) return gainsAt(x, y, gains);
+    if (spread == spreadBy(PanningLaw::automatic)) spread = travelSpread();
     if (spread == Spread::alone) return nearestGains({x * scaleX_, y * scaleY_}, gains);
     PhantomPanner other = *this;
     if (spread == Spread::equal) other.law_ = PanningLaw::energy;
@@ -103,6 +114,12 @@ void PhantomPanner::gainsAt(double x, double y, Spread spread, Gains& gains) con
         std::accumulate(gains.begin(), end, 0.0, [](double sum, double g) { return sum + g * g; });
     if (energy > 0.0)
         std::for_each(gains.begin(), end, [scale = 1.0 / std::sqrt(energy)](double& g) { g *= scale; });
+}
+
+void PhantomPanner::cellGains(Vector p, Gains& gains) const noexcept {
+    cells_.sharesAt(layout_, p.x, p.y, gains);
+    for (auto gain = gains.begin(); gain != gains.begin() + layout_.count; ++gain)
+        *gain = factor(1.0 - *gain);
 }
 
 void PhantomPanner::nearestGains(Vector p, Gains& gains) const noexcept {

@@ -3,6 +3,7 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
+#include "Core/NeighbourCells.h"
 #include "Core/PanningLaws.h"
 #include "Core/Spread.h"
 #include <array>
@@ -17,7 +18,9 @@ public:
     PhantomPanner() = default;
 
     /// `layout` valid; field sizes in metres > 0, mapped onto the layout's extent; exponent > 0 (gamma of
-    /// Eq. 4.2).
+    /// Eq. 4.2). PanningLaw::automatic becomes `neighbours` on a row of three or more, a grid and a belt.
+    /// Elsewhere, and with an exponent other than 1, it becomes `linear`; grains then go by grainSpread if
+    /// the exponent is 1.
     PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
                   double fieldHeightMetres) noexcept;
 
@@ -40,12 +43,18 @@ public:
     void setGrains(Spread spread) noexcept { grains_ = spread; }
     Spread grains() const noexcept { return grains_; } ///< Spread of grains. Any thread.
 
+    /// Spread of a tone that travels, if none is named: its energy is constant, and the centroid of its
+    /// intensity is at its place. Any thread.
+    Spread travelSpread() const noexcept {
+        return hasCells() ? spreadBy(PanningLaw::neighbours) : Spread::equal;
+    }
+
     int channels() const noexcept { return layout_.count; } ///< Number of actuators.
 
     /// The constructor's arguments. Any thread.
     const EnchanterLayout& layout() const noexcept { return layout_; }
-    PanningLaw law() const noexcept { return law_; }                         ///< Panning law.
-    double exponent() const noexcept { return exponent_; }                   ///< Exponent of the law.
+    PanningLaw law() const noexcept { return law_; }       ///< Panning law; not PanningLaw::automatic.
+    double exponent() const noexcept { return exponent_; } ///< Exponent of the law.
     double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }   ///< Field along x.
     double fieldHeightMetres() const noexcept { return fieldHeightMetres_; } ///< Field along y.
 
@@ -59,6 +68,12 @@ private:
     bool isRectangle() const noexcept;
     Vector place(int enchanter) const noexcept;
     double placeTolerance() const noexcept; // rounding in a layout file must not make a line a triangle
+    /// True where PanningLaw::automatic is `neighbours`. Two actuators and the corners of a rectangle keep
+    /// the thesis' law.
+    bool hasCells() const noexcept {
+        return cells_.areFound() && layout_.count > 2 && arrangement_ != Arrangement::rectangle;
+    }
+    void resolveAutomatic() noexcept;
     bool isPlain() const noexcept { return law_ == PanningLaw::linear && exponent_ == 1.0; } // the usual case
     double factor(double distanceRatio) const noexcept;
     void lineGains(Vector p, Gains& gains) const noexcept;
@@ -66,6 +81,7 @@ private:
     void triangleGains(Vector p, Gains& gains) const noexcept;
     void scatteredGains(Vector p, Gains& gains) const noexcept;
     void nearestGains(Vector p, Gains& gains) const noexcept;
+    void cellGains(Vector p, Gains& gains) const noexcept;
 
     EnchanterLayout layout_;
     PanningLaw law_ = PanningLaw::linear;
@@ -76,6 +92,7 @@ private:
     Vector lineDirection_;
     double lineExtent_ = 0.0;
     Arrangement arrangement_ = Arrangement::single;
+    NeighbourCells cells_;
 };
 
 } // namespace physvib

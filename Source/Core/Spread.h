@@ -21,7 +21,8 @@ constexpr Spread spreadBy(PanningLaw law) noexcept {
     return static_cast<Spread>(1 + static_cast<std::size_t>(law));
 }
 
-/// Recommended for grains: the centroid of their intensity is at the contact (Docs/panning.md).
+/// Recommended for grains between two actuators and on four corners: the centroid of their intensity is at
+/// the contact (Docs/panning.md). Elsewhere: PhantomPanner::travelSpread.
 inline constexpr Spread grainSpread = spreadBy(PanningLaw::energy);
 
 /// Names, indexed by Spread.

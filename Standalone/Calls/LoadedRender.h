@@ -146,11 +146,10 @@ struct LoadedRender {
     double fullScaleG() const { return layout.enchanters.front().fullScaleG; }
     PhantomPanner panner() const {
         if (keepsLayouts()) return session->panner;
-        PhantomPanner made{layout.geometry, options.law, options.exponent, fieldWidthMetres(),
-                           fieldHeightMetres()};
-        if (!options.given.contains("--law") && !options.given.contains("--exponent"))
-            made.setGrains(grainSpread);
-        return made;
+        // an exponent alone is that of the linear law, of grains too, even if it is 1
+        const bool isLinear = options.given.contains("--exponent") && !options.given.contains("--law");
+        return {layout.geometry, isLinear ? PanningLaw::linear : options.law, options.exponent,
+                fieldWidthMetres(), fieldHeightMetres()};
     }
 };
 

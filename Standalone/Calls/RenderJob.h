@@ -52,7 +52,7 @@ struct RenderJob {
                                                      ///< real time
     std::string layout = "phone4";                   ///< preset or path of a layout file
     FieldSize field; ///< unset: the field of the scene or list, or the layout's extent
-    PanningLaw law = PanningLaw::linear;
+    PanningLaw law = PanningLaw::automatic;
     double exponent = 1.0;
     bool isLimited = true;
     ImpactLocation location = ImpactLocation::contact;

@@ -91,8 +91,7 @@ RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, con
     const FieldSize field = source.field.isKnown() ? source.field : extentOf(layout);
     RendererSettings settings{
         .sampleRateHz = o.sampleRateHz,
-        .panner = {layout, PanningLaw::linear, 1.0, field.widthMetres, field.heightMetres}};
-    settings.panner.setGrains(grainSpread); // default of physvib without --law
+        .panner = {layout, PanningLaw::automatic, 1.0, field.widthMetres, field.heightMetres}};
     const auto set = std::ranges::find(instructionSetNames, o.instructions);
     settings.instructions = static_cast<InstructionSet>(set - instructionSetNames.begin());
     return settings;
@@ -127,7 +126,7 @@ PictureInput pictureWords(const Options& o, const Source& source, const LayoutDe
     }
     picture.layout = layout.geometry;
     for (const auto& enchanter : layout.enchanters) picture.labels.push_back(enchanter.label);
-    picture.law = "linear law";
+    picture.law = std::string{nameOf(settings.panner.law())} + " law";
     picture.provenance = provenanceLine(source.provenance);
     return picture;
 }

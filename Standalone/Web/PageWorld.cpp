@@ -36,10 +36,7 @@ PageWorld::PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int ou
 }
 
 PhantomPanner PageWorld::panner() const noexcept {
-    const PanningLaw law = panningLaw_.value_or(PanningLaw::linear);
-    PhantomPanner made{layout_, law, 1.0, fieldMetres_.x, fieldMetres_.y};
-    if (!panningLaw_) made.setGrains(grainSpread); // default of physvib render without --law
-    return made;
+    return {layout_, panningLaw_, 1.0, fieldMetres_.x, fieldMetres_.y};
 }
 
 std::int64_t PageWorld::nsOf(std::int64_t frame) const noexcept {
@@ -77,9 +74,8 @@ void PageWorld::pull(const Hand& hand) {
 }
 
 void PageWorld::placed(int law) {
-    panningLaw_.reset();
     const auto index = static_cast<std::size_t>(law); // -1 becomes larger than any index
-    if (index < panningLaws.size()) panningLaw_ = panningLaws[index].law;
+    panningLaw_ = index < panningLaws.size() ? panningLaws[index].law : PanningLaw::automatic;
     const std::int64_t timeNs = nsOf(std::max<std::int64_t>(0, done_ - firstFrame()));
     controls_.push_back({.timeNs = timeNs, .kind = RenderControl::Kind::panner, .panner = panner()});
 }

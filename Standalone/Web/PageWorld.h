@@ -51,7 +51,7 @@ public:
 
     /// At most as many actuators as outputs; placed() applies changes.
     EnchanterLayout& layout() noexcept { return layout_; }
-    /// Index in panningLaws; any other value: linear, with grainSpread for grains.
+    /// Index in panningLaws; any other value: PanningLaw::automatic.
     void placed(int law);
 
     bool pop(CollisionEvent& event) noexcept { return take(events_, event); } // for the renderer, as the next
@@ -92,7 +92,7 @@ private:
     std::deque<RenderControl> controls_;
     std::vector<float> samples_, poses_;
     std::array<std::optional<Hand>, fingers> hands_;
-    std::optional<PanningLaw> panningLaw_;
+    PanningLaw panningLaw_ = PanningLaw::automatic;
     std::string fault_;
     std::size_t outputs_;
     std::int64_t done_ = 0; // in frames

@@ -371,6 +371,8 @@ TEST(Calls, LawsAreThoseOfTheTable) {
     expect(PHYSVIB_LAW_LOG, "log");
     expect(PHYSVIB_LAW_LOG_OUTER, "log-outer");
     expect(PHYSVIB_LAW_ENERGY, "energy");
+    expect(PHYSVIB_LAW_NEIGHBOURS, "neighbours");
+    expect(PHYSVIB_LAW_AUTO, "auto");
     int count = 0;
     while (physvib_law_name(count) != nullptr) ++count;
     EXPECT_EQ(count, static_cast<int>(panningLaws.size()));

@@ -41,8 +41,7 @@ SessionSetup quietSetup() {
     return setup;
 }
 
-std::vector<CollisionEvent> strikesOfLine(std::string_view line) {
-    const auto setup = quietSetup();
+std::vector<CollisionEvent> strikesOfLine(std::string_view line, const SessionSetup& setup = quietSetup()) {
     const PlainMessage message = messageOf(line);
     const auto found = std::ranges::find(messageTable, message.name, &MessageDescription::name);
     return std::get<MessageDescription::Strikes*>(found->act)({message, *found, setup.panner},
@@ -70,6 +69,23 @@ TEST(Messages, APathThatLagsSaysSo) {
                   "law: linear lags: felt at 0.16 of the way between two actuators where 0.3 is meant"),
               std::string::npos)
         << answerLine(note);
+}
+
+TEST(Messages, APathOverARowIsSharedByNeighboursUnlessALawIsNamed) {
+    constexpr std::string_view path = R"({"message": "path", "places": "AD"})",
+                               equal = R"({"message": "path", "places": "AD", "law": "equal"})";
+    EXPECT_EQ(strikesOfLine(path)[0].spread, Spread::equal) << "on four corners";
+    auto setup = quietSetup();
+    EnchanterLayout row{1.0, 1.0, 4, {{{0.0, 0.5}, {0.2, 0.5}, {0.6, 0.5}, {1.0, 0.5}}}};
+    setup.panner = {row, PanningLaw::linear, 1.0, 1.0, 1.0};
+    EXPECT_EQ(strikesOfLine(path, setup)[0].spread, spreadBy(PanningLaw::neighbours));
+    EXPECT_EQ(strikesOfLine(equal, setup)[0].spread, Spread::equal);
+    Session session{setup};
+    session.prepare(hostRate, 512);
+    MessageRouter router{session};
+    EXPECT_EQ(router.take(messageOf(path)).value.name, "");
+    EXPECT_NE(answerLine(router.take(messageOf(equal)).value).find("equal lags on this layout"),
+              std::string::npos);
 }
 
 TEST(Messages, AStrikeIsOfAMaterialOrOfNumbers) {

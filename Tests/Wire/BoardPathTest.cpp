@@ -110,6 +110,14 @@ TEST(BoardPath, SoItIsByEveryLawOfALayout) {
     }
 }
 
+// Each actuator that the tone passes ends one root of the gains and begins another.
+TEST(BoardPath, SoItIsOverARowByTheDefaultLaw) {
+    const RendererSettings row{
+        deskRate, 4, PhantomPanner{test::gridLayout(4, 1), PanningLaw::automatic, 1.0, 1.0, 1.0}, false};
+    const auto segments = expectOneStep({diagonal(Spread::layout, 0.5)}, row);
+    EXPECT_LE(segments, 70u);
+}
+
 TEST(BoardPath, SoItIsWhereverItBeginsAtAnyFrequencyAndAsItDecays) {
     for (const double hz : {40.3, 149.53, 205.0, 333.33, 399.9}) {
         CollisionEvent e = diagonal(Spread::equal, 0.9);

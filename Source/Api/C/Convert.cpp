@@ -47,7 +47,7 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     to.channels = from.channels;
     to.limiterEnabled = from.limiter != 0;
     to.panner = {layout, panningLaws[static_cast<std::size_t>(from.law)].law, from.exponent, width, height};
-    // the default law: grains are panned by energy
+    // the default law of before 0.2: grains are panned by energy
     if (from.law == PHYSVIB_LAW_LINEAR && from.exponent == 1.0) to.panner.setGrains(grainSpread);
     return {};
 }

@@ -64,6 +64,7 @@ const char* physvib_error(void) { return lastError().data(); }
 int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t size) {
     auto values = zeroed<physvib_renderer_settings>();
     values.rate_hz = 48000;
+    values.law = PHYSVIB_LAW_AUTO;
     values.limiter = 1;
     values.exponent = 1.0;
     physvib_layout_preset("phone4", &values.layout);

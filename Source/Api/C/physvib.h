@@ -101,10 +101,14 @@ typedef struct physvib_layout {
     int count;                          /**< 1 to PHYSVIB_MAX_ENCHANTERS */
 } physvib_layout;
 
-#define PHYSVIB_LAW_LINEAR 0    /**< of panning: see Docs/panning.md */
-#define PHYSVIB_LAW_LOG 1       /**< of panning: see Docs/panning.md */
-#define PHYSVIB_LAW_LOG_OUTER 2 /**< of panning: see Docs/panning.md */
-#define PHYSVIB_LAW_ENERGY 3    /**< of panning: see Docs/panning.md */
+#define PHYSVIB_LAW_LINEAR 0     /**< of panning: see Docs/panning.md */
+#define PHYSVIB_LAW_LOG 1        /**< of panning: see Docs/panning.md */
+#define PHYSVIB_LAW_LOG_OUTER 2  /**< of panning: see Docs/panning.md */
+#define PHYSVIB_LAW_ENERGY 3     /**< of panning: see Docs/panning.md */
+#define PHYSVIB_LAW_NEIGHBOURS 4 /**< of panning: only the actuators around the place; see Docs/panning.md   \
+                                  */
+#define PHYSVIB_LAW_AUTO                                                                                     \
+    5 /**< of panning: NEIGHBOURS on a row of three or more, a grid, a belt; else LINEAR */
 
 /* Fill a structure that has a `size` with its ..._init(&it, sizeof it), then change what you like. Structures
  * grow at their end only: of a program that was built with a shorter one, only that part is read and written.
@@ -115,10 +119,10 @@ typedef struct physvib_renderer_settings {
     size_t size;  /**< set by init */
     int rate_hz;  /**< 5,000 to 192,000 (48,000) */
     int channels; /**< 0: as many as the layout has actuators; more are silent, to PHYSVIB_MAX_ENCHANTERS */
-    int law; /**< (PHYSVIB_LAW_LINEAR; with it and exponent 1, events of kind PHYSVIB_ROLL and PHYSVIB_SLIDE
-                are panned by PHYSVIB_LAW_ENERGY, so that what travels is felt where it is; any other law is
-                that of all) */
-    int limiter;           /**< (1); 0: samples may exceed 1 */
+    int law;     /**< (PHYSVIB_LAW_AUTO); with LINEAR, named or chosen by AUTO, and exponent 1, events of kind
+                    PHYSVIB_ROLL and PHYSVIB_SLIDE are panned by PHYSVIB_LAW_ENERGY, so that what travels is
+                    felt where it is; any other law is that of all */
+    int limiter; /**< (1); 0: samples may exceed 1 */
     double exponent;       /**< of the law (1) */
     double field_width_m;  /**< that x spans; 0: the layout's extent (0) */
     double field_height_m; /**< that y spans; 0: the layout's extent (0) */

@@ -19,7 +19,7 @@ struct Mix {
     std::shared_ptr<const Scene> scene; ///< never null
     std::uint32_t seed = 1;
     LayoutDescription layout;
-    PanningLaw law = PanningLaw::linear;
+    PanningLaw law = PanningLaw::automatic;
     double exponent = 1.0;
     std::vector<Strip> strips; ///< one per actuator
     std::vector<StripGroup> groups{};
@@ -29,7 +29,7 @@ struct Mix {
     int count() const noexcept { return layout.geometry.count; }
     PhantomPanner panner() const noexcept {
         PhantomPanner made{layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres};
-        // no law was chosen: grains keep the default
+        // files of before the law `auto` named the default so: grains keep it
         if (law == PanningLaw::linear && exponent == 1.0) made.setGrains(grainSpread);
         return made;
     }

@@ -20,8 +20,13 @@ constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz;
 /// A note if the felt position lags behind the path's position under this panning law; else empty.
 std::string lagNote(Spread spread, const PhantomPanner& panner) {
     constexpr double meant = 0.3, nobodyFeels = 0.05;
+    if (spread == Spread::layout) spread = spreadBy(panner.law());
+    if (const Spread exact = panner.travelSpread();
+        exact != Spread::equal && spread != exact && spread != Spread::alone)
+        return "law: " + std::string(nameOf(spread)) + " lags on this layout; auto and " +
+               std::string(nameOf(exact)) + " do not";
     for (const auto& one : panningLaws) {
-        if (spread != spreadBy(one.law) && !(spread == Spread::layout && panner.law() == one.law)) continue;
+        if (spread != spreadBy(one.law)) continue;
         const double felt = centroidOf(one.law, meant);
         if (std::abs(felt - meant) > nobodyFeels)
             return "law: " + std::string(one.name) + " lags: felt at " + fixedNumber(felt, 2) +

@@ -108,9 +108,10 @@ inline constexpr std::array path{
                     "instead of `seconds`: when each place is reached"},
     MessageArgument{"strokes", Type::number, 0.0, 64.0, "0",
                     "so many still vibrations along it, timed as Tactile Brush does; 0: one that moves"},
-    MessageArgument{"law", Type::word, 0.0, 0.0, "equal",
-                    "as of a strike; `equal` is felt where it is, and equally strong all the way; `linear`, "
-                    "`log` and `log-outer` lag behind (linear: 0.16 where 0.3 is meant)"},
+    MessageArgument{"law", Type::word, 0.0, 0.0, "auto",
+                    "as of a strike; `auto` is felt where it is, and equally strong all the way: "
+                    "`neighbours` on a row, grid or belt of three or more, else `equal`; `linear`, `log` and "
+                    "`log-outer` lag behind (linear: 0.16 where 0.3 is meant)"},
     frequency,
     level};
 

@@ -96,6 +96,7 @@ std::vector<double> MessageValues::numbers(std::string_view name) const {
 
 Spread MessageValues::spread() const {
     const std::string name = word("law");
+    if (name == nameOf(PanningLaw::automatic)) return panner_.travelSpread();
     const auto found = std::ranges::find(spreadNames, name);
     if (found != spreadNames.end()) return static_cast<Spread>(found - spreadNames.begin());
     fail("law", "expected one of " + listed(spreadNames) + ", found " + inQuotes(name));

@@ -163,7 +163,7 @@ int runBoard(const BoardOptions& o) {
                                         std::to_string(geometry.count));
         const FieldSize said = o.field.isKnown() ? o.field : list.value.field;
         const FieldSize field = said.isKnown() ? said : extentOf(geometry);
-        panner = {geometry, PanningLaw::linear, 1.0, field.widthMetres, field.heightMetres};
+        panner = {geometry, PanningLaw::automatic, 1.0, field.widthMetres, field.heightMetres};
         if (!tellWhatIsFelt(o, events, panner, !said.isKnown())) return exitFailed;
     }
     heedInterrupts();

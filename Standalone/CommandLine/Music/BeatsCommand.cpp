@@ -162,8 +162,8 @@ std::string renderTo(WavSink& wav, std::span<const CollisionEvent> events, const
                      int rateHz, std::int64_t frames) {
     OfflineSettings settings;
     settings.renderer.sampleRateHz = rateHz;
-    settings.renderer.panner =
-        PhantomPanner{layout, PanningLaw::linear, 1.0, layout.extentWidthMetres, layout.extentHeightMetres};
+    settings.renderer.panner = PhantomPanner{layout, PanningLaw::automatic, 1.0, layout.extentWidthMetres,
+                                             layout.extentHeightMetres};
     settings.frames = frames;
     const RenderStatus status = renderOffline(events, settings, [&](const float* const* channels, int count) {
         return wav.write(channels, count);

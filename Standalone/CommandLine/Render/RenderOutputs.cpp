@@ -203,7 +203,7 @@ PictureInput RenderOutputs::pictureInput() const {
     picture.zoom = &*zoom_;
     picture.sampleRateHz = job_.options.sampleRateHz;
     picture.durationSeconds = job_.seconds();
-    picture.law = std::string{nameOf(job_.options.law)} + " law";
+    picture.law = std::string{nameOf(job_.panner().law())} + " law";
     picture.provenance = provenanceText();
     return picture;
 }

@@ -111,7 +111,8 @@ void WorldPanel::takeMix() {
     showTools();
     view_.show(mix.layout, mix.panner());
     view_.setDisplayWidth(desk_.displayWidthMetres());
-    law_.setText(juce::String{nameOf(mix.law).data()} + " law" + dot + "exponent " + number(mix.exponent, 1),
+    law_.setText(juce::String{nameOf(mix.panner().law()).data()} + " law" + dot + "exponent " +
+                     number(mix.exponent, 1),
                  juce::dontSendNotification);
     law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     if (!drag_.isMouseButtonDown())

@@ -235,8 +235,8 @@ async function begin() {
     laws = names;
     for (let i = 0; i < scenes.length; i += 2) $('scene').add(Object.assign(new Option(scenes[i].replaceAll('-', ' '), scenes[i]), { title: scenes[i + 1] }));
     $('scene').add(own);
-    $('law').add(Object.assign(new Option('default (linear)', ''), { title: 'Surfaces that roll or slide by energy, as physvib render has it' }));
-    for (const law of laws) $('law').add(new Option(law));
+    $('law').add(Object.assign(new Option('default', ''), { title: 'neighbours on a row, grid or belt of actuators; elsewhere linear, and surfaces that roll or slide by energy' }));
+    for (const law of laws) if (law !== 'auto') $('law').add(new Option(law)); // which is the default
     await openLink();
     if (matchMedia('(prefers-reduced-motion: reduce)').matches) pause(true);
     else preview.run();

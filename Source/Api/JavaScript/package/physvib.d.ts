@@ -46,7 +46,7 @@ export interface RendererSettings {
     rate?: number;
     /** 0: as many as the layout has actuators (0). */
     channels?: number;
-    law?: 'linear' | 'log' | 'log-outer' | 'energy' | (string & {});
+    law?: 'auto' | 'linear' | 'log' | 'log-outer' | 'energy' | 'neighbours' | (string & {});
     /** false: samples may exceed 1 (true). */
     limiter?: boolean;
     exponent?: number;

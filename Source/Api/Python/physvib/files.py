@@ -120,7 +120,7 @@ def save_events(path: str | os.PathLike[str], list_of: NDArray[np.void], *, fiel
     call("events_save_field", encoded(path), array.ctypes.data, len(array), *field)
 
 
-def render(list_of: NDArray[np.void], seconds: float, *, layout: str | Layout = "phone4", rate_hz: int = 48000, law: str = "linear", exponent: float = 1.0,
+def render(list_of: NDArray[np.void], seconds: float, *, layout: str | Layout = "phone4", rate_hz: int = 48000, law: str = "auto", exponent: float = 1.0,
            field_m: tuple[float, float] | None = None, limiter: bool = True) -> NDArray[np.float32]:
     """Samples of events in time order: float32, shape (enchanters, round(seconds * rate_hz)), frame n at n / rate_hz.
 

@@ -47,7 +47,7 @@ class Live:
     `device`: "JACK:system" for instance, a board ("BOARD:auto", "BOARD:/dev/ttyACM0"), or both ("JACK:system+BOARD:auto"). `save`: a session
     file (.json) of all that is struck, written while it plays; see Session."""
 
-    def __init__(self, device: str = "JACK:system", *, layout: str | Layout = "phone4", channels: int = 0, law: str = "linear", exponent: float = 1.0,
+    def __init__(self, device: str = "JACK:system", *, layout: str | Layout = "phone4", channels: int = 0, law: str = "auto", exponent: float = 1.0,
                  field_m: tuple[float, float] | None = None, limiter: bool = True, rate_hz: int = 0, block_frames: int = 0, steps_per_s: int = 100,
                  longest_gap_s: float = 0.026, level_db: float = -12.0, save: str | os.PathLike[str] = "") -> None:
         self._handle = c_void_p()
@@ -103,7 +103,7 @@ class Live:
         """From session time on, felt L later."""
         live_call("live_set_mute", self._handle, channel, int(is_muted))
 
-    def set_layout(self, layout: str | Layout, *, law: str = "linear", exponent: float = 1.0, field_m: tuple[float, float] | None = None) -> None:
+    def set_layout(self, layout: str | Layout, *, law: str = "auto", exponent: float = 1.0, field_m: tuple[float, float] | None = None) -> None:
         """Later strikes sit there; at most as many enchanters as channels."""
         live_call("live_set_layout", self._handle, ctypes.byref(settings(layout, 48000, law, exponent, field_m, True, 0)))
 

@@ -30,7 +30,7 @@ class Renderer(Owned):
     frames, however busy the interpreter is, if it is told before that block is pulled."""
     _frees = "renderer_free"
 
-    def __init__(self, *, layout: str | Layout = "phone4", rate_hz: int = 48000, channels: int = 0, law: str = "linear", exponent: float = 1.0,
+    def __init__(self, *, layout: str | Layout = "phone4", rate_hz: int = 48000, channels: int = 0, law: str = "auto", exponent: float = 1.0,
                  field_m: tuple[float, float] | None = None, limiter: bool = True) -> None:
         self._handle = c_void_p()
         chosen = settings(layout, rate_hz, law, exponent, field_m, limiter, channels)
@@ -74,7 +74,7 @@ class Renderer(Owned):
         """Of all channels, on top of their gains."""
         call("renderer_set_level", self._handle, time_ns, gain)
 
-    def set_layout(self, layout: str | Layout, *, law: str = "linear", exponent: float = 1.0, field_m: tuple[float, float] | None = None, time_ns: int = 0) -> None:
+    def set_layout(self, layout: str | Layout, *, law: str = "auto", exponent: float = 1.0, field_m: tuple[float, float] | None = None, time_ns: int = 0) -> None:
         """Later strikes sit there; at most as many enchanters as channels."""
         call("renderer_set_layout", self._handle, time_ns, ctypes.byref(settings(layout, self.rate_hz, law, exponent, field_m, True, 0)))
 

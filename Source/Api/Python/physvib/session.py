@@ -21,7 +21,7 @@ class Session(Owned):
     _call = staticmethod(live_call)
     _frees = "session_free"
 
-    def __init__(self, list_of: NDArray[np.void], seconds: float, *, layout: str | Layout = "phone4", channels: int = 0, law: str = "linear",
+    def __init__(self, list_of: NDArray[np.void], seconds: float, *, layout: str | Layout = "phone4", channels: int = 0, law: str = "auto",
                  exponent: float = 1.0, field_m: tuple[float, float] | None = None, limiter: bool = True) -> None:
         """One of events alone (dtype EVENT, in time order), without a world; it lasts so many seconds."""
         array, self._handle = checked(list_of), c_void_p()

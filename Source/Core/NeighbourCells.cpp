@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Finds rows, grids and belts among the places of actuators, and the cell that contains an impact.
+#include "Core/NeighbourCells.h"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace physvib {
+namespace {
+
+using Layout = NeighbourCells::Layout;
+using Place = NeighbourCells::Place;
+
+double shapeTolerance(const Layout& layout) noexcept {
+    return 1e-3 * (layout.extentWidthMetres + layout.extentHeightMetres);
+}
+
+Place difference(const Place& a, const Place& b) noexcept {
+    return {a.xMetres - b.xMetres, a.yMetres - b.yMetres};
+}
+
+double crossProduct(const Place& a, const Place& b) noexcept {
+    return a.xMetres * b.yMetres - a.yMetres * b.xMetres;
+}
+
+} // namespace
+
+const NeighbourCells::Place& NeighbourCells::place(const Layout& layout, int k) const noexcept {
+    return layout.places[order_[static_cast<std::size_t>(k)]];
+}
+
+NeighbourCells::NeighbourCells(const Layout& layout, Axis line) noexcept {
+    if (layout.count < 2) return;
+    std::iota(order_.begin(), order_.begin() + layout.count, std::uint8_t{0});
+    if (findGrid(layout, line) || findGrid(layout, {}))
+        shape_ = Shape::grid;
+    else if (findRing(layout))
+        shape_ = Shape::ring;
+}
+
+// Sorting by rows, then within each row, puts the actuators of a grid in the order of reading from below.
+bool NeighbourCells::findGrid(const Layout& layout, Axis axis) noexcept {
+    axis_ = axis;
+    const auto by = [&](auto coordinate) {
+        return [&layout, coordinate](std::uint8_t a, std::uint8_t b) {
+            return coordinate(layout.places[a]) < coordinate(layout.places[b]);
+        };
+    };
+    const auto begin = order_.begin(), end = begin + layout.count;
+    std::sort(begin, end, by([this](const Place& p) { return across(p); }));
+    const double tolerance = shapeTolerance(layout), lowest = across(place(layout, 0));
+    columns_ = static_cast<int>(std::count_if(
+        begin, end, [&](std::uint8_t j) { return across(layout.places[j]) - lowest <= tolerance; }));
+    if (columns_ < 2 || layout.count % columns_ != 0) return false;
+    rows_ = layout.count / columns_;
+    for (auto row = begin; row != end; row += columns_)
+        std::sort(row, row + columns_, by([this](const Place& p) { return along(p); }));
+    return isGrid(layout, tolerance);
+}
+
+bool NeighbourCells::isGrid(const Layout& layout, double tolerance) const noexcept {
+    for (int k = 0; k < layout.count; ++k) {
+        const int row = k / columns_, column = k % columns_;
+        const Place &p = place(layout, k), &inRow = place(layout, row * columns_),
+                    &inColumn = place(layout, column);
+        if (std::abs(across(p) - across(inRow)) > tolerance) return false;
+        if (std::abs(along(p) - along(inColumn)) > tolerance) return false;
+        if (column > 0 && along(p) - along(place(layout, k - 1)) <= tolerance) return false;
+        if (row > 0 && across(p) - across(place(layout, k - columns_)) <= tolerance) return false;
+    }
+    return true;
+}
+
+// A belt may be a circle, an ellipse or any other convex outline with nothing inside.
+bool NeighbourCells::findRing(const Layout& layout) noexcept {
+    const int n = layout.count;
+    if (n < 4) return false;
+    centre_ = {};
+    for (int k = 0; k < n; ++k) {
+        centre_.xMetres += place(layout, k).xMetres / n;
+        centre_.yMetres += place(layout, k).yMetres / n;
+    }
+    const auto angle = [&](std::uint8_t j) {
+        const Place d = difference(layout.places[j], centre_);
+        return std::atan2(d.yMetres, d.xMetres);
+    };
+    std::sort(order_.begin(), order_.begin() + n,
+              [&](std::uint8_t a, std::uint8_t b) { return angle(a) < angle(b); });
+    const double tolerance = shapeTolerance(layout);
+    for (int k = 0; k < n; ++k) {
+        const Place &a = place(layout, k), &b = place(layout, (k + 1) % n), &c = place(layout, (k + 2) % n);
+        const Place chord = difference(c, a);
+        const double inwards = crossProduct(chord, difference(b, a)); // times the chord's length
+        if (inwards > tolerance * std::hypot(chord.xMetres, chord.yMetres)) return false;
+        if (crossProduct(difference(a, centre_), difference(b, centre_)) <= tolerance * tolerance)
+            return false;
+    }
+    return true;
+}
+
+void NeighbourCells::sharesAt(const Layout& layout, double x, double y, Shares& shares) const noexcept {
+    if (shape_ == Shape::ring)
+        ringShares(layout, {x, y}, shares);
+    else
+        gridShares(layout, {x, y}, shares);
+}
+
+void NeighbourCells::gridShares(const Layout& layout, const Place& p, Shares& shares) const noexcept {
+    const auto between = [](int count, double at, auto coordinate) -> Between {
+        if (count == 1) return {};
+        int first = 0;
+        while (first + 2 < count && coordinate(first + 1) <= at) ++first;
+        const double from = coordinate(first), to = coordinate(first + 1);
+        return {first, std::clamp((at - from) / (to - from), 0.0, 1.0)};
+    };
+    const Between column = between(columns_, along(p), [&](int c) { return along(place(layout, c)); });
+    const Between row = between(rows_, across(p), [&](int r) { return across(place(layout, r * columns_)); });
+    std::fill_n(shares.begin(), layout.count, 0.0);
+    for (int r = 0; r < std::min(2, rows_); ++r)
+        for (int c = 0; c < 2; ++c) {
+            const int k = (row.first + r) * columns_ + column.first + c;
+            shares[order_[static_cast<std::size_t>(k)]] =
+                (r == 0 ? 1.0 - row.share : row.share) * (c == 0 ? 1.0 - column.share : column.share);
+        }
+}
+
+// The two neighbours and the centre form a triangle. The centre has no actuator; all of the ring share its
+// part, and their mean place is the centre.
+void NeighbourCells::ringShares(const Layout& layout, const Place& p, Shares& shares) const noexcept {
+    const Place out = difference(p, centre_);
+    int sector = 0;
+    double first = 0.0, second = 0.0, inside = -1.0; // parts of the two; the best sector's smaller part
+    for (int k = 0; k < layout.count; ++k) {
+        const Place a = difference(place(layout, k), centre_),
+                    b = difference(place(layout, (k + 1) % layout.count), centre_);
+        const double area = crossProduct(a, b);
+        const double toA = crossProduct(out, b) / area, toB = crossProduct(a, out) / area;
+        if (k > 0 && std::min(toA, toB) <= inside) continue;
+        inside = std::min(toA, toB);
+        sector = k, first = std::max(0.0, toA), second = std::max(0.0, toB);
+    }
+    const double reach = first + second; // 1 on the outline
+    const double scale = std::max(1.0, reach);
+    std::fill_n(shares.begin(), layout.count, (1.0 - std::min(1.0, reach)) / layout.count);
+    shares[order_[static_cast<std::size_t>(sector)]] += first / scale;
+    shares[order_[static_cast<std::size_t>((sector + 1) % layout.count)]] += second / scale;
+}
+
+} // namespace physvib
