@@ -23,7 +23,8 @@ public:
         jack_set_error_function([](const char*) {});
         jack_set_info_function([](const char*) {});
     }
-    /// A killed server keeps its place among the eight of a machine until one of the same name ends by itself.
+    /// A killed server keeps its place among the eight of a machine until one of the same name ends by
+    /// itself.
     ~JackServer() {
         if (wasKilled_ && process_ == 0) start(48000, 256, 2);
         end(SIGTERM);

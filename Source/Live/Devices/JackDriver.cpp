@@ -28,7 +28,7 @@ void JackDriver::scan() {
     inputs_.clear();
     outputs_.clear();
     const JackClient client{jack_, "physvib-scan"};
-    if (!client.connected()) return;
+    if (!client.isAlive()) return;
     inputs_ = ownersOf(client.ports(JackPortIsOutput)); // what gives samples is an input here
     outputs_ = ownersOf(client.ports(JackPortIsInput));
 }
