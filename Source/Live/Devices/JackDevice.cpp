@@ -21,18 +21,29 @@ std::string JackDevice::open(const ChannelSet& inputs, const ChannelSet& outputs
     stream_->xruns = 0;
     if (jack_.activate(stream_->client.get()) != 0) return "the JACK server refuses to call this program";
     isOpen_ = true;
-    connect(stream_->in, inputs, false);
-    connect(stream_->out, outputs, true);
+    const std::size_t in = connect(stream_->in, inputs, false), out = connect(stream_->out, outputs, true);
+    awaitConnections(in, out);
     return {};
 }
 
-void JackDevice::connect(const Direction& direction, const ChannelSet& wanted, bool isOutput) {
+std::size_t JackDevice::connect(const Direction& direction, const ChannelSet& wanted, bool isOutput) {
+    std::size_t connected = 0;
     for (const int k : wanted) {
         const auto at = static_cast<std::size_t>(k);
         if (at >= direction.ports.size()) continue;
         const char *own = jack_.port_name(direction.ports[at]), *other = direction.remote[at].c_str();
-        jack_.connect(stream_->client.get(), isOutput ? own : other, isOutput ? other : own);
+        if (jack_.connect(stream_->client.get(), isOutput ? own : other, isOutput ? other : own) == 0)
+            ++connected;
     }
+    return connected;
+}
+
+// JACK makes connections at once, but lists them only from the server's next block on.
+void JackDevice::awaitConnections(std::size_t inputs, std::size_t outputs) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds{500};
+    while ((connectedPorts(stream_->in).size() < inputs || connectedPorts(stream_->out).size() < outputs) &&
+           isAlive() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
 }
 
 void JackDevice::close() {

@@ -38,7 +38,8 @@ private:
     using Direction = JackStream::Direction;
 
     bool isAlive() const noexcept { return stream_->client.isAlive(); }
-    void connect(const Direction& direction, const ChannelSet& wanted, bool isOutput);
+    std::size_t connect(const Direction& direction, const ChannelSet& wanted, bool isOutput);
+    void awaitConnections(std::size_t inputs, std::size_t outputs) const;
     std::vector<jack_port_t*> connectedPorts(const Direction& direction) const;
 
     const JackLibrary& jack_;
