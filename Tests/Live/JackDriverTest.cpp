@@ -192,9 +192,56 @@ TEST_F(JackDriverTest, SeveralDevicesPlayAtOnceAndAreNoDevicesThemselves) {
     EXPECT_TRUE(comes([&] { return other.blocks > before + 3; }));
 }
 
+// JACK's library frees what lost its server at the next opening; nothing may be freed or called again.
+TEST_F(JackDriverTest, DevicesOutliveTheirServerAndAnOpening) {
+    auto first = systemDevice(), second = systemDevice();
+    ASSERT_EQ(first->open({}, {0}, 0, 0), "");
+    ASSERT_EQ(second->open({}, {1}, 0, 0), "");
+    first->start(user);
+    server.end(SIGKILL);
+    ASSERT_TRUE(comes([&] { return !first->isOpen() && !second->isOpen(); }));
+    EXPECT_EQ(systemDevice(), nullptr);
+    EXPECT_NE(first->open({}, {0}, 0, 0), "");
+    ASSERT_TRUE(server.start(44100, 128, 2));
+    auto third = systemDevice();
+    ASSERT_EQ(third->open({}, {0}, 0, 0), "");
+    first.reset();
+    second.reset();
+    EXPECT_TRUE(third->isOpen());
+    EXPECT_EQ(third->sampleRateHz(), 44100);
+    EXPECT_EQ(user.stops, 1);
+    third->close();
+}
+
+TEST_F(JackDriverTest, ThreadsMayOpenDevicesWhileTheServerDies) {
+    std::atomic<bool> isOver{false};
+    std::atomic<int> played{0};
+    std::vector<std::thread> threads;
+    for (int j = 0; j < 3; ++j)
+        threads.emplace_back([&] {
+            NoiseUser noise;
+            while (!isOver) {
+                const auto device = systemDevice();
+                if (device == nullptr || !device->open({}, {0, 1}, 0, 0).empty()) continue;
+                device->start(noise);
+                std::this_thread::sleep_for(std::chrono::milliseconds{20});
+                if (device->isOpen()) ++played;
+            }
+        });
+    for (int i = 0; i < 5; ++i) {
+        const int before = played;
+        EXPECT_TRUE(comes([&] { return played > before + 5; })) << i;
+        server.end(SIGKILL);
+        std::this_thread::sleep_for(std::chrono::milliseconds{100});
+        ASSERT_TRUE(server.start(48000, 64, 2)) << i;
+    }
+    isOver = true;
+    for (auto& thread : threads) thread.join();
+}
+
 TEST_F(JackDriverTest, FiveHundredOpensAndClosesLeaveNothing) {
     server.end(SIGTERM);
-    ASSERT_TRUE(server.start(48000, 256, 4)) << "ports take time";
+    ASSERT_TRUE(server.start(48000, 64, 4)) << "each change of the graph takes a block";
     for (int i = 0; i < 500; ++i) {
         user.outputs = 0;
         const auto device = systemDevice();
