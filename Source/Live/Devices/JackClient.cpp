@@ -2,14 +2,14 @@
 // Opens and closes clients of JACK, one at a time in the process, as JACK's library does itself.
 #include "Live/Devices/JackClient.h"
 #include <atomic>
+#include <chrono>
 #include <cstdint>
-#include <mutex>
 #include <utility>
 
 namespace physvib {
 namespace {
 
-std::mutex openingJack;
+std::shared_timed_mutex openingJack;
 std::atomic<unsigned int> serversLost{0};
 
 std::vector<std::shared_ptr<void>>& keptForJack() {
@@ -30,7 +30,11 @@ JackClient::JackClient(const JackLibrary& jack, const char* name)
     : jack_{jack} {
     std::vector<std::shared_ptr<void>> freed;
     const std::lock_guard lock{openingJack};
-    client_ = jack_.client_open(name, JackNoStartServer, nullptr);
+    jack_status_t status{};
+    client_ = jack_.client_open(name, JackNoStartServer, &status);
+    // The server may have gone this very moment: opening may then have freed clients whose loss JACK had no
+    // time to report.
+    if (client_ == nullptr && (status & JackServerFailed) != 0) ++serversLost;
     if (client_ == nullptr) return;
     server_ = serversLost;
     const std::uintptr_t number = server_;
@@ -39,12 +43,22 @@ JackClient::JackClient(const JackLibrary& jack, const char* name)
 }
 
 JackClient::~JackClient() {
-    if (!isAlive()) return; // also of those that are kept: openingJack is locked then
-    const std::lock_guard lock{openingJack};
-    if (isAlive()) jack_.client_close(client_);
+    if (const auto held = hold()) jack_.client_close(client_);
 }
 
 bool JackClient::isAlive() const noexcept { return client_ != nullptr && serversLost == server_; }
+
+JackClient::Held JackClient::hold() const {
+    if (!isAlive()) return {};
+    Held held{openingJack};
+    return isAlive() ? std::move(held) : Held{};
+}
+
+JackClient::Held JackClient::holdSoon() const {
+    if (!isAlive()) return {};
+    Held held{openingJack, std::chrono::milliseconds{50}};
+    return held && isAlive() ? std::move(held) : Held{};
+}
 
 void JackClient::keepUntilFreed(std::shared_ptr<void> callbacks) {
     const std::lock_guard lock{openingJack};

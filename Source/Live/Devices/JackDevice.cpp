@@ -17,7 +17,8 @@ JackDevice::~JackDevice() {
 
 std::string JackDevice::open(const ChannelSet& inputs, const ChannelSet& outputs, int, int) {
     close();
-    if (!isAlive()) return "expected a running JACK server, found none";
+    const auto held = stream_->client.hold();
+    if (!held) return "expected a running JACK server, found none";
     stream_->xruns = 0;
     if (jack_.activate(stream_->client.get()) != 0) return "the JACK server refuses to call this program";
     isOpen_ = true;
@@ -48,7 +49,7 @@ void JackDevice::awaitConnections(std::size_t inputs, std::size_t outputs) const
 
 void JackDevice::close() {
     stop();
-    if (isOpen_ && isAlive()) jack_.deactivate(stream_->client.get());
+    if (const auto held = stream_->client.hold(); isOpen_ && held) jack_.deactivate(stream_->client.get());
     isOpen_ = false;
     stream_->in.active.clear();
     stream_->out.active.clear();
@@ -56,17 +57,20 @@ void JackDevice::close() {
 
 std::vector<jack_port_t*> JackDevice::connectedPorts(const Direction& direction) const {
     std::vector<jack_port_t*> ports;
-    if (!isAlive()) return ports;
     for (auto* port : direction.ports)
         if (jack_.port_connected(port) > 0) ports.push_back(port);
     return ports;
 }
 
+bool JackDevice::hasOtherConnections() const {
+    const auto held = stream_->client.holdSoon();
+    return held && (connectedPorts(stream_->in) != stream_->in.active ||
+                    connectedPorts(stream_->out) != stream_->out.active);
+}
+
 bool JackDevice::isOpen() {
     if (!isOpen_ || !isAlive()) return false;
-    if (connectedPorts(stream_->in) == stream_->in.active &&
-        connectedPorts(stream_->out) == stream_->out.active)
-        return true;
+    if (!hasOtherConnections()) return true;
     if (DeviceUser* const user = stream_->slot.end()) {
         user->stopped();
         start(*user);
@@ -76,9 +80,11 @@ bool JackDevice::isOpen() {
 
 void JackDevice::start(DeviceUser& user) {
     if (!isOpen_ || !isAlive()) return;
-    stream_->in.active = connectedPorts(stream_->in); // not read by the render thread before the user is
-                                                      // there
-    stream_->out.active = connectedPorts(stream_->out);
+    if (const auto held = stream_->client.holdSoon()) {
+        stream_->in.active = connectedPorts(stream_->in); // not read by the render thread before the user is
+                                                          // there
+        stream_->out.active = connectedPorts(stream_->out);
+    }
     stream_->slot.begin(*this, user);
 }
 
@@ -86,12 +92,12 @@ void JackDevice::stop() {
     if (DeviceUser* const user = stream_->slot.end()) user->stopped();
 }
 
-int JackDevice::sampleRateHz() {
-    return isAlive() ? static_cast<int>(jack_.get_sample_rate(stream_->client.get())) : 0;
-}
+int JackDevice::sampleRateHz() { return isAlive() ? stream_->rateHz : 0; }
 
 int JackDevice::blockFrames() {
-    return isAlive() ? static_cast<int>(jack_.get_buffer_size(stream_->client.get())) : 0;
+    if (const auto held = stream_->client.holdSoon())
+        stream_->blockFrames = static_cast<int>(jack_.get_buffer_size(stream_->client.get()));
+    return isAlive() ? stream_->blockFrames : 0;
 }
 
 ChannelSet JackDevice::activeOutputs() const {
@@ -105,6 +111,8 @@ ChannelSet JackDevice::activeOutputs() const {
 // Read at the ports that ours are connected to: JACK tells ours only after its next change of the graph.
 int JackDevice::outputLatencyFrames() {
     jack_nframes_t longest = 0;
+    const auto held = stream_->client.holdSoon();
+    if (!held) return 0;
     for (auto* port : connectedPorts(stream_->out)) {
         const char** const others = jack_.port_get_connections(port);
         for (const char** name = others; name != nullptr && *name != nullptr; ++name) {

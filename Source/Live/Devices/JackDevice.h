@@ -40,7 +40,8 @@ private:
     bool isAlive() const noexcept { return stream_->client.isAlive(); }
     std::size_t connect(const Direction& direction, const ChannelSet& wanted, bool isOutput);
     void awaitConnections(std::size_t inputs, std::size_t outputs) const;
-    std::vector<jack_port_t*> connectedPorts(const Direction& direction) const;
+    std::vector<jack_port_t*> connectedPorts(const Direction& direction) const; // held
+    bool hasOtherConnections() const;
 
     const JackLibrary& jack_;
     const std::string name_;

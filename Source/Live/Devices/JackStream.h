@@ -21,7 +21,10 @@ public:
     JackStream(const JackLibrary& jack, const std::string& device, bool withInputs)
         : client{jack, "physvib"}
         , jack_{jack} {
-        if (!client.isAlive()) return;
+        const auto held = client.hold();
+        if (!held) return;
+        rateHz = static_cast<int>(jack_.get_sample_rate(client.get()));
+        blockFrames = static_cast<int>(jack_.get_buffer_size(client.get()));
         out.remote = client.portsOf(device, JackPortIsInput);
         if (withInputs) in.remote = client.portsOf(device, JackPortIsOutput);
         addPorts(in, "in_", JackPortIsInput);
@@ -33,7 +36,9 @@ public:
     Direction in, out;
     UserSlot slot;
     std::atomic<int> xruns{0};
-    JackClient client; ///< closed first: until then JACK may call
+    int rateHz = 0;      ///< of the server, which keeps it
+    int blockFrames = 0; ///< of the server, when it was last asked
+    JackClient client;   ///< closed first: until then JACK may call
 
 private:
     static int onBlock(jack_nframes_t frames, void* self) {
