@@ -1,76 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Devices of a JACK server: samples at the ports, connections, and a server that is killed.
-#include "DeviceNoise.h"
-#include "JackServer.h"
-#include <cstring>
-#include <gtest/gtest.h>
+// Devices of a JACK server: samples at the ports, and connections.
+#include "JackDriverFixture.h"
+#include "PortRecorder.h"
 #include <vector>
 
 namespace physvib::test {
 namespace {
-
-std::unique_ptr<AudioDevice> systemDevice() {
-    const auto driver = driverNamed("JACK");
-    driver->scan();
-    return driver->create("system", false);
-}
-
-/// Records ports of another client; what is read is whole blocks.
-class PortRecorder {
-public:
-    explicit PortRecorder(const std::vector<std::string>& sources)
-        : client_{jack_client_open("recorder", JackNoStartServer, nullptr)}
-        , recorded{std::vector<std::vector<float>>(sources.size())} {
-        for (auto& channel : recorded) channel.reserve(capacity);
-        for (std::size_t j = 0; j < sources.size(); ++j)
-            ports_.push_back(jack_port_register(client_, ("in_" + std::to_string(j + 1)).c_str(),
-                                                JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput, 0));
-        const auto onBlock = [](jack_nframes_t frames, void* self) {
-            return static_cast<PortRecorder*>(self)->process(frames);
-        };
-        jack_set_process_callback(client_, onBlock, this);
-        jack_activate(client_);
-        for (std::size_t j = 0; j < sources.size(); ++j)
-            if (jack_connect(client_, sources[j].c_str(), jack_port_name(ports_[j])) != 0) ++refused;
-    }
-    ~PortRecorder() { close(); }
-    void close() {
-        if (client_ != nullptr) jack_client_close(client_);
-        client_ = nullptr;
-    }
-
-    int refused = 0;
-    std::atomic<std::size_t> frames{0};
-
-private:
-    static constexpr std::size_t capacity = 480'000;
-    int process(jack_nframes_t count) {
-        if (frames + count > capacity) return 0;
-        for (std::size_t j = 0; j < ports_.size(); ++j) {
-            const auto* in = static_cast<const float*>(jack_port_get_buffer(ports_[j], count));
-            recorded[j].insert(recorded[j].end(), in, in + count);
-        }
-        frames += count;
-        return 0;
-    }
-    jack_client_t* client_;
-    std::vector<jack_port_t*> ports_;
-
-public:
-    std::vector<std::vector<float>> recorded;
-};
-
-/// Whether these are noise() of the channel, bit for bit, from the first sample that is not 0 on.
-bool isNoise(const std::vector<float>& samples, int channel, std::size_t least) {
-    std::size_t first = 0;
-    while (first < samples.size() && std::bit_cast<std::uint32_t>(samples[first]) == 0) ++first;
-    if (samples.size() - first < least) return false;
-    for (std::size_t n = first; n < samples.size(); ++n) {
-        const float expected = noise(static_cast<std::uint32_t>(n - first), channel);
-        if (std::memcmp(&expected, &samples[n], sizeof expected) != 0) return false;
-    }
-    return true;
-}
 
 std::vector<std::string> connectionsOf(const std::string& port) {
     std::vector<std::string> names;
@@ -81,15 +16,6 @@ std::vector<std::string> connectionsOf(const std::string& port) {
     jack_client_close(client);
     return names;
 }
-
-class JackDriverTest : public ::testing::Test {
-protected:
-    void SetUp() override {
-        if (!server.start(48000, 256, 64)) GTEST_SKIP() << "expected jackd to start";
-    }
-    JackServer server;
-    NoiseUser user;
-};
 
 TEST_F(JackDriverTest, PortsGetTheUsersSamplesToTheBit) {
     for (const int channels : {1, 4, 64}) {
@@ -156,26 +82,6 @@ TEST_F(JackDriverTest, ConnectionsOfOthersAreFollowed) {
     jack_client_close(other);
 }
 
-TEST_F(JackDriverTest, AKilledServerComesBackAtAnotherRateTenTimes) {
-    for (int i = 0; i < 10; ++i) {
-        auto device = systemDevice();
-        ASSERT_NE(device, nullptr) << i;
-        ASSERT_EQ(device->open({}, {0, 1}, 0, 0), "") << i;
-        EXPECT_EQ(device->sampleRateHz(), i % 2 == 0 ? 48000 : 44100);
-        NoiseUser noise;
-        device->start(noise);
-        ASSERT_TRUE(comes([&] { return noise.blocks > 3; }));
-        server.end(SIGKILL);
-        ASSERT_TRUE(comes([&] { return !device->isOpen(); })) << i;
-        device->stop();
-        EXPECT_EQ(noise.stops, 1);
-        device->close();
-        EXPECT_EQ(systemDevice(), nullptr) << "while there is no server";
-        device.reset();
-        ASSERT_TRUE(server.start(i % 2 == 0 ? 44100 : 48000, i % 3 == 0 ? 128 : 512, 2 + i));
-    }
-}
-
 TEST_F(JackDriverTest, SeveralDevicesPlayAtOnceAndAreNoDevicesThemselves) {
     const auto first = systemDevice(), second = systemDevice();
     ASSERT_EQ(first->open({}, {0}, 0, 0), "");
@@ -190,73 +96,6 @@ TEST_F(JackDriverTest, SeveralDevicesPlayAtOnceAndAreNoDevicesThemselves) {
     first->close();
     const std::uint32_t before = other.blocks;
     EXPECT_TRUE(comes([&] { return other.blocks > before + 3; }));
-}
-
-// JACK's library frees what lost its server at the next opening; nothing may be freed or called again.
-TEST_F(JackDriverTest, DevicesOutliveTheirServerAndAnOpening) {
-    auto first = systemDevice(), second = systemDevice();
-    ASSERT_EQ(first->open({}, {0}, 0, 0), "");
-    ASSERT_EQ(second->open({}, {1}, 0, 0), "");
-    first->start(user);
-    server.end(SIGKILL);
-    ASSERT_TRUE(comes([&] { return !first->isOpen() && !second->isOpen(); }));
-    EXPECT_EQ(systemDevice(), nullptr);
-    EXPECT_NE(first->open({}, {0}, 0, 0), "");
-    ASSERT_TRUE(server.start(44100, 128, 2));
-    auto third = systemDevice();
-    ASSERT_EQ(third->open({}, {0}, 0, 0), "");
-    first.reset();
-    second.reset();
-    EXPECT_TRUE(third->isOpen());
-    EXPECT_EQ(third->sampleRateHz(), 44100);
-    EXPECT_EQ(user.stops, 1);
-    third->close();
-}
-
-TEST_F(JackDriverTest, ThreadsMayOpenDevicesWhileTheServerDies) {
-    std::atomic<bool> isOver{false};
-    std::atomic<int> played{0};
-    std::vector<std::thread> threads;
-    for (int j = 0; j < 3; ++j)
-        threads.emplace_back([&] {
-            NoiseUser noise;
-            while (!isOver) {
-                const auto device = systemDevice();
-                if (device == nullptr || !device->open({}, {0, 1}, 0, 0).empty()) continue;
-                device->start(noise);
-                std::this_thread::sleep_for(std::chrono::milliseconds{20});
-                if (device->isOpen()) ++played;
-            }
-        });
-    for (int i = 0; i < 5; ++i) {
-        const int before = played;
-        EXPECT_TRUE(comes([&] { return played > before + 5; })) << i;
-        server.end(SIGKILL);
-        std::this_thread::sleep_for(std::chrono::milliseconds{100});
-        ASSERT_TRUE(server.start(48000, 64, 2)) << i;
-    }
-    isOver = true;
-    for (auto& thread : threads) thread.join();
-}
-
-TEST_F(JackDriverTest, FiveHundredOpensAndClosesLeaveNothing) {
-    server.end(SIGTERM);
-    ASSERT_TRUE(server.start(48000, 64, 4)) << "each change of the graph takes a block";
-    for (int i = 0; i < 500; ++i) {
-        user.outputs = 0;
-        const auto device = systemDevice();
-        ASSERT_NE(device, nullptr) << i;
-        ASSERT_EQ(device->open({}, {0, 1, 2, 3}, 0, 0), "") << i;
-        device->start(user);
-        ASSERT_TRUE(comes([&] { return user.outputs == 4; }));
-    }
-    EXPECT_EQ(user.starts, 500);
-    EXPECT_EQ(user.stops, 500);
-    auto* client = jack_client_open("asks", JackNoStartServer, nullptr);
-    const char** left = jack_get_ports(client, "^physvib", nullptr, 0);
-    EXPECT_EQ(left, nullptr);
-    jack_free(left);
-    jack_client_close(client);
 }
 
 } // namespace
