@@ -16,12 +16,17 @@ namespace {
 /// A null device has no clock: after so many frames this user takes its time.
 struct SlowUser final : DeviceUser {
     NoiseUser noise;
+    std::atomic<int> inputs{0};
+    std::atomic<float> loudest{0.0f};
     void aboutToStart(AudioDevice& device) override { noise.aboutToStart(device); }
     void stopped() override { noise.stopped(); }
-    void block(const float* const* in, int inputs, float* const* out, int outputs,
+    void block(const float* const* in, int channels, float* const* out, int outputs,
                int frames) noexcept override {
         if (noise.frames > 8192) std::this_thread::sleep_for(std::chrono::milliseconds{5});
-        noise.block(in, inputs, out, outputs, frames);
+        inputs = channels;
+        for (int k = 0; k < channels; ++k)
+            loudest = std::max(loudest.load(), *std::max_element(in[k], in[k] + frames));
+        noise.block(in, channels, out, outputs, frames);
     }
 };
 
@@ -35,6 +40,8 @@ protected:
             << file("floats", "Hands") << file("shorts", "Short hands")
             << "pcm.linear { type linear slave { pcm shorts format S16_LE } "
                "hint { show on description Linear } }\n"
+            << "pcm.ears { type file slave.pcm { type null } file /dev/null infile \"" +
+                   (folder / "input").string() + "\" format raw hint { show on description Ears } }\n"
             << "pcm.unplugged { type hw card 30 hint { show on description Unplugged } }\n"
             << "pcm.twin { type null hint { show on description Hands } }\n";
         driver = driverNamed("ALSA");
@@ -112,6 +119,21 @@ TEST_F(AlsaDriverTest, ADeviceWithoutFloatsGetsThemRoundedAndNeverWrapped) {
         const float wanted = std::clamp(noise(frame, 0), -1.0f, 32767.0f / 32768.0f) * 32768.0f;
         ASSERT_NEAR(samples[first + 3 * frame], wanted, 1.0f) << frame;
     }
+}
+
+TEST_F(AlsaDriverTest, InputsAreThoseOfTheSameName) {
+    const std::vector<float> recorded(3 * 48'000, 0.5f);
+    std::ofstream{folder / "input", std::ios::binary}.write(reinterpret_cast<const char*>(recorded.data()),
+                                                            std::streamsize(sizeof(float) * recorded.size()));
+    const auto device = driver->create("Ears", true);
+    ASSERT_NE(device, nullptr);
+    EXPECT_GT(device->inputs(), 2);
+    ASSERT_EQ(device->open({1, 2}, {0}, 48000, 256), "");
+    device->start(user);
+    EXPECT_TRUE(comes([&] { return user.noise.blocks > 3; }));
+    device->close();
+    EXPECT_EQ(user.inputs, 2);
+    EXPECT_EQ(user.loudest, 0.5f);
 }
 
 TEST_F(AlsaDriverTest, ADeviceThatIsNotThereIsOneLine) {

@@ -2,6 +2,8 @@
 // Devices of a JACK server: samples at the ports, and connections.
 #include "JackDriverFixture.h"
 #include "PortRecorder.h"
+#include <algorithm>
+#include <atomic>
 #include <vector>
 
 namespace physvib::test {
@@ -79,6 +81,45 @@ TEST_F(JackDriverTest, ConnectionsOfOthersAreFollowed) {
     ASSERT_EQ(jack_connect(other, "physvib:out_1", "system:playback_1"), 0);
     EXPECT_TRUE(follows({0}));
     EXPECT_TRUE(comes([&] { return user.blocks > before; }));
+    jack_client_close(other);
+}
+
+/// Keeps the first sample of each block's only input.
+struct Listener final : DeviceUser {
+    std::atomic<float> heard{0.0f};
+    void aboutToStart(AudioDevice&) override {}
+    void stopped() override {}
+    void block(const float* const* in, int inputs, float* const* out, int outputs,
+               int frames) noexcept override {
+        for (int k = 0; k < outputs; ++k) std::fill_n(out[k], frames, 0.0f);
+        if (inputs == 1) heard = in[0][0];
+    }
+};
+
+TEST_F(JackDriverTest, InputsComeFromTheOutputsOfTheSameClient) {
+    auto* other = jack_client_open("other", JackNoStartServer, nullptr);
+    static jack_port_t* ports[2];
+    for (auto*& port : ports)
+        port = jack_port_register(other, &port == ports ? "left" : "right", JACK_DEFAULT_AUDIO_TYPE,
+                                  JackPortIsOutput, 0);
+    jack_port_register(other, "in", JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput, 0);
+    const auto onBlock = [](jack_nframes_t frames, void*) {
+        std::fill_n(static_cast<float*>(jack_port_get_buffer(ports[0], frames)), frames, 0.25f);
+        std::fill_n(static_cast<float*>(jack_port_get_buffer(ports[1], frames)), frames, 0.5f);
+        return 0;
+    };
+    jack_set_process_callback(other, onBlock, nullptr);
+    jack_activate(other);
+    const auto driver = driverNamed("JACK");
+    driver->scan();
+    EXPECT_EQ(driver->deviceNames(true), std::vector<std::string>{"other"});
+    const auto device = driver->create("other", true);
+    EXPECT_EQ(device->inputs(), 2);
+    Listener listener;
+    ASSERT_EQ(device->open({1}, {0}, 0, 0), "");
+    device->start(listener);
+    EXPECT_TRUE(comes([&] { return listener.heard == 0.5f; }));
+    device->close();
     jack_client_close(other);
 }
 
