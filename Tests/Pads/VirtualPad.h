@@ -3,6 +3,7 @@
 #pragma once
 #include "Live/Pads/GamePads.h"
 #include "Live/Pads/SdlLibrary.h"
+#include "Live/Pads/SharedLibrary.h"
 #include <chrono>
 #include <mutex>
 #include <string>
