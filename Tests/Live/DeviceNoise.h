@@ -2,7 +2,7 @@
 // What tests of devices play: samples that nothing may change, not even denormals and those beyond full
 // scale.
 #pragma once
-#include "Live/Devices/AudioDevice.h"
+#include "Live/Devices/SystemDrivers.h"
 #include <atomic>
 #include <bit>
 #include <chrono>
@@ -37,6 +37,12 @@ struct NoiseUser final : DeviceUser {
         ++blocks;
     }
 };
+
+inline std::unique_ptr<AudioDriver> driverNamed(const std::string& name) {
+    for (auto& driver : systemAudioDrivers())
+        if (driver->name() == name) return std::move(driver);
+    return nullptr;
+}
 
 /// Waits up to ten seconds for it.
 inline bool comes(const std::function<bool()>& condition) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A JACK server without hardware for one test, which may kill it and start it again.
 #pragma once
+#include "Live/Devices/JackClient.h"
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
-#include <jack/jack.h>
 #include <string>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -20,10 +20,9 @@ public:
     JackServer() {
         setenv("JACK_DEFAULT_SERVER", ("physvib-" + std::to_string(getpid())).c_str(), 1);
         setenv("JACK_NO_AUDIO_RESERVATION", "1", 1);
-        jack_set_error_function([](const char*) {});
-        jack_set_info_function([](const char*) {});
     }
-    /// A killed server keeps its place among the eight of a machine until one of the same name ends by itself.
+    /// A killed server keeps its place among the eight of a machine until one of the same name ends by
+    /// itself.
     ~JackServer() {
         if (wasKilled_ && process_ == 0) start(48000, 256, 2);
         end(SIGTERM);
@@ -47,8 +46,7 @@ public:
         }
         for (int i = 0; i < 1000; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
-            if (auto* client = jack_client_open("waits", JackNoStartServer, nullptr))
-                return jack_client_close(client) == 0;
+            if (JackClient{*jackLibrary(), "waits"}.isAlive()) return true;
         }
         return false;
     }

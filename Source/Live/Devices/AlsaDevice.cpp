@@ -18,7 +18,7 @@ std::string AlsaDevice::Direction::open(const ChannelSet& wanted, const AlsaRang
                                         int& blockFrames) {
     active.clear();
     for (const int k : wanted)
-        if (k < range.maxChannels) active.insert(k);
+        if (pcm.hasName() && (k < range.maxChannels || range.maxChannels == 0)) active.insert(k);
     if (active.empty()) return {};
     return pcm.open(std::max(range.minChannels, *active.rbegin() + 1), rateHz, blockFrames);
 }

@@ -32,6 +32,7 @@ public:
     std::string open(int channels, int& rateHz, int& blockFrames);
     void close();
     bool isOpen() const noexcept { return pcm_ != nullptr; }
+    bool hasName() const noexcept { return !id_.empty(); }
     int channels() const noexcept { return channels_; }
     int latencyFrames() const noexcept { return latencyFrames_; }
 

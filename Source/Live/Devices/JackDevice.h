@@ -2,9 +2,7 @@
 // Another client of the JACK server, such as "system", as a device: this program's ports are connected to
 // its.
 #pragma once
-#include "Live/Devices/JackClient.h"
-#include "Live/Devices/UserSlot.h"
-#include <atomic>
+#include "Live/Devices/JackStream.h"
 
 namespace physvib {
 
@@ -13,11 +11,11 @@ namespace physvib {
 class JackDevice final : public AudioDevice {
 public:
     JackDevice(const JackLibrary& jack, std::string name, bool withInputs);
-    ~JackDevice() override { close(); }
+    ~JackDevice() override;
 
     std::string name() const override { return name_; }
-    int outputs() override { return static_cast<int>(out_.ports.size()); }
-    int inputs() override { return static_cast<int>(in_.ports.size()); }
+    int outputs() override { return static_cast<int>(stream_->out.ports.size()); }
+    int inputs() override { return static_cast<int>(stream_->in.ports.size()); }
     int defaultBlockFrames() override { return blockFrames(); }
     std::string open(const ChannelSet& inputs, const ChannelSet& outputs, int sampleRateHz,
                      int blockFrames) override;
@@ -34,32 +32,21 @@ public:
     int blockFrames() override;
     ChannelSet activeOutputs() const override;
     int outputLatencyFrames() override;
-    int xruns() const override { return xruns_; }
+    int xruns() const override { return stream_->xruns; }
 
 private:
-    struct Direction {
-        std::vector<std::string> remote;  // the device's ports
-        std::vector<jack_port_t*> ports;  // ours, connected to these
-        std::vector<jack_port_t*> active; // of ours, those that are connected
-        std::vector<float*> buffers;      // of these, for one block
-    };
+    using Direction = JackStream::Direction;
 
-    bool isAlive() const { return client_.connected() && !isGone_; }
-    void addPorts(Direction& direction, const char* prefix, JackPortFlags flags);
-    void connect(const Direction& direction, const ChannelSet& wanted, bool isOutput);
-    std::vector<jack_port_t*> connectedPorts(const Direction& direction) const;
-    void process(jack_nframes_t frames) noexcept;                     // R
-    int locate(Direction& direction, jack_nframes_t frames) noexcept; // R
-    void silence(jack_nframes_t frames) noexcept;                     // R
+    bool isAlive() const noexcept { return stream_->client.isAlive(); }
+    std::size_t connect(const Direction& direction, const ChannelSet& wanted, bool isOutput);
+    void awaitConnections(std::size_t inputs, std::size_t outputs) const;
+    std::vector<jack_port_t*> connectedPorts(const Direction& direction) const; // held
+    bool hasOtherConnections() const;
 
     const JackLibrary& jack_;
     const std::string name_;
-    Direction in_, out_;
-    UserSlot slot_;
-    std::atomic<bool> isGone_{false};
-    std::atomic<int> xruns_{0};
+    std::shared_ptr<JackStream> stream_;
     bool isOpen_ = false;
-    JackClient client_; // closed first: until then JACK may call
 };
 
 } // namespace physvib

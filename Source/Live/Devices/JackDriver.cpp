@@ -28,7 +28,8 @@ void JackDriver::scan() {
     inputs_.clear();
     outputs_.clear();
     const JackClient client{jack_, "physvib-scan"};
-    if (!client.connected()) return;
+    const auto held = client.hold();
+    if (!held) return;
     inputs_ = ownersOf(client.ports(JackPortIsOutput)); // what gives samples is an input here
     outputs_ = ownersOf(client.ports(JackPortIsInput));
 }

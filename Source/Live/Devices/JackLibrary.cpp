@@ -2,6 +2,7 @@
 // Loads all of JACK's functions, or none.
 #include "Live/Devices/JackLibrary.h"
 #include "Live/Pads/SharedLibrary.h"
+#include <initializer_list>
 
 namespace physvib {
 namespace {
