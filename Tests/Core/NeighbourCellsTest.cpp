@@ -155,7 +155,8 @@ TEST(NeighbourCells, ElsewhereTheDefaultIsWhatItWasToTheBit) {
         {"all at one place", layoutAt({{0.1, 0.5}, {0.1, 0.5}, {0.1, 0.5}})},
         {"a middle", layoutAt({{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 0.5}})}};
     for (const auto name : layoutPresetNames)
-        layoutPreset(name, layouts.emplace_back(std::string{name}, EnchanterLayout{}).second);
+        if (name.starts_with("phone") || name.starts_with("ring"))
+            layoutPreset(name, layouts.emplace_back(std::string{name}, EnchanterLayout{}).second);
     for (const auto& [name, layout] : layouts) {
         PhantomPanner before = pannerOn(layout, PanningLaw::linear);
         before.setGrains(grainSpread);

@@ -105,10 +105,8 @@ typedef struct physvib_layout {
 #define PHYSVIB_LAW_LOG 1        /**< of panning: see Docs/panning.md */
 #define PHYSVIB_LAW_LOG_OUTER 2  /**< of panning: see Docs/panning.md */
 #define PHYSVIB_LAW_ENERGY 3     /**< of panning: see Docs/panning.md */
-#define PHYSVIB_LAW_NEIGHBOURS 4 /**< of panning: only the actuators around the place; see Docs/panning.md   \
-                                  */
-#define PHYSVIB_LAW_AUTO                                                                                     \
-    5 /**< of panning: NEIGHBOURS on a row of three or more, a grid, a belt; else LINEAR */
+#define PHYSVIB_LAW_NEIGHBOURS 4 /**< of panning: only the actuators around the place */
+#define PHYSVIB_LAW_AUTO 5       /**< NEIGHBOURS on a row of three or more, a grid, a belt; else LINEAR */
 
 /* Fill a structure that has a `size` with its ..._init(&it, sizeof it), then change what you like. Structures
  * grow at their end only: of a program that was built with a shorter one, only that part is read and written.
