@@ -136,7 +136,8 @@ std::string felt(const ContactCounts& c, const OutputFacts* output) {
     if (std::string why = ownField(c, made); !why.empty()) return why;
     if (isOfMetres && c.fastestApproach > fastMetresPerSecond)
         return made + ", at up to " + speed(c.fastestApproach) + ": this looks like pixels; " + divide;
-    if (output != nullptr) return made + ", and played: if nothing is felt, look at amplifier and cables.";
+    if (output != nullptr)
+        return made + ", and reach the output: if nothing is felt, look at amplifier and cables.";
     return made + ": if nothing is felt, the field of the renderer or device must span these places (by "
                   "default it is the layout, centimetres); then look at the levels.";
 }
