@@ -52,6 +52,12 @@ TEST(ContactCounts, NameTheMostFrequentReason) {
     EXPECT_NE(inNames(explain(unfelt), Names::scene).find("haptic source: set camera"), std::string::npos);
 }
 
+TEST(ContactCounts, NameTheOptionOfTheCommandLine) {
+    EXPECT_EQ(inNames("set field_width_m and field_height_m of the renderer", Names::scene),
+              "set the field (--field) of the renderer");
+    EXPECT_EQ(inNames("set field_width_m", Names::cpp), "set fieldWidthMetres");
+}
+
 TEST(ContactCounts, ExplainWhatCameSince) {
     ContactCounts ever = tenContacts(), since;
     ever.made(0.5, 0.5);
