@@ -70,7 +70,7 @@ TEST(ContactCounts, ExplainWhatCameSince) {
     EXPECT_EQ(explain(since, ever).find("No contact has begun in 3 steps"), 0u) << explain(since, ever);
     since.note(EngineNote::asleep, 4);
     since.note(EngineNote::asleep, 5);
-    EXPECT_NE(explain(since, ever).find("body 5 and 1 other source is asleep"), std::string::npos)
+    EXPECT_NE(explain(since, ever).find("body 5 (and 1 other source) is asleep"), std::string::npos)
         << explain(since, ever);
 }
 
