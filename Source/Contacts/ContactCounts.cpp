@@ -55,11 +55,11 @@ void ContactCounts::note(EngineNote what, std::int32_t body) noexcept {
     noted.body = body;
 }
 
-std::string describe(const ContactCounts& counts) {
+std::string describe(const ContactCounts& counts, const OutputFacts* output) {
     const auto line = [](const std::string& name, std::uint64_t count) {
         return name + " " + std::to_string(count) + "\n";
     };
-    return inNames(explain(counts), Names::scene) + "\n" + line("contacts", counts.contacts) +
+    return inNames(explain(counts, counts, output), Names::scene) + "\n" + line("contacts", counts.contacts) +
            line("below the threshold of " + threeDigits(counts.thresholdMetresPerSecond) + " m/s:",
                 counts.belowThreshold) +
            line("no haptic source:", counts.withoutSource) + line("unplayable:", counts.unplayable) +

@@ -76,6 +76,6 @@ std::string explain(const ContactCounts& since, const ContactCounts& ever,
 inline std::string explain(const ContactCounts& counts) { return explain(counts, counts); }
 
 /// The output of `--explain`: the sentence, and a line per count. Any thread.
-std::string describe(const ContactCounts& counts);
+std::string describe(const ContactCounts& counts, const OutputFacts* output = nullptr);
 
 } // namespace physvib

@@ -150,7 +150,7 @@ public:
     std::uint64_t thinned() const noexcept;
     /// What became of all contacts so far; see explain().
     ContactCounts counts() const noexcept;
-    /// The same since the last call of this, or since the beginning.
+    /// The same since the last call of this, or since the beginning: explain(takeRecent(), counts()).
     ContactCounts takeRecent() noexcept;
     /// What the engine says of a body. It counts for the next explanation if the body is a haptic source.
     std::string_view note(std::int32_t id, EngineNote what);

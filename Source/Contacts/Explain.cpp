@@ -29,7 +29,7 @@ std::string noted(const ContactCounts& c) {
     if (most->count == 0) return {};
     const std::string who =
         "No contact of a haptic source has begun: body " + std::to_string(most->body) +
-        (most->count > 1 ? " and " + counted(most->count - 1, "other source") : std::string{});
+        (most->count > 1 ? " (and " + counted(most->count - 1, "other source") + ")" : std::string{});
     switch (static_cast<EngineNote>(most - c.notes.begin())) {
     case EngineNote::sensor: return who + " is a sensor, which touches nothing: make it solid.";
     case EngineNote::filtered:
@@ -48,10 +48,10 @@ std::string longStep(const ContactCounts& c) {
 }
 
 std::string noContact(const ContactCounts& c) {
-    if (std::string why = noted(c); !why.empty()) return why;
     if (c.zeroSteps == c.steps)
         return "Steps were 0 s long, so nothing moved: give physvib_world_begin_step the seconds since the "
                "last step.";
+    if (std::string why = noted(c); !why.empty()) return why;
     if (c.longestStepSeconds > frameSeconds) return longStep(c);
     return "No contact has begun in " + counted(c.steps, "step") +
            ": nothing has touched, or contacts are not reported (physvib_world_touch).";
@@ -138,7 +138,8 @@ std::string felt(const ContactCounts& c, const OutputFacts* output) {
     if (std::string why = ownField(c, made); !why.empty()) return why;
     if (isOfMetres && c.fastestApproach > fastMetresPerSecond)
         return made + ", at up to " + speed(c.fastestApproach) + ": this looks like pixels; " + divide;
-    if (output != nullptr) return made + ", and played: if nothing is felt, look at amplifier and cables.";
+    if (output != nullptr)
+        return made + ", and reach the output: if nothing is felt, look at amplifier and cables.";
     return made + ": if nothing is felt, the field of the renderer or device must span these places (by "
                   "default it is the layout, centimetres); then look at the levels.";
 }

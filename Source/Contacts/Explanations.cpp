@@ -15,6 +15,7 @@ struct Name {
 
 // Where a name is the beginning of another, the longer one comes first.
 constexpr std::array names{
+    Name{"field_width_m and field_height_m", "fieldWidthMetres and fieldHeightMetres", "the field (--field)"},
     Name{"physvib_world_set_body", "ContactFeed::set", "a body"},
     Name{"physvib_world_begin_step", "beginStep", "--steps"},
     Name{"physvib_world_end_step", "endStep", "--steps"},
@@ -25,7 +26,6 @@ constexpr std::array names{
     Name{"static_mass_kg", "staticMassKg", "mass_kg"},
     Name{"hits_per_step", "hitsPerStep", "the hits per step"},
     Name{"field_width_m", "fieldWidthMetres", "field_m"},
-    Name{"field_height_m", "fieldHeightMetres", "field_m"},
     Name{"frequency_hz", "frequencyHz", "frequency_hz"},
     Name{"decay_per_s", "decayPerSecond", "decay_per_s"},
     Name{"settling_s", "settlingSeconds", "the settling time"},

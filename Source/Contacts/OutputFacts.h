@@ -10,7 +10,7 @@ namespace physvib {
 class PhantomPanner;
 struct ContactCounts;
 
-/// Filled in by whoever owns the renderer or the device.
+/// The owner of the renderer or device fills it in.
 struct OutputFacts {
     bool isMissing = false;                ///< no device asks for samples
     bool isSilent = false;                 ///< silence is held

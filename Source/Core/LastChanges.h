@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What a renderer was last told to change, for whoever has to say why it is silent.
+// The last changes of a renderer, to explain why it is silent.
 #pragma once
 #include "Core/RenderControl.h"
 #include <cstdint>
 
 namespace physvib {
 
-/// Of all controls so far, whatever the time at which they take effect. One thread at a time.
+/// Of all controls so far, also those that take effect later. One thread at a time.
 struct LastChanges {
     PhantomPanner panner;
     double level = 1.0;

@@ -338,6 +338,7 @@ TEST(Calls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
     test::expectBegunWithin(physvib_body_init);
     test::expectBegunWithin(physvib_contact_init);
     test::expectBegunWithin(physvib_world_counts_init);
+    test::expectBegunWithin(physvib_output_facts_init);
     const physvib_renderer one = renderer();
     physvib_renderer_status status;
     std::memset(&status, 0xAB, sizeof status);

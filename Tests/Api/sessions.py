@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -106,6 +107,36 @@ class Sessions(unittest.TestCase):
             while live.now_ns < start + 10_000_000_000 + 600_000_000:
                 pass
             self.assertGreater(live.follow(world, start), start)  # it stood still for longer than the gap
+
+    def test_silence_of_a_device_is_explained(self) -> None:
+        world, hit = physvib.World(), dict(x_m=0.5, y_m=0.5, normal_y=-1.0, approach_m_per_s=3.0)
+        world.set_body(0)
+        world.set_body(1, mass_kg=2.0, is_camera=True, frequency_hz=200.0, decay_per_s=30.0)
+        with physvib.Live(NOWHERE, field_m=(1.0, 1.0)) as live:
+
+            def explained() -> str:
+                with world.step(0.01):
+                    pass
+                with world.step(0.01):
+                    world.touch(1, 0, **hit)
+                return live.explain(world)
+
+            while not live.status.is_running:
+                time.sleep(0.02)
+            self.assertIn("1 event was made", explained())
+            live.silence()
+            self.assertIn("Silence is held by Live.silence", explained())
+            live.silence(False)
+            for j in range(4):
+                live.set_mute(j, True)
+            self.assertIn("channels that play these places are muted", explained())
+            for j in range(4):
+                live.set_mute(j, False)
+            live.set_level(-80.0)
+            self.assertIn("low, -80 dB", explained())
+            live.set_level(-12.0)
+            live.set_layout("phone4")
+            self.assertIn("which is not set and so the layout's", explained())
 
     def test_refusals_say_what_was_expected(self) -> None:
         (self.folder / "bad.json").write_text('{"physvib_session": 1}')

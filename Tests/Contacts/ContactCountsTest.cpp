@@ -52,6 +52,12 @@ TEST(ContactCounts, NameTheMostFrequentReason) {
     EXPECT_NE(inNames(explain(unfelt), Names::scene).find("haptic source: set camera"), std::string::npos);
 }
 
+TEST(ContactCounts, NameTheOptionOfTheCommandLine) {
+    EXPECT_EQ(inNames("set field_width_m and field_height_m of the renderer", Names::scene),
+              "set the field (--field) of the renderer");
+    EXPECT_EQ(inNames("set field_width_m", Names::cpp), "set fieldWidthMetres");
+}
+
 TEST(ContactCounts, ExplainWhatCameSince) {
     ContactCounts ever = tenContacts(), since;
     ever.made(0.5, 0.5);
@@ -64,7 +70,7 @@ TEST(ContactCounts, ExplainWhatCameSince) {
     EXPECT_EQ(explain(since, ever).find("No contact has begun in 3 steps"), 0u) << explain(since, ever);
     since.note(EngineNote::asleep, 4);
     since.note(EngineNote::asleep, 5);
-    EXPECT_NE(explain(since, ever).find("body 5 and 1 other source is asleep"), std::string::npos)
+    EXPECT_NE(explain(since, ever).find("body 5 (and 1 other source) is asleep"), std::string::npos)
         << explain(since, ever);
 }
 

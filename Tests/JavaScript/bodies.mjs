@@ -32,3 +32,23 @@ for (const name of Object.keys(engines)) test(name, async () => {
     assert.throws(() => haptics.counts, /handle/);
     if (name === 'matter' || name === 'planck') step(1 / 240); // their own loop goes on
 });
+
+const none = { category: 1, mask: 0, group: 0 };
+const hinder = {
+    matter: { sensor: body => { body.isSensor = true; }, filtered: body => { body.collisionFilter = none; } },
+    planck: { sensor: body => body.getFixtureList().setSensor(true), filtered: body => body.getFixtureList().setFilterData({ groupIndex: 0, categoryBits: 1, maskBits: 0 }),
+        disabled: body => body.setActive(false), asleep: body => body.setAwake(false) },
+    rapier2d: { sensor: body => body.collider(0).setSensor(true), filtered: body => body.collider(0).setCollisionGroups(0x00010000), disabled: body => body.setEnabled(false),
+        asleep: body => body.sleep() },
+};
+hinder.phaser = hinder.matter;
+for (const [name, states] of Object.entries(hinder)) test(`${name} says why a source touches nothing`, async () => {
+    for (const [state, make] of Object.entries(states)) {
+        const { haptics, bodies, step } = await engines[name](folder, physvib, { ...world, bodies: [world.bodies[0], { ...world.bodies[1], y: 3 }] }, 240); // far from what wakes it
+        haptics.set(bodies.get(1), { isSource: true, frequencyHz: 200, decayPerSecond: 30 });
+        make(bodies.get(1));
+        for (let i = 0; i < 3; ++i) step(1 / 240);
+        assert.match(haptics.explain(), new RegExp(`body ${haptics.id(bodies.get(1))} is ${state === 'sensor' ? 'a sensor' : state}`), state);
+        haptics.free();
+    }
+});

@@ -26,7 +26,7 @@ protected:
 };
 
 TEST_F(SilentBoxes, NameTheBodiesState) {
-    expect(attachment.explain(), "No step has been made: call beginStep");
+    expect(attachment.explain(), "engine (beginStep and endStep)");
     b2Fixture& fixture = source();
     fixture.SetSensor(true);
     expect(after(3), "body 0 is a sensor");

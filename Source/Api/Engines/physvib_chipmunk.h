@@ -104,12 +104,13 @@ PHYSVIB_UNUSED static int physvib_chipmunk_step(cpSpace* space, physvib_world wo
     return physvib_chipmunk_code;
 }
 
-/* A shape that is looked at, and whether there are shapes that it may or may not touch. */
+/** A shape that physvib_chipmunk_explain looks at. */
 typedef struct physvib_chipmunk_look_at {
-    physvib_world world;
-    cpSpace* space;
-    cpShape* shape;
-    int others, may_touch;
+    physvib_world world; /**< PhysVib's */
+    cpSpace* space;      /**< of the shape */
+    cpShape* shape;      /**< the shape */
+    int others;          /**< 1: there are shapes of other bodies */
+    int may_touch;       /**< 1: it may touch one of them */
 } physvib_chipmunk_look_at;
 
 PHYSVIB_UNUSED static void physvib_chipmunk_compare(cpShape* other, void* data) {

@@ -6,6 +6,8 @@
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/RenderOutputs.h"
+#include "Contacts/OutputFacts.h"
+#include "Core/Decibels.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Session/HeardContacts.h"
@@ -126,6 +128,15 @@ RenderStatus renderEvents(const LoadedRender& job, RenderOutputs& outputs) {
     return status;
 }
 
+void printExplanation(const LoadedRender& job, const RenderStatus& status) {
+    const PhantomPanner panner = job.panner();
+    OutputFacts output;
+    output.levelGain = fromDecibels(job.options.levelDb);
+    output.rejected = status.rejected;
+    output.panner = &panner;
+    std::cout << describe(job.made.counts, &output);
+}
+
 std::string render(LoadedRender& job, RenderListener* listener) {
     RenderOutputs outputs{job, listener};
     if (auto error = outputs.open(); !error.empty()) return error;
@@ -144,7 +155,7 @@ std::string render(LoadedRender& job, RenderListener* listener) {
     if (!job.coupling.note.empty()) tell(job.coupling.note);
     warnOfLosses(status, job);
     outputs.summarise(std::cout);
-    if (job.options.explains) std::cout << describe(job.made.counts);
+    if (job.options.explains) printExplanation(job, status);
     return {};
 }
 

@@ -90,6 +90,19 @@ function pole()
     return standing, #events, hardest / (mass / 3 * 2 * fastest)
 end
 
+-- A ball that may not touch: its attachment says why.
+function silent(state, hinder)
+    local world = love.physics.newWorld(0, 9.81 * metre)
+    love.physics.newFixture(love.physics.newBody(world, 300, 590, "static"), love.physics.newRectangleShape(600, 20))
+    local ball = love.physics.newFixture(love.physics.newBody(world, 300, 300, "dynamic"), love.physics.newCircleShape(10))
+    local haptics = physvib.attach(world, {field_width_m = 20})
+    haptics:set(ball, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
+    hinder(ball)
+    for _ = 1, 5 do haptics:update(dt) end
+    local why = haptics:explain()
+    if not why:find("body 0 is " .. state, 1, true) then fail("expected %s, found %s", state, why) end
+end
+
 function love.load()
     love.physics.setMeter(metre)
     local plain, felt = room(), room()
@@ -126,6 +139,10 @@ function love.load()
             end
         end
     end
+    silent("a sensor", function(ball) ball:setSensor(true) end)
+    silent("filtered", function(ball) ball:setFilterData(1, 0, 0) end)
+    silent("disabled", function(ball) ball:getBody():setActive(false) end)
+    silent("asleep", function(ball) ball:getBody():setAwake(false) end)
     local worst = onset()
     print(("onset %.2f ms from the pencil's"):format(1000 * worst))
     if worst > 0.002 then fail("expected 2 ms") end
