@@ -45,7 +45,8 @@ std::string_view faultOf(const FedContact& contact) noexcept {
     if (!isWithin(contact.restitution, 0.0, 1.0)) return "restitution: expected 0 to 1";
     if (!isWithin(contact.effectiveMassKg.value_or(0.0), 0.0, most))
         return "effective mass: expected 0 to 10^12 kg";
-    if (!isWithin(contact.fraction.value_or(0.0), -1.0, 2.0)) return "fraction: expected -1 to 2";
+    if (!isWithin(contact.fraction.value_or(0.0), -1.0, FedContact::latestFraction))
+        return "fraction: expected -1 to 2";
     if (!std::isfinite(contact.gapMetres)) return "gap: expected a number of metres";
     if (!isWithin(contact.gapFraction, 0.0, 1.0)) return "fraction of the gap: expected 0 to 1";
     for (const auto& along : {contact.alongAMetresPerSecond, contact.alongBMetresPerSecond})

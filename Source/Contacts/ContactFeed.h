@@ -36,6 +36,7 @@ std::string_view faultOf(const FedBody& body) noexcept;
 struct FedContact {
     static constexpr std::int32_t noPoint = -1; ///< as pointId: the pair is reported as a whole
     static constexpr std::int32_t byPlace = -2; ///< as pointId: of an engine that does not number its points
+    static constexpr double latestFraction = 2.0; ///< see fraction
 
     std::int32_t a = -1;                           ///< a body
     std::int32_t b = -1;                           ///< the other
@@ -48,8 +49,9 @@ struct FedContact {
     std::optional<double> effectiveMassKg; ///< used where no impulse is reported; without it, it follows
                                            ///< from the reported masses, inertias and centres
 
-    /// When they touched, in steps after the start of this one: -1 (start of the step before) to 1. Without
-    /// it, the moment follows from the gap between the surfaces when the engine measured it, and the speed.
+    /// When they touch, in steps after the start of this one: -1 (start of the step before) to 2 (an engine
+    /// that looks ahead pushes before they meet). Without it, the moment follows from the gap between the
+    /// surfaces when the engine measured it, and the speed.
     std::optional<double> fraction;
     double gapMetres = 0.0;   ///< between the surfaces; below 0: they overlap
     double gapFraction = 0.0; ///< that moment in steps: 0 (before bodies are moved) to 1 (after)

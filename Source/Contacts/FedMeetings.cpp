@@ -94,7 +94,7 @@ void FedContacts::strikeTogether() {
     CollisionCatcher& catcher = events_.catcher();
     const FedContact& first = together_.front()->contact;
     const TouchingPairs::Name pair = nameOf(first);
-    double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = 2.0, ofPush = 0.0;
+    double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = FedContact::latestFraction, ofPush = 0.0;
     Vector2 point;
     for (std::size_t i = 0; i < meeting_.size(); ++i) {
         const MeetingPoint& each = meeting_[i];

@@ -222,8 +222,8 @@ typedef struct physvib_contact {
     double restitution;       /**< 0 to 1; used where no impulse is set (0) */
     double effective_mass_kg; /**< used where no impulse is set (PHYSVIB_UNKNOWN: from masses, inertias and
                                  places) */
-    double fraction; /**< when they touched, in steps after this one's start, -1 to 1 (PHYSVIB_UNKNOWN: by gap
-                        and approach) */
+    double fraction; /**< when they touch, in steps after this one's start: -1 (start of the step before) to 2
+                        (an engine pushed before they meet) (PHYSVIB_UNKNOWN: by gap and approach) */
     double gap_m;    /**< between the surfaces when the engine looked; below 0: they overlap (0) */
     double gap_fraction;    /**< when that was, in steps after this one's start, 0 to 1 (0) */
     double along_a_m_per_s; /**< for a contact that lasts on a body with grains, with its impulse: how fast

@@ -266,23 +266,23 @@ PHYSVIB_UNUSED static void physvib_box2d3_before(physvib_box2d3* haptics, physvi
 
 /* Continuous collision stops a body where it first touches, with the velocity that it would have had at the
  * step's end. It collides in the next step. What the step would have moved it on is lost;
- * physvib_box2d3_point adds it to the overlap. A body that was struck within the step is left out: its path
- * is unknown. */
+ * physvib_box2d3_point adds it to the overlap. What contacts of this step may have moved the body is no loss.
+ * A body that moves less than Box2D's slop, 5 mm, is not stopped. */
 PHYSVIB_UNUSED static void physvib_box2d3_stop(const physvib_box2d3* haptics, physvib_box2d3_number* number,
                                                double seconds) {
     const b2Vec2 v = b2Body_GetLinearVelocity(number->body);
     const double x = PHYSVIB_BOX2D3_CENTRE(number->body).x, y = PHYSVIB_BOX2D3_CENTRE(number->body).y,
                  late = 0.5 * (seconds - haptics->sub_step_s); /* velocities change before bodies move */
     const double to_x = seconds * v.x - late * (v.x - number->vx),
-                 to_y = seconds * v.y - late * (v.y - number->vy), path = to_x * to_x + to_y * to_y;
-    const double struck_x = v.x - number->free_vx, struck_y = v.y - number->free_vy;
-    const int is_struck =
-        16 * (struck_x * struck_x + struck_y * struck_y) > (double)v.x * v.x + (double)v.y * v.y;
-    double share = 0; /* of the step that is lost; below 0.5 % it is the solver's own noise */
-    if (path > 0 && !is_struck) share = 1 - ((x - number->x_m) * to_x + (y - number->y_m) * to_y) / path;
-    if (share < 0.005 || share > 1 || share * sqrt(path) < 1e-6 * (fabs(x) + fabs(y))) share = 0;
-    number->lost_x_m = share * to_x, number->lost_y_m = share * to_y;
-    number->lost_rad = share * seconds * (double)b2Body_GetAngularVelocity(number->body);
+                 to_y = seconds * v.y - late * (v.y - number->vy), path = sqrt(to_x * to_x + to_y * to_y);
+    const double struck_x = v.x - number->free_vx, struck_y = v.y - number->free_vy,
+                 pushed = 0.5 * seconds * sqrt(struck_x * struck_x + struck_y * struck_y),
+                 rounding = 1e-6 * (fabs(x) + fabs(y));
+    double lost = path > 0 ? path - ((x - number->x_m) * to_x + (y - number->y_m) * to_y) / path : 0;
+    if (path < 0.005 || lost > path || lost < 0.005 * path + pushed + rounding) lost = 0;
+    if (lost > 0) lost /= path; /* share of the step */
+    number->lost_x_m = lost * to_x, number->lost_y_m = lost * to_y;
+    number->lost_rad = lost * seconds * (double)b2Body_GetAngularVelocity(number->body);
     number->x_m = x, number->y_m = y, number->vx = v.x, number->vy = v.y;
 }
 
