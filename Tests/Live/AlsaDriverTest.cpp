@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Devices of ALSA without hardware: null devices that write to files what a sound card would get.
 #include "DeviceNoise.h"
 #include <algorithm>

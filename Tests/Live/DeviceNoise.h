@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What tests of devices play: samples that nothing may change, not even denormals and those beyond full
 // scale.
 #pragma once

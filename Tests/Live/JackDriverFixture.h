@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A JACK server of 64 outputs, and its device.
 #pragma once
 #include "DeviceNoise.h"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Devices of a JACK server: samples at the ports, and connections.
 #include "JackDriverFixture.h"
 #include "PortRecorder.h"

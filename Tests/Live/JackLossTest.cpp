@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // JACK servers that are killed and come back, and devices that are opened many times.
 #include "JackDriverFixture.h"
 #include <jack/jack.h>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A JACK server without hardware for one test, which may kill it and start it again.
 #pragma once
 #include "Live/Devices/JackClient.h"

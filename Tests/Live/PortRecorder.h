@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Records ports of JACK, and compares what came there with what tests of devices play.
 #pragma once
 #include "DeviceNoise.h"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // physvib_live_explain: why nothing is felt of a world on an open device.
 #include "Api/Live/Lives.h"
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The functions of physvib-live.h that play one hit at once.
 #include "Api/C/Calls.h"
 #include "Api/Live/physvib-live.h"
