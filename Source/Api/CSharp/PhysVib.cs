@@ -106,7 +106,7 @@ public struct Body {
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneDecayPerS;
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneAmplitude;
     public double Grain_m, Roughness, Rolling;
-    public int IsRidged;
+    public int IsRidged, Device;
     /// <summary>The names of the built-in materials that vibrate.</summary>
     public static string[] Materials {
         get {
@@ -203,6 +203,8 @@ public sealed class World : IDisposable {
             return counts;
         }
     }
+    /// <summary>Device of a body, also after it was removed; 0: of one that was never there.</summary>
+    public int DeviceOf(int body) { return (int)Native.Check(Native.physvib_world_device(name, body)); }
     /// <summary>Why nothing, or not everything, is felt of what happened since the last call: the most likely reason, one sentence.</summary>
     public string Explain() { return Explanation.Of((text, size) => Native.Check(Native.physvib_world_explain(name, text, size))); }
     /// <summary>The same, also of a renderer that is pulled.</summary>
@@ -472,6 +474,7 @@ static class Native {
     [DllImport(Library)] internal static extern long physvib_world_drops(IntPtr world);
     [DllImport(Library)] internal static extern long physvib_world_thinned(IntPtr world);
     [DllImport(Library)] internal static extern int physvib_world_get_counts(IntPtr world, ref WorldCounts counts);
+    [DllImport(Library)] internal static extern int physvib_world_device(IntPtr world, int body);
     [DllImport(Library)] internal static extern int physvib_world_explain(IntPtr world, [Out] byte[] text, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_renderer_explain(IntPtr renderer, IntPtr world, [Out] byte[] text, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_output_facts_init(ref OutputFacts facts, UIntPtr size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A device or a board from C#, beside PhysVib.cs: one file over libphysvib-live (GPL, since it has JUCE in it). Units, threads and errors: physvib-live.h.
+// A device or a board from C#, beside PhysVib.cs: one file over libphysvib-live. Units, threads and errors: physvib-live.h.
 using System;
 using System.Runtime.InteropServices;
 
@@ -12,6 +12,8 @@ public struct LiveSettings {
     public int RateHz, BlockFrames, StepsPerS;
     public double LongestGapS, LevelDb;
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 1024)] byte[] save;
+    public int FirstOutput;
+    int unused;
     /// <summary>A session file (.json) of all that is struck, written while it plays; "": none.</summary>
     public string Save {
         get { return System.Text.Encoding.UTF8.GetString(save, 0, Math.Max(0, Array.IndexOf(save, (byte)0))); }
@@ -49,7 +51,19 @@ public struct LiveStatus {
     }
 }
 
-/// <summary>A device ("JACK:system"), a board ("BOARD:auto"), or both ("JACK:system+BOARD:auto"). One at a time; strikes from any thread.</summary>
+/// <summary>Something that can be opened; see physvib_device.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct Device {
+    UIntPtr size;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] name;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] about;
+    public int Kind, Channels;
+    public string Name { get { return Text(name); } }
+    public string About { get { return Text(about); } }
+    static string Text(byte[] from) { return System.Text.Encoding.UTF8.GetString(from, 0, Math.Max(0, Array.IndexOf(from, (byte)0))); }
+}
+
+/// <summary>A device ("JACK:system"), a board ("BOARD:auto"), or both ("JACK:system+BOARD:auto"). Several may be open, also on one sound card, on other outputs (FirstOutput); strikes from any thread.</summary>
 public sealed class Live : IDisposable {
     IntPtr name;
     // Session time of each followed world's time 0. A world that is collected leaves the table.
@@ -85,6 +99,21 @@ public sealed class Live : IDisposable {
         var start = starts.GetValue(world, _ => new long[1]);
         LiveNative.Check(LiveNative.physvib_live_align(name, world.name, ref start[0]));
         return Send(world, start[0]);
+    }
+    /// <summary>As Follow for a world whose bodies are felt on several devices: those whose Device is k on lives[k], all others on the first.</summary>
+    public static int FollowEach(Live[] lives, World world) {
+        var names = Array.ConvertAll(lives, live => live.name);
+        var times = Array.ConvertAll(lives, live => live.starts.GetValue(world, _ => new long[1])[0]);
+        var count = LiveNative.Check(LiveNative.physvib_live_send_each(names, lives.Length, world.name, times));
+        for (var k = 0; k < lives.Length; ++k) lives[k].starts.GetValue(world, _ => new long[1])[0] = times[k];
+        return (int)count;
+    }
+    /// <summary>What can be opened now. It asks the system, which takes up to seconds.</summary>
+    public static Device[] Devices() {
+        var found = new Device[256];
+        var count = (int)LiveNative.Check(LiveNative.physvib_live_devices(found, found.Length, (UIntPtr)Marshal.SizeOf(typeof(Device))));
+        Array.Resize(ref found, Math.Min(count, found.Length));
+        return found;
     }
     /// <summary>Session time of the time 0 of a followed world; 0: it is not followed yet.</summary>
     public long StartNs(World world) {
@@ -132,6 +161,8 @@ static class LiveNative {
     [DllImport(Library)] internal static extern int physvib_live_impact_of(IntPtr live, byte[] material, double x, double y, double strength);
     [DllImport(Library)] internal static extern int physvib_live_align(IntPtr live, IntPtr world, ref long startNs);
     [DllImport(Library)] internal static extern long physvib_live_send(IntPtr live, IntPtr world, long startNs, int atOnce);
+    [DllImport(Library)] internal static extern long physvib_live_send_each(IntPtr[] lives, int count, IntPtr world, [In, Out] long[] startsNs);
+    [DllImport(Library)] internal static extern int physvib_live_devices([In, Out] Device[] devices, int capacity, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_live_set_gain(IntPtr live, int channel, double gain);
     [DllImport(Library)] internal static extern int physvib_live_set_mute(IntPtr live, int channel, int isMuted);
     [DllImport(Library)] internal static extern int physvib_live_set_layout(IntPtr live, ref RendererSettings renderer);

@@ -19,7 +19,7 @@ typedef struct { size_t size; int live_modes, pending; int64_t frames, played, l
 typedef struct { size_t size; int is_muted, hits_per_step, at_body, drops_hits_of_removed; double field_width_m, field_x_m, field_y_m, field_radians,
     normalisation_s_per_m, hand_mass_kg, drive_gain, threshold_m_per_s, full_scale_impulse_n_s, settling_s; } physvib_world_settings;
 typedef struct { size_t size; int is_camera, voice, surface; double mass_kg, inertia_kg_m2, gravity_scale, frequency_hz, decay_per_s, static_mass_kg, gain,
-    hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3], grain_m, roughness, rolling; int is_ridged; } physvib_body;
+    hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3], grain_m, roughness, rolling; int is_ridged, device; } physvib_body;
 typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, impulse_n_s, tangential_n_s, approach_m_per_s, restitution, effective_mass_kg,
     fraction, gap_m, gap_fraction, along_a_m_per_s, along_b_m_per_s; int is_soft, unused, point_id, is_impulse_of_pair; } physvib_contact;
 typedef struct { size_t size; int64_t contacts, below_threshold, no_source, unplayable, muted, dropped, events; double threshold_m_per_s; } physvib_world_counts;
@@ -86,6 +86,7 @@ int64_t physvib_world_send(physvib_world, physvib_renderer, int64_t, int);
 int64_t physvib_world_drops(physvib_world);
 int64_t physvib_world_thinned(physvib_world);
 int physvib_world_get_counts(physvib_world, physvib_world_counts *);
+int physvib_world_device(physvib_world, int);
 int physvib_world_explain(physvib_world, char *, size_t);
 int physvib_output_facts_init(physvib_output_facts *, size_t);
 int physvib_world_explain_output(physvib_world, const physvib_output_facts *, char *, size_t);
@@ -101,12 +102,14 @@ int physvib_pads_stop(physvib_pads);
 int physvib_pads_set_level(physvib_pads, double);
 
 typedef struct physvib_live_name *physvib_live;
-typedef struct { size_t size; int rate_hz, block_frames, steps_per_s; double longest_gap_s, level_db; char save[1024]; } physvib_live_settings;
+typedef struct { size_t size; int rate_hz, block_frames, steps_per_s; double longest_gap_s, level_db; char save[1024]; int first_output, unused; } physvib_live_settings;
+typedef struct { size_t size; char name[256], about[256]; int kind, channels; } physvib_device;
 typedef struct { size_t size; int is_running, is_silent, rate_hz, block_frames, live_modes, losses, xruns; double load, worst_load;
     int64_t played, late, rejected; char trouble[256]; int board, unused; int64_t board_sent, board_lost; } physvib_live_status;
 const char *physvib_live_error(void);
 int physvib_live_settings_init(physvib_live_settings *, size_t);
 int physvib_live_status_init(physvib_live_status *, size_t);
+int physvib_live_devices(physvib_device *, int, size_t);
 int physvib_live_open(const char *, const physvib_renderer_settings *, const physvib_live_settings *, physvib_live *);
 int physvib_live_close(physvib_live);
 int64_t physvib_live_now_ns(physvib_live);
@@ -115,6 +118,7 @@ int physvib_live_strike(physvib_live, const physvib_event *, int64_t);
 int physvib_live_impact(physvib_live, double, double, double);
 int physvib_live_impact_of(physvib_live, const char *, double, double, double);
 int physvib_live_align(physvib_live, physvib_world, int64_t *);
+int64_t physvib_live_send_each(const physvib_live *, int, physvib_world, int64_t *);
 int physvib_live_set_gain(physvib_live, int, double);
 int physvib_live_set_mute(physvib_live, int, int);
 int physvib_live_set_layout(physvib_live, const physvib_renderer_settings *);
@@ -231,6 +235,9 @@ function Attachment:set(fixture, values)
     self.starts[fixture] = values.is_camera and {} or nil
     return id
 end
+
+-- The device on which a fixture is felt: `device` of its values, 0 at first.
+function Attachment:device_of(fixture) return c.physvib_world_device(self.name, self:id(fixture)) end
 
 -- The number of a fixture in events.
 function Attachment:id(fixture)
@@ -468,10 +475,32 @@ end
 local Live = {}
 Live.__index = Live
 
--- A device, "JACK:system", a board, "BOARD:auto", or both, "JACK:system+BOARD:auto", by libphysvib-live.so.0 (GPL) beside the other library or
--- named by PHYSVIB_LIVE_LIBRARY. `settings` of physvib_live_settings, `renderer` of physvib_renderer_settings.
+local function live_library() return ffi.load(os.getenv("PHYSVIB_LIVE_LIBRARY") or (library:gsub("libphysvib%.so", "libphysvib-live.so"))) end
+
+-- What physvib.open can open now: {name = "JACK:system", about = "", kind = "sound" or "pad" or "board", channels = 8}...
+function physvib.devices()
+    local from, most, kinds, all = live_library(), 256, {[0] = "sound", "pad", "board"}, {}
+    local found = ffi.new("physvib_device[?]", most)
+    local count = from.physvib_live_devices(found, most, ffi.sizeof("physvib_device"))
+    for i = 0, math.min(count, most) - 1 do
+        all[#all + 1] = {name = ffi.string(found[i].name), about = ffi.string(found[i].about), kind = kinds[found[i].kind], channels = found[i].channels}
+    end
+    return all
+end
+
+-- As Live:follow for an attachment whose fixtures are felt on several devices: those with device = k on lives[k + 1], all others on the first.
+function physvib.follow_each(lives, haptics)
+    local names, starts = ffi.new("physvib_live[?]", #lives), ffi.new("int64_t[?]", #lives)
+    for k, live in ipairs(lives) do names[k - 1], starts[k - 1] = live.name, live.starts[haptics] and live.starts[haptics][0] or 0 end
+    local count = lives[1].call("send_each", names, #lives, haptics.name, starts)
+    for k, live in ipairs(lives) do live.starts[haptics] = ffi.new("int64_t[1]", starts[k - 1]) end
+    return tonumber(count)
+end
+
+-- A device, "JACK:system", a board, "BOARD:auto", or both, "JACK:system+BOARD:auto", by libphysvib-live.so.0 beside the other library or
+-- named by PHYSVIB_LIVE_LIBRARY. Several may be open, also on one sound card, on other outputs (first_output). `settings` of physvib_live_settings, `renderer` of physvib_renderer_settings.
 function physvib.open(device, settings, renderer)
-    local from = ffi.load(os.getenv("PHYSVIB_LIVE_LIBRARY") or (library:gsub("libphysvib%.so", "libphysvib-live.so")))
+    local from = live_library()
     local self = setmetatable({c = from, call = caller(from, "physvib_live_"), starts = setmetatable({}, {__mode = "k"})}, Live)
     local name = ffi.new("physvib_live[1]")
     self.call("open", device, physvib.rendered(renderer), filled("live_settings", settings, from), name)

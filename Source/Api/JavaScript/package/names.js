@@ -21,7 +21,7 @@ export const names = {
         is_camera: 'isSource', voice: 'voice', surface: 'surface', mass_kg: 'massKg', inertia_kg_m2: 'inertia', gravity_scale: 'gravityScale',
         frequency_hz: 'frequencyHz', decay_per_s: 'decayPerSecond', static_mass_kg: 'staticMassKg', gain: 'gain', hand_mass_kg: 'handMassKg',
         overtone_hz: 'overtoneHz', overtone_decay_per_s: 'overtoneDecayPerSecond', overtone_amplitude: 'overtoneAmplitude', grain_m: 'grain',
-        roughness: 'roughness', rolling: 'rolling', is_ridged: 'isRidged',
+        roughness: 'roughness', rolling: 'rolling', is_ridged: 'isRidged', device: 'device',
     },
     physvib_contact: {
         a: 'a', b: 'b', x_m: 'x', y_m: 'y', normal_x: 'normalX', normal_y: 'normalY', impulse_n_s: 'impulse', tangential_n_s: 'tangential',

@@ -109,6 +109,8 @@ export interface HapticValues {
     roughness?: number;
     rolling?: number;
     isRidged?: boolean;
+    /** For your own routing, see deviceOf. */
+    device?: number;
 }
 export interface BodyValues extends HapticValues {
     /** 0: what strikes it does not move it (0). */
@@ -171,6 +173,8 @@ export interface World {
     configure(settings: WorldSettings): void;
     setBody(body: number, values?: BodyValues): void;
     removeBody(body: number): void;
+    /** `device` of a body, also after it was removed. */
+    deviceOf(body: number): number;
     /** Centre of mass, velocity and spin before the engine's solver. */
     move(body: number, x: number, y: number, vx: number, vy: number, spin?: number): void;
     /** Velocity and spin behind it, for engines that do not tell impulses. */

@@ -29,6 +29,7 @@ export class World {
     }
 
     setBody(body, values = {}) { this.#module.filled('body', values, at => this.#module.call('world_set_body', this.#name, body, at)); }
+    deviceOf(body) { return this.#module.call('world_device', this.#name, body); }
     removeBody(body) { this.#module.call('world_remove_body', this.#name, body); }
     move(body, x, y, vx, vy, spin = 0) { this.#module.call('world_move', this.#name, body, x, y, vx, vy, spin); }
     moved(body, vx, vy, spin = 0) { this.#module.call('world_moved', this.#name, body, vx, vy, spin); }

@@ -59,7 +59,7 @@ class CBody(Structure):
                 *[(name, c_double) for name in ("mass_kg", "inertia_kg_m2", "gravity_scale", "frequency_hz", "decay_per_s", "static_mass_kg",
                                                 "gain", "hand_mass_kg")],
                 *[(name, c_double * 3) for name in ("overtone_hz", "overtone_decay_per_s", "overtone_amplitude")],
-                *[(name, c_double) for name in ("grain_m", "roughness", "rolling")], ("is_ridged", c_int)]
+                *[(name, c_double) for name in ("grain_m", "roughness", "rolling")], ("is_ridged", c_int), ("device", c_int)]
 
 
 class CContact(Structure):
@@ -141,7 +141,7 @@ _signatures = {
     "world_push": (c_int, _handle, POINTER(CContact)), "world_end": (c_int, _handle, c_int, c_int),
     "world_time_ns": (c_int64, _handle), "world_take": (c_int64, _handle, _events, c_int64, c_int),
     "world_send": (c_int64, _handle, _handle, c_int64, c_int), "world_drops": (c_int64, _handle), "world_thinned": (c_int64, _handle),
-    "pads_create": (c_int, c_int, c_double, c_double, c_char_p, POINTER(_handle)), "pads_free": (c_int, _handle), "pads_strike": (c_int, _handle, c_int, _events),
+    "world_device": (c_int, _handle, c_int), "pads_create": (c_int, c_int, c_double, c_double, c_char_p, POINTER(_handle)), "pads_free": (c_int, _handle), "pads_strike": (c_int, _handle, c_int, _events),
     "pads_send": (c_int64, _handle, c_int, _handle, c_int64, c_int), "pads_pull": (c_int, _handle, _time, POINTER(CMotors), c_int),
     "pads_stop": (c_int, _handle), "pads_set_level": (c_int, _handle, c_double),
 }

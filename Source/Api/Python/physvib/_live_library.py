@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The library with devices, boards and sessions, which is GPL: physvib-live.h, line by line. It is loaded when something of it is first wanted."""
+"""The library with devices, boards and sessions: physvib-live.h, line by line. It is loaded when something of it is first wanted."""
 from __future__ import annotations
 
 import functools
@@ -13,7 +13,11 @@ from ._library import CRendererSettings, PhysVibError, library, load
 
 class CLiveSettings(Structure):
     _fields_ = [("size", c_size_t), ("rate_hz", c_int), ("block_frames", c_int), ("steps_per_s", c_int), ("longest_gap_s", c_double), ("level_db", c_double),
-                ("save", c_char * 1024)]
+                ("save", c_char * 1024), ("first_output", c_int), ("unused", c_int)]
+
+
+class CDevice(Structure):
+    _fields_ = [("size", c_size_t), ("name", c_char * 256), ("about", c_char * 256), ("kind", c_int), ("channels", c_int)]
 
 
 class CLiveStatus(Structure):
@@ -25,6 +29,7 @@ class CLiveStatus(Structure):
 _handle = c_void_p
 _signatures = {
     "live_error": (c_char_p,), "live_settings_init": (c_int, POINTER(CLiveSettings), c_size_t), "live_status_init": (c_int, POINTER(CLiveStatus), c_size_t),
+    "live_devices": (c_int, POINTER(CDevice), c_int, c_size_t), "live_send_each": (c_int64, POINTER(_handle), c_int, _handle, POINTER(c_int64)),
     "live_open": (c_int, c_char_p, POINTER(CRendererSettings), POINTER(CLiveSettings), POINTER(_handle)), "live_close": (c_int, _handle),
     "live_now_ns": (c_int64, _handle), "live_latency_ns": (c_int64, _handle), "live_strike": (c_int, _handle, c_void_p, c_int64),
     "live_impact": (c_int, _handle, *[c_double] * 3), "live_impact_of": (c_int, _handle, c_char_p, *[c_double] * 3),
@@ -37,7 +42,7 @@ _signatures = {
     "session_length_ns": (c_int64, _handle), "session_get_renderer": (c_int, _handle, POINTER(CRendererSettings)),
     "session_events": (c_int64, _handle, c_int64, c_void_p, c_int64), "session_render": (c_int, _handle, c_int, c_int64, c_void_p),
 }
-_long = frozenset({"live_open", "live_close", "session_load", "session_save", "session_create", "session_render"})
+_long = frozenset({"live_devices", "live_open", "live_close", "session_load", "session_save", "session_create", "session_render"})
 
 
 @functools.lru_cache(maxsize=None)

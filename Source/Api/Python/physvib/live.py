@@ -1,23 +1,48 @@
 # SPDX-License-Identifier: MIT
-"""A device that plays: strikes at session times, and a world's contacts. It loads libphysvib-live, which is GPL, when it is opened."""
+"""Devices that play: strikes at session times, and a world's contacts. libphysvib-live is loaded when one is opened."""
 from __future__ import annotations
 
 import ctypes
 import os
 from ctypes import c_int64, c_void_p
 from functools import partial
-from typing import NamedTuple
+from typing import NamedTuple, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._library import PhysVibError, encoded, explained
-from ._live_library import CLiveSettings, CLiveStatus, live_call
+from ._live_library import CDevice, CLiveSettings, CLiveStatus, live_call
 from .files import checked
 from .layout import Layout, settings
 from .world import World
 
 BOARDS = ("none", "sought", "plays")
+KINDS = ("sound", "pad", "board")
+
+
+class Device(NamedTuple):
+    """Something that Live can open."""
+    name: str      #: "JACK:system", "PAD:Xbox Controller"
+    about: str     #: what is known of it
+    kind: str      #: "sound", "pad" or "board"
+    channels: int  #: outputs, or motors; 0: the driver could not be asked
+
+
+def devices() -> list[Device]:
+    """What can be opened now. It asks the system, which takes up to seconds."""
+    most = 256
+    found = (CDevice * most)()
+    count = min(live_call("live_devices", found, most, ctypes.sizeof(CDevice)), most)
+    return [Device(one.name.decode(errors="replace"), one.about.decode(errors="replace"), KINDS[one.kind], one.channels) for one in found[:count]]
+
+
+def follow_each(lives: Sequence[Live], world: World, starts_ns: Sequence[int] = ()) -> list[int]:
+    """As Live.follow for a world whose bodies are felt on several devices: those with device=k on lives[k], all others on the first. `starts_ns`: what
+    the last call returned."""
+    starts = (c_int64 * len(lives))(*(starts_ns or [0] * len(lives)))
+    live_call("live_send_each", (c_void_p * len(lives))(*[live._handle for live in lives]), len(lives), world._handle, starts)
+    return list(starts)
 
 
 class LiveStatus(NamedTuple):
@@ -42,19 +67,19 @@ class LiveStatus(NamedTuple):
 
 class Live:
     """Strikes told from any thread are felt at session time + L, to a fraction of a frame, however busy the interpreter is: it only has
-    to have told them by then. One at a time.
+    to have told them by then. Several may be open, also on one sound card, on other outputs (`first_output`, from 0).
 
     `device`: "JACK:system" for instance, a board ("BOARD:auto", "BOARD:/dev/ttyACM0"), or both ("JACK:system+BOARD:auto"). `save`: a session
     file (.json) of all that is struck, written while it plays; see Session."""
 
     def __init__(self, device: str = "JACK:system", *, layout: str | Layout = "phone4", channels: int = 0, law: str = "auto", exponent: float = 1.0,
                  field_m: tuple[float, float] | None = None, limiter: bool = True, rate_hz: int = 0, block_frames: int = 0, steps_per_s: int = 100,
-                 longest_gap_s: float = 0.026, level_db: float = -12.0, save: str | os.PathLike[str] = "") -> None:
+                 longest_gap_s: float = 0.026, level_db: float = -12.0, save: str | os.PathLike[str] = "", first_output: int = 0) -> None:
         self._handle = c_void_p()
         wanted = CLiveSettings()
         live_call("live_settings_init", ctypes.byref(wanted), ctypes.sizeof(wanted))
         wanted.rate_hz, wanted.block_frames, wanted.steps_per_s = rate_hz, block_frames, steps_per_s
-        wanted.longest_gap_s, wanted.level_db = longest_gap_s, level_db
+        wanted.longest_gap_s, wanted.level_db, wanted.first_output = longest_gap_s, level_db, first_output
         if len(encoded(save)) >= CLiveSettings.save.size:
             raise PhysVibError("save: expected a path of at most 1023 bytes", -2)
         wanted.save = encoded(save)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Session files: what the mixer, the plug-in, `physvib play --save` and Live(save=...) write. Loads libphysvib-live, which is GPL."""
+"""Session files: what the mixer, the plug-in, `physvib play --save` and Live(save=...) write. Loads libphysvib-live."""
 from __future__ import annotations
 
 import ctypes

@@ -70,19 +70,23 @@ class World(Owned):
     def set_body(self, body: int, *, mass_kg: float = 0.0, is_camera: bool = False, frequency_hz: float = 0.0, decay_per_s: float = 0.0, voice: str = "own",
                  surface: int = 0, inertia_kg_m2: float = 0.0, gravity_scale: float = 1.0, static_mass_kg: float = 0.0, gain: float = 1.0,
                  hand_mass_kg: float | None = None, grain_m: float = 0.0, roughness: float = 1.0, rolling: float = 0.2, is_ridged: bool = False,
-                 overtones: Sequence[tuple[float, float, float]] = ()) -> None:
+                 overtones: Sequence[tuple[float, float, float]] = (), device: int = 0) -> None:
         """A body, at first or again; a mass of 0 is a floor or a wall: what strikes it does not move it. Grains: see `touch`. `overtones`: at most three
-        of (frequency_hz, decay_per_s, amplitude relative to the first mode)."""
+        of (frequency_hz, decay_per_s, amplitude relative to the first mode). `device`: the device on which it is felt, see `follow_each`."""
         if len(overtones) > 3:
             raise PhysVibError("overtones: expected at most 3", -2)
         if voice not in VOICES:
             raise PhysVibError(f"voice: expected one of {', '.join(VOICES)}", -2)
         values = filled(CBody, "body_init", mass_kg=mass_kg, is_camera=int(is_camera), frequency_hz=frequency_hz, decay_per_s=decay_per_s,
                         voice=VOICES.index(voice), surface=surface, inertia_kg_m2=inertia_kg_m2, gravity_scale=gravity_scale,
-                        static_mass_kg=static_mass_kg, gain=gain, hand_mass_kg=hand_mass_kg, grain_m=grain_m, roughness=roughness, rolling=rolling, is_ridged=int(is_ridged))
+                        static_mass_kg=static_mass_kg, gain=gain, hand_mass_kg=hand_mass_kg, grain_m=grain_m, roughness=roughness, rolling=rolling, is_ridged=int(is_ridged), device=device)
         for i, (overtone_hz, overtone_decay, amplitude) in enumerate(overtones):
             values.overtone_hz[i], values.overtone_decay_per_s[i], values.overtone_amplitude[i] = overtone_hz, overtone_decay, amplitude
         call("world_set_body", self._handle, body, ctypes.byref(values))
+
+    def device_of(self, body: int) -> int:
+        """`device` of a body, also after it was removed; 0: of one that was never there."""
+        return call("world_device", self._handle, body)
 
     def remove_body(self, body: int) -> None:
         """A body that goes; not within a step."""
