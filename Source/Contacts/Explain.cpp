@@ -136,6 +136,7 @@ std::string felt(const ContactCounts& c, const OutputFacts* output) {
     if (output != nullptr)
         if (std::string why = outputReason(c, *output); !why.empty()) return why;
     if (std::string why = ownField(c, made); !why.empty()) return why;
+    if (c.longestStepSeconds > frameSeconds) return longStep(c);
     if (isOfMetres && c.fastestApproach > fastMetresPerSecond)
         return made + ", at up to " + speed(c.fastestApproach) + ": this looks like pixels; " + divide;
     if (output != nullptr)

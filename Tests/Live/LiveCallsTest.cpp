@@ -2,11 +2,23 @@
 // The library with devices and sessions as a program in another language sees it, without a device.
 #include "Support/BegunStructs.h"
 #include "Support/RandomLiveCalls.h"
+#include <array>
+#include <chrono>
 #include <limits>
 #include <random>
+#include <string>
+#include <thread>
+#include <vector>
 
 namespace physvib {
 namespace {
+
+int isSilent(physvib_live live) {
+    physvib_live_status status;
+    physvib_live_status_init(&status, sizeof status);
+    EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
+    return status.is_silent;
+}
 
 TEST(LiveCalls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
     test::expectBegunWithin(physvib_live_settings_init);
@@ -26,9 +38,6 @@ TEST(LiveCalls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
     EXPECT_EQ(status.size, told);
     EXPECT_EQ(status.is_running, 1);
     EXPECT_EQ(status.board, static_cast<int>(0xABABABABu));
-    const physvib_live open = live;
-    EXPECT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_ERROR_FULL);
-    EXPECT_EQ(live, open) << "which could not be closed any more";
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_ERROR_HANDLE);
 }
@@ -37,25 +46,112 @@ TEST(LiveCalls, AnythingButZeroSilencesAlsoByAWrongName) {
     physvib_live live = nullptr;
     ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK)
         << physvib_live_error();
-    const auto isSilent = [&] {
-        physvib_live_status status;
-        physvib_live_status_init(&status, sizeof status);
-        EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
-        return status.is_silent;
-    };
     for (const int odd : {1, -1, 2, 256, 65'536, std::numeric_limits<int>::min()}) {
         EXPECT_EQ(physvib_live_silence(live, odd), PHYSVIB_OK);
-        EXPECT_EQ(isSilent(), 1) << odd;
+        EXPECT_EQ(isSilent(live), 1) << odd;
         EXPECT_EQ(physvib_live_silence(live, 0), PHYSVIB_OK);
-        EXPECT_EQ(isSilent(), 0);
+        EXPECT_EQ(isSilent(live), 0);
         EXPECT_EQ(physvib_live_silence(nullptr, odd), PHYSVIB_ERROR_HANDLE);
-        EXPECT_EQ(isSilent(), 1) << odd;
+        EXPECT_EQ(isSilent(live), 1) << odd;
         EXPECT_EQ(physvib_live_silence(nullptr, 0), PHYSVIB_ERROR_HANDLE);
-        EXPECT_EQ(isSilent(), 1) << "nobody lifts it by a wrong name";
+        EXPECT_EQ(isSilent(live), 1) << "nobody lifts it by a wrong name";
         EXPECT_EQ(physvib_live_silence(live, 0), PHYSVIB_OK);
     }
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
     EXPECT_EQ(physvib_live_silence(live, 1), PHYSVIB_ERROR_HANDLE);
+}
+
+TEST(LiveCalls, SeveralDevicesAreEachTheirOwn) {
+    std::array<physvib_live, 3> lives{};
+    for (auto& live : lives)
+        ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK)
+            << physvib_live_error();
+    EXPECT_EQ(physvib_live_silence(lives[1], 1), PHYSVIB_OK);
+    EXPECT_EQ(isSilent(lives[0]) + isSilent(lives[2]), 0);
+    EXPECT_EQ(isSilent(lives[1]), 1);
+    EXPECT_EQ(physvib_live_silence(nullptr, 1), PHYSVIB_ERROR_HANDLE);
+    for (const auto live : lives) EXPECT_EQ(isSilent(live), 1) << "whichever was meant";
+    EXPECT_EQ(physvib_live_close(lives[1]), PHYSVIB_OK);
+    EXPECT_EQ(physvib_live_silence(lives[0], 0), PHYSVIB_OK);
+    EXPECT_EQ(isSilent(lives[0]), 0);
+    EXPECT_EQ(isSilent(lives[2]), 1);
+    EXPECT_EQ(physvib_live_close(lives[2]), PHYSVIB_OK);
+    EXPECT_EQ(physvib_live_close(lives[0]), PHYSVIB_OK);
+}
+
+TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
+    std::array<physvib_live, 2> lives{};
+    for (auto& live : lives)
+        ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK);
+    physvib_world world = nullptr;
+    ASSERT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
+    physvib_body body;
+    physvib_body_init(&body, sizeof body);
+    physvib_world_set_body(world, 0, &body);
+    body.mass_kg = 0.2;
+    body.is_camera = 1;
+    body.frequency_hz = 200.0;
+    body.decay_per_s = 30.0;
+    for (int k = 1; k <= 4; ++k) { // of the first device, two of the second, and of one that is not there
+        body.device = std::array{0, 1, 1, 7}[static_cast<std::size_t>(k - 1)];
+        ASSERT_EQ(physvib_world_set_body(world, k, &body), PHYSVIB_OK);
+    }
+    body.device = -1;
+    EXPECT_EQ(physvib_world_set_body(world, 4, &body), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_world_device(world, 4), 7);
+    EXPECT_EQ(physvib_world_device(world, 9), 0);
+    std::array<physvib_int64, 2> starts{};
+    physvib_int64 sent = 0;
+    for (int step = 0; step < 5; ++step) {
+        physvib_world_begin_step(world, 0.01, 9.81);
+        for (int k = 1; k <= 4 && step == 1; ++k) {
+            physvib_contact contact;
+            physvib_contact_init(&contact, sizeof contact);
+            contact.a = 0;
+            contact.b = k;
+            contact.approach_m_per_s = 2.0;
+            EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
+        }
+        physvib_world_end_step(world);
+        if (step == 2) EXPECT_EQ(physvib_world_remove_body(world, 2), PHYSVIB_OK);
+        const auto count = physvib_live_send_each(lives.data(), 2, world, starts.data());
+        ASSERT_GE(count, 0) << physvib_live_error();
+        sent += count;
+    }
+    EXPECT_EQ(sent, 4);
+    const auto played = [](physvib_live live) {
+        physvib_live_status status;
+        physvib_live_status_init(&status, sizeof status);
+        physvib_live_get_status(live, &status);
+        return status.played;
+    };
+    for (int i = 0; i < 500 && (played(lives[0]) < 2 || played(lives[1]) < 2); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    EXPECT_EQ(played(lives[0]), 2);
+    EXPECT_EQ(played(lives[1]), 2);
+    EXPECT_EQ(physvib_live_send_each(nullptr, 0, world, starts.data()), PHYSVIB_ERROR_ARGUMENT);
+    physvib_world_free(world);
+    for (const auto live : lives) EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
+}
+
+TEST(LiveCalls, DevicesAreListedInTheCallersStructures) {
+    const int count = physvib_live_devices(nullptr, 0, 0);
+    ASSERT_GE(count, 0);
+    struct Longer { // of a later version
+        physvib_device device;
+        double more;
+    };
+    std::vector<Longer> longer(static_cast<std::size_t>(count) + 1);
+    for (auto& one : longer) one.more = 5.0;
+    EXPECT_GE(physvib_live_devices(&longer.front().device, count + 1, sizeof(Longer)), 0);
+    for (int k = 0; k < count; ++k) {
+        EXPECT_EQ(longer[static_cast<std::size_t>(k)].device.size, sizeof(Longer));
+        EXPECT_NE(std::string{longer[static_cast<std::size_t>(k)].device.name}.find(':'), std::string::npos);
+        EXPECT_EQ(longer[static_cast<std::size_t>(k)].more, 5.0);
+    }
+    physvib_device one;
+    EXPECT_EQ(physvib_live_devices(&one, 1, 8), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_live_devices(nullptr, 1, sizeof one), PHYSVIB_ERROR_ARGUMENT);
 }
 
 TEST(LiveCalls, AnyOrderOfCallsWithAnythingIsAnsweredByACode) {

@@ -20,6 +20,7 @@ public:
     ~RandomCalls() {
         for (const auto renderer : renderers_) physvib_renderer_free(renderer);
         for (const auto world : worlds_) physvib_world_free(world);
+        for (const auto pads : pads_) physvib_pads_free(pads);
     }
 
     /// How many calls they were.
@@ -64,6 +65,32 @@ private:
     }
     physvib_world world() { return isRare() ? reinterpret_cast<physvib_world>(ns()) : worlds_[byte() % 4]; }
 
+    physvib_pads pads() { return isRare() ? reinterpret_cast<physvib_pads>(ns()) : pads_[byte() % 4]; }
+    const char* name() {
+        static constexpr const char* names[] = {"steel plate", "wooden board", "jam", "", nullptr};
+        return names[byte() % std::size(names)];
+    }
+    physvib_output_facts* outputFacts() { // its pointers are the caller's duty
+        physvib_output_facts_init(&facts_, sizeof facts_);
+        facts_.is_silent = byte() % 2;
+        facts_.channels = small();
+        facts_.level = number();
+        facts_.muted_channels = ns();
+        facts_.late = ns();
+        facts_.trouble = isRare() ? "gone" : nullptr;
+        facts_.renderer = isRare() ? of(rendererSettings_, physvib_renderer_settings_init) : nullptr;
+        return isRare() ? nullptr : &facts_;
+    }
+    physvib_int64 createPads() {
+        if (!isRare()) return 0;
+        physvib_pads& kept = pads_[alive(pads_)];
+        pads_[3] = kept;
+        physvib_pads_free(kept);
+        kept = nullptr;
+        return physvib_pads_create(small(), number(), number(), isRare() ? name() : nullptr,
+                                   isRare() ? nullptr : &kept);
+    }
+
     /// Now and then none, one of another version, or one whose numbers are anything.
     template <class Struct>
     Struct* of(Struct& values, int (*init)(Struct*, std::size_t)) {
@@ -106,7 +133,28 @@ private:
     }
 
     physvib_int64 call(std::uint8_t which) {
-        switch (which % 32) {
+        switch (which % 48) {
+        case 32: return physvib_world_note(world(), small(), small());
+        case 33: return physvib_world_explain(world(), isRare() ? nullptr : text_.data(), byte());
+        case 34:
+            return physvib_renderer_explain(renderer(), world(), isRare() ? nullptr : text_.data(), byte());
+        case 35:
+            return physvib_world_explain_output(world(), outputFacts(), isRare() ? nullptr : text_.data(),
+                                                byte());
+        case 36: return physvib_world_device(world(), small());
+        case 37: return physvib_material(name(), of(body_, physvib_body_init));
+        case 38:
+            return physvib_material_load(isRare() ? nullptr : "/nowhere/materials.json", name(),
+                                         of(body_, physvib_body_init));
+        case 39: return physvib_sound(name()), 0;
+        case 40: return physvib_event_of(name(), number(), number(), number(), isRare() ? nullptr : &event_);
+        case 41: return physvib_renderer_impact(renderer(), number(), number(), number());
+        case 42: return physvib_renderer_impact_of(renderer(), name(), number(), number(), number());
+        case 43: return createPads();
+        case 44: return physvib_pads_strike(pads(), small(), event());
+        case 45: return physvib_pads_send(pads(), small(), world(), ns(), byte() % 2);
+        case 46: return physvib_pads_pull(pads(), ns(), isRare() ? nullptr : motors_.data(), small());
+        case 47: return isRare() ? physvib_pads_stop(pads()) : physvib_pads_set_level(pads(), number());
         case 0: return createRenderer();
         case 1: return createWorld();
         case 2: return isRare() ? physvib_renderer_free(renderer()) : 0;
@@ -178,6 +226,7 @@ private:
         body_.decay_per_s = 10.0 * number();
         body_.mass_kg = number();
         body_.voice = small();
+        body_.device = small();
         return physvib_world_set_body(world(), small(), values);
     }
     physvib_int64 pull() {
@@ -190,6 +239,10 @@ private:
     const std::uint8_t *at_ = nullptr, *end_ = nullptr;
     std::array<physvib_renderer, 4> renderers_{}; // two of ours, null, and one that has gone
     std::array<physvib_world, 4> worlds_{};
+    std::array<physvib_pads, 4> pads_{};
+    std::array<physvib_motors, 8> motors_{};
+    std::array<char, 256> text_{};
+    physvib_output_facts facts_{};
     std::vector<float> samples_ = std::vector<float>(64 * 257);
     std::array<physvib_event, 8> events_{};
     physvib_renderer_settings rendererSettings_{};

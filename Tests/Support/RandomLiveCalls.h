@@ -98,7 +98,16 @@ private:
     }
 
     physvib_int64 call(std::uint8_t which) {
-        switch (which % 24) {
+        switch (which % 28) {
+        case 24: return physvib_live_impact(live(), number(), number(), number());
+        case 25:
+            return physvib_live_impact_of(live(),
+                                          isRare()   ? nullptr
+                                          : isRare() ? "jam"
+                                                     : "steel plate",
+                                          number(), number(), number());
+        case 26: return sendEach();
+        case 27: return physvib_live_explain(live(), world(), isRare() ? nullptr : text_.data(), byte());
         case 0: return open();
         case 1: return isVeryRare() ? close() : 0;
         case 2: return physvib_live_now_ns(live());
@@ -129,6 +138,13 @@ private:
             return physvib_session_render(session(), 8000 * small(), isRare() ? impossible() : byte(),
                                           isRare() ? nullptr : samples_.data());
         }
+    }
+
+    physvib_int64 sendEach() {
+        const std::array<physvib_live, 2> names{live(), live()};
+        std::array<physvib_int64, 2> starts{ns(), 0};
+        return physvib_live_send_each(isRare() ? nullptr : names.data(), isRare() ? small() % 3 : 2, world(),
+                                      isRare() ? nullptr : starts.data());
     }
 
     // A tenth of a second each, so not often once it is open.
@@ -170,6 +186,7 @@ private:
     std::vector<float> samples_ = std::vector<float>(64 * 256);
     physvib_renderer_settings renderer_{};
     physvib_live_settings settings_{};
+    std::array<char, 256> text_{};
     physvib_live_status status_{};
 };
 

@@ -336,10 +336,12 @@ PHYSVIB_UNUSED static int physvib_box2d3_may_touch(b2Filter a, b2Filter b) {
     return (a.maskBits & b.categoryBits) != 0 && (a.categoryBits & b.maskBits) != 0;
 }
 
+#define PHYSVIB_BOX2D3_SHAPES 32 /* of a body that an explanation looks at; the others are left out */
+
 /* True if a filter keeps the body from all other bodies that have numbers. */
 PHYSVIB_UNUSED static int physvib_box2d3_is_filtered(const physvib_box2d3* haptics, b2BodyId body) {
-    b2ShapeId own[PHYSVIB_BOX2D3_MOST], theirs[PHYSVIB_BOX2D3_MOST];
-    const int count = b2Body_GetShapes(body, own, PHYSVIB_BOX2D3_MOST);
+    b2ShapeId own[PHYSVIB_BOX2D3_SHAPES], theirs[PHYSVIB_BOX2D3_SHAPES];
+    const int count = b2Body_GetShapes(body, own, PHYSVIB_BOX2D3_SHAPES);
     int has_others = 0, i, a, b;
     for (i = 1; i < haptics->capacity; ++i) {
         const b2BodyId other = haptics->numbers[i].body;
@@ -347,7 +349,7 @@ PHYSVIB_UNUSED static int physvib_box2d3_is_filtered(const physvib_box2d3* hapti
         if (!other.index1 || haptics->numbers[i].id < 0 || B2_ID_EQUALS(other, body) ||
             !b2Body_IsValid(other))
             continue;
-        others = b2Body_GetShapes(other, theirs, PHYSVIB_BOX2D3_MOST);
+        others = b2Body_GetShapes(other, theirs, PHYSVIB_BOX2D3_SHAPES);
         for (a = 0; a < count; ++a)
             for (b = 0; b < others; ++b, has_others = 1)
                 if (physvib_box2d3_may_touch(b2Shape_GetFilter(own[a]), b2Shape_GetFilter(theirs[b])))
@@ -358,8 +360,8 @@ PHYSVIB_UNUSED static int physvib_box2d3_is_filtered(const physvib_box2d3* hapti
 
 /* PHYSVIB_NOTE_..., or -1. */
 PHYSVIB_UNUSED static int physvib_box2d3_note(const physvib_box2d3* haptics, b2BodyId body) {
-    b2ShapeId shapes[PHYSVIB_BOX2D3_MOST];
-    const int count = b2Body_GetShapes(body, shapes, PHYSVIB_BOX2D3_MOST);
+    b2ShapeId shapes[PHYSVIB_BOX2D3_SHAPES];
+    const int count = b2Body_GetShapes(body, shapes, PHYSVIB_BOX2D3_SHAPES);
     int sensors = 0, i;
     if (!b2Body_IsEnabled(body)) return PHYSVIB_NOTE_DISABLED;
     for (i = 0; i < count; ++i) sensors += b2Shape_IsSensor(shapes[i]) ? 1 : 0;
