@@ -1,10 +1,42 @@
 // SPDX-License-Identifier: MIT
-// Adds contact counts, and lists them.
+// Adds contact counts and lists them; words and names that explanations share.
 #include "Contacts/ContactCounts.h"
 #include "Contacts/Explanations.h"
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 namespace physvib {
+
+namespace {
+
+struct Name {
+    std::string_view inC, inCpp, inScene;
+};
+
+// Where a name is the beginning of another, the longer one comes first.
+constexpr std::array names{
+    Name{"field_width_m and field_height_m", "fieldWidthMetres and fieldHeightMetres", "the field (--field)"},
+    Name{"physvib_world_set_body", "ContactFeed::set", "a body"},
+    Name{"physvib_world_begin_step", "beginStep", "--steps"},
+    Name{"physvib_world_end_step", "endStep", "--steps"},
+    Name{"physvib_world_touch", "ContactFeed::touch", "contacts"},
+    Name{"physvib_world_move", "ContactFeed::move", "motions"},
+    Name{"threshold_m_per_s", "thresholdMetresPerSecond", "the threshold"},
+    Name{"approach_m_per_s", "approachMetresPerSecond", "the approach"},
+    Name{"static_mass_kg", "staticMassKg", "mass_kg"},
+    Name{"hits_per_step", "hitsPerStep", "the hits per step"},
+    Name{"field_width_m", "fieldWidthMetres", "field_m"},
+    Name{"frequency_hz", "frequencyHz", "frequency_hz"},
+    Name{"decay_per_s", "decayPerSecond", "decay_per_s"},
+    Name{"settling_s", "settlingSeconds", "the settling time"},
+    Name{"impulse_n_s", "impulseNewtonSeconds", "the impulse"},
+    Name{"is_camera", "isCamera", "camera"},
+    Name{"is_muted", "isMuted", "mute"},
+    Name{"mass_kg", "massKg", "mass_kg"},
+};
+
+} // namespace
 
 void ContactCounts::made(double x, double y) noexcept {
     const bool isFirst = events++ == 0;
@@ -65,6 +97,33 @@ std::string describe(const ContactCounts& counts, const OutputFacts* output) {
            line("no haptic source:", counts.withoutSource) + line("unplayable:", counts.unplayable) +
            line("muted:", counts.muted + counts.settling) + line("dropped:", counts.dropped) +
            line("events:", counts.events);
+}
+
+std::string threeDigits(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", value);
+    std::string shown = text.data();
+    std::replace(shown.begin(), shown.end(), ',', '.'); // whatever the locale
+    return shown;
+}
+
+std::string counted(std::uint64_t count, std::string_view what) {
+    return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
+}
+
+std::string inNames(std::string sentence, Names wanted) {
+    std::string made;
+    for (std::string_view rest = sentence; !rest.empty();) {
+        const auto known =
+            std::ranges::find_if(names, [&](const Name& name) { return rest.starts_with(name.inC); });
+        const bool isWord = known != names.end();
+        if (isWord)
+            made += wanted == Names::cpp ? known->inCpp : known->inScene;
+        else
+            made += rest.front();
+        rest.remove_prefix(isWord ? known->inC.size() : 1);
+    }
+    return made;
 }
 
 } // namespace physvib

@@ -4,10 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace physvib {
 
-struct OutputFacts;
+class PhantomPanner;
 
 /// Why the physics engine lets a haptic source touch nothing: a look at its bodies says so.
 enum class EngineNote : std::uint8_t { sensor, filtered, disabled, asleep };
@@ -66,6 +67,22 @@ struct ContactCounts {
     ContactCounts& operator+=(const ContactCounts& other) noexcept;
 };
 
+/// What is known of the output that plays a world's events, to explain silence that the world cannot see. The
+/// owner of the renderer or device fills it in.
+struct OutputFacts {
+    bool isMissing = false;                ///< no device asks for samples
+    bool isSilent = false;                 ///< silence is held
+    std::string_view silentBy{};           ///< by whom, in words; empty: unknown
+    std::string_view trouble{};            ///< error of the device, in one line
+    int channels = 0;                      ///< that the device plays; 0: all of the layout
+    double levelGain = 1.0;                ///< gain of all channels
+    std::uint64_t mutedChannels = 0;       ///< bit j: channel j is muted, or its gain is 0
+    std::uint64_t late = 0;                ///< events played after their time, since the last explanation
+    std::uint64_t dropped = 0;             ///< events for which the queue had no room, since then
+    std::uint64_t rejected = 0;            ///< events that cannot be played, since then
+    const PhantomPanner* panner = nullptr; ///< layout and field of later events; null: unknown
+};
+
 /// The most likely reason why nothing, or not everything, is felt, as one sentence with names of physvib.h.
 /// `since`: of the time since the last explanation; if nothing has happened since, the sentence is about
 /// `ever`, and says so. `output`: what plays the events; null: unknown. It is in C, see inNames(). Any
@@ -77,5 +94,9 @@ inline std::string explain(const ContactCounts& counts) { return explain(counts,
 
 /// The output of `--explain`: the sentence, and a line per count. Any thread.
 std::string describe(const ContactCounts& counts, const OutputFacts* output = nullptr);
+
+/// Why events that were made are not felt, as one sentence with names of physvib.h; empty: no reason is
+/// known. Any thread.
+std::string outputReason(const ContactCounts& made, const OutputFacts& output);
 
 } // namespace physvib

@@ -9,7 +9,6 @@
 #include "Contacts/FixtureTable.h"
 #include "Contacts/FullScale.h"
 #include "Contacts/Impact.h"
-#include "Contacts/ImpactModel.h"
 #include "Contacts/ImpactSettings.h"
 #include "Contacts/LastingContacts.h"
 #include "Contacts/OnsetImpacts.h"

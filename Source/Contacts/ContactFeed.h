@@ -4,7 +4,6 @@
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/HapticFixture.h"
-#include "Contacts/ImpactModel.h"
 #include "Contacts/ImpactSettings.h"
 #include "Contacts/PairSounds.h"
 #include "Contacts/Vector2.h"

@@ -2,7 +2,6 @@
 // Turns contact counts into a diagnosis in plain words: each reason has its own sentence.
 #include "Contacts/ContactCounts.h"
 #include "Contacts/Explanations.h"
-#include "Contacts/OutputFacts.h"
 #include <algorithm>
 #include <cmath>
 

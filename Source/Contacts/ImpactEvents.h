@@ -6,7 +6,6 @@
 #include "Contacts/EventSorter.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
-#include "Contacts/ImpactModel.h"
 #include "Contacts/ImpactSettings.h"
 #include "Contacts/PairSounds.h"
 #include "Core/CollisionEvent.h"

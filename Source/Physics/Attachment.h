@@ -3,9 +3,7 @@
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/HapticFixture.h"
-#include "Contacts/ImpactModel.h"
 #include "Contacts/ImpactSettings.h"
-#include "Contacts/OutputFacts.h"
 #include "Contacts/PairSounds.h"
 #include "Core/CollisionEvent.h"
 #include <box2d/box2d.h>

@@ -33,6 +33,8 @@ local function silent(settings, values, state)
         callbacks[3](floor, ball, contact)
         callbacks[4](floor, ball, contact, (state.impulse or 6) * metre, 0)
     end
+    settings = settings or {}
+    settings.field_height_m = settings.field_height_m or 1 -- there is no window
     local haptics = physvib.attach(world, settings)
     local told = {frequency_hz = 200, decay_per_s = 30, is_camera = true}
     for name, value in pairs(values) do told[name] = value end

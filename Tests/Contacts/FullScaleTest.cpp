@@ -124,10 +124,10 @@ TEST(FullScale, WhatSettlesIsNeitherFeltNorLearned) {
     settings.settlingSeconds = 0.5;
     Hits hits{settings};
     EXPECT_TRUE(hits.land(0.1, {1000.0}).empty());
-    EXPECT_EQ(hits.feed.counts().muted, 1U);
+    EXPECT_EQ(hits.feed.counts().settling, 1U);
     EXPECT_TRUE(hits.land(0.3, {1000.0}).empty());
     EXPECT_NEAR(hits.landOne(0.2, 4.0), FullScale::goal, 1.0e-9);
-    EXPECT_EQ(hits.feed.counts().muted, 2U);
+    EXPECT_EQ(hits.feed.counts().settling, 2U);
 }
 
 TEST(FullScale, GrainsDoNotRaiseTheLevelAndMutedSourcesDoNotCount) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Eq. 5.4 and 5.7 with numbers worked out by hand.
-#include "Contacts/ImpactModel.h"
+#include "Contacts/ImpactSettings.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -113,7 +113,9 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
             EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
         }
         physvib_world_end_step(world);
-        if (step == 2) EXPECT_EQ(physvib_world_remove_body(world, 2), PHYSVIB_OK);
+        if (step == 2) {
+            EXPECT_EQ(physvib_world_remove_body(world, 2), PHYSVIB_OK);
+        }
         const auto count = physvib_live_send_each(lives.data(), 2, world, starts.data());
         ASSERT_GE(count, 0) << physvib_live_error();
         sent += count;

@@ -2,7 +2,7 @@
 // C functions that say why nothing is felt.
 #include "Api/C/Convert.h"
 #include "Api/C/Objects.h"
-#include "Contacts/OutputFacts.h"
+#include "Contacts/ContactCounts.h"
 #include <algorithm>
 #include <string>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Creates Box2D shapes, bodies and masses from descriptions.
 #include "Scene/World/SceneBodies.h"
-#include "Contacts/ImpactModel.h"
+#include "Contacts/ImpactSettings.h"
 #include "Scene/World/BodyMass.h"
 #include "Scene/World/ShapeGeometry.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Simulation of a scene: steps its world, and delivers its collisions as time-sorted events.
 #pragma once
-#include "Contacts/ImpactModel.h"
+#include "Contacts/ImpactSettings.h"
 #include "Core/CollisionEvent.h"
 #include "Physics/Attachment.h"
 #include "Scene/Scene.h"

@@ -6,7 +6,7 @@
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/RenderOutputs.h"
-#include "Contacts/OutputFacts.h"
+#include "Contacts/ContactCounts.h"
 #include "Core/Decibels.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
