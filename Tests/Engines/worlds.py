@@ -112,7 +112,7 @@ def judge_crate(trace):
         return Result(0, (2, 30))
     felt, rigid = total(events, events[0][0]), CRATE * WIDE / 2 * spin * (1 + kept)
     own = trace.upwards({1: CRATE}, events[0][0])
-    return Result(len(events), (1, 12), 1000 * (events[0][0] - at), felt / rigid, 2750 / trace.rate, 0.4, f"Housner's rocking block; by the engine's own momentum {felt / own:.2f}")
+    return Result(len(events), (1, 12), 1000 * (events[0][0] - at), felt / rigid, 2500 / trace.rate, 0.4, f"Housner's rocking block; by the engine's own momentum {felt / own:.2f}")
 
 
 # 3. Six dominoes: each is struck by the one before it.
