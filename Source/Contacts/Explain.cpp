@@ -77,7 +77,7 @@ std::string belowThreshold(const ContactCounts& c) {
     const std::string slower =
         "Contacts of haptic sources were slower than the threshold of " + speed(c.thresholdMetresPerSecond);
     if (c.thresholdMetresPerSecond <= c.wantedThreshold)
-        return slower + strongest + "set threshold_m_per_s lower than that.";
+        return slower + strongest + "set threshold_m_per_s lower than that (0.15 at first).";
     if (c.longestStepSeconds > frameSeconds) return longStep(c);
     return slower + ", which is 1.5 times what gravity adds in a step" + strongest + "make shorter steps.";
 }
@@ -99,7 +99,7 @@ std::string noEvents(const ContactCounts& c) {
         return "Contacts of haptic sources have begun, but none of them was reported with a speed or an "
                "impulse that strikes.";
     if (most == c.muted)
-        return c.isMuted ? "Impacts were muted: set is_muted of the world to 0."
+        return c.isMuted ? "Impacts were muted: set is_muted of the world to false."
                          : "Impacts were muted by a gain of 0 of the haptic source: set its gain (1).";
     if (most == c.settling)
         return "Impacts came while the world settles, in the first settling_s of its time: set it lower.";
@@ -122,7 +122,7 @@ std::string ownField(const ContactCounts& c, const std::string& made) {
     const double width = c.fieldWidthMetres;
     if (width <= 0.0 || (c.leastX >= -beside * width && c.mostX <= (1.0 + beside) * width)) return {};
     return made +
-           (width == usualMetres ? ", but the field has not been set (1 m wide): set field_width_m"
+           (width == usualMetres ? ", outside the field of 1 m, as it is at first: set field_width_m"
                                  : ", outside the field of " + metres(width) + ": set field_width_m") +
            " of the world and of the renderer or device to what x spans.";
 }
@@ -131,7 +131,8 @@ std::string felt(const ContactCounts& c, const OutputFacts* output) {
     const std::string made =
         counted(c.events, "event") + (c.events == 1 ? " was" : " were") + " made, " + places(c);
     const bool isOfMetres = c.fieldWidthMetres < farMetres;
-    if (isOfMetres && farthest(c) > farMetres) return made + ": this looks like pixels; " + divide;
+    if (isOfMetres && farthest(c) > farMetres)
+        return made + ", in a field of " + metres(c.fieldWidthMetres) + ": this looks like pixels; " + divide;
     if (output != nullptr)
         if (std::string why = outputReason(c, *output); !why.empty()) return why;
     if (std::string why = ownField(c, made); !why.empty()) return why;
@@ -140,8 +141,10 @@ std::string felt(const ContactCounts& c, const OutputFacts* output) {
         return made + ", at up to " + speed(c.fastestApproach) + ": this looks like pixels; " + divide;
     if (output != nullptr)
         return made + ", and reach the output: if nothing is felt, look at amplifier and cables.";
-    return made + ": if nothing is felt, the field of the renderer or device must span these places (by "
-                  "default it is the layout, centimetres); then look at the levels.";
+    return made +
+           ": nothing is wrong in this world. What plays it was not looked at: the field of the renderer or "
+           "device must "
+           "span these places (field_width_m; at first it is the layout, centimetres), and its level be up.";
 }
 
 std::string sentence(const ContactCounts& c, const OutputFacts* output) {

@@ -67,7 +67,7 @@ std::string_view faultOf(const ImpactSettings& settings) noexcept;
 struct ImpactModel {
     double normalisation = 0.0; ///< A*, seconds per metre
     double handMassKg = 0.0;    ///< m_h, the mass of the hand or device that holds the vibrating object
-    double driveGain = 1.0;
+    double driveGain = 1.0;     ///< see ImpactSettings
     double fullScaleNewtonSeconds = 0.0; ///< above 0: the impulse of full scale, instead of Eq. 5.4
 
     /// A = driveGain A* |J| / (m_i + m_h), 1 = full scale; |J| in N s, m_i in kg. Any thread. With `onset`

@@ -205,7 +205,7 @@ const std::vector<Reason>& reasons() {
              s.contact.x_m = 3.0;
              s.hit();
          },
-         {"x 3 to 3 m", "the field has not been set", "set field_width_m"}},
+         {"x 3 to 3 m", "outside the field of 1 m, as it is at first", "set field_width_m"}},
         {"OutsideTheWorldsField",
          [](Silent& s) {
              s.settings.field_width_m = 2.0;
@@ -245,7 +245,7 @@ const std::vector<Reason>& reasons() {
              s.configure();
              s.hit();
          },
-         {"muted", "set is_muted of the world to 0"}},
+         {"muted", "set is_muted of the world to false"}},
         {"GainOfZero",
          [](Silent& s) {
              s.ball.gain = 0.0;

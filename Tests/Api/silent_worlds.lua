@@ -65,7 +65,7 @@ expect("part along the reported normal", {}, {}, {speed = 3, normal = 1, impulse
 expect("slower than the threshold of 0.15 m/s (the strongest impact had", {}, {}, {speed = 0.08, impulse = 0.16})
 expect("love.physics.setMeter", {}, {}, {gravity = 981, speed = 3, impulse = 6, dt = 0.02})
 expect("this looks like pixels; report metres: call love.physics.setMeter", {}, {}, {x = 400})
-expect("the field has not been set (1 m wide): set field_width_m", {}, {}, {x = 3})
+expect("outside the field of 1 m, as it is at first: set field_width_m", {}, {}, {x = 3})
 expect("outside the field of 2 m", {field_width_m = 2}, {}, {x = 3})
 expect("set is_muted", {is_muted = 1}, {}, {})
 expect("gain of 0", {}, {gain = 0}, {})

@@ -80,9 +80,9 @@ TEST(ContactCounts, NameWhereEventsLieWhichTheFieldMustSpan) {
     counts.fieldWidthMetres = 20.0;
     counts.made(3.0, 0.5);
     counts.made(19.8, 0.25);
-    EXPECT_NE(explain(counts).find("2 events were made, at x 3 to 19.8 m, y 0.25 to 0.5 m: if nothing is "
-                                   "felt, the field of the renderer or device must span these places (by "
-                                   "default it is the layout, centimetres)"),
+    EXPECT_NE(explain(counts).find("2 events were made, at x 3 to 19.8 m, y 0.25 to 0.5 m: nothing is "
+                                   "wrong in this world. What plays it was not looked at: the field of the "
+                                   "renderer or device must span these places"),
               std::string::npos)
         << explain(counts);
     other.fieldWidthMetres = 200.0;

@@ -90,7 +90,13 @@ int tell(physvib_world name, const physvib_contact* contact,
     return in(name, [&](World& world) {
         physvib_contact taken;
         if (!take(contact, taken, physvib_contact_init)) return PHYSVIB_ERROR_ARGUMENT;
-        return inOrder((world.feed.*call)(contactOf(taken)));
+        const std::string_view fault = (world.feed.*call)(contactOf(taken));
+        const int unknown = world.feed.counts().unknownBody;
+        if (fault.starts_with("body:") && (unknown == taken.a || unknown == taken.b))
+            return fail(PHYSVIB_ERROR_ARGUMENT,
+                        "body " + std::to_string(unknown) +
+                            ": expected one that was set before its contacts (set_body)");
+        return inOrder(fault);
     });
 }
 
