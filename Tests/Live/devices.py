@@ -133,7 +133,7 @@ for pad, device in enumerate((FIRST_PAD, SECOND_PAD)):
     model = physvib.Pads(1, field_m=FIELD)
     model.strike(0, made[device])
     first, last = int(made[device]["time_ns"][0]), int(made[device]["time_ns"][-1])
-    expected = [tuple(round(65535 * motor) for motor in model.pull(at)[0]) for at in range(first - SECOND // 10, last + SECOND, SECOND // 1000)]
+    expected = [tuple(int(65535 * motor + 0.5) for motor in model.pull(at)[0]) for at in range(first - SECOND // 10, last + SECOND, SECOND // 1000)]
     assert changes(told[pad]) == changes(expected), (pad, changes(told[pad])[:12], changes(expected)[:12])
     print(f"controller {pad + 1}: {len(changes(expected)) - 1} commands, as the model's")
 
