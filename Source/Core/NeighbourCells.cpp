@@ -23,6 +23,19 @@ double crossProduct(const Place& a, const Place& b) noexcept {
     return a.xMetres * b.yMetres - a.yMetres * b.xMetres;
 }
 
+using Keys = std::array<double, limits::maxEnchanters>; // of each actuator
+
+// By insertion: a layout has at most 64 actuators, and three sorts of the standard library are a hundredth of
+// the page in a browser.
+void sortBy(const Keys& keys, std::uint8_t* begin, std::uint8_t* end) noexcept {
+    for (std::uint8_t* next = begin; next < end; ++next) {
+        const std::uint8_t moved = *next;
+        std::uint8_t* at = next;
+        for (; at > begin && keys[moved] < keys[*(at - 1)]; --at) *at = *(at - 1);
+        *at = moved;
+    }
+}
+
 } // namespace
 
 const NeighbourCells::Place& NeighbourCells::place(const Layout& layout, int k) const noexcept {
@@ -41,20 +54,20 @@ NeighbourCells::NeighbourCells(const Layout& layout, Axis line) noexcept {
 // Sorting by rows, then within each row, puts the actuators of a grid in the order of reading from below.
 bool NeighbourCells::findGrid(const Layout& layout, Axis axis) noexcept {
     axis_ = axis;
-    const auto by = [&](auto coordinate) {
-        return [&layout, coordinate](std::uint8_t a, std::uint8_t b) {
-            return coordinate(layout.places[a]) < coordinate(layout.places[b]);
-        };
-    };
+    Keys acrosses{}, alongs{};
+    for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j) {
+        acrosses[j] = across(layout.places[j]);
+        alongs[j] = along(layout.places[j]);
+    }
     const auto begin = order_.begin(), end = begin + layout.count;
-    std::sort(begin, end, by([this](const Place& p) { return across(p); }));
+    sortBy(acrosses, order_.data(), order_.data() + layout.count);
     const double tolerance = shapeTolerance(layout), lowest = across(place(layout, 0));
     columns_ = static_cast<int>(std::count_if(
         begin, end, [&](std::uint8_t j) { return across(layout.places[j]) - lowest <= tolerance; }));
     if (columns_ < 2 || layout.count % columns_ != 0) return false;
     rows_ = layout.count / columns_;
-    for (auto row = begin; row != end; row += columns_)
-        std::sort(row, row + columns_, by([this](const Place& p) { return along(p); }));
+    for (int row = 0; row < layout.count; row += columns_)
+        sortBy(alongs, order_.data() + row, order_.data() + row + columns_);
     return isGrid(layout, tolerance);
 }
 
@@ -80,12 +93,12 @@ bool NeighbourCells::findRing(const Layout& layout) noexcept {
         centre_.xMetres += place(layout, k).xMetres / n;
         centre_.yMetres += place(layout, k).yMetres / n;
     }
-    const auto angle = [&](std::uint8_t j) {
+    Keys angles{};
+    for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j) {
         const Place d = difference(layout.places[j], centre_);
-        return std::atan2(d.yMetres, d.xMetres);
-    };
-    std::sort(order_.begin(), order_.begin() + n,
-              [&](std::uint8_t a, std::uint8_t b) { return angle(a) < angle(b); });
+        angles[j] = std::atan2(d.yMetres, d.xMetres);
+    }
+    sortBy(angles, order_.data(), order_.data() + n);
     const double tolerance = shapeTolerance(layout);
     for (int k = 0; k < n; ++k) {
         const Place &a = place(layout, k), &b = place(layout, (k + 1) % n), &c = place(layout, (k + 2) % n);

@@ -42,7 +42,8 @@ std::vector<Journey> journeys() {
     for (const int count : {2, 3, 4, 8, 16})
         all.push_back(
             {"row of " + std::to_string(count), test::gridLayout(count, 1), false, 1.0 / (count - 1)});
-    Journey& belt = all.emplace_back("belt of 8", EnchanterLayout{1.0, 1.0, 8, {}}, true, 1.0 / 8);
+    all.push_back({"belt of 8", EnchanterLayout{1.0, 1.0, 8, {}}, true, 1.0 / 8});
+    Journey& belt = all.back();
     for (std::size_t j = 0; j < 8; ++j) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(j) / 8;
         belt.layout.places[j] = {0.5 + 0.5 * std::cos(angle), 0.5 + 0.5 * std::sin(angle)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contacts in, events out.
-import { inWords, notes } from './names.js';
+import { inWords, notes } from './explanation.js';
 import { Renderer } from './renderer.js';
 
 const eventsAtOnce = 64;
