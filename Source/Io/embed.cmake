@@ -7,6 +7,10 @@ string(APPEND text "\nconst std::vector<EmbeddedFile>& ${NAME}() {\n    static c
 foreach(file ${files})
     get_filename_component(name ${file} NAME)
     file(READ ${file} content)
+    if(COMPACT) # JSON without the spaces between its words: a page is loaded
+        string(REGEX REPLACE "\n *" "\n" content "${content}")
+        string(REGEX REPLACE "(\":|[],}],) " "\\1" content "${content}")
+    endif()
     string(REPLACE "\n" ")json\"\n        R\"json(\n" content "${content}")
     string(APPEND text "        {\"${name}\",\n        R\"json(${content})json\"},\n")
 endforeach()
