@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace physvib {
 namespace {
@@ -23,7 +24,7 @@ double crossProduct(const Place& a, const Place& b) noexcept {
     return a.xMetres * b.yMetres - a.yMetres * b.xMetres;
 }
 
-using Keys = std::array<double, limits::maxEnchanters>; // of each actuator
+using Keys = std::array<double, std::tuple_size_v<decltype(Layout{}.places)>>; // of each actuator
 
 // By insertion: a layout has at most 64 actuators, and three sorts of the standard library are a hundredth of
 // the page in a browser.

@@ -95,7 +95,7 @@ function silent(state, hinder)
     local world = love.physics.newWorld(0, 9.81 * metre)
     love.physics.newFixture(love.physics.newBody(world, 300, 590, "static"), love.physics.newRectangleShape(600, 20))
     local ball = love.physics.newFixture(love.physics.newBody(world, 300, 300, "dynamic"), love.physics.newCircleShape(10))
-    local haptics = physvib.attach(world, {field_width_m = 20})
+    local haptics = physvib.attach(world, {field_width_m = 20, field_height_m = 20})
     haptics:set(ball, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
     hinder(ball)
     for _ = 1, 5 do haptics:update(dt) end
