@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Pins of the Pico, and what the image was built for. All wires are on one side, beside each other.
+#pragma once
+#include "Signal/Player.h"
+
+namespace physvib::pico {
+
+constexpr int boardChannels = PHYSVIB_PICO_CHANNELS;
+constexpr int boardLines = boardChannels / 2; // an I2S line carries two channels: left, then right
+
+constexpr unsigned firstDataPin = 2; // GP2 (and 3; with eight channels 4 and 5): data of the lines
+constexpr unsigned bitClockPin = 6;  // GP6: bit clock, GP7: word clock, of all lines
+constexpr unsigned amplifierPin = 8; // GP8: high while something may be felt
+constexpr unsigned ceilingPin = 9;   // GP9: tied to ground, the ceiling is a quarter of full scale
+constexpr unsigned ledPin = 25;
+
+// 25 cycles per step of the I2S program, without a remainder, so that bit clocks do not jitter; 76.8 MHz
+// serve eight channels with a third of the processor.
+constexpr unsigned systemClockHz = 76'800'000;
+constexpr unsigned stepsPerFrame = 64; // two per bit
+constexpr unsigned clockDivider = systemClockHz / (stepsPerFrame * sampleRateHz);
+static_assert(clockDivider * stepsPerFrame * sampleRateHz == systemClockHz);
+
+} // namespace physvib::pico

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Refuses standard requests whose direction contradicts them, before TinyUSB 0.18 sees them: asked for a
+// descriptor by a request that sends data, it writes that data over the descriptor. The linker puts this
+// function before TinyUSB's (--wrap).
+#include "tusb.h" // first: dcd.h needs it
+
+#include "device/dcd.h"
+#include <cstdint>
+
+extern "C" {
+
+void __real_dcd_event_handler(dcd_event_t const* event, bool isInterrupt);
+
+/// Interrupt of USB, and main loop.
+void __wrap_dcd_event_handler(dcd_event_t const* event, bool isInterrupt) {
+    if (event->event_id != DCD_EVENT_SETUP_RECEIVED) return __real_dcd_event_handler(event, isInterrupt);
+    dcd_event_t checked = *event;
+    auto& request = checked.setup_received;
+    if (request.bmRequestType_bit.type == TUSB_REQ_TYPE_STANDARD) {
+        const bool answers =
+            request.bRequest == TUSB_REQ_GET_STATUS || request.bRequest == TUSB_REQ_GET_DESCRIPTOR ||
+            request.bRequest == TUSB_REQ_GET_CONFIGURATION || request.bRequest == TUSB_REQ_GET_INTERFACE;
+        constexpr std::uint8_t unknown = 0xff; // which TinyUSB refuses
+        const bool isIn = request.bmRequestType_bit.direction == TUSB_DIR_IN;
+        if (answers ? !isIn : isIn || request.wLength > 0) request.bRequest = unknown;
+    }
+    __real_dcd_event_handler(&checked, isInterrupt);
+}
+
+} // extern "C"

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// GuardLaw in integers, for a chip without floating point: the last stage before the actuators. It keeps each
+// channel's mean over 250 ms, and its content below 5 Hz, within limits::guardShare of full scale. The rule
+// and its reasons: Core/Actuators/GuardLaw.h; this file is the same rule with the bounds of GuardPlace::last.
+//
+// Units: areas are sums of samples; z, v (state of the low-pass) are multiples of 2^-24 of full scale,
+// resting gains of 2^-30, loads of 2^-28 of its square. Products stay within 32 bits: the chip multiplies no
+// more.
+#pragma once
+#include "Core/Actuators/GuardLaw.h"
+#include "Fixed.h"
+#include <algorithm>
+
+namespace physvib::pico {
+
+/// Interrupt of the output only.
+template <int channels>
+class FixedGuard {
+public:
+    using Sums = std::array<std::int32_t, static_cast<std::size_t>(channels)>; ///< of a tile's samples
+
+    /// `sums` of the tile that has just been sent. Decides the gains at the end of the next tile.
+    void take(const Sums& sums) noexcept {
+        bool isSilent = true;
+        for (const auto sum : sums) isSilent = isSilent && sum == 0;
+        silentTiles_ = isSilent ? std::min(silentTiles_ + 1, forgetTiles) : 0;
+        if (silentTiles_ == forgetTiles) {
+            if (!isAtRest_) forget();
+            return;
+        }
+        isAtRest_ = false;
+        std::int32_t least = unity;
+        for (std::size_t j = 0; j < sums.size(); ++j) least = std::min(least, follow(channel_[j], sums[j]));
+        if (++partTile_ == partTiles) endPart();
+        episodes_ += least < unity && gain_ == unity ? 1 : 0;
+        gain_ = least;
+    }
+
+    std::int32_t to(std::size_t channel) const noexcept { return channel_[channel].to; } ///< 0 to unity
+    std::int32_t gain() const noexcept { return gain_; }          ///< lowest of all channels
+    std::uint32_t episodes() const noexcept { return episodes_; } ///< how often it began to act
+
+private:
+    static constexpr int parts = 4;
+    static constexpr std::int32_t partTiles =
+        static_cast<std::int32_t>(limits::guardSeconds * tilesPerSecond) / parts + 1;
+    static constexpr std::int32_t forgetTiles = 8 * tilesPerSecond;
+    static constexpr std::int32_t maxArea =
+        static_cast<std::int32_t>(limits::guardShare * limits::guardSeconds * sampleRateHz - tileFrames) *
+        unity;
+    static constexpr std::int32_t zoneFrames = 3 * tileFrames; // the gain closes over the last three tiles
+    static constexpr std::int32_t loadUnit = 1 << 28;
+    static constexpr auto maxLoad = static_cast<std::int32_t>(limits::guardLoad * loadUnit);
+    static constexpr auto perLoad = static_cast<std::int32_t>(limits::guardPerLoad);
+    static constexpr std::int32_t fullRest = 1 << 30, rise = fullRest / tilesPerSecond;
+    static constexpr std::int32_t fallTiles =
+        static_cast<std::int32_t>(limits::guardRestSeconds * tilesPerSecond);
+    static constexpr double radians = 6.283185307 * limits::slowestToneHz;
+
+    struct Channel {
+        std::int32_t sum = 0, high = 0, low = 0, oldHigh = 0, oldLow = 0; // since the part began; extremes
+        std::array<std::int32_t, parts> highs{}, lows{};
+        std::int32_t z = 0, v = 0, loadSum = 0, rest = fullRest, to = unity;
+    };
+
+    // a * b: |a| below 2^27 or 0 <= a, 0 <= b < 1/32.
+    static constexpr std::int32_t scaled(std::int32_t a, double b) noexcept {
+        return (a >> 8) * static_cast<std::int32_t>(b * 65536.0 + 0.5) >> 8;
+    }
+
+    static std::int32_t follow(Channel& c, std::int32_t tileSum) noexcept {
+        c.sum += tileSum;
+        c.high = std::max(c.high, c.sum);
+        c.low = std::min(c.low, c.sum);
+        const std::int32_t area =
+            std::max(std::max(c.high, c.oldHigh) - c.sum, c.sum - std::min(c.low, c.oldLow));
+        const std::int32_t load = followLoad(c, tileSum * 32); // a sum of 16, of 2^-15, as a mean of 2^-24
+        const std::int32_t room = std::min(roomOf(maxArea - area), roomOfLoad(maxLoad - load));
+        c.to = std::max(std::int32_t{0}, std::min(room, c.rest >> 15));
+        if (area < maxArea / 2 && load < maxLoad / 2)
+            c.rest = std::min(fullRest, c.rest + rise);
+        else
+            c.rest -= (c.rest - (c.to << 15)) / fallTiles;
+        return c.to;
+    }
+
+    // The second-order low-pass, its squared output forgotten within a second, and half of the energy that is
+    // still in it.
+    static std::int32_t followLoad(Channel& c, std::int32_t mean) noexcept {
+        constexpr double step = radians / tilesPerSecond, half = 0.5 / radians;
+        constexpr std::int32_t rootLess1 = 27146; // sqrt(2) - 1, times 2^16
+        c.v += scaled(mean - c.z - c.v - ((c.v >> 10) * rootLess1 >> 6), step);
+        c.z += scaled(c.v, step);
+        const std::int32_t z = c.z >> 10, v = c.v >> 10, zz = z * z;
+        // The mean of zz over a second, kept as a sum of 2^-24 so that nothing is lost to rounding. Its bound
+        // is far above maxLoad, where the gain is 0.
+        constexpr std::int32_t maxSum = 1 << 30;
+        c.loadSum = std::min(maxSum, c.loadSum + (zz >> 4) - c.loadSum / tilesPerSecond);
+        return c.loadSum / (tilesPerSecond / 8) * 2 + scaled(zz, 1.0606602 * half) + scaled(z * v, half) +
+               scaled(v * v, 0.3535534 * half);
+    }
+
+    static constexpr std::int32_t roomOf(std::int32_t area) noexcept {
+        return area >= zoneFrames * unity ? unity : area / zoneFrames;
+    }
+    static constexpr std::int32_t roomOfLoad(std::int32_t load) noexcept {
+        return load >= loadUnit / perLoad ? unity : load <= 0 ? 0 : load * perLoad >> 13;
+    }
+
+    // Sums restart at 0, so that they stay within 32 bits.
+    void endPart() noexcept {
+        for (auto& c : channel_) {
+            c.highs[part_] = c.high;
+            c.lows[part_] = c.low;
+            c.oldHigh = c.oldLow = 0;
+            for (auto& high : c.highs) c.oldHigh = std::max(c.oldHigh, high -= c.sum);
+            for (auto& low : c.lows) c.oldLow = std::min(c.oldLow, low -= c.sum);
+            c.sum = c.high = c.low = 0;
+        }
+        part_ = (part_ + 1) % parts;
+        partTile_ = 0;
+    }
+    void forget() noexcept {
+        const auto episodes = episodes_;
+        *this = {};
+        episodes_ = episodes;
+    }
+
+    std::array<Channel, static_cast<std::size_t>(channels)> channel_{};
+    std::size_t part_ = 0;
+    std::int32_t partTile_ = 0, silentTiles_ = forgetTiles, gain_ = unity;
+    std::uint32_t episodes_ = 0;
+    bool isAtRest_ = true;
+};
+
+} // namespace physvib::pico

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Frames between USB and the output. One writer (main loop) and one reader (interrupt of the output); neither
+// waits. What does not fit is dropped and counted. Its level also says how fast the host should send.
+#pragma once
+#include "Fixed.h"
+#include <algorithm>
+#include <atomic>
+
+namespace physvib::pico {
+
+template <int channels>
+class FrameBuffer {
+public:
+    static constexpr std::uint32_t capacityFrames = 512;
+    /// Level right after a packet that the feedback keeps, and from which playing starts: one packet may be
+    /// lost and the next be late before the buffer runs dry.
+    static constexpr std::uint32_t targetFrames = 128;
+    /// More than this is latency, not safety: 5 ms.
+    static constexpr std::uint32_t maxFrames = 240;
+
+    /// All frames of a packet, or none if they do not fit. Main loop.
+    void write(const Frame<channels>* frames, std::uint32_t count) noexcept {
+        const auto at = written_.load(std::memory_order_relaxed);
+        if (at - read_.load(std::memory_order_acquire) + count > maxFrames) {
+            overruns_.store(overruns_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+            return;
+        }
+        for (std::uint32_t k = 0; k < count; ++k) frames_[(at + k) % capacityFrames] = frames[k];
+        written_.store(at + count, std::memory_order_release);
+    }
+
+    /// Number of frames read, at most a tile. Interrupt.
+    int read(Tile<channels>& tile) noexcept {
+        const auto at = read_.load(std::memory_order_relaxed);
+        const auto count = std::min<std::uint32_t>(level(), tileFrames);
+        for (std::uint32_t k = 0; k < count; ++k) tile[k] = frames_[(at + k) % capacityFrames];
+        read_.store(at + count, std::memory_order_release);
+        return static_cast<int>(count);
+    }
+    /// Interrupt.
+    void clear() noexcept {
+        read_.store(written_.load(std::memory_order_acquire), std::memory_order_release);
+    }
+
+    /// Frames that wait. Any thread.
+    std::uint32_t level() const noexcept {
+        return written_.load(std::memory_order_acquire) - read_.load(std::memory_order_acquire);
+    }
+    std::uint32_t writtenFrames() const noexcept {
+        return written_.load(std::memory_order_acquire);
+    } ///< any thread
+    std::uint32_t overruns() const noexcept {
+        return overruns_.load(std::memory_order_relaxed);
+    } ///< packets dropped; any thread
+
+private:
+    std::array<Frame<channels>, capacityFrames> frames_{};
+    std::atomic<std::uint32_t> written_{0}, read_{0}, overruns_{0};
+};
+
+/// The rate that the host is asked for, in frames per millisecond with 16 binary places, from the level right
+/// after each packet: the board's clock decides, and the level neither runs empty nor full. Main loop.
+class Feedback {
+public:
+    static constexpr std::uint32_t nominal = (sampleRateHz / 1000) << 16;
+
+    /// `isPlaying`: the level means something.
+    std::uint32_t next(std::uint32_t levelFrames, std::uint32_t targetFrames, bool isPlaying) noexcept {
+        if (!isPlaying) {
+            mean_ = 0;
+            hasMean_ = false;
+            return nominal;
+        }
+        const auto level = static_cast<std::int32_t>(levelFrames) * 256;
+        // Tiles leave in steps of 16 frames, so the level jumps with the phase of packets; the mean does not.
+        mean_ = hasMean_ ? mean_ + (level - mean_) / 16 : level;
+        hasMean_ = true;
+        // A frame too few asks for a 256th of a frame more: 500 ppm move the level by six frames.
+        const auto wanted = static_cast<std::int32_t>(targetFrames) * 256 - mean_;
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(nominal) +
+                                          std::clamp<std::int32_t>(wanted, -65536, 65536));
+    }
+
+private:
+    std::int32_t mean_ = 0;
+    bool hasMean_ = false;
+};
+
+} // namespace physvib::pico

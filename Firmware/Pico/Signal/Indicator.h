@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What the LED shows. Waiting: a short flash every two seconds. Playing: on. Limiting (guard or ceiling act):
+// eight flashes a second. Fault: three flashes, then a pause, for five seconds after it happened.
+#pragma once
+#include "Fixed.h"
+
+namespace physvib::pico {
+
+enum class Light { waiting, playing, limiting, fault };
+
+/// Main loop only. Times are counts of tiles since power-on.
+class Indicator {
+public:
+    /// `limited`, `faults`: totals so far.
+    Light see(std::uint32_t tiles, bool isPlaying, std::uint32_t limited, std::uint32_t faults) noexcept {
+        if (limited != limited_) limitedAt_ = tiles, wasLimited_ = true;
+        if (faults != faults_) faultAt_ = tiles, wasFault_ = true;
+        limited_ = limited;
+        faults_ = faults;
+        wasLimited_ = wasLimited_ && tiles - limitedAt_ < tilesPerSecond / 2;
+        wasFault_ = wasFault_ && tiles - faultAt_ < 5 * tilesPerSecond;
+        if (wasFault_) return Light::fault;
+        return !isPlaying ? Light::waiting : wasLimited_ ? Light::limiting : Light::playing;
+    }
+
+    static bool isOn(Light light, std::uint32_t tiles) noexcept {
+        constexpr std::uint32_t second = tilesPerSecond;
+        switch (light) {
+        case Light::waiting: return tiles % (2 * second) < second / 20;
+        case Light::playing: return true;
+        case Light::limiting: return tiles % (second / 8) < second / 16;
+        case Light::fault: break;
+        }
+        const auto at = tiles % (3 * second / 2);
+        return at < 3 * second / 4 && at % (second / 4) < second / 8;
+    }
+
+private:
+    std::uint32_t limited_ = 0, faults_ = 0, limitedAt_ = 0, faultAt_ = 0;
+    bool wasLimited_ = false, wasFault_ = false;
+};
+
+} // namespace physvib::pico

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// TinyUSB's callbacks. It calls all of them from pollUsb, so from the main loop.
+#include "Usb.h"
+#include "Console.h"
+#include "I2sOutput.h"
+#include "Signal/Descriptors.h"
+#include "hardware/structs/usb.h"
+#include "pico/platform.h"
+#include "pico/unique_id.h"
+#include "tusb.h"
+
+namespace physvib::pico {
+namespace {
+
+constexpr auto deviceBytes = deviceDescriptor(boardChannels);
+constexpr auto configurationBytes = configurationDescriptor(boardChannels);
+static_assert(configurationBytes.count == 9 + CFG_TUD_AUDIO_FUNC_1_DESC_LEN + TUD_CDC_DESC_LEN);
+static_assert(packetBytes(boardChannels) == CFG_TUD_AUDIO_FUNC_1_EP_OUT_SZ_MAX);
+
+Player<boardChannels>* player = nullptr;
+AudioControls<boardChannels> controls;
+Feedback feedback;
+Console console;
+std::uint32_t wrongSizes = 0, restarts = 0;
+bool isStreaming = false; // alternate setting 1 is selected
+char serialNumber[2 * PICO_UNIQUE_BOARD_ID_SIZE_BYTES + 1];
+
+void applyVolume() noexcept {
+    for (int channel = 0; channel < boardChannels; ++channel)
+        player->setVolume(channel, controls.gain(channel));
+}
+
+// TinyUSB 0.18 leaves the endpoints of a stream that is closed armed, and stops for good when it arms them
+// again: a second program that opens the card would hang the board.
+void disarmStream() noexcept {
+    constexpr std::uint32_t both = USB_EP_ABORT_EP1_IN_BITS | USB_EP_ABORT_EP1_OUT_BITS;
+    const bool canAbort = rp2040_chip_version() >= 2; // erratum E2: the first chips cannot
+    if (canAbort) {
+        hw_set_bits(&usb_hw->abort, both);
+        while ((usb_hw->abort_done & both) != both) {
+        }
+    }
+    usb_dpram->ep_buf_ctrl[1].in = 0;
+    usb_dpram->ep_buf_ctrl[1].out = 0;
+    if (!canAbort) return;
+    hw_clear_bits(&usb_hw->abort_done, both);
+    hw_clear_bits(&usb_hw->abort, both);
+}
+
+void answerConsole() noexcept {
+    while (tud_cdc_available() > 0) {
+        const auto c = static_cast<char>(tud_cdc_read_char());
+        if (!console.take(c)) continue;
+        const Console::Facts facts{boardChannels,
+                                   serialNumber,
+                                   player->isPlaying(),
+                                   player->ceiling(),
+                                   player->underruns(),
+                                   player->buffer.overruns(),
+                                   wrongSizes,
+                                   restarts,
+                                   player->limitedTiles(),
+                                   player->buffer.level(),
+                                   worstTileCycles()};
+        const auto answer = console.answer(facts);
+        tud_cdc_write(answer.data(), static_cast<std::uint32_t>(answer.size())); // what does not fit is
+                                                                                 // dropped
+        tud_cdc_write_flush();
+    }
+}
+
+} // namespace
+
+void startUsb(Player<boardChannels>& to, std::uint32_t watchdogRestarts) noexcept {
+    player = &to;
+    restarts = watchdogRestarts;
+    applyVolume();
+    pico_get_unique_board_id_string(serialNumber, sizeof serialNumber);
+    tusb_rhport_init_t device{};
+    device.role = TUSB_ROLE_DEVICE;
+    device.speed = TUSB_SPEED_FULL;
+    tusb_init(0, &device);
+}
+
+void pollUsb() noexcept {
+    tud_task();
+    answerConsole();
+    player->allow(isStreaming && tud_ready() && !console.isSilenced());
+}
+
+std::uint32_t faults() noexcept {
+    return player->underruns() + player->buffer.overruns() + wrongSizes + restarts;
+}
+
+} // namespace physvib::pico
+
+using namespace physvib::pico;
+
+extern "C" {
+
+std::uint8_t const* tud_descriptor_device_cb(void) { return deviceBytes.data(); }
+std::uint8_t const* tud_descriptor_configuration_cb(std::uint8_t) { return configurationBytes.data.data(); }
+
+std::uint16_t const* tud_descriptor_string_cb(std::uint8_t index, std::uint16_t) {
+    static std::uint16_t text[32];
+    const char* const name = boardChannels == 4 ? "PhysVib pico4" : "PhysVib pico8";
+    const char* const texts[] = {"\x09\x04", "PhysVib", name, serialNumber};
+    if (index >= std::size(texts)) return nullptr;
+    std::size_t count = 0;
+    if (index == 0)
+        text[++count] = 0x0409; // English
+    else
+        for (const char* c = texts[index]; *c != 0 && count < std::size(text) - 1; ++c)
+            text[++count] = static_cast<std::uint16_t>(*c);
+    text[0] = static_cast<std::uint16_t>(TUSB_DESC_STRING << 8 | 2 * (count + 1));
+    return text;
+}
+
+void tud_umount_cb(void) { isStreaming = false; }
+
+bool tud_audio_set_itf_cb(std::uint8_t, tusb_control_request_t const* request) {
+    if (TU_U16_LOW(request->wIndex) == audioStreamInterface) isStreaming = TU_U16_LOW(request->wValue) == 1;
+    return true;
+}
+bool tud_audio_set_itf_close_EP_cb(std::uint8_t, tusb_control_request_t const*) {
+    isStreaming = false;
+    disarmStream();
+    return true;
+}
+
+bool tud_audio_get_req_entity_cb(std::uint8_t port, tusb_control_request_t const* request) {
+    auto reply = controls.get(TU_U16_HIGH(request->wIndex), request->bRequest, TU_U16_HIGH(request->wValue),
+                              TU_U16_LOW(request->wValue));
+    return reply.count > 0 &&
+           tud_audio_buffer_and_schedule_control_xfer(port, request, reply.bytes.data(), reply.count);
+}
+bool tud_audio_set_req_entity_cb(std::uint8_t, tusb_control_request_t const* request, std::uint8_t* data) {
+    if (!controls.set(TU_U16_HIGH(request->wIndex), request->bRequest, TU_U16_HIGH(request->wValue),
+                      TU_U16_LOW(request->wValue), data, request->wLength))
+        return false;
+    applyVolume();
+    return true;
+}
+
+// Windows reads 16.16 from every device, Linux finds out by itself.
+bool tud_audio_feedback_format_correction_cb(std::uint8_t) { return false; }
+
+// A packet that came between a request to open the stream again and its execution is reported when the
+// endpoint is armed anew; TinyUSB would arm it twice, which it does not survive. False: it does nothing.
+bool tud_audio_rx_done_pre_read_cb(std::uint8_t, std::uint16_t, std::uint8_t, std::uint8_t, std::uint8_t) {
+    return (usb_dpram->ep_buf_ctrl[1].out & USB_BUF_CTRL_AVAIL) == 0;
+}
+
+bool tud_audio_rx_done_post_read_cb(std::uint8_t, std::uint16_t bytes, std::uint8_t, std::uint8_t,
+                                    std::uint8_t) {
+    constexpr std::uint16_t frameBytes = sizeof(Frame<boardChannels>);
+    static Frame<boardChannels> frames[packetBytes(boardChannels) / frameBytes];
+    // All of it is taken out: part of a frame would shift the channels of every later one.
+    const auto taken = std::min<std::uint16_t>(tud_audio_read(frames, sizeof frames), bytes);
+    if (tud_audio_available() > 0) tud_audio_clear_ep_out_ff();
+    if (taken % frameBytes != 0) ++wrongSizes;
+    player->buffer.write(frames, taken / frameBytes);
+    tud_audio_n_fb_set(0, feedback.next(player->buffer.level(), FrameBuffer<boardChannels>::targetFrames,
+                                        player->isPlaying()));
+    return true;
+}
+
+} // extern "C"

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The board as a USB device: packets to the player, volume, and a serial port that answers in text.
+#pragma once
+#include "Board.h"
+
+namespace physvib::pico {
+
+/// Main loop, once.
+void startUsb(Player<boardChannels>& player, std::uint32_t watchdogRestarts) noexcept;
+
+/// Serves the host. Main loop, at least once a millisecond.
+void pollUsb() noexcept;
+
+/// Packets that were dropped, were missing, or had a wrong size, and restarts. Main loop.
+std::uint32_t faults() noexcept;
+
+} // namespace physvib::pico

@@ -1,0 +1,61 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Linux' own sound driver judges the Pico: Debian's kernel in QEMU uses the emulated board by USB/IP: pico-linux.sh [SECONDS (10)].
+# It lists the card and its volume controls, `aplay` plays a file to its end, and every frame at the pins is compared with what was sent.
+# Needs what pico.sh needs. The log is left in build/pico-linux-CHANNELS.log.
+set -eu
+cd "$(dirname "$0")/../.."
+. .ci/packages.sh
+seconds=${1:-10}
+images=$PWD/build/release/firmware here=Tests/Firmware/pico port=3240
+# shellcheck disable=SC2086 # a list of words
+ensure_packages $physvib_pico_linux_packages
+{ command -v node && command -v npm; } >/dev/null || ensure_packages nodejs npm
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+if [ -z "${RP2040JS:-}" ]; then
+    (cd "$folder" && npm pack --silent rp2040js@1.4.1 >/dev/null && tar xzf rp2040js-1.4.1.tgz)
+    RP2040JS=$folder/package
+fi
+export RP2040JS
+g++ -std=c++20 -O2 -ISource -IFirmware/Pico $here/expected.cpp -o "$folder/expected"
+/usr/bin/python3 $here/signals.py "$folder" "$seconds"
+
+# A system in memory: the kernel, its modules for USB/IP and sound, and the programs that ask.
+root=$folder/root
+mkdir -p "$folder/debs" "$root/dev" "$root/proc" "$root/sys" "$root/tmp"
+from_debian "$folder/debs" download linux-image-amd64
+kernel=$(dpkg-deb -f "$folder"/debs/linux-image-amd64_*.deb Depends | sed 's/ .*//')
+# shellcheck disable=SC2086 # a list of words
+from_debian "$folder/debs" download "$kernel" $physvib_pico_linux_guest
+for archive in "$folder"/debs/*.deb; do dpkg-deb -x "$archive" "$root"; done
+mv "$root"/boot/vmlinuz-* "$folder/vmlinuz"
+kernel=${kernel#linux-image-}
+
+mkdir -p "$folder/all/lib" && mv "$root/lib/modules" "$folder/all/lib"
+depmod -b "$folder/all" "$kernel"
+for module in e1000 vhci-hcd snd-usb-audio; do /sbin/modprobe -d "$folder/all" -S "$kernel" --show-depends $module; done |
+    sed -n "s|^insmod $folder/all||p" | sort -u | while read -r file; do install -D -m 644 "$folder/all$file" "$root$file"; done
+depmod -b "$root" "$kernel" 2>/dev/null
+rm -rf "$root/boot" "$root/usr/share/doc"
+install -m 755 $here/guest.sh "$root/init"
+for channels in 4 8; do
+    image=$images/physvib-pico$channels.bin
+    [ -e "$image" ] || { say "no $image: .ci/pico-sources.sh, then target physvib-pico"; exit 1; }
+    /usr/bin/python3 $here/wav.py "$folder/scene$channels.raw" $channels "$root/play.wav"
+    (cd "$root" && find . | cpio -o -H newc --quiet | gzip -1) >"$folder/initrd"
+    log=build/pico-linux-$channels.log
+    qemu-system-x86_64 -machine pc -cpu max -accel tcg -smp 1 -m 768 -display none -serial "file:$log" -monitor none -no-reboot \
+        -qmp "unix:$folder/qmp,server,nowait" -nic user,model=e1000 -kernel "$folder/vmlinuz" -initrd "$folder/initrd" -append "console=ttyS0 quiet" &
+    guest=$!
+    for _ in 1 2 3 4 5 6 7 8 9 10; do [ ! -S "$folder/qmp" ] || break; sleep 1; done
+    is_equal=1
+    timeout 1200 node $here/usbip.mjs "$image" $channels "$folder/expected" "$folder/qmp" $port >"$folder/result" || is_equal=0
+    [ $is_equal = 1 ] || kill $guest
+    wait $guest || :
+    tee -a "$log" <"$folder/result"
+    [ $is_equal = 1 ] || { say "$log: not all frames are equal at the pins"; exit 1; }
+    grep -q 'aplay: 0' "$log" || { say "$log: aplay did not play to the end"; exit 1; }
+    grep -q "Channels: $channels" "$log" || { say "$log: Linux does not list $channels channels"; exit 1; }
+done
+say "pico-linux.sh: all of it held"

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// What can go wrong between a host and the emulated Pico: never a hang, never a sample above the ceiling or a torn
+// frame, silence within 5 ms. faults.mjs IMAGE CHANNELS [REQUESTS (10000)] [TOGGLES (1000)]
+import { Board, setup } from './board.mjs';
+const [image, channelText, requests = '10000', toggles = '1000'] = process.argv.slice(2);
+const channels = +channelText;
+const level = 800, loud = () => new Array(channels).fill(level); // as much as the guard lets stay
+const say = (text) => console.log(`${channels} channels: ${text}`);
+const check = (isTrue, what) => { if (!isTrue) throw new Error(what); };
+const counters = (board) => Object.fromEntries([...board.ask('counters').matchAll(/([a-z_]+) (\d+)/g)].map(([, name, n]) => [name, +n]));
+// Random numbers that are the same every time.
+let seed = 1;
+const random = (n) => (seed = (Math.imul(seed, 1103515245) + 12345) >>> 0, Math.floor((seed / 2 ** 32) * n));
+
+function fresh(options) {
+    const board = new Board(image, channels, options);
+    board.enumerate();
+    board.frames = []; // the first one begins in its middle
+    return board;
+}
+function playing(board) {
+    board.stream(130, loud);
+    check(board.frames.at(-1).frame.every((v) => v === level), 'it does not play');
+    board.frames = [];
+    return board.now;
+}
+// How long after `since` the last frame is that is not silence, after 8 ms; also that nothing jumped.
+function silence(board, since, what, mayJump = false) {
+    board.run(8);
+    let last = since, before = level;
+    for (const { at, frame } of board.frames) {
+        check(frame.every((v) => Math.abs(v) <= level), `${what}: a sample above what was sent`);
+        if (!mayJump) check(Math.abs(frame[0] - before) <= level / 40, `${what}: a step of ${Math.abs(frame[0] - before)}`);
+        before = frame[0];
+        if (at >= since && frame.some((v) => v !== 0)) last = at;
+    }
+    const ms = (last - since) / 1e6;
+    check(ms <= 5, `${what}: silent after ${ms.toFixed(2)} ms`);
+    check(!board.amplifierIsOn, `${what}: the amplifiers stay on`);
+    say(`${what}: silent after ${ms.toFixed(2)} ms, no step above ${level / 40}`);
+}
+
+{
+    const board = fresh();
+    check(board.select(1), 'alternate setting 1');
+    let since = playing(board);
+    silence(board, since - 1e6, 'packets stop');
+    since = playing(board);
+    check(board.select(0), 'alternate setting 0');
+    silence(board, since, 'alternate setting 0');
+    check(board.select(1), 'alternate setting 1');
+    since = playing(board);
+    board.suspend();
+    silence(board, since, 'suspend');
+    board.resume();
+    since = playing(board);
+    check(board.ask('silence on') === 'silence on', 'silence');
+    silence(board, since, 'silence on the serial port');
+    check(board.ask('silence off') === 'silence off', 'silence off');
+    since = playing(board);
+    board.resetBus();
+    silence(board, since, 'reset of the bus');
+    board.enumerate();
+    check(board.select(1), 'alternate setting 1 after a reset');
+    playing(board);
+    say(`plays again; ${board.ask('counters')}`);
+}
+{
+    // Late by up to 0.9 ms, missing now and then, doubled, of any size.
+    const board = fresh();
+    board.select(1);
+    playing(board);
+    let sent = 0;
+    for (let k = 0; k < 1500; ++k) {
+        const next = board.now + 1e6, kind = random(40);
+        board.run(kind < 20 ? random(900) / 1e3 : 0);
+        const size = kind === 39 ? random(49 * 2 * channels) : 48 * 2 * channels;
+        const bytes = board.pack(Array.from({ length: 49 }, loud)).subarray(0, size);
+        if (kind !== 38 && board.packet(bytes)) ++sent;
+        if (kind === 37) board.run(0.1), board.packet(bytes);
+        if (next > board.now) board.run((next - board.now) / 1e6);
+    }
+    for (const { frame } of board.frames)
+        check(frame.every((v) => v >= 0 && v <= level && v === frame[0]), `torn: ${frame}`);
+    const c = counters(board);
+    check(c.wrong_sizes > 0 && c.restarts === 0, 'wrong sizes are not counted');
+    board.run(20);
+    playing(board);
+    say(`late, missing, doubled and odd packets: no torn frame; underruns ${c.underruns}, overruns ${c.overruns}, wrong sizes ${c.wrong_sizes}; plays again`);
+}
+{
+    const board = fresh();
+    for (let k = 0; k < +toggles; ++k) {
+        check(board.select(1), `alternate setting 1, time ${k}`);
+        if (k % 10 === 0) board.stream(5, loud);
+        check(board.select(0), `alternate setting 0, time ${k}`);
+    }
+    check(board.select(1), 'alternate setting 1');
+    playing(board);
+    say(`alternate settings toggled ${toggles} times: plays; ${board.ask('counters')}`);
+}
+{
+    const board = fresh();
+    const types = [0x00, 0x80, 0x01, 0x81, 0x02, 0x82, 0x21, 0xa1, 0x22, 0xa2, 0x40, 0xc0];
+    let refused = 0, above = 0;
+    for (let k = 0; k < +requests; ++k) {
+        const any = (few) => (random(2) ? random(few) : random(256));
+        const length = random(3) ? random(20) : random(300);
+        const packet = setup(random(8) ? types[random(types.length)] : random(256), any(14), any(16) | (any(6) << 8), any(5) | (any(5) << 8), length);
+        if (board.control(packet, Uint8Array.from({ length }, () => random(256))) === null) ++refused;
+        if (k % 100 === 0) board.select(1), board.stream(2, loud);
+        for (const { frame } of board.frames) if (!frame.every((v) => v >= 0 && v <= level)) ++above;
+        board.frames = [];
+    }
+    check(above === 0, `${above} frames above what was sent`);
+    board.run(10);
+    board.resetBus();
+    board.enumerate();
+    for (let channel = 0; channel <= channels; ++channel) {
+        check(board.control(setup(0x21, 1, 0x0100 | channel, 0x0200, 1), new Uint8Array(1)) !== null, 'mute');
+        check(board.control(setup(0x21, 1, 0x0200 | channel, 0x0200, 2), new Uint8Array(2)) !== null, 'volume');
+    }
+    board.ask('silence off');
+    board.select(1);
+    playing(board);
+    check(counters(board).restarts === 0, 'the watchdog restarted it');
+    say(`${requests} random control requests: ${refused} refused, none hangs, no sample above; plays again`);
+}
+{
+    const board = fresh();
+    const volume = board.control(setup(0xa1, 2, 0x0201, 0x0200, 8));
+    check(volume !== null && volume.length === 8, 'range of the volume');
+    const clock = board.control(setup(0xa1, 1, 0x0100, 0x0400, 4));
+    check(clock !== null && new DataView(clock.buffer).getUint32(0, true) === 48000, 'clock');
+    board.select(1);
+    playing(board);
+    check(board.control(setup(0x21, 1, 0x0202, 0x0200, 2), Uint8Array.from([0x00, 0xf4])) !== null, 'volume of channel 2'); // -12 dB
+    board.stream(30, loud);
+    const { frame } = board.frames.at(-1);
+    check(Math.abs(frame[1] / frame[0] - 10 ** (-12 / 20)) < 0.002, `volume: ${frame}`);
+    say('volume of one channel: -12 dB at its pins, the others stay');
+}
+{
+    const board = fresh({ lowCeiling: true });
+    board.select(1);
+    board.stream(300, () => Array.from({ length: channels }, () => random(65536) - 32768));
+    const most = Math.max(...board.frames.flatMap(({ frame }) => frame).filter((v) => !Number.isNaN(v)).map(Math.abs));
+    check(most <= 8191 && most > 7000, `noise with a low ceiling: ${most}`);
+    say(`noise at full scale with the ceiling at 8191: at most ${most}`);
+}
+// An endless loop in the place of code in RAM.
+const hang = (board, address) => board.mcu.sramView.setUint16((address & ~1) - 0x20000000, 0xe7fe, true);
+{
+    const board = fresh();
+    board.select(1);
+    const since = playing(board);
+    check(board.until(() => board.mcu.core.waiting, 1), 'the main loop does not sleep');
+    hang(board, board.mcu.core.PC);
+    silence(board, since, 'the main loop hangs');
+    check(board.until(() => board.restarts > 0, 200), 'the watchdog does not act');
+    say(`and restarts ${((board.now - since) / 1e6).toFixed(0)} ms after it`);
+    board.enumerate();
+    board.select(1);
+    playing(board);
+    check(counters(board).restarts === 1, 'the restart is not counted');
+    say('plays again, and has counted the restart');
+}
+{
+    const board = fresh();
+    board.select(1);
+    const since = playing(board);
+    check(board.until(() => board.exception === 16 + 11, 1), 'no interrupt of the output');
+    hang(board, board.mcu.core.PC);
+    check(board.until(() => board.restarts > 0, 20), 'the watchdog does not act');
+    const ms = (board.now - since) / 1e6;
+    check(ms <= 5 && !board.amplifierIsOn, `the watchdog acts after ${ms.toFixed(2)} ms`);
+    say(`the output's interrupt hangs: the watchdog restarts the chip after ${ms.toFixed(2)} ms`);
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// The Pico's signal path: what passes unchanged, and how it starts, stops and misses packets.
+#include "Streams.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+using pico::tileFrames;
+using test::Stream;
+using test::tone;
+
+template <int channels>
+void expectEveryFrame() {
+    Stream<channels> stream;
+    stream.play(tone, 400);
+    // Playing starts with the first frame that was sent; the gate is open after the soft start.
+    const auto begin = stream.out.size() - 48 * 400;
+    std::size_t first = begin;
+    while (stream.out[first] == pico::Frame<channels>{}) ++first;
+    first -= first % tileFrames; // the first frame is 0 on all channels
+    int equal = 0;
+    for (std::size_t n = 5000; first + n < stream.out.size(); ++n)
+        for (int j = 0; j < channels; ++j) {
+            ASSERT_EQ(stream.out[first + n][static_cast<std::size_t>(j)],
+                      tone(static_cast<std::int64_t>(n), j))
+                << n;
+            ++equal;
+        }
+    EXPECT_GT(equal, channels * 13000);
+    EXPECT_EQ(stream.player->underruns(), 0u);
+    EXPECT_EQ(stream.player->buffer.overruns(), 0u);
+    EXPECT_EQ(stream.player->limitedTiles(), 0u);
+}
+
+TEST(PicoPlayer, PassesEveryFrameAsItIs) {
+    expectEveryFrame<4>();
+    expectEveryFrame<8>();
+}
+
+TEST(PicoPlayer, StartsSoftly) {
+    Stream<4> stream;
+    stream.play([](auto, int) -> std::int16_t { return 20000; }, 10);
+    for (std::size_t n = 1; n < stream.out.size(); ++n)
+        ASSERT_LE(std::abs(stream.out[n][0] - stream.out[n - 1][0]),
+                  20000 / (pico::Player<4>::startTiles * 16) + 1)
+            << n;
+}
+
+// Silence within 5 ms of the last packet, whatever it held, and no step on the way.
+TEST(PicoPlayer, RampsToSilenceWhenPacketsStop) {
+    Stream<4> stream;
+    stream.play([](auto n, int) -> std::int16_t { return n / 240 % 2 == 0 ? 20000 : -20000; }, 300);
+    const auto last = stream.out.size();
+    stream.tiles(60);
+    std::size_t end = stream.out.size();
+    while (end > 0 && stream.out[end - 1] == pico::Frame<4>{}) --end;
+    EXPECT_GT(end, last);
+    constexpr std::size_t inOutput = 2 * tileFrames + 8; // what DMA and the FIFO of the chip hold
+    EXPECT_LE(end - last + inOutput, 48u * 5);
+    for (std::size_t n = end - tileFrames; n < end; ++n)
+        EXPECT_LE(std::abs(stream.out[n][0] - stream.out[n - 1][0]), 20000 / 40) << n;
+    EXPECT_FALSE(stream.player->isPlaying());
+    EXPECT_EQ(stream.player->underruns(), 0u) << "a host may stop";
+    stream.tiles(6);
+    EXPECT_FALSE(stream.player->isAmplifierOn());
+}
+
+TEST(PicoPlayer, RampsToSilenceWhenItIsNotAllowed) {
+    Stream<4> stream;
+    stream.play([](auto, int) -> std::int16_t { return 800; }, 300);
+    EXPECT_EQ(stream.out.back()[0], 800);
+    EXPECT_TRUE(stream.player->isAmplifierOn());
+    stream.isAllowed = false;
+    stream.packet([](auto, int) -> std::int16_t { return 800; });
+    stream.tiles(3);
+    EXPECT_EQ(stream.out.back()[0], 0);
+    EXPECT_GT(stream.out[stream.out.size() - tileFrames][0], 0);
+    EXPECT_TRUE(stream.player->isAmplifierOn()) << "the output still holds the ramp";
+    stream.play(tone, 20);
+    EXPECT_EQ(stream.out.back()[1], 0);
+    EXPECT_FALSE(stream.player->isAmplifierOn());
+}
+
+TEST(PicoPlayer, RampsToSilenceWhenTheMainLoopHangs) {
+    Stream<4> stream;
+    stream.play([](auto, int) -> std::int16_t { return 800; }, 300);
+    stream.isAttended = false;
+    stream.play([](auto, int) -> std::int16_t { return 800; }, 4);
+    EXPECT_EQ(stream.out.back()[0], 0);
+    EXPECT_EQ(stream.player->underruns(), 0u);
+    EXPECT_EQ(stream.player->unattendedTiles(), 12u);
+    stream.isAttended = true;
+    stream.play([](auto, int) -> std::int16_t { return 800; }, 300);
+    EXPECT_EQ(stream.out.back()[0], 800);
+}
+
+TEST(PicoPlayer, BridgesAPacket) {
+    Stream<4> stream;
+    stream.play(tone, 300);
+    stream.tiles(3); // one is missing
+    stream.play(tone, 100);
+    EXPECT_EQ(stream.player->underruns(), 0u);
+    EXPECT_TRUE(stream.player->isPlaying());
+}
+
+TEST(PicoPlayer, CountsWhatItCannotBridge) {
+    Stream<4> stream;
+    stream.play(tone, 300);
+    for (int k = 0; k < 20; ++k)
+        stream.packet(tone, 40), stream.tiles(3); // too few frames, as if time were slow
+    EXPECT_EQ(stream.player->underruns(), 1u);
+    stream.play(tone, 300);
+    EXPECT_TRUE(stream.player->isPlaying());
+    EXPECT_EQ(stream.player->underruns(), 1u);
+}
+
+TEST(PicoPlayer, DropsWhatWouldBeLatency) {
+    Stream<4> stream;
+    stream.play(tone, 300);
+    for (int k = 0; k < 20; ++k) stream.packet(tone);
+    EXPECT_GT(stream.player->buffer.overruns(), 0u);
+    EXPECT_LE(stream.player->buffer.level(), pico::FrameBuffer<4>::maxFrames);
+    EXPECT_TRUE(stream.player->isPlaying());
+}
+
+TEST(PicoPlayer, HasACeiling) {
+    Stream<4> open, low(true);
+    const auto loud = [](auto n, int) -> std::int16_t { return n / 60 % 2 == 0 ? 32767 : -32768; };
+    open.play(loud, 300);
+    low.play(loud, 300);
+    int most = 0;
+    for (const auto& frame : open.out) most = std::max(most, std::abs(static_cast<int>(frame[0])));
+    EXPECT_EQ(most, 32767);
+    EXPECT_GT(open.player->limitedTiles(), 0u);
+    most = 0;
+    for (const auto& frame : low.out) most = std::max(most, std::abs(static_cast<int>(frame[0])));
+    EXPECT_EQ(most, 8191);
+}
+
+TEST(PicoPlayer, FollowsVolumesWithoutAStep) {
+    Stream<4> stream;
+    const auto constant = [](auto, int) -> std::int16_t { return 800; };
+    stream.play(constant, 300);
+    stream.player->setVolume(1, pico::unity / 4);
+    const auto at = stream.out.size();
+    stream.play(constant, 30);
+    EXPECT_EQ(stream.out.back()[0], 800);
+    EXPECT_EQ(stream.out.back()[1], 200);
+    for (std::size_t n = at; n < stream.out.size(); ++n)
+        ASSERT_LE(std::abs(stream.out[n][1] - stream.out[n - 1][1]), 3) << n;
+}
+
+} // namespace
+} // namespace physvib
