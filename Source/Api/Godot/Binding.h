@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Godot's values and calls, by Godot's own C header. Methods are called by name, so that one binary fits all
+// versions of Godot from 4.4 on. Everything here is for Godot's main thread.
+#pragma once
+
+#include <gdextension_interface.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace physvib::godot {
+
+using Vector = std::array<double, 3>; ///< a Vector3, or a Vector2 and 0
+
+/// The functions of Godot that are used here, looked up once when Godot loads the extension.
+struct Functions {
+    GDExtensionClassLibraryPtr library = nullptr;
+    GDExtensionInterfaceVariantNewNil newNil = nullptr;
+    GDExtensionInterfaceVariantNewCopy newCopy = nullptr;
+    GDExtensionInterfaceVariantDestroy destroy = nullptr;
+    GDExtensionInterfaceVariantCall call = nullptr;
+    GDExtensionInterfaceVariantConstruct construct = nullptr;
+    GDExtensionInterfaceVariantGetType getType = nullptr;
+    GDExtensionInterfaceVariantGetNamed getNamed = nullptr;
+    GDExtensionInterfaceVariantSetKeyed setKeyed = nullptr;
+    GDExtensionInterfaceGetVariantFromTypeConstructor fromType = nullptr;
+    GDExtensionInterfaceGetVariantToTypeConstructor toType = nullptr;
+    GDExtensionInterfaceStringNameNewWithLatin1Chars newName = nullptr;
+    GDExtensionInterfaceStringNewWithUtf8Chars newText = nullptr;
+    GDExtensionInterfaceStringToUtf8Chars toUtf8 = nullptr;
+    GDExtensionInterfaceVariantStringify stringify = nullptr;
+    GDExtensionPtrDestructor freeText = nullptr;
+    GDExtensionInterfaceGlobalGetSingleton singleton = nullptr;
+    GDExtensionInterfaceObjectGetInstanceFromId instanceFromId = nullptr;
+    GDExtensionInterfaceObjectGetInstanceId instanceId = nullptr;
+    GDExtensionInterfaceObjectSetInstance setInstance = nullptr;
+    GDExtensionInterfaceClassdbConstructObject2 constructObject = nullptr;
+    GDExtensionInterfaceClassdbRegisterExtensionClass4 registerClass = nullptr;
+    GDExtensionInterfaceClassdbRegisterExtensionClassMethod registerMethod = nullptr;
+    GDExtensionInterfaceClassdbRegisterExtensionClassProperty registerProperty = nullptr;
+    GDExtensionInterfaceClassdbRegisterExtensionClassPropertyGroup registerGroup = nullptr;
+    GDExtensionInterfaceClassdbRegisterExtensionClassSignal registerSignal = nullptr;
+    GDExtensionInterfaceClassdbUnregisterExtensionClass unregisterClass = nullptr;
+    GDExtensionInterfaceGetLibraryPath libraryPath = nullptr;
+    GDExtensionInterfacePrintErrorWithMessage printError = nullptr;
+    GDExtensionsInterfaceEditorHelpLoadXmlFromUtf8Chars loadHelp = nullptr;
+};
+extern Functions api;
+/// False: this Godot lacks one of them.
+bool lookUp(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr library);
+
+/// An interned name; `literal` has to live as long as the program, since Godot keeps it.
+struct Name {
+    explicit Name(const char* literal) { api.newName(&interned, literal, 1); }
+    void* get() { return &interned; }
+    bool operator==(const Name& other) const = default;
+    void* interned = nullptr;
+};
+
+/// A String, freed with this.
+struct Text {
+    Text() = default; ///< for Godot to fill
+    explicit Text(const char* utf8Text) { api.newText(&data, utf8Text); }
+    ~Text() {
+        if (data != nullptr) api.freeText(&data);
+    }
+    Text(const Text&) = delete;
+    Text& operator=(const Text&) = delete;
+    void* get() { return &data; }
+    std::string utf8() const;
+    void* data = nullptr;
+};
+
+/// A Variant.
+class Value {
+public:
+    Value() { api.newNil(data.data()); }
+    Value(const Value& other) { api.newCopy(data.data(), other.data.data()); }
+    Value& operator=(const Value& other);
+    ~Value() { api.destroy(data.data()); }
+    Value(double number)
+        : Value(GDEXTENSION_VARIANT_TYPE_FLOAT, &number) {}
+    Value(std::int64_t number)
+        : Value(GDEXTENSION_VARIANT_TYPE_INT, &number) {}
+    Value(int number)
+        : Value(std::int64_t{number}) {}
+    Value(bool is);
+    Value(const char* text);
+    Value(GDExtensionObjectPtr object)
+        : Value(GDEXTENSION_VARIANT_TYPE_OBJECT, &object) {}
+    /// Of Godot's own form, as in calls by pointer.
+    Value(GDExtensionVariantType type, void* typed) { api.fromType(type)(data.data(), typed); }
+    static Value copyOf(GDExtensionConstVariantPtr variant);
+    static Value empty(GDExtensionVariantType type);                        ///< such as a dictionary
+    static Value callable(GDExtensionObjectPtr object, const char* method); ///< `method` is a literal
+    static Value vector(const Vector& v, bool isSpace);
+    /// A copy of that type; nil: Godot does not convert one to the other.
+    Value as(GDExtensionVariantType type) const;
+
+    GDExtensionVariantType type() const { return api.getType(data.data()); }
+    double real() const;        ///< 0 if it is no number
+    std::int64_t whole() const; ///< 0 if it is no number
+    bool isTrue() const { return whole() != 0; }
+    std::string text() const;
+    GDExtensionObjectPtr object() const; ///< null if it is none
+    Vector vector() const;               ///< 0 if it is none
+    std::vector<Value> elements() const; ///< of an array
+
+    /// A member or property; nil if there is none. `name` is a literal.
+    Value member(const char* name) const;
+    void set(const Value& key, const Value& value); ///< of a dictionary
+    /// `name` is a literal. What cannot be called returns nil.
+    template <class... Arguments>
+    Value call(const char* name, const Arguments&... arguments) const {
+        const std::array<Value, sizeof...(arguments)> values{Value(arguments)...};
+        std::array<GDExtensionConstVariantPtr, sizeof...(arguments) + 1> pointers{};
+        for (std::size_t i = 0; i < values.size(); ++i) pointers[i] = values[i].raw();
+        return callWith(name, pointers.data(), values.size());
+    }
+    void copyTo(GDExtensionVariantPtr variant) const; ///< over an initialised one
+    const void* raw() const { return data.data(); }
+    void* raw() { return data.data(); }
+
+private:
+    Value callWith(const char* name, const GDExtensionConstVariantPtr* arguments, std::size_t count) const;
+    alignas(8) std::array<unsigned char, 24> data{};
+};
+
+Value singleton(const char* name);    ///< such as "Input"
+bool isInEditor();                    ///< the editor shows the scene, nothing plays
+void report(const std::string& line); ///< one line in Godot's list of errors
+
+} // namespace physvib::godot

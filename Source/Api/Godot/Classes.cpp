@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "Api/Godot/Classes.h"
+
+#include <list>
+
+namespace physvib::godot {
+
+namespace {
+constexpr std::uint32_t usualUse = 6, flagsOfMethod = 1; // stored and shown in the editor; a usual method
+
+// What Godot hands back with a call: which property of which class.
+struct Accessor {
+    const Property* property;
+    std::size_t index;
+    std::string getter, setter;
+};
+std::list<Accessor> accessors; // Godot keeps their addresses
+
+// Names and texts of a property, which Godot copies while it registers it.
+struct Described {
+    Described(GDExtensionVariantType type, const char* literal, int hint = 0, const char* hintText = "")
+        : name(literal)
+        , className(type == GDEXTENSION_VARIANT_TYPE_OBJECT ? hintText : "")
+        , text(hintText) {
+        info = {type, name.get(), className.get(), static_cast<std::uint32_t>(hint), text.get(), usualUse};
+    }
+    Name name, className;
+    Text text;
+    GDExtensionPropertyInfo info{};
+};
+
+Instance& instanceAt(GDExtensionClassInstancePtr instance) { return *static_cast<Instance*>(instance); }
+const Accessor& accessorAt(void* data) { return *static_cast<Accessor*>(data); }
+
+void callSet(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstVariantPtr* arguments,
+             GDExtensionInt count, GDExtensionVariantPtr, GDExtensionCallError* error) {
+    if (count == 1) return instanceAt(instance).set(accessorAt(data).index, Value::copyOf(arguments[0]));
+    *error = {count < 1 ? GDEXTENSION_CALL_ERROR_TOO_FEW_ARGUMENTS
+                        : GDEXTENSION_CALL_ERROR_TOO_MANY_ARGUMENTS,
+              0, 1};
+}
+void pointerSet(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr* arguments,
+                GDExtensionTypePtr) {
+    const Accessor& at = accessorAt(data);
+    instanceAt(instance).set(at.index, Value(at.property->type, const_cast<void*>(arguments[0])));
+}
+void callGet(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstVariantPtr*,
+             GDExtensionInt, GDExtensionVariantPtr result, GDExtensionCallError*) {
+    const Accessor& at = accessorAt(data);
+    const Value& value = instanceAt(instance).get(at.index);
+    if (at.property->type == GDEXTENSION_VARIANT_TYPE_OBJECT) return value.copyTo(result);
+    value.as(at.property->type).copyTo(result); // arrays are shared unless copied
+}
+void pointerGet(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr*,
+                GDExtensionTypePtr result) {
+    Value value = instanceAt(instance).get(accessorAt(data).index);
+    if (value.type() == accessorAt(data).property->type) api.toType(value.type())(result, value.raw());
+}
+void callMethod(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstVariantPtr*,
+                GDExtensionInt, GDExtensionVariantPtr result, GDExtensionCallError*) {
+    static_cast<Method*>(data)->call(instanceAt(instance)).copyTo(result);
+}
+void pointerMethod(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr*,
+                   GDExtensionTypePtr result) {
+    Value value = static_cast<Method*>(data)->call(instanceAt(instance));
+    if (value.type() != GDEXTENSION_VARIANT_TYPE_NIL) api.toType(value.type())(result, value.raw());
+}
+
+void addMethod(const Class& type, const char* name, void* data, GDExtensionClassMethodCall call,
+               GDExtensionClassMethodPtrCall pointer, Described* result, Described* argument) {
+    Name className(type.name), methodName(name);
+    GDExtensionClassMethodArgumentMetadata plain = GDEXTENSION_METHOD_ARGUMENT_METADATA_NONE;
+    GDExtensionClassMethodInfo info{};
+    info.name = methodName.get(), info.method_userdata = data, info.call_func = call;
+    info.ptrcall_func = pointer, info.method_flags = flagsOfMethod;
+    info.has_return_value = result != nullptr;
+    info.return_value_info = result != nullptr ? &result->info : nullptr;
+    info.argument_count = argument != nullptr ? 1 : 0;
+    info.arguments_info = argument != nullptr ? &argument->info : nullptr, info.arguments_metadata = &plain;
+    api.registerMethod(api.library, className.get(), &info);
+}
+
+void addProperty(const Class& type, std::size_t index) {
+    const Property& property = (*type.properties)[index];
+    Accessor& at = accessors.emplace_back(
+        Accessor{&property, index, std::string("get_") + property.name, std::string("set_") + property.name});
+    Described described(property.type, property.name, property.hint, property.hintText);
+    Described value(property.type, "value", 0,
+                    property.type == GDEXTENSION_VARIANT_TYPE_OBJECT ? property.hintText : "");
+    addMethod(type, at.getter.c_str(), &at, callGet, pointerGet, &value, nullptr);
+    addMethod(type, at.setter.c_str(), &at, callSet, pointerSet, nullptr, &value);
+    Name className(type.name), getter(at.getter.c_str()), setter(at.setter.c_str());
+    api.registerProperty(api.library, className.get(), &described.info, setter.get(), getter.get());
+}
+
+void addGroup(const Class& type, const char* name) {
+    Text group(name), prefix("");
+    api.registerGroup(api.library, Name(type.name).get(), group.get(), prefix.get());
+}
+
+GDExtensionObjectPtr create(void* data, GDExtensionBool) {
+    const Class& type = *static_cast<Class*>(data);
+    GDExtensionObjectPtr object = api.constructObject(Name(type.parent).get());
+    api.setInstance(object, Name(type.name).get(), type.create(object));
+    return object;
+}
+void destroy(void*, GDExtensionClassInstancePtr instance) { delete static_cast<Instance*>(instance); }
+void notify(GDExtensionClassInstancePtr instance, std::int32_t what, GDExtensionBool) {
+    instanceAt(instance).notified(what);
+}
+void warn(GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr*, GDExtensionTypePtr result) {
+    Value list = Value::empty(GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY);
+    for (const std::string& line : instanceAt(instance).warnings()) list.call("append", line.c_str());
+    api.toType(GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY)(result, list.raw());
+}
+GDExtensionClassCallVirtual virtualOf(void*, GDExtensionConstStringNamePtr name, std::uint32_t) {
+    const Name wanted("_get_configuration_warnings");
+    return *static_cast<void* const*>(name) == wanted.interned ? warn : nullptr;
+}
+} // namespace
+
+void registerClass(const Class& type) {
+    GDExtensionClassCreationInfo4 info{};
+    info.is_exposed = 1, info.create_instance_func = create, info.free_instance_func = destroy;
+    info.notification_func = notify, info.get_virtual_func = virtualOf;
+    info.class_userdata = const_cast<Class*>(&type);
+    Name name(type.name), parent(type.parent);
+    api.registerClass(api.library, name.get(), parent.get(), &info);
+    std::string group;
+    for (std::size_t i = 0; i < type.properties->size(); ++i) {
+        const char* its = (*type.properties)[i].group;
+        if (group != its) addGroup(type, its);
+        group = its;
+        addProperty(type, i);
+    }
+    for (const Method& method : type.methods) {
+        Described result(method.result, "");
+        addMethod(type, method.name, const_cast<Method*>(&method), callMethod, pointerMethod,
+                  method.result == GDEXTENSION_VARIANT_TYPE_NIL ? nullptr : &result, nullptr);
+    }
+    if (type.signal == nullptr) return;
+    Name signal(type.signal);
+    const Described hit(GDEXTENSION_VARIANT_TYPE_DICTIONARY, "hit");
+    api.registerSignal(api.library, name.get(), signal.get(), &hit.info, 1);
+}
+
+} // namespace physvib::godot

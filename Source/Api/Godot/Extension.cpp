@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// What Godot calls when it loads and unloads the extension.
+#include "Api/Godot/Worlds.h"
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+namespace physvib::godot {
+
+namespace {
+const Class* const classes[] = {&hapticMaterialClass, &hapticBodyClass, &hapticWorld2dClass,
+                                &hapticWorld3dClass};
+
+// The editor's help and tooltips, from doc_classes beside the folder of the library.
+void loadHelp() {
+    if (api.loadHelp == nullptr) return;
+    Text path;
+    api.libraryPath(api.library, path.get());
+    const std::string folder =
+        singleton("ProjectSettings").call("globalize_path", path.utf8().c_str()).text();
+    const std::string addon = folder.substr(0, folder.rfind('/', folder.rfind('/') - 1));
+    for (const Class* type : classes) {
+        std::ifstream file(addon + "/doc_classes/" + type->name + ".xml");
+        const std::string xml((std::istreambuf_iterator<char>(file)), {});
+        if (!xml.empty()) api.loadHelp(xml.c_str());
+    }
+}
+
+void start(void*, GDExtensionInitializationLevel level) {
+    if (level == GDEXTENSION_INITIALIZATION_SCENE)
+        for (const Class* type : classes) registerClass(*type);
+    if (level == GDEXTENSION_INITIALIZATION_EDITOR) loadHelp();
+}
+
+void stop(void*, GDExtensionInitializationLevel level) {
+    if (level != GDEXTENSION_INITIALIZATION_SCENE) return;
+    for (const Class* type : classes) api.unregisterClass(api.library, Name(type->name).get());
+}
+} // namespace
+
+} // namespace physvib::godot
+
+extern "C" __attribute__((visibility("default"))) GDExtensionBool
+physvib_godot_init(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr library,
+                   GDExtensionInitialization* initialization) {
+    if (!physvib::godot::lookUp(get, library)) {
+        std::fputs("PhysVib: expected Godot 4.4 or newer\n", stderr);
+        return 0;
+    }
+    initialization->minimum_initialization_level = GDEXTENSION_INITIALIZATION_SCENE;
+    initialization->initialize = physvib::godot::start;
+    initialization->deinitialize = physvib::godot::stop;
+    return 1;
+}

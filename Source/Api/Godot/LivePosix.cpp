@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "Api/Godot/Live.h"
+
+#include <dlfcn.h>
+
+namespace physvib::godot {
+
+namespace {
+struct Library {
+    decltype(&physvib_live_open) open = nullptr;
+    decltype(&physvib_live_close) close = nullptr;
+    decltype(&physvib_live_align) align = nullptr;
+    decltype(&physvib_live_strike) strike = nullptr;
+    decltype(&physvib_live_settings_init) initialise = nullptr;
+    decltype(&physvib_live_error) error = nullptr;
+    std::string missing; ///< why it could not be loaded
+
+    Library() {
+        void* handle = dlopen("libphysvib-live.so.0", RTLD_NOW | RTLD_LOCAL);
+        if (handle == nullptr) {
+            const char* reason = dlerror();
+            missing = reason != nullptr ? reason : "libphysvib-live.so.0: expected beside the addon";
+            return;
+        }
+        find(handle, "physvib_live_open", open), find(handle, "physvib_live_close", close);
+        find(handle, "physvib_live_align", align), find(handle, "physvib_live_strike", strike);
+        find(handle, "physvib_live_settings_init", initialise), find(handle, "physvib_live_error", error);
+    }
+    template <class Function>
+    void find(void* handle, const char* name, Function& function) {
+        function = reinterpret_cast<Function>(dlsym(handle, name));
+        if (function == nullptr) missing = std::string("libphysvib-live.so.0 lacks ") + name;
+    }
+};
+const Library& library() {
+    static const Library loaded;
+    return loaded;
+}
+} // namespace
+
+Live::~Live() {
+    if (live != nullptr) library().close(live);
+}
+
+std::string Live::open(const std::string& device, const physvib_layout& layout, double levelDb,
+                       double fieldWidthMetres, double fieldHeightMetres) {
+    if (!library().missing.empty()) return library().missing;
+    physvib_renderer_settings renderer;
+    physvib_renderer_settings_init(&renderer, sizeof renderer);
+    renderer.field_width_m = fieldWidthMetres, renderer.field_height_m = fieldHeightMetres;
+    renderer.layout = layout;
+    physvib_live_settings settings;
+    library().initialise(&settings, sizeof settings);
+    settings.level_db = levelDb;
+    return library().open(device.c_str(), &renderer, &settings, &live) == PHYSVIB_OK ? "" : library().error();
+}
+
+void Live::play(physvib_world world, const physvib_event& event) {
+    if (live == nullptr || library().align(live, world, &startNs) != PHYSVIB_OK) return;
+    physvib_event later = event;
+    later.time_ns += startNs;
+    library().strike(live, &later, 1);
+}
+
+} // namespace physvib::godot
