@@ -113,6 +113,55 @@ test('two outputs: a stereo monitor, each actuator at its place; gains, mutes an
     context.run(1);
 });
 
+test('frames that the browser leaves out, as for a module that is read, are over: later hits are in time', async () => {
+    const onsets = [];
+    for (const left of [0, 640, 64000]) {
+        const context = new Context(8), output = await play(physvib, context, { layout: 'phone4', fieldWidth: 1, fieldHeight: 1 });
+        context.run(20);
+        context.frame += left;
+        context.run(20); // of a long time it is made up for bit by bit
+        const due = context.currentTime + 0.02, before = context.recorded[0].length;
+        output.strike([{ timeNs: 0, frequencyHz: 100, decayPerSecond: 20, amplitude: 0.5, x: 0.5, y: 0.5 }], due * 1e9);
+        context.run(60);
+        onsets.push(context.recorded[0].slice(before).findIndex(sample => sample !== 0));
+        context.run(100);
+        await null;
+        assert.equal(output.skipped, left);
+        assert.equal(output.status.late, 0);
+    }
+    assert.ok(Math.abs(onsets[0] - 0.02 * rate - physvib.renderer({ layout: 'phone4' }).latencyFrames) <= 2 && onsets.every(onset => onset === onsets[0]), String(onsets));
+});
+
+test('a context that is suspended: what happens meanwhile is not felt later, and the clock does not move', async () => {
+    const context = new Context(8), output = await play(physvib, context, { layout: 'phone4', fieldWidth: 1, fieldHeight: 1 });
+    let follower;
+    output.follow({ follow: one => { follower = one; return () => {}; } });
+    const hit = timeNs => ({ timeNs, frequencyHz: 100, decayPerSecond: 200, amplitude: 0.5, x: 0.5, y: 0.5 }), nsOf = quanta => quanta * quantum / rate * 1e9;
+    let world = 0;
+    const step = (runs, events = []) => { world += nsOf(6); if (runs) context.run(6); follower(events, { timeNs: world }); };
+    for (let i = 0; i < 80; ++i) step(true);
+    context.state = 'suspended';
+    for (let i = 0; i < 80; ++i) step(false, [hit(world)]);
+    context.state = 'running';
+    for (let i = 0; i < 40; ++i) step(true);
+    assert.ok(context.recorded[0].every(sample => sample === 0), 'what was missed is over');
+    assert.equal(output.moves, 1);
+    step(true, [hit(world)]);
+    context.run(60);
+    await null;
+    assert.ok(context.recorded[0].some(sample => sample !== 0) && output.status.late === 0);
+});
+
+test('modules that cannot be had are named, with what to do', async () => {
+    const context = new Context(2);
+    context.audioWorklet.addModule = async () => { throw new Error('Not found'); };
+    await assert.rejects(play(physvib, context, { worklet: '/there/worklet.js' }), /\/there\/worklet.js: .*Not found.*option worklet/);
+    await assert.rejects(load(folder, 'physvib').then(({ load: code }) => code('file:///nowhere/physvib.wasm')), /file:\/\/\/nowhere\/physvib.wasm: .*no such file.*physvib\/inline/);
+    const inside = await (await load(folder, 'physvib/inline')).load();
+    assert.equal(inside.version, physvib.version);
+    assert.match(inside.worklet, /registerProcessor/);
+});
+
 test('a page without audio worklets says why', async () => {
     globalThis.isSecureContext = false;
     await assert.rejects(play(physvib, {}), /https/);

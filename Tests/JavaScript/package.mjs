@@ -55,7 +55,7 @@ test('a ball that falls is felt as from C', () => {
     const events = drop();
     assert.ok(events.length > 3);
     assert.ok(events[0].timeNs > 403.8e6 && events[0].timeNs < 404e6, `onset ${events[0].timeNs}`);
-    assert.deepEqual({ ...events[0], timeNs: 0, amplitude: 0, impulse: 0 }, { timeNs: 0, durationNs: 0, frequencyHz: 200, decayPerSecond: 30, amplitude: 0, x: events[0].x, y: 0, impulse: 0, massKg: 0.2, fixture: 1, other: 0, kind: 'hit', sound: 0 });
+    assert.deepEqual({ ...events[0], timeNs: 0, amplitude: 0, impulse: 0 }, { timeNs: 0, durationNs: 0, frequencyHz: 200, decayPerSecond: 30, amplitude: 0, x: events[0].x, y: 0, impulse: 0, massKg: 0.2, fixture: 1, other: 0, kind: 'hit', sound: 0, z: 0, part: 0 });
 });
 
 for (const scene of ['shake-the-box', 'marbles', 'driving']) test(`${scene}: samples equal to native, to the bit`, async () => {
@@ -116,6 +116,11 @@ test('events as text, and layouts, go forth and back; a sound file is as the C l
     assert.deepEqual([extentWidth, places], [0.1, [{ x: 0, y: 0.1 }, { x: 0.1, y: 0.1 }]]);
     assert.equal(physvib.layout('phone4').places.length, 4);
     assert.ok(isSame(physvib.render(events, { seconds: 1, layout: physvib.layout('ring4') }), physvib.render(events, { seconds: 1, layout: 'ring4' })));
+    const glove = physvib.layout('glove5'), named = { ...glove, places: glove.places.map((place, j) => ({ ...place, part: ['thumb', 'index', 'middle', 'ring', 'little'][j] })) };
+    assert.deepEqual(glove.places[0], { x: 0, y: 0, z: -0.035, part: glove.places[0].part });
+    const onThumb = layout => physvib.render([{ timeNs: 0, frequencyHz: 200, decayPerSecond: 30, amplitude: 0.5, z: 0.1, part: 'thumb' }], { seconds: 0.1, layout });
+    assert.deepEqual(onThumb(named).map(channel => channel.some(sample => sample !== 0)), [true, false, false, false, false]);
+    assert.ok(isSame(onThumb(named), onThumb('glove5')));
 });
 
 for (const ending of ['hjif', 'haptic', 'ahap', 'hmpg']) test(`.${ending} is written, read, and what the native program reads`, async () => {

@@ -17,10 +17,21 @@ writeFileSync(join(folder, 'types.mts'), `${program.replace("import Matter from 
 import { play } from 'physvib/audio';
 import { rumble } from 'physvib/gamepad';
 import { attach as box2d3 } from 'physvib/box2d3';
+import { attach as planck } from 'physvib/planck';
+import { attach as rapier3d } from 'physvib/rapier3d';
+import { load as loadInline } from 'physvib/inline';
+import wasm from 'physvib/physvib.wasm';
+import worklet from 'physvib/worklet.js';
 const output = await play(physvib, new AudioContext(), { layout: 'ring3' });
 output.follow(haptics);
 rumble(physvib, { profile: 'pad-xbox' }).follow(haptics);
-box2d3(physvib, {}, { b2: {}, metresPerUnit: 1 }).update?.(0.01);
+box2d3(physvib, {}, { b2: {}, metresPerUnit: 1 }).update(0.01);
+planck(physvib, {}).update(1 / 60);
+rapier3d(physvib, {}).update(1 / 60);
+const inside: Promise<typeof physvib> = loadInline(), elsewhere = load(wasm);
+await play(physvib, new AudioContext(), { worklet });
+// @ts-expect-error: Matter steps itself
+haptics.update(1 / 60);
 const world = physvib.world({ fieldWidth: 1, fieldHeight: 1 });
 world.step(0.01, 9.81, () => world.touch(0, 1, { x: 0, y: 0, approach: 1, restitution: 0.5, gap: 0.01, impulse: 1, point: 'place' }));
 const samples: Float32Array = channels[0];

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The ten worlds of Tests/Engines in each engine of JavaScript, beside native Box2D: ten.py FOLDER NATIVE. FOLDER: where npm has installed physvib
+"""The ten worlds and ten acts of Tests/Engines in each engine of JavaScript, beside native Box2D: ten.py FOLDER NATIVE. FOLDER: where npm has installed physvib
 and the engines; NATIVE: physvib-engine-box2d. Prints the table; leaves the traces in FOLDER/ten.json, which those of a browser are held against."""
 import json
 import os
@@ -9,6 +9,7 @@ import tempfile
 
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(here, "..", "Engines"))
+import acts  # noqa: E402
 import worlds  # noqa: E402
 
 ENGINES = {"Matter": "matter", "Planck": "planck", "Rapier": "rapier2d", "Box2D 3": "box2d3"}
@@ -35,24 +36,27 @@ def texts():
     return [worlds.text_of(make, rate) for _, make, _ in worlds.WORLDS for rate in worlds.rates()]
 
 
-def in_node(folder, name):
+def in_node(folder, name, texts):
     """{ text: trace } of an engine, by one process."""
     with tempfile.TemporaryDirectory() as work:
-        paths = [os.path.join(work, str(i)) for i, _ in enumerate(texts())]
-        for path, text in zip(paths, texts()):
+        paths = [os.path.join(work, str(i)) for i, _ in enumerate(texts)]
+        for path, text in zip(paths, texts):
             with open(path, "w") as file:
                 file.write(text)
         subprocess.run(["node", os.path.join(here, "trace.mjs"), folder, name, *paths], check=True)
-        return {text: open(path + ".trace").read() for path, text in zip(paths, texts())}
+        return {text: open(path + ".trace").read() for path, text in zip(paths, texts)}
 
 
 def main():
     folder, native = (os.path.abspath(path) for path in sys.argv[1:3])
-    traces = {name: in_node(folder, name) for name in ENGINES.values()}
+    traces = {name: in_node(folder, name, texts()) for name in ENGINES.values()}
     with open(os.path.join(folder, "ten.json"), "w") as file:
         json.dump(traces, file)
     engines = {label: traces[name].__getitem__ for label, name in ENGINES.items()}
-    return 1 if worlds.table({"native Box2D 2.4": worlds.by_command(native), **engines}, KNOWN) else 0
+    failed = worlds.table({"native Box2D 2.4": worlds.by_command(native), **engines}, KNOWN)
+    played = [acts.text_of(make) for _, make, _, _ in acts.ACTS]
+    acts.table({label: in_node(folder, name, played).__getitem__ for label, name in ENGINES.items()}) # what they miss: decision 205
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ const gravity = 9.81;
 const readers = {
     world: (world, hz, restitution, friction, seconds) => Object.assign(world, { hz, restitution, friction, seconds }),
     falling: world => { world.isFalling = true; },
+    starting: (world, ...accelerations) => { world.starting = accelerations; },
     floor: world => world.bodies.push({ id: floorBody, halfWidth: 20, halfHeight: 0.5, x: 0, y: -0.5, isStatic: true }),
     tiles: (world, left, right, count) => { world.tiles = { id: floorBody, left, right, count }; },
     pin: (world, a, b, x, y) => world.pins.push({ a, b: b > 0 ? b : null, x, y }),
@@ -17,15 +18,16 @@ const readers = {
     ball: (...values) => addBody(false, ...values),
     box: (...values) => addBody(true, ...values),
 };
-function addBody(isBox, world, id, x, y, angle, width, height, massKg, vx, vy, spin, isSource) {
+function addBody(isBox, world, id, x, y, angle, width, height, massKg, ...rest) {
+    const [ax, ay, turn] = world.starting, late = massKg > 0 ? 0.5 / world.hz : 0, isSource = rest[3] === 1; // as Trace.h
+    const [vx, vy, spin] = [rest[0] - late * ax, rest[1] - late * ay, rest[2] - late * turn];
     const shape = isBox ? { halfWidth: width / 2, halfHeight: height / 2 } : { radius: width / 2 };
-    world.bodies.push({ id, ...shape, x, y, angle, massKg, vx, vy, spin, isStatic: massKg === 0, isSource: isSource === 1,
-        falls: world.isFalling });
+    world.bodies.push({ id, ...shape, x, y, angle, massKg, vx, vy, spin, isStatic: massKg === 0, isSource, falls: world.isFalling });
 }
 
 /** A world for engines.mjs. */
 export function worldOf(text) {
-    const world = { gravity, bodies: [], pins: [], isFalling: false };
+    const world = { gravity, bodies: [], pins: [], isFalling: false, starting: [0, 0, 0] };
     for (const line of text.trim().split('\n')) {
         const [word, ...numbers] = line.split(' ');
         if (readers[word] === undefined) throw new Error(`expected ${Object.keys(readers).join(', ')}, found ${word}`);
@@ -56,8 +58,8 @@ export async function trace(folder, physvib, name, text) {
     const numbers = new Map([...bodies].map(([id, body]) => [haptics.id(body), id])), lines = [];
     const print = n => {
         for (const { id } of world.bodies.filter(body => !body.isStatic)) {
-            const { x, y, vx, vy, spin } = motion(id);
-            lines.push(`m ${n} ${id} ${x} ${y} ${vx} ${vy} ${spin}`);
+            const { x, y, vx, vy, spin, angle } = motion(id);
+            lines.push(`m ${n} ${id} ${x} ${y} ${vx} ${vy} ${spin} ${angle}`);
         }
     };
     print(0);

@@ -18,14 +18,20 @@ if ! { cmake -S Source/Api/JavaScript -B "$work" -G Ninja --toolchain "$PWD/Stan
     cat "$work/build.log" >&2
     exit 1
 fi
-cp "$work/physvib.wasm" "$work/files.wasm" "$work/package"
+Source/Api/JavaScript/shrink.sh "$work/physvib.wasm" "$work/package/physvib.wasm" -O2 # it renders; 7 KB less, compressed
+Source/Api/JavaScript/shrink.sh "$work/files.wasm" "$work/package/files.wasm" # 13 KB
+node - "$work/package" <<'END'
+const { readFileSync, writeFileSync } = require('node:fs'), folder = process.argv[2];
+const text = readFileSync('Source/Api/JavaScript/package/inline.js', 'utf8');
+writeFileSync(`${folder}/inline.js`, text.replace(/'{(.*?)}'/g, (_, name) => `'${readFileSync(`${folder}/${name}`).toString('base64')}'`));
+END
 rm -f build/web/*.tgz
 for package in package jspsych; do
     cp LICENSES/MIT.txt "$work/$package/LICENSE"
     (cd "$work/$package" && npm pack --silent --pack-destination ../.. >/dev/null)
 done
-# What a page loads that reads no clips.
-bytes=$(tar -C "$work/package" --exclude=files.wasm -cz . | wc -c)
+# What a page loads that reads no clips; inline.js is instead of physvib.wasm.
+bytes=$(tar -C "$work/package" --exclude=files.wasm --exclude=inline.js -cz . | wc -c)
 file=$(ls build/web/physvib-*.tgz)
-say "$file: $(wc -c <"$file") bytes; without files.wasm, which is loaded when it is asked for: $bytes"
-[ "$bytes" -lt 160000 ] || { say "expected less than 160 KB"; exit 1; }
+say "$file: $(wc -c <"$file") bytes; without files.wasm, which is loaded when it is asked for, and inline.js: $bytes"
+[ "$bytes" -lt 170000 ] || { say "expected less than 170 KB"; exit 1; }

@@ -40,7 +40,7 @@ export class Sound {
         this.#connected = String(places);
         const destination = this.#context.destination, direct = this.isDirect(places.length), width = direct ? places.length : 2;
         for (const node of [this.#node, this.#master, ...this.#pans]) node.disconnect();
-        destination.channelCount = Math.min(width, this.outputs);
+        if (this.outputs > 0) destination.channelCount = Math.min(width, this.outputs); // WebKit tells none
         destination.channelInterpretation = 'discrete';
         Object.assign(this.#master, { channelCount: width, channelCountMode: 'explicit', channelInterpretation: direct ? 'discrete' : 'speakers' });
         this.#master.connect(destination);

@@ -10,14 +10,15 @@ export interface AttachOptions extends WorldSettings {
 export interface Haptics<Body = any> {
     readonly world: World;
     readonly metresPerUnit: number;
-    /** How a body feels and sounds; its masses are the engine's. Its number in events. */
+    /** How a body feels and sounds; its masses are the engine's. Its number in events, which it keeps when it leaves the engine's world and comes back. A part, a
+     * collider or a fixture stands for its body. */
     set(body: Body, values?: HapticValues): number;
     id(body: Body): number;
     remove(body: Body): void;
     /** `advance` steps the engine by so many seconds. */
     step(seconds: number, advance?: (seconds: number) => void): void;
-    /** The same, and steps the engine. Not with Matter, which steps itself. */
-    update?(seconds: number): void;
+    /** What ended haptics, told once on the console; null: nothing did. The game goes on without them. */
+    readonly error: Error | null;
     take(atOnce?: boolean): FullHapticEvent[];
     /** After each step; what it returns ends that. */
     follow(follower: (events: FullHapticEvent[], world: World) => void): () => void;
@@ -29,4 +30,10 @@ export interface Haptics<Body = any> {
     free(): void;
 }
 
-export function attach<Body = any>(physvib: PhysVib, world: object, options?: AttachOptions): Haptics<Body>;
+/** Of engines that do not step themselves. */
+export interface SteppedHaptics<Body = any> extends Haptics<Body> {
+    /** Steps the engine by so many seconds. */
+    update(seconds: number): void;
+}
+
+export function attach<Body = any>(physvib: PhysVib, world: object, options?: AttachOptions): SteppedHaptics<Body>;

@@ -3,7 +3,7 @@ import type { HapticEvent, Impact, Nanoseconds, PhysVib, RendererSettings, Rende
 import type { Haptics } from './attach.js';
 
 export interface AudioOptions extends RendererSettings {
-    /** From a collision to its vibration, s (0.06): more than two steps of the game and its longest stutter. */
+    /** From a collision to its vibration, s: more than two steps of the game and its longest stutter. Left out: 0.06, or what the first second of the game wants. */
     latency?: number;
     /** 1: full scale (0.25). */
     level?: number;
@@ -16,7 +16,9 @@ export interface Output {
     /** Whether each actuator has an output of its own; else one hears a stereo monitor. */
     readonly isDirect: boolean;
     readonly latency: number;
-    /** How often a game fell behind for longer than the latency, and was aligned anew. */
+    /** Frames that the browser left out while its audio thread stood still. */
+    readonly skipped: number;
+    /** How often a game stood still for longer than the latency, or changed its pace, and was aligned anew. */
     readonly moves: number;
     /** Of the audio thread, four times a second: `late` counts events that came after their time. */
     readonly status: RendererStatus;
@@ -30,6 +32,8 @@ export interface Output {
     playSamples(channels: readonly Float32Array[], seconds?: number): AudioBufferSourceNode;
     follow(haptics: Haptics): () => void;
     strike(events: readonly HapticEvent[], laterNs?: Nanoseconds): void;
+    /** Resolves when what was struck so far is on the audio thread: wait for it before an OfflineAudioContext renders, which may be faster than messages. */
+    arrived(): Promise<void>;
     /** One impact now. */
     impact(hit?: Impact): void;
     setGain(channel: number, gain: number): void;

@@ -8,18 +8,19 @@ const nsPerSecond = 1e9;
 const firstLevel = 0.25; // 12 dB below full scale: hands and ears may be attached
 
 class Output {
-    #physvib; #context; #node; #mix; #level; #pans = []; #clock; #size; #ends = new Set(); #latencyNs;
+    #physvib; #context; #node; #mix; #level; #pans = []; #clock; #size; #ends = new Set(); #arrivals = [];
     /** Frames by which samples lag the events' times: the limiter's look-ahead. */
     latencyFrames = 0;
     /** What the audio thread has done, four times a second. */
     status = { liveModes: 0, pending: 0, frames: 0, played: 0, late: 0, rejected: 0, refused: 0 };
+    /** Frames that the browser left out, while its audio thread stood still: they are over, and nothing is late for them. */
+    skipped = 0;
 
-    constructor(physvib, context, { worklet, latency = 0.06, level = firstLevel, ...settings }) {
+    constructor(physvib, context, { worklet, latency, level = firstLevel, ...settings }) {
         const { bytes, channels } = physvib.settingsBytes({ ...settings, rate: context.sampleRate });
         this.#physvib = physvib;
         this.#context = context;
-        this.#latencyNs = latency * nsPerSecond;
-        this.#clock = new Clock(this.#latencyNs);
+        this.#clock = new Clock(latency);
         this.settings = settings;
         this.channels = channels;
         this.#size = physvib.sizes;
@@ -28,7 +29,11 @@ class Output {
         this.opened = new Promise((done, failed) => {
             this.#node.onprocessorerror = () => failed(new PhysVibError(-8, 'audio: the audio thread has ended'));
             this.#node.port.onmessage = ({ data }) => {
-                if (data.status) Object.assign(this.status, physvib.statusOf(data.status));
+                if (data.status) {
+                    Object.assign(this.status, physvib.statusOf(data.status));
+                    this.skipped = data.skipped;
+                }
+                else if (data.hasArrived) this.#arrivals.shift()();
                 else if (data.isOpen) {
                     this.latencyFrames = data.latencyFrames;
                     done(this);
@@ -45,10 +50,10 @@ class Output {
     /** Whether each actuator has an output of its own. */
     get isDirect() { return this.#context.destination.maxChannelCount >= this.channels && this.channels > 2; }
     /** From a collision to its vibration, in seconds, before the device's own latency. */
-    get latency() { return this.#latencyNs / nsPerSecond; }
+    get latency() { return this.#clock.latencyNs / nsPerSecond; }
     get context() { return this.#context; }
     get physvib() { return this.#physvib; }
-    /** How often a game fell behind for longer than the latency, and was aligned anew. */
+    /** How often a game stood still for longer than the latency, or changed its pace, and was aligned anew. */
     get moves() { return this.#clock.moves; }
     /** What it plays, a channel per actuator, before level and monitor: to be recorded, or connected elsewhere. */
     get node() { return this.#node; }
@@ -77,7 +82,8 @@ class Output {
 
     /** What `haptics` (of attach) feels from now on. What it returns ends that. */
     follow(haptics) {
-        const end = followed(haptics, this.#clock, () => this.#now(), (events, startNs) => this.strike(events, startNs + this.#latencyNs));
+        // A context that is suspended stands still: what happens meanwhile is not felt later.
+        const end = followed(haptics, this.#clock, () => (['suspended', 'interrupted'].includes(this.#context.state) ? undefined : this.#now()), events => this.strike(events, 0));
         this.#ends.add(end);
         return () => {
             this.#ends.delete(end);
@@ -89,6 +95,14 @@ class Output {
     strike(events, laterNs = this.#now()) {
         const bytes = this.#physvib.eventBytes(events.map(event => ({ ...event, timeNs: Math.max(0, event.timeNs + laterNs) })));
         this.#tell({ events: bytes });
+    }
+
+    /** Resolves when what was struck so far is on the audio thread: wait for it before an OfflineAudioContext renders, which may be faster than messages. */
+    arrived() {
+        return new Promise(done => {
+            this.#arrivals.push(done);
+            this.#tell({ isAsked: true });
+        });
     }
 
     /** One impact now: { x, y, strength, material }. */
@@ -114,7 +128,7 @@ class Output {
         this.#tell({ call: 'set_layout', timeNs: this.#now(), settings: this.#physvib.settingsBytes(this.settings).bytes });
     }
     /** All that rings, and what has happened so far, is felt no more. */
-    silence() { this.#tell({ call: 'silence', timeNs: this.#now(), values: [this.#now() + this.#latencyNs] }); }
+    silence() { this.#tell({ call: 'silence', timeNs: this.#now(), values: [this.#now() + this.#clock.latencyNs] }); }
 
     close() {
         for (const end of this.#ends) end();
@@ -124,12 +138,31 @@ class Output {
     }
 }
 
+const modules = new WeakMap(), besides = new Map(); // of contexts; and addresses of texts
+
+function addressOf(text) {
+    if (!besides.has(text)) besides.set(text, URL.createObjectURL(new Blob([text], { type: 'text/javascript' })));
+    return besides.get(text);
+}
+
+// Once for each context: a second module of the same name is refused, and the audio thread stands still while it is read.
+function added(context, physvib, place) {
+    if (!modules.has(context)) {
+        const address = place ?? (physvib.worklet ? addressOf(physvib.worklet) : new URL('./worklet.js', import.meta.url));
+        modules.set(context, context.audioWorklet.addModule(address).catch(error => {
+            modules.delete(context);
+            throw new PhysVibError(-4, `${address}: expected the audio worklet's worklet.js (${error.message}): put the package's file there, or tell play() where it is (option worklet)`);
+        }));
+    }
+    return modules.get(context);
+}
+
 /** `context`: an AudioContext, made or resumed by a click. `options`: those of a renderer, latency (s), level, worklet (where worklet.js is). */
 export async function play(physvib, context, options = {}) {
     if (!context.audioWorklet) {
         throw new PhysVibError(-3, globalThis.isSecureContext === false ? 'audio: this page came by http; browsers give sound of this kind to https and to localhost'
             : 'audio: expected a browser with AudioWorklet');
     }
-    await context.audioWorklet.addModule(options.worklet ?? new URL('./worklet.js', import.meta.url));
+    await added(context, physvib, options.worklet);
     return new Output(physvib, context, options).opened;
 }

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Box2D 3 by box2d3-wasm: soft contacts in small steps. Contacts are read after the step, so no shape needs hit events.
-import { Haptics, meeting, motionAt } from './haptics.js';
+import { Haptics, motionAt } from './haptics.js';
 
 const mostContacts = 64; // of a body in a step
+const slop = 0.005; // Box2D's, m; and the share of its path that a body may be short of
+const none = { x: 0, y: 0, angle: 0 };
 
 class Box2d3Haptics extends Haptics {
-    #b2; #engine; #threshold;
+    #b2; #engine; #threshold; #subSteps; #lastSeconds = 0;
 
-    constructor(physvib, engine, { b2, restitutionThreshold = 1, ...options }) {
+    constructor(physvib, engine, { b2, restitutionThreshold = 1, subSteps = 4, ...options }) {
         const unit = options.metresPerUnit ?? 1, { value: dynamic } = b2.b2BodyType.b2_dynamicBody;
         super(physvib, {
+            bodyOf: body => (body?.index1 > 0 ? body : undefined),
             keyOf: body => body.index1 * 65536 + body.generation,
-            massesOf: body => (b2.b2Body_GetType(body).value === dynamic
+            massesOf: body => (b2.b2Body_IsValid(body) && b2.b2Body_GetType(body).value === dynamic
                 ? { massKg: b2.b2Body_GetMass(body), inertia: b2.b2Body_GetRotationalInertia(body) * unit * unit, gravityScale: b2.b2Body_GetGravityScale(body) }
                 : { massKg: 0, inertia: 0, gravityScale: 1 }),
             isThere: body => b2.b2Body_IsValid(body),
@@ -21,33 +24,61 @@ class Box2d3Haptics extends Haptics {
         this.#b2 = b2;
         this.#engine = engine;
         this.#threshold = restitutionThreshold * unit;
+        this.#subSteps = subSteps;
     }
 
-    /** `advance` calls b2World_Step; without it, we do, with four sub-steps. */
-    step(seconds, advance = () => this.#b2.b2World_Step(this.#engine, seconds, 4)) {
-        const b2 = this.#b2, unit = this.metresPerUnit, gravity = b2.b2World_GetGravity(this.#engine), gx = gravity.x * unit, gy = gravity.y * unit;
-        this.begin(seconds, Math.hypot(gx, gy));
-        try {
+    /** `advance` calls b2World_Step; without it, we do. */
+    step(seconds, advance = () => this.#b2.b2World_Step(this.#engine, seconds, this.#subSteps)) {
+        const { x, y } = this.#b2.b2World_GetGravity(this.#engine), gx = x * this.metresPerUnit, gy = y * this.metresPerUnit;
+        this.around(() => advance(seconds), () => {
+            this.begin(seconds, Math.hypot(gx, gy));
             for (const known of this.each()) this.#observe(known, seconds, gx, gy);
-            advance(seconds);
-            for (const known of this.each()) {
-                if (known.isStatic) continue;
-                const v = b2.b2Body_GetLinearVelocity(known.body);
-                this.world.moved(known.id, v.x * unit, v.y * unit, b2.b2Body_GetAngularVelocity(known.body));
-            }
-            this.#lookAtAll(seconds, gx, gy);
-        } finally {
-            this.finish();
+        }, () => this.#after(seconds, gx, gy));
+    }
+    #after(seconds, gx, gy) {
+        const moving = [...this.eachThere()].filter(({ isStatic }) => !isStatic);
+        for (const known of moving) {
+            Object.assign(known, { after: this.#motionOf(known.body) });
+            this.journal.moved(known.id, known.after.vx, known.after.vy, known.after.spin);
         }
+        this.#lookAtAll(seconds, gx, gy);
+        for (const known of moving) this.#stop(known, seconds); // for the next step's contacts
+        this.#lastSeconds = seconds;
     }
     update(seconds) { this.step(seconds); }
 
+    #motionOf(body) {
+        const b2 = this.#b2, unit = this.metresPerUnit, at = b2.b2Body_GetWorldCenterOfMass(body), v = b2.b2Body_GetLinearVelocity(body);
+        return { x: at.x * unit, y: at.y * unit, vx: v.x * unit, vy: v.y * unit, spin: b2.b2Body_GetAngularVelocity(body) };
+    }
+
     #observe(known, seconds, gx, gy) {
-        const b2 = this.#b2, unit = this.metresPerUnit, at = b2.b2Body_GetWorldCenterOfMass(known.body), v = b2.b2Body_GetLinearVelocity(known.body);
-        known.isAwake = b2.b2Body_IsAwake(known.body);
-        Object.assign(known, { x: at.x * unit, y: at.y * unit, vx: v.x * unit, vy: v.y * unit, spin: b2.b2Body_GetAngularVelocity(known.body) });
+        const now = this.#motionOf(known.body), { after } = known;
+        if (!(after && ['x', 'y', 'vx', 'vy'].every(name => after[name] === now[name]))) known.lost = none; // the game has moved it
+        known.isAwake = this.#b2.b2Body_IsAwake(known.body);
+        Object.assign(known, now);
         const pull = known.isStatic || !known.isAwake ? 0 : seconds * known.gravityScale;
-        this.world.move(known.id, known.x, known.y, known.vx + pull * gx, known.vy + pull * gy, known.spin);
+        Object.assign(known, { freeVx: known.vx + pull * gx, freeVy: known.vy + pull * gy });
+        this.journal.move(known.id, known.x, known.y, known.freeVx, known.freeVy, known.spin);
+    }
+
+    // Continuous collision stops a body where it first touches, with the velocity of the step's end; it collides in the next step. What the step would have moved
+    // it on is lost, unless contacts may have taken it; see physvib_box2d3.h.
+    #stop(known, seconds) {
+        const { x, y, vx, vy, after } = known, late = 0.5 * (seconds - seconds / this.#subSteps); // velocities change before bodies move
+        const toX = seconds * after.vx - late * (after.vx - vx), toY = seconds * after.vy - late * (after.vy - vy), path = Math.hypot(toX, toY);
+        const pushed = 0.5 * seconds * Math.hypot(after.vx - known.freeVx, after.vy - known.freeVy), rounding = 1e-6 * (Math.abs(after.x) + Math.abs(after.y));
+        const lost = path > 0 ? path - ((after.x - x) * toX + (after.y - y) * toY) / path : 0;
+        const share = path < slop || lost > path || lost < slop * path + pushed + rounding ? 0 : lost / path;
+        known.lost = share > 0 ? { x: share * toX, y: share * toY, angle: share * seconds * after.spin } : none;
+    }
+
+    // When a gap closes, in steps after the start of this one; below 0 it has in the step before. Sub-steps change the velocity before they move a body, so its path
+    // is that of one that is faster by half a sub-step's gravity.
+    #fraction(gap, speed, pull, seconds) {
+        const start = Math.max(0.5 * speed, speed + 0.5 * pull * seconds / this.#subSteps), root = Math.max(0, start * start + 2 * pull * gap);
+        const length = gap < 0 ? this.#lastSeconds : seconds;
+        return length > 0 ? Math.min(2, Math.max(-1, 2 * gap / (start + Math.sqrt(root)) / length)) : 0;
     }
 
     // Each contact once: with the second of its bodies, or with the first where that is static.
@@ -74,9 +105,12 @@ class Box2d3Haptics extends Haptics {
             const point = manifold.GetPoint(i), unit = this.metresPerUnit, gap = point.separation * unit, speed = -point.normalVelocity * unit;
             if (point.totalNormalImpulse <= 0 && gap > 0) continue; // near, and not yet there
             const x = point.point.x * unit, y = point.point.y * unit, { alongA, alongB } = motionAt(a, b, x, y, nx, ny);
-            this.world.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, 
+            const lost = ({ lost = none, ...known }) => (lost.x - lost.angle * (y - known.y)) * nx + (lost.y + lost.angle * (x - known.x)) * ny;
+            const turn = known => -known.spin * known.spin * ((x - known.x) * nx + (y - known.y) * ny), squared = speed * speed + 2 * pull * Math.max(0, gap);
+            const when = speed > 0 ? { fraction: this.#fraction(gap + Math.min(0, lost(b) - lost(a)), speed, pull + turn(a) - turn(b), seconds) } : { gap, gapFraction: 0 };
+            this.journal.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, ...when, approach: speed > 0 && squared > 0 ? Math.sqrt(squared) : speed,
                 impulse: Math.max(0, 0.5 * point.totalNormalImpulse * unit), isSoft: 'whole', // it counts a sub-step twice: solved, and relaxed
-                restitution: speed > this.#threshold ? Math.min(1, Math.max(0, bounce)) : 0, ...meeting(speed, gap, pull, seconds), point: isRound.includes(true) ? 0 : point.id });
+                restitution: speed > this.#threshold ? Math.min(1, Math.max(0, bounce)) : 0, point: isRound.includes(true) ? 0 : point.id });
         }
     }
 }

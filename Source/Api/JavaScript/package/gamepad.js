@@ -16,16 +16,15 @@ function phoneMotor(navigator) {
 }
 
 class Pads {
-    #waves; #motors; #clock; #timer = null; #ends = new Set(); #level; #now; #pads; #vibrate; #latencyNs; #setTimer; #clearTimer; #last = { low: 0, high: 0 };
+    #waves; #motors; #clock; #timer = null; #ends = new Set(); #level; #now; #pads; #vibrate; #setTimer; #clearTimer; #last = { low: 0, high: 0 };
     /** Commands sent so far, and those that a controller has refused. */
     commands = 0;
     refused = 0;
 
-    constructor(physvib, { profile = 'pad-generic', latency = 0.06, level = 1, fieldWidth = 1, fieldHeight = 1, phone = true, ...system }) {
+    constructor(physvib, { profile = 'pad-generic', latency, level = 1, fieldWidth = 1, fieldHeight = 1, phone = true, ...system }) {
         this.#motors = physvib.pad(profile, { fieldWidth, fieldHeight });
         this.#waves = new Waves(physvib, { fieldWidth, fieldHeight }, system.audioBuffer);
-        this.#latencyNs = latency * 1e9;
-        this.#clock = new Clock(this.#latencyNs);
+        this.#clock = new Clock(latency);
         this.#level = level;
         this.#now = system.now ?? (() => performance.now());
         this.#pads = system.getGamepads ?? (() => globalThis.navigator?.getGamepads?.() ?? []);
@@ -36,7 +35,7 @@ class Pads {
 
     /** What `haptics` (of attach) feels from now on. What it returns ends that. */
     follow(haptics) {
-        const end = followed(haptics, this.#clock, () => this.#now() * nsPerMs, (events, startNs) => this.strike(events, startNs + this.#latencyNs));
+        const end = followed(haptics, this.#clock, () => this.#now() * nsPerMs, events => this.strike(events, 0));
         this.#ends.add(end);
         return () => {
             this.#ends.delete(end);

@@ -1,30 +1,49 @@
 // SPDX-License-Identifier: MIT
 // What every attachment has: numbers of bodies, steps, events for who follows and for who takes. Inside, lengths are metres and y points up.
+import { Journal } from './journal.js';
+import { PhysVibError } from './module.js';
+
 const mostKept = 10000; // events that nobody takes
 
 // As Box2D and Matter decide.
 const mayTouch = (a, b) => (a.group === b.group && a.group !== 0 ? a.group > 0 : (a.mask & b.category) !== 0 && (a.category & b.mask) !== 0);
 
 export class Haptics {
-    #known = new Map(); #next = 0; #followers = new Set(); #waiting = [];
+    #known = new Map(); #away = new WeakMap(); #lastAway = null; #next = 0; #followers = new Set(); #waiting = []; #journal = new Journal(); #isFree = false; #isInStep = false;
     /** Events that nobody took, and that have made room for newer ones. */
     forgotten = 0;
+    /** What ended haptics; null: nothing did. The game goes on without them. */
+    error = null;
 
-    /** `engine`: what tells of bodies: keyOf(body), massesOf(body), isThere(body); to explain silence, look(body) (isEnabled, isSensor, isAsleep, and filters of
-     * category, mask and group) and bodies(). */
+    /** `engine`: what tells of bodies: bodyOf(thing) (that it is, or is part of; undefined: none), keyOf(body), massesOf(body), isThere(body); to explain silence,
+     * look(body) (isEnabled, isSensor, isAsleep, and filters of category, mask and group) and bodies(). */
     constructor(physvib, engine, { metresPerUnit = 1, ...settings } = {}) {
         this.engine = engine;
         this.metresPerUnit = metresPerUnit;
         this.world = physvib.world(settings);
     }
 
-    /** How a body feels and sounds: { frequencyHz, decayPerSecond, isSource, ... }; its masses are the engine's. Its number in events. */
+    /** Work of the attachment's own. What it throws ends haptics, is told once, and does not reach the game. */
+    guarded(work) {
+        if (this.error || this.#isFree) return undefined;
+        try {
+            return work();
+        } catch (error) {
+            this.error = error;
+            this.detach?.();
+            console.error(`PhysVib: haptics have ended, the game goes on: ${error.message}`);
+            return undefined;
+        }
+    }
+
+    /** How a body feels and sounds: { frequencyHz, decayPerSecond, isSource, ... }; its masses are the engine's. Its number in events, which it keeps when it leaves
+     * the engine's world and comes back. */
     set(body, values = {}) {
         const known = this.know(body);
         const before = known.values;
         Object.assign(known, { values, isGone: false });
         try {
-            this.#tell(known, this.engine.massesOf(body));
+            this.#tell(known, this.engine.massesOf(known.body));
         } catch (error) {
             known.values = before;
             throw error;
@@ -35,32 +54,44 @@ export class Haptics {
     /** The number of a body in events. */
     id(body) { return this.know(body).id; }
 
+    #bodyOf(thing) {
+        const body = this.engine.bodyOf(thing);
+        if (body === undefined) throw new PhysVibError(-2, `body: expected one of the engine's, found ${thing?.constructor?.name ?? String(thing)}`);
+        return body;
+    }
+
     /** A body that is to be felt no more, from the next step on. One that leaves the engine's world need not be named. */
-    remove(body) {
-        const known = this.#known.get(this.engine.keyOf(body));
+    remove(thing) {
+        const body = this.#bodyOf(thing), known = this.#known.get(this.engine.keyOf(body));
         if (known !== undefined) known.isGone = true;
+        this.#away.delete(body);
     }
 
     /** What is known of a body; a body that has not been set gets a number when it first touches. */
-    know(body) {
-        const key = this.engine.keyOf(body);
+    know(thing) {
+        const body = this.#bodyOf(thing), key = this.engine.keyOf(body);
         let known = this.#known.get(key);
         if (known === undefined) {
-            known = { id: this.#next++, body, values: {}, isStatic: true, x: 0, y: 0, vx: 0, vy: 0, spin: 0, isRound: false };
-            this.#known.set(key, known);
+            const { id = this.#next++, values = {} } = this.#away.get(body) ?? {};
+            known = { id, body, values, isStatic: true, x: 0, y: 0, vx: 0, vy: 0, spin: 0, isRound: false };
             this.#tell(known, this.engine.massesOf(body));
+            this.#known.set(key, known);
+            this.#away.delete(body);
         }
         return known;
     }
 
     // Masses may change while a game runs.
     #tell(known, masses) {
+        this.#observed();
         this.world.setBody(known.id, { ...known.values, ...masses });
         Object.assign(known, { massKg: masses.massKg, inertia: masses.inertia, gravityScale: masses.gravityScale, isStatic: !(masses.massKg > 0) });
     }
 
     /** All that are known. */
     each() { return this.#known.values(); }
+    /** Those of them that the engine's world still has: code of the game runs within a step. */
+    *eachThere() { for (const known of this.#known.values()) if (this.engine.isThere(known.body)) yield known; }
 
     // Between steps: those that are gone go, masses are as they are now.
     #sweep() {
@@ -68,6 +99,8 @@ export class Haptics {
             if (known.isGone || !this.engine.isThere(known.body)) {
                 this.#known.delete(key);
                 this.world.removeBody(known.id);
+                if (!known.isGone) this.#away.set(known.body, known);
+                if (known.values.isSource) this.#lastAway = known.isGone ? null : known.id;
                 continue;
             }
             const masses = this.engine.massesOf(known.body);
@@ -78,20 +111,48 @@ export class Haptics {
     /** Motion as the solver finds it. */
     move(known, x, y, vx, vy, spin) {
         Object.assign(known, { x, y, vx, vy, spin });
-        this.world.move(known.id, x, y, vx, vy, spin);
+        this.journal.move(known.id, x, y, vx, vy, spin);
+    }
+    /** What is observed in a step. */
+    get journal() { return this.#journal; }
+    #observed() {
+        const numbers = this.#journal.take();
+        if (numbers.length > 0) this.world.observe(numbers);
     }
 
+    /** Before the engine steps. */
     begin(seconds, gravity) {
         this.#sweep();
         this.world.beginStep(seconds, gravity);
+        this.#isInStep = true;
     }
 
-    finish() {
-        this.world.endStep();
-        const events = this.world.take();
-        this.#waiting.push(...events);
-        if (this.#waiting.length > mostKept) this.forgotten += this.#waiting.splice(0, this.#waiting.length - mostKept).length;
-        for (const follower of this.#followers) follower(events, this.world);
+    /** Behind the engine's step: `look` observes what it did. */
+    finish(look) {
+        const events = this.guarded(() => {
+            if (!this.#isInStep) return undefined;
+            look?.();
+            this.#observed();
+            this.#isInStep = false;
+            this.world.endStep();
+            const taken = this.world.take();
+            this.#waiting.push(...taken);
+            if (this.#waiting.length > mostKept) this.forgotten += this.#waiting.splice(0, this.#waiting.length - mostKept).length;
+            return taken;
+        });
+        if (events) for (const follower of this.#followers) follower(events, this.world);
+    }
+
+    /** A step that `advance` makes of the engine, between two looks at it. */
+    around(advance, before, after) {
+        this.guarded(before);
+        let isDone = false;
+        try {
+            advance();
+            isDone = true;
+        } finally {
+            this.finish(isDone ? after : undefined);
+        }
     }
 
     /** `follower(events, world)` after each step; what it returns ends that. */
@@ -109,11 +170,14 @@ export class Haptics {
 
     /** Why nothing is felt of what happened since the last call; see World.explain. */
     explain(output) {
+        if (this.error) return `Haptics have ended by an error: ${this.error.message}. Free these, and attach anew.`;
         for (const known of this.#known.values()) {
             const note = known.values.isSource && !known.isGone ? this.#noteOf(known.body) : undefined;
             if (note !== undefined) this.world.note(known.id, note);
         }
-        return this.world.explain(output);
+        const said = this.world.explain(output);
+        return this.#lastAway === null || [...this.each()].some(known => known.values.isSource) ? said
+            : `No haptic source is in the engine's world: body ${this.#lastAway} was not added to it, or has left it. Before: ${said}`;
     }
     #noteOf(body) {
         const { keyOf, look, bodies } = this.engine;
@@ -129,7 +193,8 @@ export class Haptics {
 
     /** Ends it: the engine is as it was. */
     free() {
-        this.detach?.();
+        if (!this.error) this.detach?.();
+        this.#isFree = true;
         this.#followers.clear();
         this.world.free();
     }
@@ -147,6 +212,11 @@ export function motionAt(a, b, x, y, nx, ny) {
 /** How fast two surfaces meet that close with `speed` across a `gap`, while `pull` (m/s^2) draws them together; and when, in steps. */
 export function meeting(speed, gap, pull, seconds) {
     const squared = speed * speed + 2 * pull * Math.max(0, gap), approach = speed > 0 && squared > 0 ? Math.sqrt(squared) : speed;
-    if (gap > 0 && speed + approach > 0) return { approach, fraction: Math.min(1, 2 * gap / (speed + approach) / seconds) };
+    if (gap > 0 && speed + approach > 0) return { approach, fraction: Math.min(2, 2 * gap / (speed + approach) / seconds) };
     return { approach, gap, gapFraction: 0 };
+}
+
+/** Refuses what is no engine: the object beside it, for example. */
+export function expectEngine(isOne, expected, found) {
+    if (!isOne) throw new PhysVibError(-2, `attach: expected ${expected}, found ${found?.type ?? found?.constructor?.name ?? String(found)}`);
 }

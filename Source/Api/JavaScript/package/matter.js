@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: MIT
 // Matter 0.19 and 0.20, and Phaser's. It moves first and looks then, its y points down, its velocities are pixels per millisecond here, and it tells no
 // impulses: they follow from masses and from velocities before and behind its solver. It steps itself; its events say when.
-import { Haptics, motionAt } from './haptics.js';
+import { expectEngine, Haptics, motionAt } from './haptics.js';
 
 const massesOf = unit => body => (body.isStatic || !Number.isFinite(body.mass)
     ? { massKg: 0, inertia: 0, gravityScale: 1 }
     : { massKg: body.mass, inertia: Number.isFinite(body.inertia) ? body.inertia * unit * unit : 0, gravityScale: body.ignoreGravity ? 0 : 1 });
 
+// A part is felt as its compound, an object of Phaser as its body.
+const bodyOf = thing => (thing?.type === 'body' ? thing.parent ?? thing : thing?.body?.type === 'body' ? bodyOf(thing.body) : undefined);
+
 class MatterHaptics extends Haptics {
-    #engine; #handlers; #seconds = 0; #isStepping = false; #there = new Set();
+    #engine; #handlers; #seconds = 0; #there = new Set();
 
     constructor(physvib, engine, { metresPerUnit = 0.01, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
         const height = fieldHeight ?? fieldWidth;
-        super(physvib, { keyOf: body => body.parent ?? body, massesOf: massesOf(metresPerUnit), isThere: body => this.#there.has(body), bodies: () => this.#bodies(),
+        super(physvib, { bodyOf, keyOf: body => body, massesOf: massesOf(metresPerUnit), isThere: body => this.#there.has(body), bodies: () => this.#bodies(),
             look: body => ({ isSensor: body.isSensor, isAsleep: body.isSleeping, filters: [body.collisionFilter] }) },
             { metresPerUnit, fieldWidth, fieldHeight: height, fieldY: -(fieldY ?? height), ...settings });
         this.#engine = engine;
-        this.#handlers = { beforeUpdate: event => this.#begin(event), beforeSolve: () => this.#look(), afterUpdate: () => this.#end() };
+        this.#handlers = { beforeUpdate: event => this.guarded(() => this.#begin(event)), beforeSolve: () => this.guarded(() => this.#look()), afterUpdate: () => this.finish(() => this.#end()) };
         const events = engine.events ??= {};
         for (const [name, handler] of Object.entries(this.#handlers)) events[name] = [...events[name] ?? [], handler];
     }
@@ -43,7 +46,6 @@ class MatterHaptics extends Haptics {
         this.#there = this.#bodies();
         for (const body of this.#there) if (!body.isSensor) this.know(body); // what it will touch, too
         this.begin(this.#seconds, this.#pull(gravity));
-        this.#isStepping = true;
         for (const known of this.each()) this.#moveAs(known, this.#stateOf(known), known.body.ignoreGravity ? 0 : this.#seconds);
     }
     #pull({ x, y, scale }) { return Math.hypot(x, y) * scale * 1e6 * this.metresPerUnit; }
@@ -60,15 +62,13 @@ class MatterHaptics extends Haptics {
     }
 
     #end() {
-        if (!this.#isStepping) return; // attached within a step
-        this.#isStepping = false;
-        const pairs = this.#engine.pairs.list.filter(pair => pair.isActive && !pair.isSensor).map(pair => ({ pair, a: this.know(pair.collision.parentA), b: this.know(pair.collision.parentB) }));
+        const isThere = ({ parentA, parentB }) => this.#there.has(parentA) && this.#there.has(parentB); // pairs outlive a world that was cleared
+        const pairs = this.#engine.pairs.list.filter(pair => pair.isActive && !pair.isSensor && isThere(pair.collision)).map(pair => ({ pair, a: this.know(pair.collision.parentA), b: this.know(pair.collision.parentB) }));
         for (const known of this.each()) {
             const [, , vx, vy, spin] = this.#stateOf(known);
-            if (!known.isStatic) this.world.moved(known.id, vx, vy, spin);
+            if (!known.isStatic) this.journal.moved(known.id, vx, vy, spin);
         }
         for (const { pair, a, b } of pairs) if (!(a.isStatic && b.isStatic)) this.#touch(pair, a, b);
-        this.finish();
     }
 
     #touch(pair, a, b) {
@@ -76,11 +76,14 @@ class MatterHaptics extends Haptics {
         const contacts = pair.activeContacts ?? pair.contacts.slice(0, pair.contactCount);
         for (const { vertex } of isRound ? contacts.slice(0, 1) : contacts) {
             const x = vertex.x * unit, y = -vertex.y * unit, { alongA, alongB } = motionAt(a, b, x, y, nx, ny);
-            this.world.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, restitution: Math.min(1, Math.max(0, pair.restitution)), gap: -depth * unit, gapFraction: 1,
+            this.journal.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, restitution: Math.min(1, Math.max(0, pair.restitution)), gap: -depth * unit, gapFraction: 1,
                 point: isRound ? 0 : 'place' });
         }
     }
 }
 
 /** `engine`: Matter's, or Phaser's `this.matter.world.engine`. Lengths of `options` are metres; the field's corner is (0, fieldHeight): a canvas' lower left. */
-export function attach(physvib, engine, options = {}) { return new MatterHaptics(physvib, engine, options); }
+export function attach(physvib, engine, options = {}) {
+    expectEngine(engine?.world && engine.pairs && engine.timing, "Matter's engine (Engine.create(), or Phaser's this.matter.world.engine)", engine);
+    return new MatterHaptics(physvib, engine, options);
+}

@@ -28,6 +28,8 @@ const numberOf = (name, value) => {
     throw wrong(`${name}: expected ${words[name] ? [...words[name].keys()].join(', ') : 'a number'}, found ${String(value)}`);
 };
 
+const bytesOf = ({ kind }) => (kind === 'i' ? 4 : 8);
+
 export class Module {
     #memory; #view; #broken = null; #structures = new Map();
 
@@ -135,11 +137,11 @@ export class Module {
     }
     #writeAll(name, member, at, values) {
         if (typeof values?.length !== 'number' || values.length > member.count) throw wrong(`${name}: expected at most ${member.count} numbers`);
-        for (let i = 0; i < values.length; ++i) this.#write(name, member, at + 8 * i, values[i]);
+        for (let i = 0; i < values.length; ++i) this.#write(name, member, at + bytesOf(member) * i, values[i]);
     }
     #write(name, { kind }, at, value) {
         if (kind === 'd') return this.view.setFloat64(at, value === null ? unknown : numberOf(name, value), true);
-        const number = numberOf(name, value);
+        const number = name === 'part' && typeof value === 'string' ? this.partOf(value) : numberOf(name, value);
         if (kind === 'l') {
             if (!Number.isFinite(number)) throw wrong(`${name}: expected whole nanoseconds, found ${number}`);
             return this.view.setBigInt64(at, BigInt(Math.round(number)), true);
@@ -152,13 +154,17 @@ export class Module {
         const values = {}, { view } = this;
         for (const [name, { at: place, kind, count }] of this.#structures.get(`physvib_${structure}`).members) {
             const from = at + place;
-            if (count > 1) values[name] = Array.from(this.doubles(from, count));
+            if (count > 1 && kind === 'i') values[name] = Array.from({ length: count }, (_, i) => view.getInt32(from + 4 * i, true));
+            else if (count > 1) values[name] = Array.from(this.doubles(from, count));
             else if (kind === 'd') values[name] = view.getFloat64(from, true);
             else if (kind === 'l') values[name] = Number(view.getBigInt64(from, true));
             else if (kind === 'i') values[name] = view.getInt32(from, true);
         }
         return values;
     }
+
+    /** The number of a part of a body by its name; '': none. */
+    partOf(name) { return name === '' ? 0 : this.withText(name, text => this.call('part', text)); }
 
     /** `use(at)` of a structure as its _init has it, with `values`. */
     filled(structure, values, use) {

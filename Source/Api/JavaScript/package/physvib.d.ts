@@ -31,6 +31,10 @@ export interface HapticEvent {
     kind?: 'hit' | 'roll' | 'slide';
     /** Number of its sound's name; 0: none. A list of events gives it that of a material. */
     sound?: number;
+    /** Place across the plane of x and y, m (0). */
+    z?: number;
+    /** The part of a body on whose actuators it is felt: a name such as 'thumb', or its number; 0: on all. */
+    part?: string | number;
 }
 export type FullHapticEvent = Required<HapticEvent>;
 
@@ -38,7 +42,7 @@ export type FullHapticEvent = Required<HapticEvent>;
 export interface Layout {
     extentWidth: number;
     extentHeight: number;
-    places: { x: number; y: number }[];
+    places: { x: number; y: number; z?: number; part?: string | number }[];
 }
 
 export interface RendererSettings {
@@ -46,7 +50,7 @@ export interface RendererSettings {
     rate?: number;
     /** 0: as many as the layout has actuators (0). */
     channels?: number;
-    law?: 'auto' | 'linear' | 'log' | 'log-outer' | 'energy' | 'neighbours' | (string & {});
+    law?: 'auto' | 'linear' | 'log' | 'log-outer' | 'energy' | 'neighbours' | 'distance' | 'triangles' | (string & {});
     /** false: samples may exceed 1 (true). */
     limiter?: boolean;
     exponent?: number;
@@ -111,6 +115,8 @@ export interface HapticValues {
     isRidged?: boolean;
     /** For your own routing, see deviceOf. */
     device?: number;
+    /** Number of the part of a body on whose actuators it is felt; 0: on all, by place (0). */
+    part?: number;
 }
 export interface BodyValues extends HapticValues {
     /** 0: what strikes it does not move it (0). */
@@ -118,6 +124,9 @@ export interface BodyValues extends HapticValues {
     inertia?: number;
     gravityScale?: number;
 }
+
+/** x, y and z. */
+export type Vector = ArrayLike<number>;
 
 /** Two bodies touch: tell the impulse, or how fast they near each other, or neither if move() tells the motions. */
 export interface Contact {
@@ -146,6 +155,13 @@ export interface Contact {
     /** Which point of its pair it is: a number, or told apart by place. */
     point?: number | 'none' | 'place';
     isImpulseOfPair?: boolean;
+    /** In space: across the plane of the field. */
+    z?: number;
+    normalZ?: number;
+    /** In space: impulse on b across the normal, N s, instead of tangential. */
+    frictionX?: number;
+    frictionY?: number;
+    frictionZ?: number;
 }
 
 export interface WorldCounts { contacts: number; belowThreshold: number; noSource: number; unplayable: number; muted: number; dropped: number; events: number; threshold: number }
@@ -164,6 +180,7 @@ export interface OutputFacts {
     late?: number;
     dropped?: number;
     rejected?: number;
+    withoutPart?: number;
 }
 
 /** Contacts of any engine in, events out. Bodies are numbers of yours, from 0 on. */
@@ -179,6 +196,10 @@ export interface World {
     move(body: number, x: number, y: number, vx: number, vy: number, spin?: number): void;
     /** Velocity and spin behind it, for engines that do not tell impulses. */
     moved(body: number, vx: number, vy: number, spin?: number): void;
+    /** move in space. `inverseInertia`: of its moments of inertia as it is turned now, in the world's axes (xx, yy, zz, xy, xz, yz); null: `inertia` about every axis. */
+    moveInSpace(body: number, centre: Vector, velocity: Vector, spin?: Vector, inverseInertia?: ArrayLike<number> | null): void;
+    /** moved in space. */
+    movedInSpace(body: number, velocity: Vector, spin?: Vector): void;
     pair(surface: number, other: number, sound: { frequencyHz: number; decayPerSecond: number; gain?: number }): void;
     /** A step: `contacts` calls touch for every pair that touches. */
     step(seconds: number, gravity: number, contacts?: () => void): void;
@@ -268,13 +289,15 @@ export type Bytes = ArrayBuffer | ArrayBufferView;
 export type Source = string | URL | Bytes | WebAssembly.Module | Response | Promise<Response>;
 
 export class PhysVib {
-    constructor(compiled: WebAssembly.Module, files?: Source);
+    constructor(compiled: WebAssembly.Module, files?: Source, worklet?: string);
     /** For workers: new PhysVib(module). */
     readonly module: WebAssembly.Module;
     readonly version: string;
     /** Names of the laws of panning. */
     readonly laws: string[];
     readonly memoryBytes: number;
+    /** The text of worklet.js; undefined: it is a file. */
+    readonly worklet: string | undefined;
     world(settings?: WorldSettings): World;
     renderer(settings?: RendererSettings): Renderer;
     pad(profile?: string | PadProfile, settings?: { fieldWidth?: number; fieldHeight?: number }): Pad;
@@ -298,5 +321,6 @@ export class PhysVib {
     writeClip(events: readonly HapticEvent[], name: string, settings?: RendererSettings & { error?: number }): Promise<{ name: string; bytes: Uint8Array }[]>;
 }
 
-/** `source`: physvib.wasm, if it is not beside the package's files; `files`: the same of files.wasm. */
-export function load(source?: Source, options?: { files?: Source }): Promise<PhysVib>;
+/** `source`: physvib.wasm, if it is not beside the package's files; `files`: the same of files.wasm; `worklet`: the text of worklet.js. Rejects with the address and
+ * the server's status. */
+export function load(source?: Source, options?: { files?: Source; worklet?: string }): Promise<PhysVib>;

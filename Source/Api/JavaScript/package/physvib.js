@@ -12,12 +12,14 @@ export { PhysVibError, material, materials };
 
 /** The library: one instance of the WebAssembly, one thread. Worlds and renderers go when they are freed, or collected. */
 export class PhysVib {
-    #module; #files; #forgotten = new FinalizationRegistry(free => { try { free(); } catch { /* an instance that has ended */ } });
+    #module; #files; #worklet; #forgotten = new FinalizationRegistry(free => { try { free(); } catch { /* an instance that has ended */ } });
 
-    /** `compiled`: a WebAssembly.Module of physvib.wasm, for example another instance's `module`. `files`: where files.wasm is, its bytes or module. */
-    constructor(compiled, files = new URL('files.wasm', import.meta.url)) {
+    /** `compiled`: a WebAssembly.Module of physvib.wasm, for example another instance's `module`. `files`: where files.wasm is, its bytes or module; `worklet`: the
+     * text of worklet.js. Left out, both lie beside this file. */
+    constructor(compiled, files, worklet) {
         this.#module = new Module(compiled);
         this.#files = files;
+        this.#worklet = worklet;
     }
 
     /** Compiled, for workers and worklets: `new PhysVib(module)`. */
@@ -25,6 +27,8 @@ export class PhysVib {
     get version() { return this.#module.text(this.#module.run('physvib_version')); }
     get laws() { return lawsOf(this.#module); }
     get memoryBytes() { return this.#module.memoryBytes; }
+    /** The text of worklet.js, or undefined: it is a file. */
+    get worklet() { return this.#worklet; }
 
     #registry = (object, free) => {
         const token = {};
@@ -67,7 +71,7 @@ export class PhysVib {
         });
     }
     // Loaded when it is needed first.
-    async #filesModule() { return this.#files = await compile(await this.#files); }
+    async #filesModule() { return this.#files = await compile(await this.#files ?? placeOf(filesBeside, 'files.wasm'), 'files.wasm'); }
     async parseLayout(text) { return files.parseLayout(await this.#filesModule(), text); }
     async parseEvents(text) { return files.parseEvents(await this.#filesModule(), text); }
     async eventsText(events, field) { return files.eventsText(await this.#filesModule(), events, field); }
@@ -86,18 +90,32 @@ export class PhysVib {
     eventBytes(events) { return this.#module.withEvents(events, at => this.#module.bytes(at, events.length * this.#module.sizeOf('event')).slice()); }
 }
 
-async function bytesAt(place) {
-    const url = new URL(place, import.meta.url);
-    if (url.protocol !== 'file:') return fetch(url);
-    const { readFile } = await import(/* @vite-ignore */ /* webpackIgnore: true */ 'node:fs/promises'); // Node's fetch takes no files
-    return readFile(url);
+const advice = name => `put the package's ${name} there, tell load() where it is, or import physvib/inline, which has the code inside`;
+const refusal = (where, name, found) => new PhysVibError(-4, `${where}: expected the WebAssembly ${name}, ${found}: ${advice(name)}`);
+
+// Bundlers look for `new URL('./name', import.meta.url)` in these very words, and take the file along. A script that is no module has no such address.
+const codeBeside = () => new URL('./physvib.wasm', import.meta.url);
+const filesBeside = () => new URL('./files.wasm', import.meta.url);
+function placeOf(beside, name) {
+    try { return beside(); } catch { throw refusal('import.meta.url', name, 'this script has no address'); }
 }
 
-async function compile(source) {
-    if (source instanceof WebAssembly.Module) return source;
-    const found = typeof source === 'string' || source instanceof URL ? await bytesAt(source) : await source;
-    return WebAssembly.compile(found instanceof ArrayBuffer || ArrayBuffer.isView(found) ? found : await found.arrayBuffer()); // whatever type a server gives it
+// Bytes of an address, or of a Response that the page has fetched.
+async function bytesOf(source, name) {
+    const fs = source instanceof URL && source.protocol === 'file:' && globalThis.process?.getBuiltinModule?.('node:fs/promises'); // Node's fetch takes no files
+    if (fs) return fs.readFile(source).catch(error => { throw refusal(source, name, error.message); });
+    const answer = source instanceof URL ? await fetch(source).catch(error => { throw refusal(source, name, `could not be fetched (${error.message})`); }) : source;
+    if (!answer.ok) throw refusal(answer.url, name, `the server answers ${answer.status}`);
+    const bytes = new Uint8Array(await answer.arrayBuffer());
+    if (![0x00, 0x61, 0x73, 0x6d].every((byte, i) => bytes[i] === byte)) throw refusal(answer.url, name, `found ${answer.headers?.get('content-type') ?? 'something else'}`);
+    return bytes;
 }
 
-/** `source`, `files`: where physvib.wasm and files.wasm are, if not beside this file; bytes, a Response, or a WebAssembly.Module. */
-export async function load(source = new URL('physvib.wasm', import.meta.url), { files } = {}) { return new PhysVib(await compile(source), files); }
+async function compile(given, name) {
+    if (given instanceof WebAssembly.Module) return given;
+    const source = typeof given === 'string' ? new URL(given, URL.canParse(given) ? undefined : placeOf(codeBeside, name)) : await given;
+    return WebAssembly.compile(source instanceof ArrayBuffer || ArrayBuffer.isView(source) ? source : await bytesOf(source, name)); // whatever type a server gives it
+}
+
+/** `source`, `files`: where physvib.wasm and files.wasm are, if not beside this file; bytes, a Response, or a WebAssembly.Module. `worklet`: the text of worklet.js. */
+export async function load(source, { files, worklet } = {}) { return new PhysVib(await compile(source ?? placeOf(codeBeside, 'physvib.wasm'), 'physvib.wasm'), files, worklet); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Planck 1: Box2D 2.4 in JavaScript. Its impulses are whole; in the first phase of a step those of a new pair have gravity's share in them.
-import { Haptics, motionAt } from './haptics.js';
+import { expectEngine, Haptics, motionAt } from './haptics.js';
 
 const listed = first => {
     const all = [];
@@ -14,6 +14,7 @@ class PlanckHaptics extends Haptics {
     constructor(physvib, engine, options) {
         const unit = options.metresPerUnit ?? 1;
         super(physvib, {
+            bodyOf: thing => (thing?.getFixtureList ? thing : thing?.getBody?.()), // or a fixture's
             keyOf: body => body,
             massesOf: body => (body.isDynamic() ? { massKg: body.getMass(), inertia: (body.getInertia() - body.getMass() * body.getLocalCenter().lengthSquared()) * unit * unit, gravityScale: body.getGravityScale() }
                 : { massKg: 0, inertia: 0, gravityScale: 1 }),
@@ -28,7 +29,7 @@ class PlanckHaptics extends Haptics {
         this.#engine = engine;
         this.#handlers = {
             'pre-step': seconds => this.#start(seconds), 'post-step': () => this.#end(), 'begin-contact': contact => this.#new.add(contact), 'end-contact': contact => this.#new.delete(contact),
-            'pre-solve': contact => this.#look(contact), 'post-solve': (contact, impulse) => this.#push(contact, impulse),
+            'pre-solve': contact => this.guarded(() => this.#look(contact)), 'post-solve': (contact, impulse) => this.guarded(() => this.#push(contact, impulse)),
         };
         for (const [name, handler] of Object.entries(this.#handlers)) engine.on(name, handler);
     }
@@ -41,8 +42,8 @@ class PlanckHaptics extends Haptics {
     }
     update(seconds) { this.step(seconds); }
 
-    #start(seconds) {
-        if (this.#isStepping) return;
+    #start(seconds) { if (!this.#isStepping) this.guarded(() => this.#begin(seconds)); }
+    #begin(seconds) {
         const { x, y } = this.#engine.getGravity(), unit = this.metresPerUnit;
         this.#seconds = seconds;
         this.#gravity = { x: x * unit, y: y * unit };
@@ -81,11 +82,14 @@ class PlanckHaptics extends Haptics {
         const { a, b, normal, alpha, meet } = look, unit = this.metresPerUnit;
         const pull = this.#seconds * (this.#gravity.x * normal.x + this.#gravity.y * normal.y), isOne = a.isStatic !== b.isStatic;
         const load = this.#new.has(contact) && alpha === 0 && isOne ? Math.max(0, a.isStatic ? -pull * b.massKg * b.gravityScale : pull * a.massKg * a.gravityScale) : 0;
-        meet.forEach((point, i) => this.world.touch(a.id, b.id, { ...point, impulse: normalImpulses[i] * unit - load / meet.length,
+        meet.forEach((point, i) => this.journal.touch(a.id, b.id, { ...point, impulse: normalImpulses[i] * unit - load / meet.length,
             restitution: Math.min(1, Math.max(0, contact.getRestitution())), point: a.isRound || b.isRound ? 0 : 'place' }));
         this.#new.delete(contact);
     }
 }
 
 /** `world`: Planck's. A body is felt as a whole, whichever of its fixtures touches. */
-export function attach(physvib, world, options = {}) { return new PlanckHaptics(physvib, world, options); }
+export function attach(physvib, world, options = {}) {
+    expectEngine(world?.getBodyList && world.on, "Planck's world", world);
+    return new PlanckHaptics(physvib, world, options);
+}

@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: MIT
 // Rapier 2D: it looks before it moves, ahead of itself, and solves in small steps. So a blow is told by speed and restitution, and what goes on touching
 // by momentum.
-import { Haptics, meeting, motionAt } from './haptics.js';
+import { expectEngine, Haptics, meeting, motionAt } from './haptics.js';
 
 const nearMetres = 0.005; // what lies within goes on touching, though Rapier pushes it in some steps only
 
-class RapierHaptics extends Haptics {
+/** Whose contacts a collider's are: its body's, or its own where it has none, as a ground often has not. */
+const ownerOf = collider => collider.parent() ?? collider;
+
+/** What both have; physvib/rapier3d says otherwise what space changes. */
+export class RapierHaptics extends Haptics {
     #engine; #touching = new Set(); #was = new Set();
 
     constructor(physvib, engine, options) {
         const unit = options.metresPerUnit ?? 1;
         super(physvib, {
-            keyOf: body => body.handle,
-            massesOf: body => (body.isDynamic() ? { massKg: body.mass(), inertia: body.principalInertia() * unit * unit, gravityScale: body.gravityScale() } : { massKg: 0, inertia: 0, gravityScale: 1 }),
-            isThere: body => engine.bodies.contains(body.handle),
-            bodies: () => engine.bodies.getAll(),
+            bodyOf: thing => (thing?.isDynamic ? thing : thing?.shapeType ? ownerOf(thing) : undefined),
+            keyOf: body => body,
+            massesOf: body => (this.engine.isThere(body) && body.isDynamic?.() ? { massKg: body.mass(), inertia: this.inertiaOf(body) * unit * unit, gravityScale: body.gravityScale() } : { massKg: 0, inertia: 0, gravityScale: 1 }),
+            // Rapier gives a handle's place to the next body, and calls of the old one end its module.
+            isThere: body => (body.isDynamic ? engine.bodies : engine.colliders).get(body.handle) === body,
+            bodies: () => [...engine.bodies.getAll(), ...engine.colliders.getAll().filter(collider => !collider.parent())],
             look: body => {
-                const colliders = Array.from({ length: body.numColliders() }, (_, i) => body.collider(i));
-                return { isEnabled: body.isEnabled(), isSensor: colliders.every(collider => collider.isSensor()), isAsleep: body.isDynamic() && body.isSleeping(),
+                const colliders = body.isDynamic ? Array.from({ length: body.numColliders() }, (_, i) => body.collider(i)) : [body];
+                return { isEnabled: body.isEnabled(), isSensor: colliders.every(collider => collider.isSensor()), isAsleep: body.isDynamic?.() && body.isSleeping(),
                     filters: colliders.map(collider => ({ category: collider.collisionGroups() >>> 16, mask: collider.collisionGroups() & 0xffff, group: 0 })) };
             },
         }, options);
@@ -26,23 +32,22 @@ class RapierHaptics extends Haptics {
 
     /** `advance` steps the engine by `seconds`; without it, we do. */
     step(seconds, advance = () => this.#engine.step()) {
-        const engine = this.#engine, unit = this.metresPerUnit, { x: gx, y: gy } = engine.gravity;
-        engine.timestep = seconds;
+        this.#engine.timestep = seconds;
+        this.around(() => advance(seconds), () => this.#before(seconds), () => this.#after(seconds));
+    }
+    #before(seconds) {
+        this.begin(seconds, this.size(this.#engine.gravity) * this.metresPerUnit);
         this.#meetAll();
-        this.begin(seconds, Math.hypot(gx, gy) * unit);
-        try {
-            for (const known of this.each()) this.#observe(known, seconds);
-            advance(seconds);
-            for (const known of this.each()) {
-                if (known.isStatic) continue;
-                const { x, y } = known.body.linvel();
-                this.world.moved(known.id, x * unit, y * unit, known.body.angvel());
-            }
-            [this.#was, this.#touching] = [this.#touching, new Set()];
-            this.#eachPair((one, other) => this.#look(one, other, seconds));
-        } finally {
-            this.finish();
-        }
+        for (const known of this.each()) this.#observe(known, seconds);
+    }
+    #observe(known, seconds) {
+        if (known.body.isDynamic) this.observe(known, this.#pullOf(known, seconds));
+        else this.observeStill(known, known.body.translation());
+    }
+    #after(seconds) {
+        for (const known of this.eachThere()) if (!known.isStatic) this.moved(known, known.body.linvel(), known.body.angvel());
+        [this.#was, this.#touching] = [this.#touching, new Set()];
+        this.#eachPair((one, other) => this.#look(one, other, seconds));
     }
     update(seconds) { this.step(seconds); }
 
@@ -52,7 +57,7 @@ class RapierHaptics extends Haptics {
             if (!one.parent()?.isDynamic() || one.isSensor()) return;
             engine.contactPairsWith(one, other => {
                 const key = one.handle < other.handle ? `${one.handle},${other.handle}` : `${other.handle},${one.handle}`;
-                if (done.has(key) || other.isSensor() || !other.parent()) return;
+                if (done.has(key) || other.isSensor()) return;
                 done.add(key);
                 use(one, other, key);
             });
@@ -61,46 +66,66 @@ class RapierHaptics extends Haptics {
 
     // A body that touches for the first time is known before the step that it touches in.
     #meetAll() {
+        for (const known of this.each()) known.poses?.clear();
         this.#engine.forEachCollider(collider => {
-            const body = collider.parent();
-            if (!body || collider.isSensor()) return;
-            const known = this.know(body), { x, y } = collider.translation();
+            if (collider.isSensor()) return;
+            const known = this.know(collider);
             known.isRound = collider.shapeType() === 0; // ShapeType.Ball
-            known.poses = (known.poses ?? new Map()).set(collider.handle, { x, y, angle: collider.rotation() });
+            known.poses = (known.poses ?? new Map()).set(collider, { at: collider.translation(), turned: collider.rotation(), radius: known.isRound ? collider.radius() : 0 });
         });
     }
 
-    #observe(known, seconds) {
-        const { body } = known, unit = this.metresPerUnit, { x: gx, y: gy } = this.#engine.gravity, at = body.worldCom(), v = body.linvel();
-        const pull = known.isStatic || body.isSleeping() ? 0 : seconds * known.gravityScale * unit;
-        Object.assign(known, { x: at.x * unit, y: at.y * unit, vx: v.x * unit, vy: v.y * unit, spin: body.angvel() }); // as they are when Rapier looks
-        this.world.move(known.id, known.x, known.y, known.vx + pull * gx, known.vy + pull * gy, known.spin);
+    #fall(known) { return known.isStatic || known.body.isSleeping() ? 0 : known.gravityScale; }
+    #pullOf(known, seconds) {
+        const { x, y, z } = this.#engine.gravity, pull = seconds * this.#fall(known) * this.metresPerUnit;
+        return { x: pull * x, y: pull * y, z: pull * z };
+    }
+
+    inertiaOf(body) { return body.principalInertia(); }
+    size({ x, y }) { return Math.hypot(x, y); }
+    product(a, b) { return a.x * b.x + a.y * b.y; }
+    /** Motion before the step, as Rapier looks at it, and as its solver finds it. */
+    observe(known, pull) {
+        const { body } = known, unit = this.metresPerUnit, at = body.worldCom(), v = body.linvel();
+        Object.assign(known, { x: at.x * unit, y: at.y * unit, vx: v.x * unit, vy: v.y * unit, spin: body.angvel() });
+        this.journal.move(known.id, known.x, known.y, known.vx + pull.x, known.vy + pull.y, known.spin);
+    }
+    observeStill(known, { x, y }) { this.move(known, x * this.metresPerUnit, y * this.metresPerUnit, 0, 0, 0); }
+    moved(known, { x, y }, spin) { this.journal.moved(known.id, x * this.metresPerUnit, y * this.metresPerUnit, spin); }
+    /** Where contact i of a manifold is, across which gap, and how both surfaces run there. `poses`: of its first and its second collider. */
+    contactOf(manifold, i, [{ at, turned }], n, a, b) {
+        const unit = this.metresPerUnit, cos = Math.cos(turned), sin = Math.sin(turned), { x, y } = manifold.localContactPoint1(i); // solverContactPoint(i) is not contact i's
+        const place = { x: (at.x + cos * x - sin * y) * unit, y: (at.y + sin * x + cos * y) * unit };
+        return { place: { ...place, normalX: n.x, normalY: n.y }, gap: manifold.contactDist(i) * unit, motion: motionAt(a, b, place.x, place.y, n.x, n.y) };
     }
 
     #look(one, other, seconds) {
-        const a = this.know(one.parent()), b = this.know(other.parent());
+        const a = this.know(one), b = this.know(other);
         if (a === b) return;
         this.#engine.contactPair(one, other, (manifold, isFlipped) => {
-            const turn = isFlipped ? -1 : 1, normal = manifold.normal(), nx = turn * normal.x, ny = turn * normal.y;
-            const pose = isFlipped ? b.poses.get(other.handle) : a.poses.get(one.handle), key = `${a.id},${b.id}`;
-            for (let i = 0; i < manifold.numContacts(); ++i) this.#point(manifold, i, { a, b, nx, ny, pose, key, seconds });
+            const turn = isFlipped ? -1 : 1, { x, y, z } = manifold.normal(), normal = { x: turn * x, y: turn * y, z: turn * z };
+            const both = [a.poses?.get(one), b.poses?.get(other)], poses = isFlipped ? both.reverse() : both, key = `${a.id},${b.id}`;
+            for (let i = 0; i < manifold.numContacts(); ++i) this.#point(manifold, i, { a, b, normal, poses, key, seconds });
         });
     }
 
-    #point(manifold, i, { a, b, nx, ny, pose, key, seconds }) {
-        const unit = this.metresPerUnit, impulse = manifold.contactImpulse(i), gap = manifold.contactDist(i) * unit, local = manifold.localContactPoint1(i); // solverContactPoint(i) is not contact i's
-        if (local === null || pose === undefined) return;
-        const cos = Math.cos(pose.angle), sin = Math.sin(pose.angle);
-        const x = (pose.x + cos * local.x - sin * local.y) * unit, y = (pose.y + sin * local.x + cos * local.y) * unit;
-        const { gravity } = this.#engine, { approach, alongA, alongB } = motionAt(a, b, x, y, nx, ny);
-        const falls = known => (known.isStatic || known.body.isSleeping() ? 0 : known.gravityScale), pull = (falls(a) - falls(b)) * (gravity.x * nx + gravity.y * ny) * unit;
-        const slack = 0.05 + Math.hypot(gravity.x, gravity.y) * unit * seconds, rests = this.#was.has(key) && gap < nearMetres && Math.abs(approach) < slack;
+    #point(manifold, i, { a, b, normal, poses, key, seconds }) {
+        if (manifold.localContactPoint1(i) === null || poses.includes(undefined)) return;
+        const unit = this.metresPerUnit, { gravity } = this.#engine, impulse = manifold.contactImpulse(i);
+        const { place, gap, motion: { approach, alongA, alongB } } = this.contactOf(manifold, i, poses, normal, a, b);
+        const pull = (this.#fall(a) - this.#fall(b)) * this.product(gravity, normal) * unit;
+        const slack = 0.05 + this.size(gravity) * unit * seconds, rests = this.#was.has(key) && gap < nearMetres && Math.abs(approach) < slack;
         if (!(impulse > 0) && !rests) return; // near, and not yet there
         this.#touching.add(key);
-        this.world.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, impulse: Math.max(0, impulse * unit), isSoft: true,
+        this.journal.touch(a.id, b.id, { ...place, alongA, alongB, impulse: Math.max(0, impulse * unit), isSoft: true,
             restitution: Math.min(1, Math.max(0, manifold.restitution())), ...meeting(approach, gap, pull, seconds), point: a.isRound || b.isRound ? 0 : 'place' });
     }
 }
 
+export const expectRapier = world => expectEngine(world?.bodies && world.colliders && world.narrowPhase, "Rapier's world", world);
+
 /** `world`: Rapier's. Values are those of a rigid body, whichever of its colliders touches. */
-export function attach(physvib, world, options = {}) { return new RapierHaptics(physvib, world, options); }
+export function attach(physvib, world, options = {}) {
+    expectRapier(world);
+    return new RapierHaptics(physvib, world, options);
+}

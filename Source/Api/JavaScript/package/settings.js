@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A renderer's settings in memory: layouts and panning laws by their names.
-/** Renderer settings in memory, `use(at)`; a layout is a name or { extentWidth, extentHeight, places: [{ x, y }] }. */
+/** Renderer settings in memory, `use(at)`; a layout is a name or { extentWidth, extentHeight, places: [{ x, y, z, part }] }; z and part may be left out. */
 export function withSettings(module, { layout, law, limiter, ...settings }, use) {
     return module.filled('renderer_settings', { ...settings, law: lawOf(module, law), limiter: limiter === undefined ? undefined : Boolean(limiter) }, (at, size) => {
         const place = at + module.placeOf('renderer_settings', 'layout');
@@ -11,12 +11,14 @@ export function withSettings(module, { layout, law, limiter, ...settings }, use)
 }
 
 function putLayout(module, at, { extentWidth, extentHeight, places }) {
-    module.put('layout', at, { extentWidth, extentHeight, x: places.map(place => place.x), y: places.map(place => place.y), count: places.length });
+    module.put('layout', at, { extentWidth, extentHeight, x: places.map(place => place.x), y: places.map(place => place.y), count: places.length,
+        z: places.map(place => place.z ?? 0), part: places.map(place => place.part ?? 0) });
 }
 
 export function layoutAt(module, at) {
-    const { extentWidth, extentHeight, x, y, count } = module.get('layout', at);
-    return { extentWidth, extentHeight, places: Array.from({ length: count }, (_, j) => ({ x: x[j], y: y[j] })) };
+    const { extentWidth, extentHeight, x, y, z, part, count } = module.get('layout', at);
+    const inSpace = j => ({ ...(z[j] !== 0 && { z: z[j] }), ...(part[j] !== 0 && { part: part[j] }) });
+    return { extentWidth, extentHeight, places: Array.from({ length: count }, (_, j) => ({ x: x[j], y: y[j], ...inSpace(j) })) };
 }
 
 export function lawsOf(module) {

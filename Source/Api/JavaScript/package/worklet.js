@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The audio thread: one renderer in an instance of its own. It imports nothing, so that a bundler may copy it as it is. What it gets are structures in
 // bytes, as physvib.h has them, and calls by their names.
+const mostSkipped = 32; // quanta that are made up for in one: 1 ms of work
+
 class PhysVibProcessor extends AudioWorkletProcessor {
     constructor({ processorOptions: { module, code, settings, channels, eventBytes, statusBytes } }) {
         super();
@@ -19,6 +21,7 @@ class PhysVibProcessor extends AudioWorkletProcessor {
         this.lib.physvib_renderer_status_init(this.status, statusBytes);
         this.statusBytes = statusBytes;
         this.firstFrame = null;
+        this.pulled = this.skipped = 0; // frames, since the first
         this.toldFrame = 0;
         this.isOpen = this.renderer !== 0;
         this.port.onmessage = ({ data }) => this.obey(data);
@@ -34,7 +37,11 @@ class PhysVibProcessor extends AudioWorkletProcessor {
     }
 
     // Times are those of the context; the renderer counts from its first frame.
-    obey({ close, startFrame, events, call, timeNs, values = [], settings }) {
+    obey({ close, startFrame, events, call, timeNs, values = [], settings, isAsked }) {
+        if (isAsked) {
+            this.port.postMessage({ hasArrived: true });
+            return;
+        }
         if (close) {
             if (this.isOpen) this.lib.physvib_renderer_free(this.renderer);
             this.isOpen = false;
@@ -64,18 +71,28 @@ class PhysVibProcessor extends AudioWorkletProcessor {
         for (let j = 0; j < this.channels; ++j) view.setUint32(this.room + 4 * j, this.room + 4 * (this.channels + j * frames), true);
     }
 
+    pull(frames) {
+        this.lib.physvib_renderer_pull(this.renderer, this.room, this.channels, frames);
+        this.pulled += frames;
+    }
+
     process(inputs, [out]) {
         if (!this.isOpen) return false;
         const frames = out[0].length;
         this.firstFrame ??= currentFrame;
         if (frames !== this.quantum) this.makeRoom(frames);
-        this.lib.physvib_renderer_pull(this.renderer, this.room, this.channels, frames);
+        // The browser leaves quanta out while this thread stands still, as it does for another module. They are over: the renderer's frames are the context's.
+        for (let i = 0; i < mostSkipped && this.pulled < currentFrame - this.firstFrame; ++i) {
+            this.pull(frames);
+            this.skipped += frames;
+        }
+        this.pull(frames);
         const samples = new Float32Array(this.lib.memory.buffer, this.room + 4 * this.channels, this.channels * frames);
         for (let j = 0; j < out.length && j < this.channels; ++j) out[j].set(samples.subarray(j * frames, (j + 1) * frames));
         if (currentFrame - this.toldFrame > sampleRate / 4) {
             this.toldFrame = currentFrame;
             this.lib.physvib_renderer_get_status(this.renderer, this.status);
-            this.port.postMessage({ status: new Uint8Array(this.lib.memory.buffer, this.status, this.statusBytes).slice() });
+            this.port.postMessage({ status: new Uint8Array(this.lib.memory.buffer, this.status, this.statusBytes).slice(), skipped: this.skipped });
         }
         return true;
     }

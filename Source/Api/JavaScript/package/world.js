@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Contacts in, events out.
 import { inWords, notes } from './explanation.js';
+import { PhysVibError } from './module.js';
 import { Renderer } from './renderer.js';
 
 const eventsAtOnce = 64;
@@ -33,6 +34,12 @@ export class World {
     removeBody(body) { this.#module.call('world_remove_body', this.#name, body); }
     move(body, x, y, vx, vy, spin = 0) { this.#module.call('world_move', this.#name, body, x, y, vx, vy, spin); }
     moved(body, vx, vy, spin = 0) { this.#module.call('world_moved', this.#name, body, vx, vy, spin); }
+    moveInSpace(body, centre, velocity, spin = [0, 0, 0], inverseInertia = null) {
+        this.#withNumbers([centre, velocity, spin], inverseInertia, at => this.#module.call('world_move_in_space', this.#name, body, ...at));
+    }
+    movedInSpace(body, velocity, spin = [0, 0, 0]) {
+        this.#withNumbers([velocity, spin], null, at => this.#module.call('world_moved_in_space', this.#name, body, ...at.slice(0, 2)));
+    }
     pair(surface, other, { frequencyHz, decayPerSecond, gain = 1 }) { this.#module.call('world_pair', this.#name, surface, other, frequencyHz, decayPerSecond, gain); }
 
     beginStep(seconds, gravity = 9.81) { this.#module.call('world_begin_step', this.#name, seconds, gravity); }
@@ -40,6 +47,23 @@ export class World {
     step(seconds, gravity, contacts) {
         this.beginStep(seconds, gravity);
         try { contacts?.(); } finally { this.endStep(); }
+    }
+
+    /** `use` of the places in memory of vectors and of a matrix; null: none. */
+    #withNumbers(vectors, matrix, use) {
+        const module = this.#module, lists = [...vectors.map(vector => [vector, 3]), [matrix, 6]];
+        module.borrow(8 * 15, from => {
+            const places = [];
+            let at = from;
+            for (const [list, count] of lists) {
+                if (list === null) { places.push(0); continue; }
+                if (list?.length !== count) throw new PhysVibError(-2, `motion: expected lists of ${count} numbers`);
+                module.doubles(at, count).set(list);
+                places.push(at);
+                at += 8 * count;
+            }
+            use(places);
+        });
     }
 
     #tell(call, a, b, contact) {
@@ -52,6 +76,15 @@ export class World {
     begin(a, b, contact = {}) { this.#tell('world_begin', a, b, contact); }
     push(a, b, contact = {}) { this.#tell('world_push', a, b, contact); }
     end(a, b) { this.#module.call('world_end', this.#name, a, b); }
+
+    /** What a Journal has of this step. */
+    observe(numbers) {
+        const { length } = numbers;
+        this.#module.borrow(8 * length, at => {
+            this.#module.doubles(at, length).set(numbers);
+            this.#module.check('js_observe', this.#name, at, length);
+        });
+    }
 
     get timeNs() { return Number(this.#module.call('world_time_ns', this.#name)); }
     take(atOnce = false) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Rapier 3D: as Rapier 2D, with places, normals and motions in space.
+import { expectRapier, RapierHaptics } from './rapier2d.js';
+
+const plus = (a, b, times = 1) => ({ x: a.x + times * b.x, y: a.y + times * b.y, z: a.z + times * b.z });
+const dot = (a, b) => a.x * b.x + a.y * b.y + a.z * b.z;
+const cross = (a, b) => ({ x: a.y * b.z - a.z * b.y, y: a.z * b.x - a.x * b.z, z: a.x * b.y - a.y * b.x });
+const nowhere = { x: 0, y: 0, z: 0 };
+/** A point turned by a quaternion. */
+const turn = (q, p) => {
+    const t = cross(q, p);
+    return plus(plus(p, t, 2 * q.w), cross(q, t), 2);
+};
+
+class RapierHaptics3D extends RapierHaptics {
+    inertiaOf(body) { return dot(body.principalInertia(), { x: 1, y: 1, z: 1 }) / 3; }
+    size(vector) { return Math.sqrt(dot(vector, vector)); }
+    product(a, b) { return dot(a, b); }
+
+    observe(known, pull) {
+        const { body } = known, unit = this.metresPerUnit, { m11, m22, m33, m12, m13, m23 } = body.effectiveWorldInvInertia();
+        const inverse = known.isStatic ? null : [m11, m22, m33, m12, m13, m23].map(m => m / (unit * unit));
+        Object.assign(known, { at: plus(nowhere, body.worldCom(), unit), v: plus(nowhere, body.linvel(), unit), turns: body.angvel() });
+        this.journal.moveInSpace(known.id, known.at, plus(known.v, pull), known.turns, inverse);
+    }
+    observeStill(known, at) {
+        Object.assign(known, { at: plus(nowhere, at, this.metresPerUnit), v: nowhere, turns: nowhere });
+        this.journal.moveInSpace(known.id, known.at, nowhere, nowhere, null);
+    }
+    moved(known, v, spin) { this.journal.movedInSpace(known.id, plus(nowhere, v, this.metresPerUnit), spin); }
+
+    // Rapier 3D keeps a contact's points for some steps while bodies move on, so they are where both bodies have them now.
+    contactOf(manifold, i, poses, n, a, b) {
+        const unit = this.metresPerUnit, way = this.product(manifold.normal(), n), locals = [manifold.localContactPoint1(i), manifold.localContactPoint2(i)];
+        const [first, second] = poses.map(({ at, turned, radius }, k) => plus(at, radius > 0 ? plus(nowhere, manifold.normal(), k ? -radius : radius) : turn(turned, locals[k])));
+        const isFirst = poses[0].radius > 0 || (poses[1].radius === 0 && (way > 0 ? !a.isStatic && b.isStatic : !b.isStatic && a.isStatic)); // the point of what moves
+        const place = plus(nowhere, isFirst ? first : second, unit), gap = unit * dot(plus(second, first, -1), manifold.normal());
+        const va = plus(a.v, cross(a.turns, plus(place, a.at, -1))), vb = plus(b.v, cross(b.turns, plus(place, b.at, -1)));
+        const point = b.isRound ? b.v : a.isRound ? a.v : b.isStatic ? va : vb; // goes with a round body's centre, or with the corner of what moves
+        const across = v => plus(v, n, -dot(v, n)), [ua, ub] = [across(plus(point, va, -1)), across(plus(point, vb, -1))];
+        const along = this.size(ua) > this.size(ub) ? ua : ub, length = this.size(along) || 1; // in which grains are passed
+        return { place: { ...place, normalX: n.x, normalY: n.y, normalZ: n.z }, gap,
+            motion: { approach: dot(plus(va, vb, -1), n), alongA: dot(ua, along) / length, alongB: dot(ub, along) / length } };
+    }
+}
+
+/** `world`: Rapier's. Values are those of a rigid body, whichever of its colliders touches. */
+export function attach(physvib, world, options = {}) {
+    expectRapier(world);
+    return new RapierHaptics3D(physvib, world, options);
+}

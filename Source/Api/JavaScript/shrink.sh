@@ -1,0 +1,7 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# A module of WebAssembly made smaller: samples stay the same. The linker leaves the first kilobyte of memory unused (--global-base).
+# usage: Source/Api/JavaScript/shrink.sh FROM.wasm TO.wasm [-O2]: of wasm-opt (-Oz)
+set -eu
+exec wasm-opt "$1" ${3:--Oz} --converge --low-memory-unused --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int --enable-mutable-globals \
+    --enable-multivalue --enable-reference-types -o "$2"
