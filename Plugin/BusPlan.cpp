@@ -87,4 +87,8 @@ int BusMap::connected(int enchanters) const noexcept {
         std::count_if(channelOf.begin(), channelOf.begin() + enchanters, [](int c) { return c >= 0; }));
 }
 
+int BusMap::leading() const noexcept {
+    return static_cast<int>(std::ranges::find(channelOf, -1) - channelOf.begin());
+}
+
 } // namespace physvib

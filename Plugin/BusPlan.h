@@ -55,6 +55,8 @@ struct BusMap {
     explicit BusMap(const juce::AudioProcessor& processor);
     /// How many of the first `enchanters` are connected. Any thread.
     int connected(int enchanters) const noexcept;
+    /// How many actuators are connected before the first that is not. Any thread.
+    int leading() const noexcept;
 };
 
 } // namespace physvib

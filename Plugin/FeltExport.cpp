@@ -37,7 +37,7 @@ std::int64_t endOf(const CollisionEvent& e) {
 
 int channelOf(const FeltExport& felt, const CollisionEvent& e) {
     PhantomPanner::Gains gains{};
-    felt.panner.gainsAt(e.x, e.y, e.spread, gains);
+    felt.panner.gainsOf(e, e.spread, gains);
     const auto loudest =
         std::max_element(gains.begin(), gains.begin() + felt.panner.channels()) - gains.begin();
     return 1 + static_cast<int>(std::min<std::ptrdiff_t>(loudest, 15));
@@ -71,7 +71,7 @@ Result<std::string> asClip(const FeltExport& felt, const std::string& path, Clip
                          felt.state.layout.name};
     const auto gains = [&felt](const CollisionEvent& e, PhantomPanner::Gains& to) {
         to = {};
-        felt.panner.gainsAt(e.x, e.y, e.spread, to);
+        felt.panner.gainsOf(e, e.spread, to);
     };
     const auto clip = clipOfHits(hits, {0.004, static_cast<std::size_t>(felt.panner.channels()), gains});
     if (!clip) return Failure{clip.error};

@@ -6,6 +6,7 @@
 #ifdef PHYSVIB_LV2_ENTRY
 #include "Entry.h"
 #include "Lv2Controls.h"
+#include "Lv2Defaults.h"
 #include "Lv2Parts.h"
 #include "PluginProcessor.h"
 #include <array>
@@ -128,6 +129,7 @@ struct Instance {
                                                // block
     std::shared_ptr<Lv2Controls> controls{};
     LV2_Atom_Sequence* told = nullptr; // as events
+    std::shared_ptr<Lv2Sink> sink{};   // for a host that does not connect that
 };
 
 /// All that live, by JUCE's handles; a host may make and end them on several threads, and runs them on
@@ -174,12 +176,6 @@ Instances& instances() {
     return all;
 }
 
-const void* feature(const LV2_Feature* const* features, const char* uri) {
-    for (; features && *features; ++features)
-        if (std::strcmp((*features)->URI, uri) == 0) return (*features)->data;
-    return nullptr;
-}
-
 int usualBlockOf(const LV2_Feature* const* features) {
     const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
     const auto* option = static_cast<const LV2_Options_Option*>(feature(features, LV2_OPTIONS__options));
@@ -193,15 +189,16 @@ int usualBlockOf(const LV2_Feature* const* features) {
 }
 
 LV2_Handle instantiate(const LV2_Descriptor*, double rate, const char* bundle,
-                       const LV2_Feature* const* features) {
-    making() = {usualBlockOf(features), nullptr};
+                       const LV2_Feature* const* hosts) {
+    const Lv2Features features{hosts};
+    making() = {usualBlockOf(features.all()), nullptr};
     const auto* const juces = juceLv2Descriptor(0);
-    const LV2_Handle handle = juces->instantiate(juces, rate, bundle, features);
-    const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
-    const auto names = map ? namesOf(*map) : Names{};
+    const LV2_Handle handle = juces->instantiate(juces, rate, bundle, features.all());
+    const auto names = namesOf(*static_cast<const LV2_URID_Map*>(feature(features.all(), LV2_URID__map)));
     auto controls = std::make_shared<Lv2Controls>();
     if (handle)
-        instances().add(handle, {making().instance, false, names, nullptr, std::move(controls), nullptr});
+        instances().add(handle, {making().instance, false, names, nullptr, std::move(controls), nullptr,
+                                 std::make_shared<Lv2Sink>()});
     return handle;
 }
 
@@ -220,6 +217,7 @@ void run(LV2_Handle handle, std::uint32_t frames) {
     auto& instance = instances()[handle];
     const auto* const juces = juceLv2Descriptor(0);
     instance.controls->read(*instance.processor);
+    if (!instance.told) juces->connect_port(handle, eventPort + 1, instance.sink->empty());
     if (!instance.events) return juces->run(handle, frames);
     Lv2Points points{*instance.events, instance.names, *instance.processor};
     instance.processor->expectPoints(points);

@@ -13,6 +13,14 @@ include(${CMAKE_CURRENT_LIST_DIR}/vst3-header.cmake)
 # CODE (four characters) and LV2URI are promises: hosts find our instances by them.
 function(physvib_plugin target name code lv2uri buses channels music_ports)
     string(REPLACE " " "-" file ${name})
+    set(is_synth TRUE)
+    set(categories Instrument Generator)
+    set(au_type kAudioUnitType_MusicDevice)
+    if(music_ports) # an effect: music comes in by its main bus
+        set(is_synth FALSE)
+        set(categories Fx)
+        set(au_type kAudioUnitType_MusicEffect)
+    endif()
     juce_add_plugin(${target}
         FORMATS ${ARGN}
         PLUGIN_NAME ${name}
@@ -24,10 +32,10 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
         BUNDLE_ID org.physvib.${target}
         PLUGIN_MANUFACTURER_CODE PhVb
         PLUGIN_CODE ${code}
-        IS_SYNTH TRUE
+        IS_SYNTH ${is_synth}
         NEEDS_MIDI_INPUT TRUE
-        VST3_CATEGORIES Instrument Generator
-        AU_MAIN_TYPE kAudioUnitType_MusicDevice)
+        VST3_CATEGORIES ${categories}
+        AU_MAIN_TYPE ${au_type})
     target_sources(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Entry.cpp)
     target_compile_definitions(${target} PUBLIC PHYSVIB_BUSES=${buses} PHYSVIB_CHANNELS=${channels} PHYSVIB_MUSIC_PORTS=${music_ports} JUCE_VST3_CAN_REPLACE_VST2=0
         JucePlugin_LV2URI="${lv2uri}") # juce_add_plugin's own argument is lost in Debian's package
@@ -74,5 +82,5 @@ if(NOT PHYSVIB_SANITIZE) # a sanitized module would need a sanitized host
     physvib_plugin(PhysVib2 "PhysVib 2" Phy2 urn:physvib:plugin:2 oneBus 2 0 LV2) # LV2 cannot be asked for another width
     physvib_plugin(PhysVib8 "PhysVib 8" Phy8 urn:physvib:plugin:8 oneBus 8 0 LV2)
     physvib_plugin(PhysVib16 "PhysVib 16" PhyG urn:physvib:plugin:16 oneBus 16 0 LV2)
-    physvib_plugin(PhysVibMusic "PhysVib Music" PhyM urn:physvib:plugin:music oneBus 4 2 LV2) # nor has it ports that are off: decision 143
+    physvib_plugin(PhysVibMusic "PhysVib Music" PhyM urn:physvib:plugin:music oneBus 4 2 VST3 LV2 AU) # nor has it ports that are off: decision 143
 endif()

@@ -26,6 +26,7 @@ enum class Parameter {
     beats,
     music,
     musicSides,
+    timing,
     count
 };
 constexpr auto parameterCount = static_cast<std::size_t>(Parameter::count);
@@ -65,16 +66,19 @@ struct ParameterGroup {
 
 namespace parameterTable {
 
-/// The first choices stand where they have always stood, the others between them (decision 34); where nobody
-/// is yet stands the one before.
+/// The first choices stand where they have always stood, the others half-way between them, and the next ones
+/// at the quarters (decision 34). A place without a choice of its own repeats the one before.
 template <std::size_t first, std::size_t count>
 constexpr auto atTheirPlaces(const std::array<std::string_view, count>& names) {
-    static_assert(count < 2 * first, "others need a parameter of their own");
-    constexpr std::size_t step = count == first ? 1 : 2;
+    constexpr std::size_t halves = 2 * first - 1, quarters = 2 * halves - 1; // how many places there are
+    static_assert(count <= quarters, "others need a parameter of their own");
+    constexpr std::size_t step = count == first ? 1 : count <= halves ? 2 : 4;
     std::array<std::string_view, step*(first - 1) + 1> places{};
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const bool isBetween = i % step != 0 && first + i / 2 < count;
-        places[i] = isBetween ? names[first + i / 2] : names[i / step];
+        const std::size_t rest = i % step, own = rest == 0          ? i / step
+                                                 : 2 * rest == step ? first + i / step
+                                                                    : halves + i / 2;
+        places[i] = own < count ? names[own] : places[i - 1];
     }
     return places;
 }
@@ -84,6 +88,7 @@ inline constexpr std::array<std::string_view, 9> materialNames{
     "as the scene", "1", "2", "3", "4", "5", "6", "7", "8"};
 inline constexpr std::array<std::string_view, 2> switchNames{"off", "on"};
 inline constexpr std::array<std::string_view, 2> sideNames{"summed", "left and right"};
+inline constexpr std::array<std::string_view, 2> timingNames{"safe", "tight"}; // indexed by TakeTiming
 inline constexpr std::span<const std::string_view> noWords{};
 inline constexpr double silentDb = -60.0; // below it nobody feels anything: full scale is some g
 
@@ -116,6 +121,10 @@ inline constexpr std::array<ParameterRow, parameterCount> rows{{
     {Parameter::musicSides, "music_sides", "Music channels", "Sides", "", 0, 1, 0, choice, sideNames, 3,
      "Where the side chain is played: summed, on all actuators, or its left on the left ones and its right "
      "on the right ones"},
+    {Parameter::timing, "timing", "Timing", "Timing", "", 0, 1, 0, choice, timingNames, 4,
+     "Output latency of a world. Safe: stepped by a thread of its own. Tight: stepped in the render call, "
+     "which "
+     "needs a computer with time to spare; the output is silent for a moment when this changes"},
 }};
 static_assert(std::ranges::all_of(rows, [](const ParameterRow& row) {
     return &row == &rows[static_cast<std::size_t>(row.parameter)];
@@ -125,10 +134,12 @@ inline constexpr std::array panningGroup{Parameter::law, Parameter::exponent};
 inline constexpr std::array worldGroup{Parameter::gravity, Parameter::tilt, Parameter::material};
 inline constexpr std::array strikeGroup{Parameter::strikeLevel, Parameter::strikeX, Parameter::strikeY};
 inline constexpr std::array beatGroup{Parameter::beats, Parameter::music, Parameter::musicSides};
-inline constexpr std::array<ParameterGroup, 4> groups{{{"panning", "Panning", panningGroup},
+inline constexpr std::array timeGroup{Parameter::timing};
+inline constexpr std::array<ParameterGroup, 5> groups{{{"panning", "Panning", panningGroup},
                                                        {"world", "World", worldGroup},
                                                        {"strikes", "Strikes by notes", strikeGroup},
-                                                       {"side_chain", "Side chain", beatGroup}}};
+                                                       {"side_chain", "Side chain", beatGroup},
+                                                       {"time", "Time", timeGroup}}};
 
 } // namespace parameterTable
 } // namespace physvib

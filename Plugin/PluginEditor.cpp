@@ -99,7 +99,7 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     files_.setButtonText("Files");
     for (juce::Component* c : std::initializer_list<juce::Component*>{
              &title_, &scene_, &layout_, &files_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_,
-             &silence_, &direct_, &shorten_, &world_, &firstSteps_, &midiPanel_, &mix_, &keys_, &status_})
+             &silence_, &direct_, &fold_, &world_, &firstSteps_, &midiPanel_, &mix_, &keys_, &status_})
         addAndMakeVisible(c);
     fillGroups();
     fillChoices();
@@ -126,7 +126,8 @@ void PluginEditor::fillGroups() {
     const bool hasMusic = plugin_.getBusCount(true) > 0;
     for (const auto& group : parameterGroups()) {
         if (group.parameters.front() == Parameter::beats && !hasMusic) continue;
-        groups_.push_back({group.name, {}});
+        const auto first = group.parameters.front();
+        groups_.push_back({group.name, first == Parameter::gravity || first == Parameter::timing, {}});
         for (const auto which : group.parameters) {
             auto& controls = groups_.back().controls;
             controls.push_back(std::make_unique<ParameterControl>(plugin_.parameter(which)));
@@ -156,9 +157,11 @@ void PluginEditor::fillChoices() {
     direct_.setClickingTogglesState(true);
     direct_.setTooltip("Low-latency mode for notes: the host is told the limiter's latency only. Collisions "
                        "keep the output latency L, so they are felt later than the track beside them");
-    shorten_.setTooltip("The output latency L is longer than necessary, because the host has asked ahead of "
-                        "time or stuttered: shorten it now, in a moment of silence");
-    shorten_.onClick = [this] { plugin_.takes().giveBack(); };
+    fold_.setTooltip(
+        "Place the actuators anew, as many as the host has outputs for, so that nothing is lost");
+    fold_.onClick = [this] {
+        edit([outputs = plugin_.outputs()](PluginState& s) { placeAnew(s, outputs); });
+    };
     files_.setTooltip("Open a preset, a scene, a layout or a saved session of your own (or drop it here); "
                       "save a preset; export what was felt");
     midi_.setTooltip("What notes and controllers do");
@@ -170,7 +173,7 @@ void PluginEditor::fillChoices() {
         if (id == 0) return;
         if (id >= firstOwnPreset) return open(presets_[static_cast<std::size_t>(id - firstOwnPreset)]);
         PluginState state = plugin_.state();
-        takePlugInPreset(state, id - 1);
+        takePlugInPreset(state, id - 1, plugin_.outputs());
         news_.clear();
         plugin_.open(std::move(state));
     };
@@ -268,6 +271,12 @@ void PluginEditor::takeState() {
     seed_.setText(juce::String{static_cast<juce::int64>(state_.seed)}, false);
     restart_.setToggleState(state_.transport == TransportMode::restartOnPlay, juce::dontSendNotification);
     direct_.setToggleState(state_.isDirect, juce::dontSendNotification);
+    const bool moves = hasWorld(state_);
+    for (auto* const c :
+         std::initializer_list<juce::Component*>{&direct_, &stepsName_, &steps_, &seedName_, &seed_})
+        c->setVisible(moves);
+    for (auto& group : groups_)
+        for (auto& control : group.controls) control->setVisible(moves || !group.needsWorld);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
     world_.show(state_.layout,
@@ -294,7 +303,9 @@ void PluginEditor::refresh() {
     world_.update(
         {std::move(poses), at, plugin_.takes().playOutFrames() * 1'000'000'000 / rate, felt, meters.peaks});
     mix_.update(meters);
-    shorten_.setVisible(status.burstFrames > 0);
+    const int outputs = plugin_.outputs();
+    fold_.setVisible(outputs > 0 && meters.connected < enchantersOf(state_));
+    fold_.setButtonText("Use " + juce::String{outputs});
     firstSteps_.setVisible(state_.scene.bodies.empty() && status.session.render.played == 0 &&
                            world_.isVisible());
     auto trouble = plugin_.trouble();
@@ -305,26 +316,47 @@ void PluginEditor::refresh() {
     status_.setText(trouble.isEmpty() ? statusLine(status, meters) : trouble, juce::dontSendNotification);
 }
 
-juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMeters& meters) const {
-    const int rate = plugin_.preparedRateHz(), actuators = enchantersOf(state_);
-    if (rate == 0 || plugin_.takes().playOutFrames() == 0) return "The host has not started the plug-in yet.";
-    const auto& r = status.session.render;
+// What L is made of: two steps of the world, the limiter, and the rest: a block and the thread that steps.
+juce::String PluginEditor::latencyText() const {
+    const int rate = plugin_.preparedRateHz();
     const auto ms = [rate](std::int64_t frames) {
         return juce::String{1e3 * static_cast<double>(frames) / rate, 1} + " ms";
     };
-    juce::String line = "felt " + ms(plugin_.takes().playOutFrames()) + " after the contact";
-    if (plugin_.takes().isDirect())
-        line << ", strikes " << ms(plugin_.takes().latencyFrames())
-             << " after the note (reported to the host)";
+    const auto& takes = plugin_.takes();
+    const std::int64_t all = takes.playOutFrames(), limiter = HapticRenderer::latencyFramesAt(rate),
+                       steps = hasWorld(state_)
+                                   ? std::min<std::int64_t>(all - limiter, 2 * rate / state_.stepsPerSecond)
+                                   : 0,
+                       rest = all - limiter - steps;
+    juce::String line = "felt " + ms(all) + (steps > 0 ? " after the contact: " : " after the note: ");
+    if (rest > 0) line << ms(rest) << (steps == 0 ? " to detect beats + " : " block and thread + ");
+    if (steps > 0) line << ms(steps) << " two steps + ";
+    line << ms(limiter) << " limiter";
+    if (takes.isDirect() && takes.latencyFrames() != all)
+        line << ", strikes " << ms(takes.latencyFrames()) << " after the note (reported to the host)";
     else
         line << " (reported to the host)";
-    if (status.burstFrames > 0)
-        line << ", " << ms(status.burstFrames)
-             << " of it because the host asks ahead of time or stutters (given back when its transport "
-                "stops, or by Shorten L)";
-    if (status.waitedFrames > 0) line << ": it came during this run, which is not the bounce before that";
-    if (meters.connected < actuators)
-        line << "   |   " << meters.connected << " of " << actuators << " actuators connected";
+    return line;
+}
+
+juce::String PluginEditor::outputText(const ChannelMeters& meters) const {
+    const int actuators = enchantersOf(state_);
+    if (meters.connected >= actuators) return {};
+    juce::StringArray lost;
+    for (int j = 0; j < actuators; ++j)
+        if (const auto one = static_cast<std::size_t>(j); !meters.isConnected[one])
+            lost.add(words(state_.layout.enchanters[one].label));
+    return "   |   " + juce::String{meters.connected} + " outputs for " + juce::String{actuators} +
+           " actuators: not felt " + lost.joinIntoString(", ");
+}
+
+juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMeters& meters) const {
+    if (plugin_.preparedRateHz() == 0 || plugin_.takes().playOutFrames() == 0)
+        return "The host has not started the plug-in yet.";
+    const auto& r = status.session.render;
+    juce::String line = latencyText() + outputText(meters);
+    if (status.isTooHeavy)
+        line << "   |   the world is too heavy for real time: it stands still now and then";
     if (const auto* music = plugin_.getBus(true, 0);
         music && !music->isEnabled() &&
         (plugin_.parameter(Parameter::beats).value() > 0.0 ||
@@ -346,6 +378,7 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
 void PluginEditor::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::ground));
     for (const auto& group : groups_) {
+        if (!group.isShown()) continue;
         fillPanel(g, *this, group.place);
         g.setColour(shade(*this, Shade::text));
         g.setFont(juce::Font{text::small, juce::Font::bold});
@@ -360,9 +393,10 @@ void PluginEditor::resized() {
     auto bar = area.removeFromTop(barHeight).reduced(0, 10);
     auto foot = area.removeFromBottom(statusHeight);
     foot.removeFromRight(margin); // where the window is resized
-    shorten_.setBounds(foot.removeFromRight(92).reduced(4, 2));
+    fold_.setBounds(foot.removeFromRight(92).reduced(4, 2));
     status_.setBounds(foot);
     const auto left = [&bar](juce::Component& c, int width, int space = panelGap) {
+        if (!c.isVisible()) return;
         c.setBounds(bar.removeFromLeft(width)), bar.removeFromLeft(space);
     };
     silence_.setBounds(bar.removeFromRight(92));
@@ -398,11 +432,15 @@ void PluginEditor::placeGroups(juce::Rectangle<int> controls) {
         return shares;
     };
     int all = 0;
-    for (const auto& group : groups_) all += sharesOf(group);
-    const int width = controls.getWidth() - panelGap * static_cast<int>(groups_.size() - 1);
+    Group* last = nullptr;
+    int gaps = -panelGap;
+    for (auto& group : groups_)
+        if (group.isShown()) last = &group, all += sharesOf(group), gaps += panelGap;
+    const int width = controls.getWidth() - gaps;
     for (auto& group : groups_) {
+        if (!group.isShown()) continue;
         const int shares = sharesOf(group);
-        group.place = &group == &groups_.back() ? controls : controls.removeFromLeft(width * shares / all);
+        group.place = &group == last ? controls : controls.removeFromLeft(width * shares / all);
         controls.removeFromLeft(panelGap);
         auto places = group.place.reduced(6, 6).withTrimmedTop(18);
         const int inside = places.getWidth();

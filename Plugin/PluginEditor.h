@@ -46,6 +46,7 @@ public:
 
     /// The next controller that comes in will move that parameter.
     void learn(Parameter which);
+    void go(PluginProcessor::Step step); ///< undo, redo, the other one of A and B
     /// What this instance is, as a preset; what was felt, by the ending of the file's name.
     void savePresetAs(const juce::File& file);
     void exportFeltAs(const juce::File& file);
@@ -65,11 +66,15 @@ private:
     static constexpr int firstOwnPreset = 10'000; // ids of the list
     struct Group {                                // of parameters, side by side on a ground of their own
         std::string_view name;
+        bool needsWorld = false;
         std::vector<std::unique_ptr<ParameterControl>> controls;
         juce::Rectangle<int> place{};
+        bool isShown() const { return controls.front()->isVisible(); }
     };
     void timerCallback() override { refresh(); }
     void takeState();
+    juce::String latencyText() const;
+    juce::String outputText(const ChannelMeters& meters) const;
     void fillGroups();
     void placeGroups(juce::Rectangle<int> controls);
     void fillChoices();
@@ -95,7 +100,7 @@ private:
     juce::ComboBox scene_, layout_, steps_;
     juce::TextEditor seed_;
     juce::TextButton restart_{"Restart on play"}, files_, midi_{"MIDI"}, silence_{"SILENCE"},
-        direct_{"Direct"}, shorten_{"Shorten L"};
+        direct_{"Direct"}, fold_;
     juce::ButtonParameterAttachment silenceAttachment_;
     WorldView world_;
     MidiPanel midiPanel_;

@@ -41,6 +41,18 @@ void PluginEditor::showFiles() {
                     feltEndings, &PluginEditor::exportFeltAs);
         });
     menu.addSeparator();
+    using Step = PluginProcessor::Step;
+    const auto addStep = [&](const juce::String& words, Step step) {
+        menu.addItem(words, plugin_.can(step), false, [this, step] { go(step); });
+    };
+    addStep("Undo", Step::undo);
+    addStep("Redo", Step::redo);
+    addStep(plugin_.isAtB() ? "Compare: back to A" : "Compare: go to B", Step::exchange);
+    menu.addSeparator();
+    menu.addItem("About PhysVib", [this] {
+        report("PhysVib " PHYSVIB_VERSION
+               ", GPL-3.0-or-later; JUCE 7, Box2D and others: LICENSES. Help: Docs/plugin.md");
+    });
     const bool isLight = look_.ground() == Ground::light;
     menu.addItem("Light window", true, isLight, [this, isLight] {
         setGround(isLight ? Ground::dark : Ground::light);
@@ -48,6 +60,11 @@ void PluginEditor::showFiles() {
     });
     menu.setLookAndFeel(&look_);
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(files_).withDeletionCheck(*this));
+}
+
+void PluginEditor::go(PluginProcessor::Step step) {
+    news_.clear();
+    plugin_.go(step);
 }
 
 void PluginEditor::askSave(const juce::String& title, const juce::File& initial, const juce::String& endings,

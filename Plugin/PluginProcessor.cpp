@@ -5,6 +5,7 @@
 #include "Presets.h"
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace physvib {
 
@@ -25,10 +26,11 @@ PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     , name_{std::move(name)}
     , plan_{plan} {
     addParameters();
-    const auto state = newPluginState();
+    const auto state = newPluginState(outputs());
     apply(state);
     takeParameters(state);
-    startTimerHz(20);
+    isNew_ = true;
+    startTimer(sleepsMs);
 }
 
 juce::AudioProcessor::BusesProperties PluginProcessor::propertiesOf(const BusPlan& plan) {
@@ -78,11 +80,17 @@ bool PluginProcessor::apply(PluginState state) {
     } catch (const std::invalid_argument& error) {
         return refuse(asString(error.what()));
     }
+    isNew_ = false;
     tailSeconds_ = tailSeconds(state);
     program_ = presetOf(state);
     take(std::move(state));
     publish();
     return true;
+}
+
+int PluginProcessor::outputs() const {
+    const int there = BusMap{*this}.leading();
+    return plan_.kind == BusPlan::Kind::oneBus ? there : std::min(there, std::max(4, enchantersOf(state())));
 }
 
 void PluginProcessor::take(PluginState state) {
@@ -96,6 +104,41 @@ void PluginProcessor::take(PluginState state) {
 }
 
 bool PluginProcessor::edit(PluginState state) {
+    auto before = this->state();
+    if (!change(std::move(state))) return false;
+    const std::lock_guard lock{mutex_};
+    history_.add(std::move(before));
+    return true;
+}
+
+void PluginProcessor::go(Step step) {
+    std::optional<PluginState> there;
+    {
+        auto now = state();
+        const std::lock_guard lock{mutex_};
+        there = step == Step::undo   ? history_.undo(std::move(now))
+                : step == Step::redo ? history_.redo(std::move(now))
+                                     : history_.exchange(std::move(now));
+    }
+    if (!there) return;
+    // SILENCE is no edit: only a hand on its button lifts it
+    std::erase_if(there->parameters, [](const auto& p) { return p.first == rowOf(Parameter::bypass).id; });
+    const auto& bypass = parameter(Parameter::bypass);
+    there->parameters.emplace_back(bypass.row().id, stateValue(bypass.row(), bypass.value()));
+    if (change(*there)) takeParameters(*there);
+}
+
+bool PluginProcessor::can(Step step) const {
+    const std::lock_guard lock{mutex_};
+    return step == Step::undo ? history_.canUndo() : step == Step::redo ? history_.canRedo() : true;
+}
+
+bool PluginProcessor::isAtB() const {
+    const std::lock_guard lock{mutex_};
+    return history_.isAtB();
+}
+
+bool PluginProcessor::change(PluginState state) {
     fitToLayout(state);
     const int before = program_;
     if (isSameTake(this->state(), state)) {
@@ -153,7 +196,9 @@ bool PluginProcessor::keepsRefused() const {
 // edits nothing.
 void PluginProcessor::parameterGestureChanged(int which, bool begins) {
     if (!begins || which == static_cast<int>(Parameter::bypass)) return;
+    auto before = state();
     const std::lock_guard lock{mutex_};
+    history_.add(std::move(before));
     if (refused_.isEmpty()) return;
     refused_.reset();
     trouble_.clear();
@@ -161,6 +206,7 @@ void PluginProcessor::parameterGestureChanged(int which, bool begins) {
 
 // Tells the host what it may have to know anew.
 void PluginProcessor::publish() {
+    takes_.setTiming(parameter(Parameter::timing).value() > 0.5 ? TakeTiming::tight : TakeTiming::safe);
     // nothing is played
     if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
         setLatencySamples(0);
@@ -177,6 +223,11 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     }
     const int usual = usualBlockFrames_ > 0 ? std::min(usualBlockFrames_, blockFrames) : blockFrames;
     blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, usual);
+    if (auto fitting = state(); isNew_ && outputs() != enchantersOf(fitting)) {
+        placeAnew(fitting, outputs());
+        apply(std::move(fitting));
+        isNew_ = true;
+    }
     outputs_ = BusMap{*this};
     open_.prepare(rate, limits::channelRampSeconds, parameter(Parameter::bypass).value() > 0.5 ? 0.0f : 1.0f);
     guard_.prepare(static_cast<int>(rate), std::min(getTotalNumOutputChannels(), limits::maxEnchanters),
@@ -194,8 +245,11 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
         sideChain != nullptr && sideChain->isEnabled() ? sideChain->getNumberOfChannels() : 0;
     beats_.prepare(rate, blockFrames_, musicChannels);
     music_.prepare(rate, blockFrames_, musicChannels);
+    readParameters();
+    takes_.setTiming(timing());
     takes_.prepare(rate, blockFrames_, beats_.delaySeconds(), musicChannels > 0);
     publish();
+    startTimer(tellsEveryMs);
 }
 
 void PluginProcessor::releaseResources() {
@@ -211,7 +265,9 @@ std::vector<TakeEvent> PluginProcessor::takeNewEvents() {
 
 void PluginProcessor::timerCallback() {
     for (auto* p : parameters_) p->tellHost();
-    publish(); // L may have grown
+    publish(); // the timing may have changed
+    const bool plays = std::exchange(blocksTold_, takes_.blocks()) != blocksTold_;
+    if (const int wanted = plays ? tellsEveryMs : sleepsMs; wanted != getTimerInterval()) startTimer(wanted);
 }
 
 juce::AudioProcessorEditor* PluginProcessor::createEditor() { return new PluginEditor{*this}; }
@@ -222,7 +278,7 @@ void PluginProcessor::setCurrentProgram(int index) {
     if (index < 0 || index >= getNumPrograms()) return;
     auto changed = state();
     const auto before = changed;
-    takePlugInPreset(changed, index);
+    takePlugInPreset(changed, index, outputs());
     if (isSameTake(before, changed)) return; // hosts repeat themselves, and the world would start anew
     apply(changed);
     takeParameters(changed);
@@ -250,6 +306,7 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
 void PluginProcessor::setStateInformation(const void* data, int size) {
     const std::string_view text{static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))};
     if (takeChunk(text)) return;
+    isNew_ = false;
     const std::lock_guard lock{mutex_};
     refused_ = juce::MemoryBlock{text.data(), text.size()};
 }
@@ -261,6 +318,8 @@ bool PluginProcessor::takeChunk(std::string_view text) {
         return refuse(asString("state: " + fault));
     if (!apply(read.value)) return false;
     takeParameters(read.value);
+    const std::lock_guard lock{mutex_};
+    history_ = {};
     return true;
 }
 

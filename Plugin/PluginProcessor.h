@@ -9,6 +9,7 @@
 #include "BusPlan.h"
 #include "ControlPace.h"
 #include "Core/Actuators/OutputGuard.h"
+#include "EditHistory.h"
 #include "FeltExport.h"
 #include "HeldNotes.h"
 #include "HostParameter.h"
@@ -38,6 +39,12 @@ public:
     bool edit(PluginState state);
     /// An edit that sets the parameters as well. M.
     void open(PluginState state);
+    /// What a person changed, one step back or forth, parameters of the window too; the other one of A and B.
+    /// M.
+    enum class Step { undo, redo, exchange };
+    void go(Step step);
+    bool can(Step step) const;
+    bool isAtB() const;
     /// Saved with the state, though no edit. M.
     void keepEditorSize(int width, int height);
     PluginState state() const;    ///< with the parameters as they are
@@ -68,6 +75,10 @@ public:
     std::vector<TakeEvent> takeNewEvents();
     const FeltEvents& felt() const noexcept { return felt_; } ///< M, as far as takeNewEvents() was called
 
+    /// How many actuators the host has outputs for. Where buses are pairs, no more than there are actuators:
+    /// that a host turns all on is no wish. M.
+    int outputs() const;
+
     HostParameter& parameter(Parameter which) noexcept {
         return *parameters_[static_cast<std::size_t>(which)];
     }
@@ -97,7 +108,7 @@ public:
     bool acceptsMidi() const override { return true; }
     bool producesMidi() const override { return false; }
     bool supportsMPE() const override { return true; }
-    bool getPluginHasMainInput() const override { return false; } ///< but a side chain
+    bool getPluginHasMainInput() const override { return plan_.hasMusicPorts; } ///< else a side chain
 
     int getNumPrograms() override;
     int getCurrentProgram() override { return program_; }
@@ -114,16 +125,21 @@ private:
     static BusesProperties propertiesOf(const BusPlan& plan);
     void addGroup(const ParameterGroup& group);
     void addParameters();
+    static constexpr int tellsEveryMs = 50, sleepsMs = 2000; ///< while blocks are rendered, and while none is
     void timerCallback() override;
     void parameterValueChanged(int, float) override {}
     void parameterGestureChanged(int which, bool begins) override;
     bool takeChunk(std::string_view text);
     bool refuse(const juce::String& why);
     void take(PluginState state);
+    bool change(PluginState state);
     void publish();
     void takeParameters(const PluginState& state);
 
     // R
+    TakeTiming timing() const noexcept {
+        return value(Parameter::timing) > 0.5 ? TakeTiming::tight : TakeTiming::safe;
+    }
     double value(Parameter which) const noexcept {
         return denormalised(rowOf(which), normals_[static_cast<std::size_t>(which)]);
     }
@@ -164,8 +180,11 @@ private:
                                // host
     PluginState state_;
     juce::String trouble_;
+    EditHistory history_;
     juce::MemoryBlock refused_; // a chunk that is not ours to lose
     std::atomic<int> program_{0};
+    std::atomic<bool> isNew_{true}; // nobody has chosen anything yet: it has as many actuators as the host
+                                    // has outputs
     std::atomic<std::uint64_t> stateCount_{0};
     std::atomic<double> sampleRateHz_{0.0};
     std::atomic<double> tailSeconds_{0.0};
@@ -173,8 +192,9 @@ private:
     struct Key {
         int note = 0, velocity = 0;
     };
-    EventQueue<Key, 256> keys_; // from M to R
-    FeltEvents felt_;           // M
+    EventQueue<Key, 256> keys_;    // from M to R
+    FeltEvents felt_;              // M
+    std::uint64_t blocksTold_ = 0; // M
     std::atomic<std::uint64_t> prepares_{0};
     std::atomic<std::uint32_t> lastController_{0};
     LatestValue<ChannelMeters> meters_;

@@ -109,6 +109,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
     // Tiles on the grid of the take that plays, so that neither blocks nor L change a sample.
     if (const Session* const session = takes_.session())
         guard_.moveTo(session->timeline().nextRenderedFrame(0));
+    takes_.setTiming(timing());
     takes_.render(end - first, mode);
     mix(buffer, first, end - first);
     return end;
@@ -123,7 +124,6 @@ void PluginProcessor::followTransport(int frames) noexcept {
             if (const auto samples = position->getTimeInSamples()) at = *samples;
         }
     const auto change = transport_.follow(plays, at, frames);
-    takes_.transportStands(transport_.stands());
     const bool restarts = takes_.lookForNew() == TransportMode::restartOnPlay;
     if (restarts && change == Transport::Change::started)
         takes_.start();
@@ -287,7 +287,7 @@ CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const
     PhantomPanner::Gains gains{};
     PhantomPanner{settings.layout, lawOf(value(Parameter::law)), value(Parameter::exponent),
                   midi.fieldWidthMetres(), midi.fieldHeightMetres()}
-        .gainsAt(strike.x, strike.y, gains);
+        .gainsOf(strike, Spread::layout, gains);
     const double most = *std::max_element(gains.begin(), gains.begin() + settings.layout.count);
     if (most > 0.0) strike.amplitude /= most;
     return strike;

@@ -56,6 +56,7 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     setup.scene = state.scene;
     setup.seed = state.seed;
     setup.stepsPerSecond = state.stepsPerSecond;
+    setup.hasWorld = hasWorld(state);
     setup.channels = enchantersOf(state);
     setup.modes = 256; // a take's memory follows it, and a host holds many; what it steals beyond is shown
     setup.panner = pannerOf(state, PanningLaw::linear, 1.0);
@@ -67,11 +68,15 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     return setup;
 }
 
+bool hasWorld(const PluginState& state) noexcept {
+    const auto& scene = state.scene;
+    return !scene.bodies.empty() || !scene.script.empty() || !scene.inputs.empty() ||
+           std::ranges::any_of(state.notes,
+                               [](const NoteRule& rule) { return rule.kind == NoteKind::spawn; });
+}
+
 double tailSeconds(const PluginState& state) noexcept {
-    const bool spawns =
-        std::ranges::any_of(state.notes, [](const NoteRule& rule) { return rule.kind == NoteKind::spawn; });
-    if (!state.scene.bodies.empty() || !state.scene.script.empty() || spawns)
-        return std::numeric_limits<double>::infinity();
+    if (hasWorld(state)) return std::numeric_limits<double>::infinity();
     double least = limits::maxDecayPerSecond;
     if (state.voice.pitch == NotePitch::note)
         least =

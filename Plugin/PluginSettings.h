@@ -28,6 +28,10 @@ bool isSameTake(const PluginState& a, const PluginState& b);
 PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept;
 SessionSetup sessionSetupOf(const PluginState& state);
 
+/// Whether anything can ever move: bodies, a script, inputs of the scene, notes that drop bodies. Without,
+/// all is rendered in the call, without the output latency of a world. Any thread.
+bool hasWorld(const PluginState& state) noexcept;
+
 /// Infinite: a world goes on by itself. Without one, from a strike at full scale until it has fallen out of
 /// hearing, at the smallest decay of the scene. Any thread.
 double tailSeconds(const PluginState& state) noexcept;

@@ -34,15 +34,22 @@ constexpr std::array clicks{KitNote{60, "click", 250, 120, 0.5, 0.5},
 constexpr std::array heart{KitNote{60, "first beat", 42, 16, 0.4, 0.4},
                            KitNote{61, "second beat", 55, 20, 0.6, 0.6}};
 
+/// How a preset arranges its actuators, however many there are. Its notes have places in parts of the field,
+/// which the layout's extent covers: so they are projected on the actuators that are there.
+enum class Arrangement {
+    grid, ///< row by row from the upper left, as near to a square as the number allows
+    row,  ///< from left to right
+    belt  ///< from above on a circle, A in front, then clockwise
+};
+
 struct Instrument {
     std::string_view name;
-    std::string_view layout; ///< a preset, or `belt`
+    Arrangement arrangement;
+    int actuators; ///< that it is made for
     NoteVoice voice;
     std::span<const KitNote> kit{};
     double beats = 0.0; ///< per cent
 };
-
-constexpr std::string_view belt = "belt of eight";
 
 NoteVoice voice(NotePlaces places, double decayPerSecond) {
     NoteVoice v;
@@ -63,21 +70,37 @@ NoteVoice held(NotePlaces places, double releaseSeconds, double bendSemitones) {
 
 const std::vector<Instrument>& instruments() {
     using enum NotePlaces;
+    using enum Arrangement;
     static const std::vector<Instrument> all{
-        {"Keys", "phone4", voice(octave, 12.0)},
-        {"Drum kit", "phone4", voice(octave, 20.0), drumKit},
-        {"Bass", "phone4", voice(middle, 4.0)},
-        {"Strings", "phone4", held(octave, 0.4, 2.0)},
-        {"Stereo pair", "phone2", held(octave, 0.1, 2.0)},
-        {"Four corners", "phone4", voice(actuators, 15.0)},
-        {"Belt of eight", belt, voice(actuators, 25.0)},
-        {"Sweep", "phone4", held(middle, 0.2, 24.0)},
-        {"MPE pad", "phone4", held(octave, 0.8, 48.0)},
-        {"Clicks", "phone4", voice(middle, 120.0), clicks},
-        {"Heartbeat", "phone4", voice(middle, 16.0), heart},
-        {"Beats of the music", "phone4", voice(octave, 20.0), {}, 50.0},
+        {"Keys", grid, 4, voice(octave, 12.0)},
+        {"Drum kit", grid, 4, voice(octave, 20.0), drumKit},
+        {"Bass", grid, 4, voice(middle, 4.0)},
+        {"Strings", grid, 4, held(octave, 0.4, 2.0)},
+        {"Stereo pair", row, 2, held(octave, 0.1, 2.0)},
+        {"Four corners", grid, 4, voice(actuators, 15.0)},
+        {"Belt of eight", belt, 8, voice(actuators, 25.0)},
+        {"Sweep", grid, 4, held(middle, 0.2, 24.0)},
+        {"MPE pad", grid, 4, held(octave, 0.8, 48.0)},
+        {"Clicks", grid, 4, voice(middle, 120.0), clicks},
+        {"Heartbeat", grid, 4, voice(middle, 16.0), heart},
+        {"Beats of the music", grid, 4, voice(octave, 20.0), {}, 50.0},
     };
     return all;
+}
+
+/// Factor on a scene's own drive, so that its hardest hit at the initial level is as strong as a usual key:
+/// 0.39 of full scale (Tests/Plugin/LoudnessTest.cpp measures it).
+double driveOf(std::string_view scene) noexcept {
+    struct Drive {
+        std::string_view scene;
+        double factor;
+    };
+    static constexpr std::array drives{
+        Drive{"shake-the-box", 5.3}, Drive{"fruit-basket", 3.7}, Drive{"driving", 3.8}, Drive{"drop", 26.0},
+        Drive{"box-study", 35.0},    Drive{"marbles", 3.2},      Drive{"drawing", 3.1}};
+    const auto found = std::ranges::find(drives, scene, &Drive::scene);
+    return found == drives.end() ? 4.0 : found->factor; // scenes peak half-way to full scale, the level is
+                                                        // -12 dB
 }
 
 /// No bodies: materials, and a field to be struck.
@@ -99,16 +122,45 @@ Scene emptyField(const Instrument& instrument) {
     return scene;
 }
 
-LayoutDescription layoutOf(const Instrument& instrument, const LayoutDescription& before) {
-    if (instrument.layout != belt) return presetLayout(instrument.layout, before.enchanters);
-    // From above, A in front, then clockwise: on a circle the last and the first are neighbours, too, and a
-    // note on one actuator is not shared among all, as it is in a row.
-    EnchanterLayout circle{2.0, 2.0, 8, {}};
-    for (int j = 0; j < circle.count; ++j) {
-        const double angle = 2.0 * std::numbers::pi * j / circle.count;
+EnchanterLayout beltOf(int count) {
+    // On a circle the last and the first are neighbours, too, and a note on one actuator is not shared among
+    // all, as it is in a row.
+    EnchanterLayout circle{2.0, 2.0, count, {}};
+    for (int j = 0; j < count; ++j) {
+        const double angle = 2.0 * std::numbers::pi * j / count;
         circle.places[static_cast<std::size_t>(j)] = {1.0 + std::sin(angle), 1.0 + std::cos(angle)};
     }
-    return describeLayout(std::string{belt}, circle);
+    return circle;
+}
+
+EnchanterLayout gridOf(int count, int rows) {
+    const EnchanterLayout phone = presetLayout("phone4").geometry;
+    EnchanterLayout grid{phone.extentWidthMetres, phone.extentHeightMetres, count, {}};
+    const int columns = count / rows;
+    const auto share = [](int i, int n) { return n > 1 ? static_cast<double>(i) / (n - 1) : 0.5; };
+    for (int j = 0; j < count; ++j)
+        grid.places[static_cast<std::size_t>(j)] = {share(j % columns, columns) * grid.extentWidthMetres,
+                                                    (1.0 - share(j / columns, rows)) *
+                                                        grid.extentHeightMetres};
+    return grid;
+}
+
+LayoutDescription layoutOf(Arrangement arrangement, int count) {
+    count = std::clamp(count, 1, limits::maxEnchanters);
+    if (arrangement == Arrangement::belt && count > 2)
+        return describeLayout(count == 8 ? "belt of eight" : "belt of " + std::to_string(count),
+                              beltOf(count));
+    int rows = 1;
+    for (int r = 2; arrangement == Arrangement::grid && r * r <= count; ++r)
+        if (count % r == 0) rows = r;
+    if (count <= 2 || (count == 4 && rows == 2)) return presetLayout("phone" + std::to_string(count));
+    return describeLayout((rows > 1 ? "grid of " : "row of ") + std::to_string(count), gridOf(count, rows));
+}
+
+/// Null: a scene.
+const Instrument* instrumentOf(const PluginState& state) {
+    const auto found = std::ranges::find(instruments(), state.scene.name, &Instrument::name);
+    return found == instruments().end() ? nullptr : &*found;
 }
 
 void setParameter(PluginState& state, Parameter which, double value) {
@@ -117,9 +169,9 @@ void setParameter(PluginState& state, Parameter which, double value) {
     state.parameters.emplace_back(id, value);
 }
 
-void take(PluginState& state, const Instrument& instrument) {
+void take(PluginState& state, const Instrument& instrument, int outputs) {
     state.scene = emptyField(instrument);
-    state.layout = layoutOf(instrument, state.layout);
+    placeAnew(state, outputs > 0 ? outputs : instrument.actuators);
     state.voice = instrument.voice;
     state.notes.clear();
     const auto first = static_cast<int>(state.scene.materials.size() - instrument.kit.size());
@@ -135,7 +187,6 @@ void take(PluginState& state, const Instrument& instrument) {
     // with the level that is safe at first: -6 dB of full scale
     setParameter(state, Parameter::strikeLevel, rowOf(Parameter::strikeLevel).initial);
     setParameter(state, Parameter::beats, instrument.beats);
-    fitToLayout(state);
 }
 
 } // namespace
@@ -157,17 +208,26 @@ int presetOf(const PluginState& state) {
     return found == names.end() ? 0 : static_cast<int>(found - names.begin());
 }
 
-void takePlugInPreset(PluginState& state, int index) {
-    const auto& scenes = builtInScenes();
-    const auto at = static_cast<std::size_t>(index);
-    if (at < scenes.size()) return takeScene(state, scenes[at]);
-    take(state, instruments().at(at - scenes.size()));
+void placeAnew(PluginState& state, int outputs) {
+    const auto* const instrument = instrumentOf(state);
+    const auto before = std::exchange(
+        state.layout, layoutOf(instrument ? instrument->arrangement : Arrangement::grid, outputs));
+    keepActuators(state.layout, before.enchanters);
+    fitToLayout(state);
 }
 
-PluginState newPluginState() {
+void takePlugInPreset(PluginState& state, int index, int outputs) {
+    const auto& scenes = builtInScenes();
+    const auto at = static_cast<std::size_t>(index);
+    if (at >= scenes.size()) return take(state, instruments().at(at - scenes.size()), outputs);
+    takeScene(state, scenes[at]);
+    state.scene.driveGain *= driveOf(state.scene.name);
+    if (outputs > 0 && outputs < enchantersOf(state)) placeAnew(state, outputs);
+}
+
+PluginState newPluginState(int outputs) {
     PluginState state;
-    state.layout = presetLayout("phone4");
-    take(state, instruments().front());
+    take(state, instruments().front(), outputs);
     return state;
 }
 

@@ -13,11 +13,16 @@ const std::vector<std::string>& presetNames();
 /// The place of the preset that a state plays; its own are shown as the first. Any thread.
 int presetOf(const PluginState& state);
 
-/// `state` as that preset has it: a scene keeps layout, notes' voice and parameters, an instrument has its
-/// own. M only.
-void takePlugInPreset(PluginState& state, int index);
+/// `state` as that preset has it: a scene keeps notes' voice and parameters, and the layout unless it has
+/// more actuators than outputs; an instrument has its own, on as many actuators as there are outputs. 0
+/// outputs: as many actuators as it is made for. M only.
+void takePlugInPreset(PluginState& state, int index, int outputs = 0);
 
-/// What a new instance plays: notes and beats on four enchanters, nothing by itself. M only.
-PluginState newPluginState();
+/// Other places for as many actuators as there are outputs, by the arrangement of the preset that it plays;
+/// they keep what drives them and their strips. M only.
+void placeAnew(PluginState& state, int outputs);
+
+/// What a new instance plays: notes and beats, nothing by itself. M only.
+PluginState newPluginState(int outputs = 4);
 
 } // namespace physvib

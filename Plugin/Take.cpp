@@ -5,29 +5,39 @@
 
 namespace physvib {
 
-Take::Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames,
-           std::int64_t longestLeadFrames)
+Take::Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, TakeTiming timing,
+           bool hasMusic)
     : session{order->setup}
     , order_{std::move(order)}
     , sampleRateHz_{sampleRateHz}
     , sliceFrames_{std::max(1, sampleRateHz / slicesPerSecond)} {
     out.assign(static_cast<std::size_t>(session.channels()),
                std::vector<float>(static_cast<std::size_t>(blockFrames)));
-    rewind(leadFrames);
-    if (longestLeadFrames == 0) return;
-    // L, and the block before it is rendered
-    const std::int64_t longest = session.timeline().playOutFrames() + longestLeadFrames + blockFrames;
+    rewind(timing);
+    if (!hasMusic) return;
+    // L, the block before it is rendered, and one by which L may just be changing
+    const std::int64_t longest = std::max(safeFrames_, tightFrames_) + 2 * blockFrames;
     music_ = std::make_unique<MusicDelay>(order_->settings.layout, session.channels(), sampleRateHz, longest);
     session.callback().add(*music_);
 }
 
-void Take::rewind(std::int64_t leadFrames) {
-    session.prepare(sampleRateHz_, static_cast<int>(leadFrames));
+void Take::rewind(TakeTiming timing) {
+    const int block = static_cast<int>(out.front().size());
+    session.prepare(sampleRateHz_, block);
     session.advance(); // its time begins with the first block
+    const auto& setup = order_->setup;
+    safeFrames_ = tightFrames_ = session.timeline().playOutFrames();
+    if (setup.hasWorld)
+        tightFrames_ = std::min(
+            safeFrames_, ClockLaw{sampleRateHz_, 0, setup.stepsPerSecond,
+                                  std::max(0.0, order_->knownAfterSeconds - 2.0 / setup.stepsPerSecond),
+                                  HapticRenderer::latencyFramesAt(sampleRateHz_)}
+                             .playOutFrames());
+    for (std::int64_t surplus = safeFrames_ - latencyFrames(timing); surplus > 0; surplus -= block)
+        session.wait(from(0).data(), static_cast<int>(std::min<std::int64_t>(surplus, block)));
     fade_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
     gap_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
     last_.fill(0.0f);
-    leadFrames_ = leadFrames;
     owed_ = -1;
     over_ = false;
     number = 0;
@@ -100,13 +110,14 @@ void Take::end() noexcept {
     if (owed_ < 0) owed_ = session.timeline().bornLatencyFrames();
 }
 
-void Take::render(int frames, std::int64_t leadFrames, RenderMode mode) noexcept {
-    if (const auto surplus = this->leadFrames() - leadFrames; surplus > 0) {
+void Take::render(int frames, TakeTiming timing, RenderMode mode) noexcept {
+    const std::int64_t surplus = session.timeline().playOutFrames() - latencyFrames(timing);
+    if (surplus > 0) {
         if (gap_.now() > 0.0f) return play(0, frames, mode, 0.0f);
         skip(static_cast<int>(std::min<std::int64_t>(surplus, frames)));
         return play(0, frames, mode, surplus > frames ? 0.0f : 1.0f);
     }
-    const int waits = static_cast<int>(std::clamp<std::int64_t>(leadFrames - this->leadFrames(), 0, frames));
+    const int waits = static_cast<int>(std::clamp<std::int64_t>(-surplus, 0, frames));
     if (waits > 0) standStill(waits);
     if (waits < frames) play(waits, frames - waits, mode);
 }

@@ -21,17 +21,23 @@ struct TakeOrder {
     SessionSetup setup;
     TakeSettings settings;
     std::uint64_t generation = 0;
+    double knownAfterSeconds = 0.0; ///< events are known so long after their time: L has room for that
+};
+
+/// How a world is stepped, and so its output latency L. Without a world both are the same.
+enum class TakeTiming {
+    safe, ///< by a thread beside the render call: L has room for a block and for the thread's lateness
+    tight ///< in the render call: L is two steps and the limiter's latency, at any block size
 };
 
 class Take {
 public:
-    /// `leadFrames`: as many as L covers at once, a block at least; `longestLeadFrames`: as many as it may
-    /// come to cover where there is music, 0: there is none. Any thread but R.
-    Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames,
-         std::int64_t longestLeadFrames = 0);
+    /// `hasMusic`: samples may come in. Any thread but R.
+    Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, TakeTiming timing,
+         bool hasMusic = false);
 
     /// From its seed again. Any thread but R, while nobody renders or steps it.
-    void rewind(std::int64_t leadFrames);
+    void rewind(TakeTiming timing);
 
     /// It is to play by these strips from session time on. False: not all of it found room, to be told again.
     /// Any thread but R.
@@ -40,14 +46,16 @@ public:
     const TakeSettings& settings() const noexcept { return order_->settings; }
     std::uint64_t generation() const noexcept { return order_->generation; }
 
-    /// Frames that L covers at once. R.
-    std::int64_t leadFrames() const noexcept { return leadFrames_ + session.timeline().framesGrown(); }
+    /// L with that timing. Any thread.
+    std::int64_t latencyFrames(TakeTiming timing) const noexcept {
+        return timing == TakeTiming::tight ? tightFrames_ : safeFrames_;
+    }
 
-    /// The next frames of every channel of the session, at most a block. While L covers less than
-    /// `leadFrames`, it grows: the session goes on and nothing of it is played; what was to be felt comes so
-    /// much later. While it covers more, it shrinks: in silence as well, and what was to be felt meanwhile is
-    /// not. R.
-    void render(int frames, std::int64_t leadFrames, RenderMode mode) noexcept;
+    /// The next frames of every channel of the session, at most a block. While L is shorter than that
+    /// timing's, it grows: the session goes on and nothing of it is played; what was to be felt comes so much
+    /// later. While it is longer, it shrinks: in silence as well, and what was to be felt meanwhile is not.
+    /// R.
+    void render(int frames, TakeTiming timing, RenderMode mode) noexcept;
 
     /// Level, law and exponent at a frame of the coming block, in the order of their frames and at
     /// ControlPace's pace. Kept here until the renderer comes to them, L later, since its own room is small.
@@ -80,7 +88,7 @@ private:
         double value = 0.0;     // level, or exponent
         PanningLaw law{};
     };
-    // The longest L is a second and a block.
+    // The longest L is a block and the steps of a slow world: a fifth of a second.
     using HeldControls = EventQueue<HeldControl, 2048>;
     static constexpr int slicesPerSecond = 48; // their frames hold 32 of each kind, beside whatever else
                                                // comes
@@ -102,9 +110,9 @@ private:
     std::unique_ptr<MusicDelay> music_;
     std::array<ToldStrip, limits::maxEnchanters> told_{};
     Held levels_, panners_;
-    std::int64_t leadFrames_ = 0; // of prepare
-    std::int64_t owed_ = -1;      // frames until it fades; -1: it is not ending
-    GainRamp fade_, gap_;         // gap_ is shut while L grows or shrinks
+    std::int64_t safeFrames_ = 0, tightFrames_ = 0; // L, by the timing
+    std::int64_t owed_ = -1;                        // frames until it fades; -1: it is not ending
+    GainRamp fade_, gap_;                           // gap_ is shut while L grows or shrinks
     std::array<float, limits::maxEnchanters> last_{};
     bool over_ = false;
 };

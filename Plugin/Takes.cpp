@@ -6,7 +6,6 @@
 #include "Scene/World/InputCheck.h"
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -62,10 +61,10 @@ void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<St
         std::unique_lock lock{mutex_};
         const int rate = sampleRateHz_, block = blockFrames_;
         const double known = knownAfterSeconds_;
-        setup.longestGapSeconds = gapSeconds(setup);
+        TakeOrder order{setup, settings, before ? before->generation + 1 : 1};
+        setGaps(order);
         lock.unlock();
-        const auto wanted = std::make_shared<const TakeOrder>(
-            TakeOrder{setup, settings, before ? before->generation + 1 : 1});
+        const auto wanted = std::make_shared<const TakeOrder>(std::move(order));
         std::unique_ptr<Take> take;
         if (block > 0)
             take = newTake(wanted, rate, block);
@@ -106,28 +105,31 @@ void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Tak
     canMake_ = true;
     if (!take) return;
     take->tell(strips_);
-    ticksPerSecond_ = TakePace::ticksPerSecond(order_->setup.stepsPerSecond);
-    idleSeconds_ = TakePace::idleSeconds(order_->setup.stepsPerSecond);
-    playOutFrames_ = take->session.timeline().playOutFrames();
-    directFrames_ = order_->setup.direct == Direct::born ? take->session.timeline().bornLatencyFrames() : 0;
+    const auto& setup = order_->setup;
+    ticksPerSecond_ =
+        setup.hasWorld ? TakePace::ticksPerSecond(setup.stepsPerSecond) : TakePace::stillTicksPerSecond;
+    idleSeconds_ = setup.hasWorld ? TakePace::idleSeconds(setup.stepsPerSecond) : TakePace::stillIdleSeconds;
+    safeFrames_ = take->latencyFrames(TakeTiming::safe);
+    tightFrames_ = take->latencyFrames(TakeTiming::tight);
+    directFrames_ = setup.direct == Direct::born ? take->session.timeline().bornLatencyFrames() : 0;
     takes_.push_back(std::move(take));
     Take* const unused = spare_.exchange(takes_.back().get(), std::memory_order_acq_rel);
     if (unused) unused->isEnded = true;
     newest_.store(order_->generation, std::memory_order_release);
 }
 
-// What is known late has, beside the gap, the two steps that L has room for. The mutex is held.
-double Takes::gapSeconds(const SessionSetup& setup) const noexcept {
-    const double known = setup.direct == Direct::no ? knownAfterSeconds_ - 2.0 / setup.stepsPerSecond : 0.0;
-    return std::max(TakePace::longestGapSeconds(setup.stepsPerSecond), known);
+// With a world, what is known late has, beside the gap, the two steps that L has room for. The mutex is held.
+void Takes::setGaps(TakeOrder& order) const noexcept {
+    auto& setup = order.setup;
+    const double known = order.knownAfterSeconds = setup.direct == Direct::no ? knownAfterSeconds_ : 0.0;
+    setup.longestGapSeconds = setup.hasWorld ? std::max(TakePace::longestGapSeconds(setup.stepsPerSecond),
+                                                        known - 2.0 / setup.stepsPerSecond)
+                                             : known;
 }
 
 std::unique_ptr<Take> Takes::newTake(std::shared_ptr<const TakeOrder> order, int sampleRateHz,
                                      int blockFrames) const {
-    const std::int64_t lead = leadFrames_,
-                       longest = std::max(
-                           lead, static_cast<std::int64_t>(TakePace::mostLeadSeconds * sampleRateHz));
-    return std::make_unique<Take>(std::move(order), sampleRateHz, blockFrames, lead, hasMusic_ ? longest : 0);
+    return std::make_unique<Take>(std::move(order), sampleRateHz, blockFrames, timing(), hasMusic_);
 }
 
 void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds, bool hasMusic) {
@@ -136,27 +138,19 @@ void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds,
     knownAfterSeconds_ = knownAfterSeconds;
     hasMusic_ = hasMusic;
     if (!order_) return;
-    if (const double gap = gapSeconds(order_->setup); gap != order_->setup.longestGapSeconds) {
-        auto order = *order_;
-        order.setup.longestGapSeconds = gap;
-        order_ = std::make_shared<const TakeOrder>(std::move(order));
-    }
+    auto order = *order_;
+    setGaps(order);
+    order_ = std::make_shared<const TakeOrder>(std::move(order));
     sampleRateHz_ = sampleRateHz;
     blockFrames_ = blockFrames;
-    // that run did without
-    if (!isAheadNeeded_ && runFrames_ > HostPace::calmNs * sampleRateHz / 1'000'000'000) leadSeconds_ = 0.0;
-    leadFrames_ = aheadFrames_ =
-        std::max<std::int64_t>(blockFrames, std::llround(leadSeconds_ * sampleRateHz));
-    isAheadNeeded_ = false;
-    runFrames_ = neededNs_ = 0;
-    hostPace_.reset();
+    isTooHeavy_ = false;
     started_ = 0;
     delayedBlocks_ = lateBefore_ = 0;
-    slippedBefore_ = waitedFrames_ = 0;
+    slippedBefore_ = 0;
+    aheadBlocks_ = 0;
     startWanted_ = false;
     status_.write({});
     exchange(order_, newTake(order_, sampleRateHz, blockFrames));
-    tickedNs_ = nowNs(); // making it took longer than a gap
     stop_ = false;
     if (handNs_) return;
     builder_ = std::thread{[this] { build(); }};
@@ -198,7 +192,6 @@ void Takes::tick() {
         stepWorld(*take);
         drain(*take);
     }
-    tickedNs_.store(nowNs(), std::memory_order_release);
     if (!isWorkToDo()) return;
     if (handNs_) return tryToMakeReady(lock);
     lock.unlock();
@@ -263,7 +256,7 @@ std::unique_ptr<Take> Takes::makeOf(std::vector<std::unique_ptr<Take>>& ended,
         ++made_;
         return newTake(std::move(order), sampleRateHz_, blockFrames_);
     }
-    (*found)->rewind(leadFrames_);
+    (*found)->rewind(timing());
     return std::move(*found);
 }
 

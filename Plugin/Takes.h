@@ -13,12 +13,13 @@
 // and gives it up by `isEnded`, one atomic store. A take that is being made or freed is in nobody's list, so
 // no mutex is held meanwhile.
 //
-// Hosts in bursts. L covers what the host asks for at once: one block. If it asks for more - twenty blocks in
-// a row, half a second ahead, a block larger than announced - the world cannot be there, since it never goes
-// beyond session time. R sees that (Session::framesMissing) and, if the steady clock says that the thread has
-// been in time, lets L grow until the world is there. The host is told, and later takes begin with it.
+// Hosts ahead of time. L covers one block. If a host asks for more at once - a bounce that it does not call
+// one, twenty blocks in a row, half a second ahead, a block larger than announced - the thread has not
+// stepped the world that far. R sees that (Session::framesMissing) and steps it in the render call, as it
+// does where the host calls a block non-realtime. So L never changes and every bounce is the live take. The
+// steps that R makes may take as long as what is rendered: a world too heavy for that stands still instead,
+// counted.
 #pragma once
-#include "HostPace.h"
 #include "Stepper.h"
 #include "Take.h"
 #include <condition_variable>
@@ -34,9 +35,9 @@ struct TakePace {
     static constexpr int leastTicksPerSecond = 200;  // 5 ms: a quarter of the two steps that are in L anyway
     static constexpr double headroomSeconds = 0.005; // a DAW's own threads come before ours (measured:
                                                      // Docs/plugin.md)
-    static constexpr double growthSeconds = 0.02;    // L grows in steps: hosts stop and start to take it out
-                                                     // again
-    static constexpr double mostLeadSeconds = 1.0;   // twice of what hosts are known to render ahead
+    static constexpr int stillTicksPerSecond = 20;   // without a world: only the log of events is drained
+    static constexpr double stillIdleSeconds = 0.5;
+    static constexpr std::int64_t spareNs = 100'000'000; // that steps in the render call may be behind
     static int ticksPerSecond(int stepsPerSecond) noexcept {
         return stepsPerSecond > leastTicksPerSecond ? std::min(stepsPerSecond, 1000) : leastTicksPerSecond;
     }
@@ -64,9 +65,9 @@ struct TakesStatus {
     std::uint64_t late = 0;          ///< events played after their time, in all takes
     std::int64_t slippedNs = 0;      ///< stalls of the worlds of all takes
     std::uint64_t delayedBlocks = 0; ///< blocks that a start had to wait for a take to be ready
-    std::int64_t burstFrames = 0;    ///< part of L: what the host asks for at once beyond a block
-    std::int64_t waitedFrames = 0; ///< by which L has grown while something was played: since then all comes
-                                   ///< later
+    std::uint64_t aheadBlocks = 0;   ///< for which the world was stepped in the render call, since the host
+                                     ///< asked ahead of its thread
+    bool isTooHeavy = false; ///< the world takes longer than real time: it is not stepped in the render call
 };
 
 class Takes final : private Stepped {
@@ -92,20 +93,21 @@ public:
     void prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds = 0.0, bool hasMusic = false);
     void release();
 
-    /// L of the present setup and host; 0 before prepare. Any thread.
-    std::int64_t playOutFrames() const noexcept { return playOutFrames_; }
+    /// How worlds are stepped from the next block on; what plays goes on. Any thread.
+    void setTiming(TakeTiming timing) noexcept { timing_ = timing; }
+    TakeTiming timing() const noexcept { return isTooHeavy_ ? TakeTiming::safe : timing_.load(); }
+
+    /// L of the present setup, host and timing; 0 before prepare. Any thread.
+    std::int64_t playOutFrames() const noexcept {
+        return timing() == TakeTiming::tight ? tightFrames_ : safeFrames_;
+    }
 
     /// What the host is told: L, or, where strikes are direct, how long after its frame one is felt. 0 before
     /// prepare. Any thread.
     std::int64_t latencyFrames() const noexcept {
-        return isDirect() ? directFrames_.load() : playOutFrames_.load();
+        return isDirect() ? directFrames_.load() : playOutFrames();
     }
     bool isDirect() const noexcept { return directFrames_ > 0; } ///< as latencyFrames
-
-    /// L is to be as short as it was at first: now, or when the transport stands and the host has been calm.
-    /// Any thread; R.
-    void giveBack() noexcept { giveBack_ = true; }
-    void transportStands(bool stands) noexcept { stands_ = stands; }
 
     /// At the beginning of a block, first: lets new settings in. How they follow the transport. R, wait-free.
     TransportMode lookForNew() noexcept;
@@ -128,6 +130,7 @@ public:
     bool silence(int frame) noexcept;
     /// Renders at most the prepared block; `addTo` is then valid. R, wait-free if realtime.
     void render(int frames, RenderMode mode) noexcept;
+    std::uint64_t blocks() const noexcept override { return blocks_.load(std::memory_order_relaxed); }
     int channels() const noexcept; ///< R
     /// Adds the samples of channel j to out[0..frames). R.
     void addTo(float* out, int channel, int frames) const noexcept;
@@ -149,14 +152,13 @@ private:
     static constexpr std::size_t kept = 3;        // one plays, one is next, one is ending or spare
     static constexpr std::size_t mostEnding = 8;  // loops as short as an eighth of L
     std::shared_ptr<const TakeOrder> order() const;
-    double gapSeconds(const SessionSetup& setup) const noexcept;
+    void setGaps(TakeOrder& order) const noexcept;
     std::unique_ptr<Take> newTake(std::shared_ptr<const TakeOrder> order, int sampleRateHz,
                                   int blockFrames) const;
     void exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take);
     void tellAll();
     int ticksPerSecond() const noexcept override { return ticksPerSecond_; }
     double idleSeconds() const noexcept override { return idleSeconds_; }
-    std::uint64_t blocks() const noexcept override { return blocks_.load(std::memory_order_relaxed); }
     void build();
     void stepWorld(Take& take);
     void drain(Take& take);
@@ -175,9 +177,7 @@ private:
     void forEachSounding(Do what) const noexcept;
     void letGo(Take*& take) noexcept;
     void letGoOfThoseOver() noexcept;
-    void coverBurst(int frames) noexcept;
-    void heal(std::int64_t nowNs) noexcept;
-    void lead(std::int64_t frames) noexcept;
+    RenderMode modeFor(const Take& take, int frames, RenderMode told) noexcept;
     void tell() noexcept;
 
     std::mutex setMutex_;      // one `set` at a time; taken first
@@ -195,10 +195,9 @@ private:
 
     std::atomic<Take*> spare_{nullptr};
     std::atomic<std::uint64_t> newest_{0}; // generation of the last settings, once they are in spare_
-    std::atomic<bool> hasNext_{false}, stop_{false}, giveBack_{false};
-    std::atomic<std::int64_t> playOutFrames_{0}, directFrames_{0}, leadFrames_{0}, tickedNs_{0};
-    std::atomic<double> leadSeconds_{0.0}; // what a host that goes ahead was seen to ask for at once, also
-                                           // before prepare
+    std::atomic<bool> hasNext_{false}, stop_{false}, isTooHeavy_{false};
+    std::atomic<std::int64_t> safeFrames_{0}, tightFrames_{0}, directFrames_{0}; // of the last settings
+    std::atomic<TakeTiming> timing_{TakeTiming::safe};
     std::atomic<std::uint64_t> lost_{0}, made_{0}, blocks_{0};
     std::atomic<double> idleSeconds_{0.0};
     std::atomic<int> ticksPerSecond_{TakePace::leastTicksPerSecond};
@@ -214,12 +213,9 @@ private:
     bool startWanted_ = false;
     int started_ = 0;
     std::uint64_t delayedBlocks_ = 0, lateBefore_ = 0;
-    std::int64_t slippedBefore_ = 0, waitedFrames_ = 0;
-    HostPace hostPace_;
-    std::int64_t aheadFrames_ = 0; // part of leadFrames_ that a host needs which goes ahead of time; a block
-                                   // at least
-    std::int64_t runFrames_ = 0, neededNs_ = 0;
-    bool isAheadNeeded_ = false, stands_ = false;
+    std::int64_t slippedBefore_ = 0;
+    std::uint64_t aheadBlocks_ = 0;
+    std::int64_t spareNs_ = TakePace::spareNs; // that steps in the render call may take
 
     std::optional<juce::SharedResourcePointer<Stepper>> stepper_; // while prepared
     std::thread builder_;

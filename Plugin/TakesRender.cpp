@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The render thread's part of scene runs: nothing here allocates, locks or waits, except in non-realtime
-// blocks.
+// The render thread's part of scene runs: nothing here allocates, locks or waits, except where a block needs
+// the world to be stepped in the render call.
 #include "Takes.h"
 #include <algorithm>
-#include <cmath>
 
 namespace physvib {
 
@@ -43,11 +42,9 @@ bool Takes::begin(RenderMode mode) noexcept {
     }
     playing_ = std::exchange(next_, nullptr);
     hasNext_ = false;
-    playing_->session.startLater(leadFrames_ - playing_->leadFrames()); // what the host asked for meanwhile
     playing_->number = ++started_;
-    // it may have been made for more
-    playOutFrames_ = playing_->session.timeline().playOutFrames() -
-                     std::max<std::int64_t>(0, playing_->leadFrames() - leadFrames_);
+    spareNs_ = TakePace::spareNs;
+    isTooHeavy_ = false;
     return true;
 }
 
@@ -87,72 +84,36 @@ void Takes::letGoOfThoseOver() noexcept {
 
 void Takes::render(int frames, RenderMode mode) noexcept {
     blocks_.fetch_add(1, std::memory_order_relaxed);
-    if (mode == RenderMode::realtime) coverBurst(frames);
-    const std::int64_t lead = leadFrames_;
-    forEachSounding([=](Take& take) { take.render(frames, lead, mode); });
+    const std::int64_t lengthNs = std::int64_t{1'000'000'000} * frames / sampleRateHz_;
+    spareNs_ = std::min(spareNs_ + lengthNs, TakePace::spareNs + lengthNs);
+    forEachSounding([&](Take& take) {
+        const auto own = modeFor(take, frames, mode);
+        const bool isStepped = own != mode;
+        const std::int64_t since = isStepped ? nowNs() : 0;
+        take.render(frames, timing(), own);
+        if (isStepped) spareNs_ -= nowNs() - since;
+    });
+    if (spareNs_ < 0) isTooHeavy_ = true;
     if (playing_) tell();
 }
 
-// L grows if the world is not where the next frames need it though it has been stepped in time. If the thread
-// itself was late, more delay would not mend that: the world stands still for as long, as always. So it does
-// for a host that was late for once.
-void Takes::coverBurst(int frames) noexcept {
-    const std::int64_t now = nowNs(), lead = leadFrames_;
-    hostPace_.ask(frames, now, sampleRateHz_);
-    runFrames_ += frames;
-    std::int64_t needed = 0;
-    bool isGrowing = false;
-    forEachSounding([&](Take& take) {
-        needed = std::max(needed, take.leadFrames() + take.session.framesMissing(frames));
-        isGrowing = isGrowing || take.leadFrames() < lead;
-    });
-    if (needed > blockFrames_) {
-        neededNs_ = now;
-        isAheadNeeded_ = isAheadNeeded_ || aheadFrames_ > blockFrames_;
-    }
-    if (needed <= lead && !isGrowing) return heal(now);
-    const double spareSeconds = 1.0 / ticksPerSecond_ + TakePace::headroomSeconds -
-                                1e-9 * static_cast<double>(now - tickedNs_.load(std::memory_order_acquire));
-    if (!isGrowing && spareSeconds < 0.0) return;
-    const bool goesAhead = hostPace_.goesAhead();
-    if (needed > lead && !goesAhead && !hostPace_.stuttersAgain(now) && !isGrowing) return;
-    // the thread may come so much later the next time
-    needed += static_cast<std::int64_t>(std::max(0.0, spareSeconds) * sampleRateHz_);
-    if (needed <= lead) return;
-    const auto step = static_cast<std::int64_t>(TakePace::growthSeconds * sampleRateHz_);
-    const auto most = std::max(lead, static_cast<std::int64_t>(TakePace::mostLeadSeconds * sampleRateHz_));
-    this->lead(std::min(lead + (needed - lead + step - 1) / step * step, most));
-    if (!goesAhead) return;
-    isAheadNeeded_ = true;
-    aheadFrames_ = leadFrames_;
-    leadSeconds_ = static_cast<double>(aheadFrames_) / sampleRateHz_;
-}
-
-// What nobody has needed for a while: what stutters had made it, as soon as they are over; the rest, where
-// the transport stands.
-void Takes::heal(std::int64_t nowNs) noexcept {
-    const bool isCalm = nowNs - neededNs_ > HostPace::calmNs;
-    const bool all = giveBack_.exchange(false) || (isCalm && stands_);
-    if (all) {
-        aheadFrames_ = blockFrames_;
-        leadSeconds_ = 0.0;
-    }
-    if ((all || isCalm) && leadFrames_ > aheadFrames_) lead(aheadFrames_);
-}
-
-// From now on; what is shorter by more than it has grown in this run was longer from its start.
-void Takes::lead(std::int64_t frames) noexcept {
-    const std::int64_t more = frames - leadFrames_;
-    leadFrames_ = frames;
-    playOutFrames_ += more;
-    waitedFrames_ = std::max<std::int64_t>(0, waitedFrames_ + more);
+// The world is stepped in the render call where it has to be: in tight timing, and where the host asks for
+// frames ahead of the thread that steps it, whatever the host says of itself. A live host whose world is in
+// time never comes here. A world that takes longer than real time would hold such a host up with every block:
+// that is left to the thread.
+RenderMode Takes::modeFor(const Take& take, int frames, RenderMode told) noexcept {
+    if (told == RenderMode::offline) return told;
+    const bool isAhead = take.session.framesMissing(frames) > 0;
+    if (isTooHeavy_ || (timing() == TakeTiming::safe && !isAhead)) return RenderMode::realtime;
+    if (timing() == TakeTiming::safe) ++aheadBlocks_;
+    return RenderMode::offline;
 }
 
 void Takes::tell() noexcept {
     const auto& now = playing_->session.status();
     status_.write({now, playing_->number, lateBefore_ + now.render.late,
-                   slippedBefore_ + playing_->session.world().slippedNs(), delayedBlocks_,
-                   leadFrames_ - blockFrames_, waitedFrames_});
+                   slippedBefore_ + playing_->session.world().slippedNs(), delayedBlocks_, aheadBlocks_,
+                   isTooHeavy_});
 }
 
 int Takes::channels() const noexcept {

@@ -37,7 +37,6 @@ public:
     }
 
     bool isPlaying() const noexcept { return wasPlaying_; }
-    bool stands() const noexcept { return isThere_ && !wasPlaying_; } ///< and the host has one
 
 private:
     Change follow(bool begins, bool jumped) noexcept {

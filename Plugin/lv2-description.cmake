@@ -10,6 +10,13 @@ string(REGEX REPLACE "\t\tfoaf:(homepage|mbox) <> ;\n" "" text "${text}")
 # What has a maintainer and releases is a project.
 string(REPLACE "\ta lv2:InstrumentPlugin ;\n" "\ta lv2:InstrumentPlugin , doap:Project ;\n" text "${text}")
 string(REPLACE "\t\tbufs:maxBlockLength .\n" "\t\tbufs:maxBlockLength , bufs:nominalBlockLength .\n" text "${text}")
+# Our entry has them for a host that has not.
+string(REPLACE "lv2:requiredFeature\n\t\turid:map" "lv2:optionalFeature\n\t\turid:map" text "${text}")
+# An effect is classed as one, and applied by hosts that know audio and controls only.
+if(NOT text MATCHES "lv2:InstrumentPlugin")
+    string(REPLACE "\ta lv2:Plugin ;\n" "\ta lv2:FilterPlugin , doap:Project ;\n" text "${text}")
+    string(REGEX REPLACE "(lv2:(InputPort|OutputPort) , atom:AtomPort ;\n)(\t\trsz)" "\\1\t\tlv2:portProperty lv2:connectionOptional ;\n\\3" text "${text}")
+endif()
 # Ports are called as the enchanters that they drive: A, B, ...
 foreach(number RANGE 1 26)
     math(EXPR letter "64 + ${number}")

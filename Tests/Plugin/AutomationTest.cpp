@@ -80,7 +80,9 @@ Automated takeOf(std::int64_t frames, std::uint32_t seed, int every) {
     Automated take;
     Random random{seed};
     for (const auto& row : allParameters()) {
-        if (row.parameter == Parameter::bypass || row.parameter == Parameter::material) continue;
+        if (row.parameter == Parameter::bypass || row.parameter == Parameter::material ||
+            row.parameter == Parameter::timing) // which is the latency of all
+            continue;
         double value = random.below(1000) * 1e-3;
         for (std::int64_t at = 0; at<frames; at += every> 0 ? every : 1 + random.below(400)) {
             value = std::clamp(value + (random.below(201) - 100) * 1e-3, 0.0, 1.0);

@@ -41,7 +41,7 @@ struct AutomatedHost : TestHost {
     }
     /// The loudest sample of what is struck now, L later.
     float peakOfStrike() {
-        peakOfNext(latency); // what was before is over
+        peakOfNext(latency + static_cast<std::int64_t>(getRate() / 50)); // what was before is over, and ramps
         strike();
         peakOfNext(latency - 2 * frames);
         return peakOfNext(static_cast<std::int64_t>(getRate() / 10));

@@ -15,8 +15,8 @@ TEST(Parameters, IdsArePromises) { // a change here breaks every saved session o
     std::vector<std::string_view> ids;
     for (const auto& row : allParameters()) ids.push_back(row.id);
     const std::vector<std::string_view> promised{
-        "level",    "law",      "exponent", "gravity", "tilt",  "material",   "strike_level",
-        "strike_x", "strike_y", "bypass",   "beats",   "music", "music_sides"};
+        "level",    "law",      "exponent", "gravity", "tilt",  "material",    "strike_level",
+        "strike_x", "strike_y", "bypass",   "beats",   "music", "music_sides", "timing"};
     EXPECT_EQ(ids, promised);
 }
 
@@ -28,6 +28,9 @@ TEST(Parameters, PlacesOfChoicesArePromises) {
     };
     for (int i = 0; const auto word : {"linear", "log", "log-outer", "energy"})
         EXPECT_DOUBLE_EQ(placeOf(Parameter::law, word), i++ / 3.0) << word;
+    for (int i = 1; const auto word : {"neighbours", "auto", "distance"})
+        EXPECT_DOUBLE_EQ(placeOf(Parameter::law, word), (i += 2, i - 2) / 6.0) << word;
+    EXPECT_DOUBLE_EQ(placeOf(Parameter::law, "triangles"), 1.0 / 12.0);
     for (int i = 0; const auto word : {"as the scene", "1", "2", "3", "4", "5", "6", "7", "8"})
         EXPECT_DOUBLE_EQ(placeOf(Parameter::material, word), i++ / 8.0) << word;
     for (int i = 0; const auto word : {"off", "on"})

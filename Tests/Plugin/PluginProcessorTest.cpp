@@ -50,8 +50,7 @@ TEST(PluginProcessor, LiveIsTheBounce) {
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
         }
         const auto status = host.plugin->takes().status();
-        if (status.waitedFrames > 0) break; // L is another from now on
-        if (status.late > 0 || status.slippedNs > 0) continue;
+        if (status.late > 0 || status.slippedNs > 0) continue; // a world too heavy for this machine now
         EXPECT_TRUE(live == bounce);
         return;
     }
@@ -67,7 +66,7 @@ TEST(PluginProcessor, HostsSeeTheParametersInTheOrderOfTheTableAndInGroups) {
     juce::StringArray groups;
     for (const auto* group : host.plugin->getParameterTree().getSubgroups(false))
         groups.add(group->getName());
-    EXPECT_EQ(groups.joinIntoString(", "), "Panning, World, Strikes by notes, Side chain");
+    EXPECT_EQ(groups.joinIntoString(", "), "Panning, World, Strikes by notes, Side chain, Time");
 }
 
 TEST(PluginProcessor, AnyRateAndAnyBlockIsFiniteAndWithinFullScale) {

@@ -112,13 +112,20 @@ TEST(SideChain, LHasRoomForTheDetectorOnlyWhereItListensAndStrikesAreNotDirect) 
         host.prepare(songRateHz, 64);
         return static_cast<int>(host.plugin->takes().playOutFrames());
     };
-    SongHost host{quietState()}, direct{quietState(true)};
+    auto still = quietState(), moving = shakenBox();
+    moving.stepsPerSecond = still.stepsPerSecond;
+    SongHost alone{still};
+    const int limiter = HapticRenderer::latencyFramesAt(songRateHz);
+    EXPECT_EQ(latencyOf(alone), limiter) << "without a world";
+    alone.turnOn(1);
+    EXPECT_EQ(latencyOf(alone), BeatDetector{songRateHz}.delayFrames() + limiter);
+    SongHost host{moving}, direct{quietState(true)};
     const int without = latencyOf(host), ofDirect = latencyOf(direct);
     host.turnOn(1);
     direct.turnOn(1);
     EXPECT_EQ(latencyOf(host), without + 512); // 18.7 ms less two steps of 1 ms, instead of a gap of 6 ms
     EXPECT_EQ(latencyOf(direct), ofDirect);
-    auto slow = strikeAt(0, 4); // whose steps leave room for it
+    auto slow = shakenBox(); // whose steps leave room for it
     ASSERT_TRUE(host.plugin->apply(slow));
     const int listening = host.plugin->getLatencySamples();
     host.turnOn(0);

@@ -79,16 +79,23 @@ std::int64_t figureOf(const std::string& file, const std::string& name) {
 
 // Figures for people: what fifty instances cost that are prepared and render nothing.
 TEST(Stepper, DISABLED_FiftyInstances) {
-    const auto memory = figureOf("/proc/self/status", "VmRSS");
-    std::vector<std::unique_ptr<TestHost>> hosts;
-    for (int i = 0; i < 50; ++i) hosts.emplace_back(std::make_unique<TestHost>())->prepare(48000, 512, false);
-    std::this_thread::sleep_for(std::chrono::seconds{2});
-    juce::SharedResourcePointer<Stepper> stepper;
-    const auto before = stepper->wakeUps();
-    std::this_thread::sleep_for(std::chrono::seconds{10});
-    std::printf("wake-ups of the stepping thread: %.1f a second; memory: %.1f MB an instance\n",
-                static_cast<double>(stepper->wakeUps() - before) / 10.0,
-                static_cast<double>(figureOf("/proc/self/status", "VmRSS") - memory) / 1024.0 / 50.0);
+    for (const bool hasWorld : {true, false}) {
+        const auto memory = figureOf("/proc/self/status", "VmRSS");
+        std::vector<std::unique_ptr<TestHost>> hosts;
+        for (int i = 0; i < 50; ++i) {
+            auto& host = *hosts.emplace_back(std::make_unique<TestHost>());
+            if (!hasWorld) ASSERT_TRUE(host.plugin->apply(newPluginState()));
+            host.prepare(48000, 512, false);
+        }
+        std::this_thread::sleep_for(std::chrono::seconds{2});
+        juce::SharedResourcePointer<Stepper> stepper;
+        const auto before = stepper->wakeUps();
+        std::this_thread::sleep_for(std::chrono::seconds{10});
+        std::printf("%s: wake-ups of the stepping thread: %.1f a second; memory: %.1f MB an instance\n",
+                    hasWorld ? "worlds" : "instruments",
+                    static_cast<double>(stepper->wakeUps() - before) / 10.0,
+                    static_cast<double>(figureOf("/proc/self/status", "VmRSS") - memory) / 1024.0 / 50.0);
+    }
 }
 
 } // namespace

@@ -272,9 +272,9 @@ TEST(Voice, EveryInstrumentIsSilentUntilANoteAndFeltThen) {
         juce::MidiBuffer midi;
         const auto notes = host.plugin->state().notes;
         midi.addEvent(on(notes.empty() ? 64 : notes.front().note), 0); // 64: of eight actuators the first
-        host.block(512, midi);
+        const float first = host.block(512, midi).getMagnitude(0, 512);
         host.play(24000, felt);
-        EXPECT_NEAR(juce::Decibels::gainToDecibels(peakOf(felt)), -6.0f, 1.5f) << name;
+        EXPECT_NEAR(juce::Decibels::gainToDecibels(std::max(first, peakOf(felt))), -6.0f, 1.5f) << name;
     }
 }
 
