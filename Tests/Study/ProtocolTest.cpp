@@ -81,8 +81,9 @@ TEST(Protocol, CallsRenderAndReadInTheirFolder) {
     EXPECT_EQ(fault("render {a}", {"$(touch x)"}),
               "conditions[0].call: expected letters, digits, spaces and _-+.,:=/%")
         << "what a value brings";
-    EXPECT_EQ(fault("render {a} {c}"), "conditions[0].call: expected names of factors in braces, or "
-                                       "alternative, object, level_db; found {c}");
+    EXPECT_EQ(fault("render {a} {c}"),
+              "conditions[0].call: expected names of factors or variables in braces, or "
+              "alternative, object, level_db; found {c}");
     EXPECT_EQ(fault("render /home/x/scene.json"),
               "conditions[0].call: expected files in the folder or below, found /home/x/scene.json");
     EXPECT_EQ(fault("render drop --layout a/../../x.json"),

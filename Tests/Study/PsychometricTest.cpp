@@ -6,12 +6,14 @@
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Statistics/PowerLaw.h"
 #include "Lab/Statistics/QuestPlus.h"
-#include "Lab/Study/Staircase.h"
+#include "Lab/Study/AdaptiveLevel.h"
 #include "Stimuli/SeededRandom.h"
 #include "Study/StaircaseThreshold.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>
+#include <map>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -203,6 +205,59 @@ TEST(PowerLaw, ExponentAndFactorComeBack) {
     EXPECT_EQ(fitPowerLaw(std::span{trials}.first(1)).fault, "expected magnitudes of two or more levels");
     trials[0].magnitude = 0.0;
     EXPECT_EQ(fitPowerLaw(trials).fault, "expected levels and magnitudes > 0");
+}
+
+/// Trials of an observer: at 8 levels (`session` null), or where the session's method puts them.
+std::vector<LevelCount> answered(const PsychometricFunction& observer, const SessionPlan* session,
+                                 SeededRandom& random) {
+    std::map<double, LevelCount> counts;
+    const auto ask = [&](double level) {
+        const bool isCorrect = random.chance(observer.probability(level));
+        LevelCount& count = counts[level];
+        count.level = level;
+        ++count.trials;
+        count.hits += isCorrect;
+        return isCorrect;
+    };
+    if (session == nullptr)
+        for (int trial = 0; trial < 160; ++trial) ask(1.5 * (trial % 8));
+    else
+        for (AdaptiveLevel level{*session}; !level.isDone();) level.answer(ask(level.levelDb()));
+    std::vector<LevelCount> all;
+    for (const auto& [level, count] : counts) all.push_back(count);
+    return all;
+}
+
+TEST(Psychometric, IntervalsOfThresholdsHoldWhoeverChoseTheLevelsAndSlopesDoNot) {
+    SessionPlan stairs, quest;
+    stairs.alternatives = quest.alternatives = {{"a", 0.0}, {"b", 0.0}};
+    stairs.staircase.emplace();
+    stairs.staircase->startDb = 12.0;
+    quest.quest.emplace();
+    SeededRandom random{3, "coverage"};
+    for (const SessionPlan* const session :
+         {static_cast<const SessionPlan*>(nullptr), &std::as_const(stairs), &std::as_const(quest)})
+        for (const int people : {6, 12}) {
+            int held = 0;
+            double jnds = 0.0;
+            for (int study = 0; study < 100; ++study) {
+                std::vector<double> thresholds;
+                for (int person = 0; person < people; ++person) {
+                    const PsychometricFunction truth{PsychometricShape::weibull, 6.0 + 1.5 * random.normal(),
+                                                     6.0, 0.5, 0.02};
+                    const auto fit =
+                        fitPsychometric(answered(truth, session, random), {truth.shape, 0.5, 0.02});
+                    if (!fit.fault.empty()) continue;
+                    thresholds.push_back(fit.function.threshold);
+                    jnds += fit.function.jnd() / truth.jnd() / people / 100.0;
+                }
+                const auto interval = bootstrapMean(thresholds);
+                held += interval.least <= 6.0 && 6.0 <= interval.most;
+            }
+            std::cout << held << " of 100, JND " << jnds << '\n';
+            EXPECT_GE(held, 88) << people << " people: 95 of 100, of which 88 are rare";
+            if (session == &stairs) EXPECT_LT(jnds, 0.75) << "why slopes are withheld";
+        }
 }
 
 } // namespace

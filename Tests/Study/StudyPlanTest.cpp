@@ -23,12 +23,13 @@ Protocol four(Protocol::ConditionOrder order) {
     return protocol;
 }
 
-TEST(StudyPlan, EveryPartOfEveryStimulusIsPlannedAtItsHighestLevel) {
+TEST(StudyPlan, EveryPartOfEveryStimulusIsPlannedAtItsLowestAndHighestLevel) {
     const auto planned = plannedStimuli(builtIn("model-or-sound"));
-    ASSERT_EQ(planned.size(), 54u);
-    for (const PlannedStimulus& s : planned) EXPECT_EQ(s.highestDb, s.part == "SV" ? -8.0 : -2.0) << s.part;
+    ASSERT_EQ(planned.size(), 27u * (2u + 1u));
+    for (const PlannedStimulus& s : planned)
+        EXPECT_EQ(s.levelDb, s.part == "SV" ? -8.0 : s.isHighest ? -2.0 : -38.0) << s.part;
     const TrialJob job = planned.front().job(builtIn("model-or-sound"));
-    EXPECT_NE(std::get<WrittenCall>(job).words.find("--level-db -2"), std::string::npos)
+    EXPECT_NE(std::get<WrittenCall>(job).words.find("--level-db -38"), std::string::npos)
         << std::get<WrittenCall>(job).words;
     EXPECT_EQ(plannedStimuli(builtIn("patterns")).size(), 2u * (28u + 78u + 168u));
     EXPECT_EQ(plannedStimuli(builtIn("eight-methods")).size(), 24u);
@@ -38,13 +39,14 @@ TEST(StudyPlan, LevelsAddUpAsAnExperimentAddsThem) {
     Protocol protocol = builtIn("model-or-sound");
     for (Alternative& alternative : protocol.sessions[1].alternatives) alternative.levelDb = 3.0;
     for (const PlannedStimulus& s : plannedStimuli(protocol)) {
+        if (!s.isHighest) continue;
         // 3 dB, and -2 dB that may have been set
-        EXPECT_EQ(s.highestDb, s.part == "SV" ? 3.0 : 1.0) << s.part;
+        EXPECT_EQ(s.levelDb, s.part == "SV" ? 3.0 : 1.0) << s.part;
         EXPECT_EQ(s.session, 1u);
     }
     const StaircasePlan staircase = *builtIn("level-steps").sessions[0].staircase;
     for (const PlannedStimulus& s : plannedStimuli(builtIn("level-steps")))
-        EXPECT_EQ(s.highestDb, s.part == staircase.alternative ? staircase.mostDb : 0.0);
+        EXPECT_EQ(s.levelDb, s.part == staircase.alternative && s.isHighest ? staircase.mostDb : 0.0);
 }
 
 TEST(StudyPlan, TrialsAreThoseOfTheProtocol) {

@@ -81,6 +81,8 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
                       "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood"};
     for (const auto& condition : data.value.conditions) {
         std::vector<double> thresholds, jnds;
+        const bool isAdaptive = condition.trials.front().isAdaptive;
+        const auto ifKnown = [=](double slope) { return isAdaptive ? std::nullopt : std::optional{slope}; };
         for (const auto& own : psychometricByParticipant(condition.trials, o.model)) {
             if (!own.fit.fault.empty()) {
                 leaveOut(report, condition.name, own.participant, own.fit.fault);
@@ -91,13 +93,15 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
                 report.warnings.push_back(prefixOf(condition.name) + words);
             thresholds.push_back(f.threshold);
             jnds.push_back(f.jnd());
-            table.row(condition.name, own.participant, own.trials, f.threshold, f.width, f.jnd(), f.guess,
-                      f.lapse, own.fit.logLikelihood);
+            table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
+                      ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
         }
         if (thresholds.empty()) return nobodyFitted(o, report);
         const int decimals = decimalsOf(Moments(jnds).mean);
         out << prefixOf(condition.name) << meanWords("threshold", thresholds, decimals) << ", "
-            << meanWords("JND", jnds, decimals) << ", " << counted(thresholds.size(), "participant") << '\n';
+            << (isAdaptive ? "no JND (answers chose the levels, which makes slopes too steep)"
+                           : meanWords("JND", jnds, decimals))
+            << ", " << counted(thresholds.size(), "participant") << '\n';
     }
     report.words = out.str();
     report.table = table.text();

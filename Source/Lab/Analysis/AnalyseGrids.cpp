@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Analyses of perceptual resolution, as text and tables.
+#include "Io/Text/NameList.h"
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 
 namespace physvib {
@@ -46,10 +49,38 @@ void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolu
         << fixedNumber(counts.standardDeviation(), 2) << '\n';
 }
 
-/// "21.6 +- 2.2 cells": bootstrap over the responses.
+/// "21.6 +- 2.2 cells": bootstrap over the responses of one condition, which says nothing of differences.
 std::string spreadWords(const CellSpread& spread) {
     return fixedNumber(spread.mean, 1) + " +- " + fixedNumber(spread.deviation, 1) +
-           " cells (responses drawn again 200 times): sizes that differ by less are no finding";
+           " cells (responses drawn again 200 times)";
+}
+
+std::set<std::pair<int, int>> targetsOf(const std::vector<LocationTrial>& trials) {
+    std::set<std::pair<int, int>> targets;
+    for (const LocationTrial& trial : trials) targets.emplace(trial.targetRow, trial.targetColumn);
+    return targets;
+}
+
+/// A line for conditions with the same targets; those of other targets cannot be exchanged.
+void tellChance(std::ostream& out, const StudyData<LocationTrial>& data, double thresholdPercent) {
+    std::map<std::set<std::pair<int, int>>, std::vector<const StudyCondition<LocationTrial>*>> alike;
+    for (const auto& condition : data.conditions) alike[targetsOf(condition.trials)].push_back(&condition);
+    for (const auto& [targets, conditions] : alike) {
+        if (conditions.size() < 2) continue;
+        std::vector<std::vector<LocationTrial>> trials;
+        std::vector<std::string> names;
+        for (const auto* const condition : conditions) {
+            trials.push_back(condition->trials);
+            names.push_back(printable(condition->name));
+        }
+        const CellChance chance = cellChance(trials, thresholdPercent);
+        out << "sizes of " << listed(names) << ": by chance any two differ by up to "
+            << numberText(chance.cells)
+            << " cells (95 % of 199 studies in which the conditions were exchanged within each "
+            << (chance.people > 1
+                    ? "of " + counted(chance.people, "person") + "); more is a finding of people\n"
+                    : std::string{"target); more is a finding of these trials, not of people\n"});
+    }
 }
 
 void exportMerged(ExportTable& table, const PercentCounts& counts, const PerceptualResolution& resolution) {
@@ -116,6 +147,7 @@ AnalysisReport analyseResolution(const AnalysisJob& o) {
             out << "  by chance "
                 << spreadWords(cellSpread(data.value.conditions[c].trials, o.thresholdPercent)) << '\n';
     }
+    tellChance(out, data.value, o.thresholdPercent);
     Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
     if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
     report.words = out.str();

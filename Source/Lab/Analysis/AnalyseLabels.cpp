@@ -52,12 +52,28 @@ std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const Inf
     return words;
 }
 
-void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& matrix,
-          const InformationTransfer& it) {
+/// Trials of one person depend on each other: the interval is over people where there are several.
+std::string correctWords(const ConfusionMatrix& matrix, const std::vector<ParticipantTransfer>& people) {
     const Proportion correct = proportion(matrix.correct(), matrix.trials());
+    const std::string share = percent(correct.share);
+    if (people.size() < 2)
+        return share + " (95 % interval over trials " + percent(correct.least) + " to " +
+               percent(correct.most) + ")";
+    std::vector<double> shares;
+    for (const ParticipantTransfer& own : people)
+        shares.push_back(static_cast<double>(own.matrix.correct()) /
+                         static_cast<double>(own.matrix.trials()));
+    const Moments moments{shares};
+    return share + "; mean of participants " + percent(moments.mean) + " (95 % interval over " +
+           counted(people.size(), "participant") + " " +
+           percent(std::max(0.0, moments.mean - moments.halfInterval())) + " to " +
+           percent(std::min(1.0, moments.mean + moments.halfInterval())) + ")";
+}
+
+void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& matrix,
+          const InformationTransfer& it, const std::vector<ParticipantTransfer>& people) {
     out << indent << "trials: " << matrix.trials() << " (" << matrix.stimuli() << " stimuli)\n"
-        << indent << "percent correct: " << percent(correct.share) << " (95 % interval "
-        << percent(correct.least) << " to " << percent(correct.most) << ")\n"
+        << indent << "percent correct: " << correctWords(matrix, people) << '\n'
         << indent << "IT: " << bits(it.bits) << " of " << bits(it.mostBits) << '\n';
     if (it.canBeCorrected())
         out << indent << "corrected IT: " << bits(it.correctedBits()) << '\n';
@@ -129,7 +145,7 @@ AnalysisReport analyseConfusion(const AnalysisJob& o) {
         const std::string prefix = condition.name.empty() ? "" : printable(condition.name) + ": ";
         for (const auto& words : matrixWarnings(matrix, it)) report.warnings.push_back(prefix + words);
         if (!condition.name.empty()) out << printable(condition.name) << '\n';
-        tell(out, condition.name.empty() ? "" : "  ", matrix, it);
+        tell(out, condition.name.empty() ? "" : "  ", matrix, it, transferByParticipant(condition.trials));
         tellAndExport(out, condition.name.empty() ? "" : "  ", condition, table, each);
         matrices.emplace_back(nameOr(condition.name, "all trials"), matrix);
     }

@@ -36,7 +36,8 @@ void tell(std::ostream& out, const LevelSummary& s) {
             << (isThreshold ? " over participants)" : " over trials)");
     if (s.halfInterval > 0.0)
         out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to "
-            << fixedNumber(s.estimate + s.halfInterval, 1) << " dB";
+            << fixedNumber(s.estimate + s.halfInterval, 1) << " dB"
+            << (s.participants > 1 ? " over participants" : " of what is still possible");
     out << ", " << counted(s.trials, "trial") << " of " << counted(s.participants, "participant");
     if (s.kind == LevelTrial::Kind::staircase)
         out << ", " << s.reversals << " reversals that a trial followed";

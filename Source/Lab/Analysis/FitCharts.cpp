@@ -56,11 +56,13 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
     LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
+    const bool isAdaptive = trials.front().isAdaptive; // the slopes of its functions are no result
     for (const auto& own : psychometricByParticipant(trials, model)) {
         if (!own.fit.fault.empty()) continue;
         thresholds.push_back(own.fit.function.threshold);
         widths.push_back(own.fit.function.width);
         lapses.push_back(own.fit.function.lapse);
+        if (isAdaptive) continue;
         chart.series.push_back(curve(own.fit.function, least, most));
         chart.series.back().isFaint = true;
     }
@@ -74,11 +76,13 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
             {level, {share, share, share}, 0.5 + 1.3 * std::sqrt(count.second / largest)});
     }
     if (!thresholds.empty()) {
-        LineSeries mean = curve(
-            {model.shape, meanOf(thresholds), meanOf(widths), model.guess, meanOf(lapses)}, least, most);
-        mean.name = "mean of the participants' functions";
-        mean.style = 4;
-        chart.series.push_back(std::move(mean));
+        if (!isAdaptive) {
+            LineSeries mean = curve(
+                {model.shape, meanOf(thresholds), meanOf(widths), model.guess, meanOf(lapses)}, least, most);
+            mean.name = "mean of the participants' functions";
+            mean.style = 4;
+            chart.series.push_back(std::move(mean));
+        }
         const BootstrapInterval interval = bootstrapMean(thresholds);
         chart.threshold = {interval.mean, interval.least, interval.most};
         chart.thresholdWords = "threshold " + fixedNumber(interval.mean, decimalsOf(0.2 * meanOf(widths)));

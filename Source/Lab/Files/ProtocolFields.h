@@ -45,15 +45,24 @@ void visitFields(auto& v, FieldsOf<StudyFactor>) {
     v.field("values", &StudyFactor::values, items(1, 256), Need::required);
 }
 
-void visitFields(auto& v, FieldsOf<CallSet>) {
-    v.field("factors", &CallSet::factors, items(1, 16), Need::required);
-    v.field("call", &CallSet::call, studyBounds::call, Need::required);
+void visitFields(auto& v, FieldsOf<StudyVariable>) {
+    v.field("name", &StudyVariable::name, anyText, Need::required);
+    v.field("at_0_db", &StudyVariable::at0Db, Bounds{1e-6, 1e6}, Need::required);
 }
 
-void visitFields(auto& v, FieldsOf<WorldSet>) {
-    v.field("factors", static_cast<std::vector<StudyFactor> WorldSet::*>(&WorldSet::factors), items(1, 16),
+template <class Set>
+void visitCalls(auto& v) {
+    v.field("factors", static_cast<std::vector<StudyFactor> Set::*>(&Set::factors), items(1, 16),
             Need::required);
-    v.field("call", static_cast<std::string WorldSet::*>(&WorldSet::call), studyBounds::call, Need::required);
+    v.field("call", static_cast<std::string Set::*>(&Set::call), studyBounds::call, Need::required);
+    v.field("variables", static_cast<std::vector<StudyVariable> Set::*>(&Set::variables), items(0, 8),
+            Need::optional);
+}
+
+void visitFields(auto& v, FieldsOf<CallSet>) { visitCalls<CallSet>(v); }
+
+void visitFields(auto& v, FieldsOf<WorldSet>) {
+    visitCalls<WorldSet>(v);
     v.field("hands", &WorldSet::hasHands, {}, Need::optional);
     v.field("display_scale", &WorldSet::displayScale, Bounds{1.0, 10000.0}, Need::optional);
 }
@@ -104,6 +113,7 @@ void visitFields(auto& v, FieldsOf<StaircasePlan>) {
     v.field("least_step_db", &S::leastStepDb, Bounds{0.01, 20.0}, Need::optional);
     v.field("least_db", &S::leastDb, studyBounds::levelDb, Need::optional);
     v.field("most_db", &S::mostDb, studyBounds::levelDb, Need::optional);
+    v.field("up_ratio", &S::upRatio, Bounds{0.1, 10.0}, Need::optional);
     v.field("down", &S::down, Bounds{1.0, 10.0}, Need::optional);
     v.field("reversals", &S::reversals, Bounds{2.0, 100.0}, Need::optional);
     v.field("most_trials", &S::mostTrials, Bounds{1.0, 10000.0}, Need::optional);
@@ -129,6 +139,9 @@ void visitFields(auto& v, FieldsOf<SessionPlan>) {
     v.field("training", &S::isTraining, {}, Need::optional);
     v.choice("task", &S::task, studyTaskNames);
     v.field("question", &S::question, anyText, Need::optional);
+    v.field("instruction", &S::instruction, anyText, Need::optional);
+    v.field("feedback", &S::givesFeedback, {}, Need::optional);
+    v.field("interval_s", &S::intervalSeconds, studyBounds::rest, Need::optional);
     v.choice("order", &S::order, trialOrderNames);
     v.field("repetitions", &S::repetitions, Bounds{1.0, 1000.0}, Need::optional);
     v.field("fewest_touches", &S::fewestTouches, studyBounds::count, Need::optional);

@@ -28,11 +28,10 @@ const std::vector<EmbeddedFile>& embeddedProtocols();
 
 namespace {
 
-constexpr const char* protocolVersionField = "physvib_protocol";
-
 Protocol readProtocolRoot(Json& root) {
     checkVersion(JsonField(root, {}), protocolVersionField, protocolFormatVersion);
     root.erase(protocolVersionField);
+    root.erase("$schema"); // names the schema to editors
     auto protocol = readFields<Protocol>(JsonField(root, {}));
     if (const std::string fault = detail::checkFields("", protocol, 0); !fault.empty())
         throw JsonError({}, fault);

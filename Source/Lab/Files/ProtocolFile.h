@@ -13,6 +13,7 @@ namespace physvib {
 
 /// Version of the format that is written, and the newest that can be read.
 constexpr int protocolFormatVersion = 1;
+constexpr const char* protocolVersionField = "physvib_protocol";
 
 /// Parses a valid protocol; otherwise one line `name: sessions[1].repetitions: expected 1 to 1000, found 0`.
 /// Any thread.
@@ -23,6 +24,9 @@ Result<Protocol> loadProtocol(const std::filesystem::path& path);
 
 /// `protocol` as JSON; readProtocol() restores it to the bit. Any thread.
 std::string protocolJson(const Protocol& protocol);
+
+/// The JSON schema (draft 2020-12) of protocol files, made from the table of their fields. Any thread.
+std::string protocolSchema();
 
 /// Hash of all fields as 16 hexadecimal digits. Any thread.
 std::string protocolHash(const Protocol& protocol);

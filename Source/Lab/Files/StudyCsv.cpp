@@ -107,12 +107,13 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
                 " different places, found more; `physvib analyse places` takes targets on no grid"};
     const auto column = rows.required("target_column"), row = rows.required("target_row"),
                x = rows.required("x"), y = rows.required("y");
-    const auto condition = rows.optional("condition");
+    const auto condition = rows.optional("condition"), participant = rows.optional("participant");
     constexpr int most = static_cast<int>(mostGridLines);
     return rows.each(AnswerKind::place, [&](const CsvRow& r) {
         conditionNamed(rows, data, StudyRows::textIf(r, condition))
             .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most),
-                        rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0)});
+                        rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0),
+                        StudyRows::textIf(r, participant)});
     });
 }
 
@@ -280,6 +281,8 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     const auto level = detail::FactorSource::of(rows.table(), columns.level);
     if (!level) rows.required(columns.level);
     const auto condition = rows.optional("condition"), participant = rows.optional("participant");
+    // Only adaptive sessions of our own files have right and wrong choices.
+    const bool isAdaptive = rows.optional(trialColumns::task) && columns.measure == "correct";
     std::size_t taken = 0;
     rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
         if (row.cells[measure].empty()) return;
@@ -291,7 +294,7 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
         const double answer = columns.isMagnitude ? rows.number(row, measure, leastEstimate, mostEstimate)
                                                   : rows.wholeNumber(row, measure, 0, 1);
         conditionNamed(rows, data, StudyRows::textIf(row, condition))
-            .push_back({StudyRows::textIf(row, participant), *at, answer});
+            .push_back({StudyRows::textIf(row, participant), *at, answer, isAdaptive});
     });
     return taken;
 }

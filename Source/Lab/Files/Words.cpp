@@ -26,8 +26,11 @@ std::set<std::string> namesIn(const std::string& text) {
 Words readWordsRoot(Json& json) {
     const JsonField root{json, {}};
     checkVersion(root, "physvib_words", wordsFormatVersion);
-    root.expectObject({"physvib_words", "name", "language", "texts"});
-    Words words{root["name"].text(), root["language"].text(), {}};
+    root.expectObject({"physvib_words", "name", "language", "in_english", "texts"});
+    Words words{root["name"].text(),
+                root["language"].text(),
+                root.has("in_english") ? root["in_english"].text() : root["name"].text(),
+                {}};
     root["texts"].expectObject();
     for (const auto& [english, text] : json["texts"].items()) {
         const JsonField field = root["texts"][english.c_str()];

@@ -15,8 +15,9 @@ namespace physvib {
 constexpr int wordsFormatVersion = 1;
 
 struct Words {
-    std::string name;                                      ///< "ko"; empty: English
-    std::string language;                                  ///< its name in that language
+    std::string name;      ///< "ko"; empty: English
+    std::string language;  ///< its name in that language
+    std::string inEnglish; ///< its name in English, for displays without its letters; may be empty
     std::map<std::string, std::string, std::less<>> texts; ///< by the English text
 
     /// The translation of a text; the text itself if there is none. Any thread.

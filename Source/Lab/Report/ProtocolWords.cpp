@@ -50,11 +50,17 @@ std::string setWords(const GridSet& set) {
 }
 
 std::string setWords(const CallSet& set) {
-    return "calls of physvib by " + joinedWords(set.factors, ", ", [](const StudyFactor& factor) {
-               return factor.name + " (" +
-                      joinedWords(factor.values, "; ",
-                                  [](const std::string& value) { return inFull(value); }) +
-                      ")";
+    return "calls of physvib by " +
+           joinedWords(set.factors, ", ",
+                       [](const StudyFactor& factor) {
+                           return factor.name + " (" +
+                                  joinedWords(factor.values, "; ",
+                                              [](const std::string& value) { return inFull(value); }) +
+                                  ")";
+                       }) +
+           joinedWords(set.variables, "", [](const StudyVariable& variable) {
+               return "; " + variable.name + " is " + numberText(variable.at0Db) +
+                      " at a level of 0 dB, and 10 times as large at 20 dB";
            });
 }
 
@@ -79,8 +85,10 @@ std::string adjustmentWords(const Adjustment& plan) {
 }
 
 std::string staircaseWords(const StaircasePlan& plan) {
-    return "; staircase on " + plan.alternative + ": " + std::to_string(plan.down) +
-           " down, 1 up, starting at " + dbWords(plan.startDb) + " in steps of " + dbWords(plan.stepDb) +
+    return "; staircase on " + plan.alternative + ": " + std::to_string(plan.down) + " down, 1 up, " +
+           (plan.upRatio != 1.0 ? "steps up " + numberText(plan.upRatio) + " times as large, "
+                                : std::string{}) +
+           "starting at " + dbWords(plan.startDb) + " in steps of " + dbWords(plan.stepDb) +
            ", halved at each reversal down to " + dbWords(plan.leastStepDb) + ", " +
            rangeWords(plan.leastDb, plan.mostDb) + ", until " + std::to_string(plan.reversals) +
            " reversals or " + std::to_string(plan.mostTrials) + " trials";
@@ -155,6 +163,7 @@ std::string sessionWords(const SessionPlan& session) {
                                            : " (training, left out of analyses)";
     words += ": task " + std::string(task.name);
     if (!session.question.empty()) words += ", " + spoken(session.question);
+    if (!session.instruction.empty()) words += ", after the page " + spoken(session.instruction);
     words += "; order " + std::string(trialOrderNames[static_cast<std::size_t>(session.order)]);
     if (session.repetitions > 1) words += ", " + std::to_string(session.repetitions) + " repetitions";
     if (session.fewestTouches > 0) words += ", " + std::to_string(session.fewestTouches) + " touches";
@@ -172,6 +181,10 @@ std::string sessionWords(const SessionPlan& session) {
     if (!session.levelsFile.empty()) words += "; levels from the file " + session.levelsFile;
     if (session.leastSeconds > 0.0)
         words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
+    if (session.intervalSeconds > 0.0)
+        words +=
+            "; parts are played one after the other, " + secondsWords(session.intervalSeconds) + " apart";
+    if (session.givesFeedback) words += "; each answer is followed by whether it was right";
     if (session.mostPlays > 0) words += "; felt at most " + std::to_string(session.mostPlays) + " times";
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";

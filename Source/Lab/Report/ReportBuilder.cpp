@@ -3,6 +3,7 @@
 #include "Lab/Report/ReportBuilder.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -70,6 +71,14 @@ ReportBuilder::ReportBuilder(const ReportTrials& of, std::string title)
     : trials{of}
     , page{std::move(title), of.isSimulated} {}
 
+std::size_t ReportBuilder::people() const {
+    const auto participant = trials.all.column("participant");
+    std::set<std::string_view> codes;
+    for (const CsvRow& row : trials.all.rows)
+        if (participant) codes.insert(row.cells[*participant]);
+    return std::max<std::size_t>(1, codes.size());
+}
+
 AnalysisJob ReportBuilder::optionsFor(const std::string& table) const {
     AnalysisJob options;
     options.files = {table};
@@ -99,7 +108,7 @@ AnalysisReport ReportBuilder::analysis(const std::string& kind, const AnalysisJo
 
 void ReportBuilder::tellAssumptions(AnalysisJob options, const std::string& name) {
     options.correction = Correction::holm;
-    const ReportTest check{"shapiro", options, "assumptions-" + name};
+    const ReportTest check{"shapiro", options, "assumptions-" + name, 0};
     const AnalysisReport report = analyse("shapiro", options);
     if (!report.error.empty()) return page.note("whether values are normal was not tested: " + report.error);
     const auto beyond = std::ranges::count_if(report.lines, [](const TestLine& line) {
@@ -116,7 +125,7 @@ void ReportBuilder::tellAssumptions(AnalysisJob options, const std::string& name
 
 std::vector<TestLine> ReportBuilder::test(const std::string& kind, AnalysisJob options,
                                           const std::string& name, bool isLong) {
-    ReportTest test{kind, std::move(options), name};
+    ReportTest test{kind, std::move(options), name, 0};
     page.call(test.call());
     const AnalysisReport report = analyse(kind, test.options);
     warn(report.warnings);
@@ -135,6 +144,7 @@ std::vector<TestLine> ReportBuilder::test(const std::string& kind, AnalysisJob o
         page.table(report.table, name, 200, true);
     } else
         page.lines(report.words);
+    test.lines = report.lines.size();
     tests_.push_back(std::move(test));
     return report.lines;
 }

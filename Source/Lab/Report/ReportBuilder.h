@@ -15,7 +15,8 @@ namespace physvib {
 struct ReportTest {
     std::string analysis; ///< "anova" ...
     AnalysisJob options;
-    std::string table; ///< name of the file with its results
+    std::string table;     ///< name of the file with its results
+    std::size_t lines = 0; ///< comparisons or effects
 
     std::string call() const;
 };
@@ -33,6 +34,14 @@ public:
     const ReportTrials& trials;
     ReportPage page;
     bool isSimulated() const noexcept { return trials.isSimulated; }
+
+    /// Number of participants in the rows, by the column participant; 1 without it.
+    std::size_t people() const;
+
+    /// ", 95 % intervals over participants"; of one participant, who has none, that there are none.
+    std::string intervals() const {
+        return people() > 1 ? ", 95 % intervals over participants" : ", of one participant without intervals";
+    }
 
     /// Options for an analysis of one of the report's tables.
     AnalysisJob optionsFor(const std::string& table) const;

@@ -87,6 +87,23 @@ std::string orNever(std::optional<double> effect, int decimals) {
     return effect ? fixedNumber(*effect, decimals) : std::string{"more than was tried"};
 }
 
+/// Numbers of pairs for which this report's tests are corrected.
+std::set<std::size_t> pairsTested(const ReportBuilder& report) {
+    std::set<std::size_t> pairs;
+    for (const ReportTest& test : report.tests())
+        if (test.analysis == "pairs" && test.lines > 1) pairs.insert(test.lines);
+    return pairs;
+}
+
+std::string correctedWords(const PairedPower& power, const std::set<std::size_t>& pairs) {
+    std::string words;
+    for (const std::size_t count : pairs)
+        words.append(words.empty() ? "; with Bonferroni's correction for " : ", for ")
+            .append(std::to_string(count) + " pairs as tested here, d = ")
+            .append(orNever(power.smallestEffect(0.8, 0.05 / static_cast<double>(count)), 2));
+    return words;
+}
+
 } // namespace
 
 void tellOrders(ReportBuilder& report) {
@@ -107,25 +124,22 @@ void tellOrders(ReportBuilder& report) {
 
 void tellPower(ReportBuilder& report) {
     const Orders orders = ordersOf(report.trials.all);
-    const std::size_t people = orders.size(), conditions = orderedConditions(orders).size();
+    const std::size_t people = orders.size();
     if (people < 3) return;
     report.page.heading("Power of the design as it was run");
-    const std::size_t pairs = std::max<std::size_t>(1, conditions * (conditions - 1) / 2);
+    const std::set<std::size_t> pairs = pairsTested(report);
     const PairedPower power{people};
     report.page.paragraph(
         "By simulation (" + std::to_string(PairedPower::studies) + " studies of " + std::to_string(people) +
         " participants, normal differences, seed 1): a paired t test at p < 0.05 finds a mean difference of "
         "two conditions or stimuli in 80 % of the studies if it is at least d = " +
         orNever(power.smallestEffect(0.8, 0.05), 2) + " of the differences' standard deviation" +
-        (pairs > 1
-             ? "; with Bonferroni's correction for " + std::to_string(pairs) + " pairs of conditions, d = " +
-                   orNever(power.smallestEffect(0.8, 0.05 / static_cast<double>(pairs)), 2)
-             : std::string{}) +
+        correctedWords(power, pairs) +
         ". A smaller difference that was not found is no evidence that there is none.");
+    const double most = pairs.empty() ? 1.0 : static_cast<double>(*pairs.rbegin());
     ExportTable table{"power", report.isSimulated(), "test,effect,power,power_corrected"};
     for (const double effect : {0.2, 0.3, 0.5, 0.8, 1.0, 1.2, 1.5, 2.0}) {
-        table.row("paired t, d", effect, power.at(effect, 0.05),
-                  power.at(effect, 0.05 / static_cast<double>(pairs)));
+        table.row("paired t, d", effect, power.at(effect, 0.05), power.at(effect, 0.05 / most));
     }
     if (const std::size_t trials = choiceTrialsOf(report.trials.all); trials > 0) {
         const SharePower shares{people, trials};

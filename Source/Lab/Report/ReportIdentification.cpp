@@ -173,18 +173,18 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     if (hasPeople) {
         it.frame = report.frame("Information transfer of participants" + words);
         it.series = barsOf(axes, all, [](const auto& c) { return withInterval(c.bits); });
-        report.page.figure({barChart(it)},
-                           "Mean of the participants' own information transfer" + words +
-                               ", 95 % intervals over participants. Few trials make everyone's too high: "
-                               "compare conditions of as many stimuli and trials only.");
+        report.page.figure({barChart(it)}, "Mean of the participants' own information transfer" + words +
+                                               report.intervals() +
+                                               ". Few trials make everyone's too high: "
+                                               "compare conditions of as many stimuli and trials only.");
     }
     BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
     pc.most = 100.0;
     if (!pairs.empty()) markPairs(pc, pairs, axes);
     report.page.figure({barChart(pc)},
-                       "Mean percent correct" + words +
-                           " (as thesis Fig. 3.12, 4.3), 95 % intervals over participants. Brackets and the "
+                       "Mean percent correct" + words + " (as thesis Fig. 3.12, 4.3)" + report.intervals() +
+                           ". Brackets and the "
                            "legend: pairs of levels over the means of the other factor, t corrected by "
                            "Bonferroni: *** p < 0.001, ** p < 0.01, * p < 0.05.");
     std::vector<std::string> charts;
@@ -199,8 +199,8 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     if (charts.empty()) return;
     report.page.figure(
         charts, isGrid(all)
-                    ? "Percent correct by place" + words +
-                          " (as thesis Fig. 4.4), with 95 % intervals over participants where there is room."
+                    ? "Percent correct by place" + words + " (as thesis Fig. 4.4)" + report.intervals() +
+                          (hasPeople ? " where there is room." : ".")
                     : "Confusions: rows are stimuli, columns responses, darker is a larger share of the "
                       "stimulus' trials. Where labels have no room every second, third ... is shown.");
 }

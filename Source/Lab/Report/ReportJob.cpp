@@ -4,6 +4,7 @@
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Lab/Files/BidsDataset.h"
+#include "Lab/Report/StudyPlanned.h"
 
 namespace physvib {
 namespace {
@@ -38,11 +39,23 @@ Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protoco
     if (!texts) return Failure{texts.error};
     auto trials = readReportTrials(texts.value, job.columns, protocol, callFault);
     if (!trials) return Failure{trials.error};
+    for (std::size_t i = 0; i < job.files.size(); ++i) {
+        auto times = loadStudyTimes(timesPathOf(job.files[i]));
+        if (!times) return Failure{times.error};
+        trials.value.files[i].times = std::move(times.value);
+    }
     trials.value.columns = job.columns;
     trials.value.guess = job.guess;
     if (trials.value.all.column("target_x") && !trials.value.all.column("target_column")) // need one unit
         if (std::string fault = unitFault(job.columns); !fault.empty()) return Failure{std::move(fault)};
     StudyFacts facts{{}, job.ethics, job.consent, job.noise};
+    if (!job.planPath.empty()) {
+        auto plan = readFile(job.planPath, limits::maxTableBytes);
+        if (!plan) return Failure{plan.error};
+        if (const auto read = comparedWithPlan(plan.value, job.planPath, trials.value, {}); !read)
+            return Failure{read.error};
+        facts.plan = std::move(plan.value);
+    }
     if (!job.peoplePath.empty()) {
         const auto text = readFile(job.peoplePath, limits::maxTableBytes);
         auto people = text ? readPeople(text.value, job.peoplePath)

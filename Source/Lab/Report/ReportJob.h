@@ -19,6 +19,8 @@ struct ReportJob {
     std::string peoplePath{}; ///< table of facts on the participants (see StudyFacts.h); empty: unknown
     std::string ethics{}, consent{}, noise{}; ///< sentences for the page; if empty, the page has a reminder
 
+    std::string planPath{}; ///< plan of the study, made before it; empty: none
+
     bool operator==(const ReportJob&) const = default;
 };
 

@@ -12,19 +12,24 @@
 namespace physvib {
 namespace {
 
-/// Guess rate of the forced choice: 1 / alternatives.
-double guessOf(const ReportTrials& trials) {
-    if (trials.protocol)
-        for (const SessionPlan& session : trials.protocol->sessions)
-            if (session.adaptedAlternative() && session.alternatives.size() > 1)
-                return 1.0 / static_cast<double>(session.alternatives.size());
-    return trials.guess;
+/// The protocol's model of answers; of a staircase, which has none, the logistic with its guess rate.
+PsychometricModel modelOf(const ReportTrials& trials) {
+    PsychometricModel model;
+    model.guess = trials.guess;
+    if (!trials.protocol) return model;
+    for (const SessionPlan& session : trials.protocol->sessions) {
+        if (!session.adaptedAlternative() || session.alternatives.size() < 2) continue;
+        model.guess = session.guessRate();
+        if (session.quest) model.shape = session.quest->shape, model.lapseUpTo = session.quest->lapse;
+        break;
+    }
+    return model;
 }
 
 void tellThresholds(ReportBuilder& report) {
     report.page.subheading("Psychometric functions");
     AnalysisJob fit = report.optionsFor(trialsTable);
-    fit.model.guess = guessOf(report.trials);
+    fit.model = modelOf(report.trials);
     if (const auto words = report.analysis("psychometric", fit, "psychometric.csv"); !words.error.empty())
         return;
     const NamedText file{report.tableText(trialsTable), trialsTable};
@@ -36,14 +41,27 @@ void tellThresholds(ReportBuilder& report) {
         charts.push_back(psychometricChart(
             report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
             condition.trials, fit.model, words));
-    report.page.figure(
-        charts, "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-                    ". Circles: all participants' trials, larger where there were more; thin lines: the "
-                    "function of each participant; thick: their mean threshold and width. Dotted: mean "
-                    "threshold, shaded its 95 % interval over participants. The functions are logistic, with "
-                    "a guess rate of " +
-                    numberText(100.0 * fit.model.guess) + " % and lapse rates of up to " +
-                    numberText(100.0 * fit.model.lapseUpTo) + " %.");
+    const std::string points = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+                               ". Circles: all participants' trials, larger where there were more; ",
+                      model = std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
+                              ", with a guess rate of " + numberText(100.0 * fit.model.guess) +
+                              " % and lapse rates of up to " + numberText(100.0 * fit.model.lapseUpTo) +
+                              " %.";
+    const std::string threshold = report.people() > 1
+                                      ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
+                                      : "Dotted: threshold. ";
+    if (data.value.conditions.front().trials.front().isAdaptive)
+        report.page.figure(charts, points + "no functions are drawn, as answers chose the levels. " +
+                                       threshold +
+                                       "Thresholds are where the function is half way between guessing and "
+                                       "certainty, which need not be where the method ends (levels.csv); "
+                                       "the functions are " +
+                                       model);
+    else
+        report.page.figure(charts, points +
+                                       "thin lines: the function of each participant; thick: their mean "
+                                       "threshold and width. " +
+                                       threshold + "The functions are " + model);
 }
 
 void tellMagnitudes(ReportBuilder& report) {
@@ -57,10 +75,11 @@ void tellMagnitudes(ReportBuilder& report) {
     for (const auto& condition : data.value.conditions)
         charts.push_back(powerLawChart(report.frame(condition.name.empty() ? "Magnitudes" : condition.name),
                                        condition.trials, "level"));
-    report.page.figure(charts,
-                       "Magnitude estimations: geometric means over participants with 95 % intervals, and "
-                       "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
-                       "their own geometric mean first, as everyone chooses a scale.");
+    report.page.figure(
+        charts, "Magnitude estimations: geometric means" + report.intervals() +
+                    ", and "
+                    "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
+                    "their own geometric mean first, as everyone chooses a scale.");
     AnalysisJob test = report.optionsFor(trialsTable);
     test.measure = "value";
     test.within = {"stimulus"};
@@ -131,9 +150,8 @@ void tellLevels(ReportBuilder& report) {
         return;
     tellEndsOfRanges(report);
     if (const std::string chart = matchesChart(report, summariseLevels(trials)); !chart.empty())
-        report.page.figure(
-            {chart},
-            "Levels that were set until both were equally strong: means, 95 % intervals over participants.");
+        report.page.figure({chart}, "Levels that were set until both were equally strong: means" +
+                                        report.intervals() + ".");
     if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest)) tellThresholds(report);
     if (has(LevelTrial::Kind::magnitude)) tellMagnitudes(report);
 }

@@ -110,8 +110,8 @@ void tellPlaces(ReportBuilder& report) {
     const auto& all = report.trials.all;
     report.page.figure(
         {perceivedChart(report, all, places, false), perceivedChart(report, all, places, true)},
-        "Mean perceived column and row against the intended one (as thesis Fig. 4.7), 95 % intervals over "
-        "participants.");
+        "Mean perceived column and row against the intended one (as thesis Fig. 4.7)" + report.intervals() +
+            ".");
     report.page.figure(territories, "The likeliest target of every place (Eq. 4.4, 4.5; as thesis Fig. 4.8). "
                                     "Numbers, row,column of the target, stand at the mean of its responses; "
                                     "where one lies in another's territory, it is not told apart.");

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Report sections on participants and procedure, for the methods section of a paper, from the study's files.
 #include "Io/Text/CsvText.h"
+#include "Io/Text/NameList.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialColumns.h"
 #include "Lab/Report/ProtocolWords.h"
+#include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
+#include "Lab/Report/UnfinishedRuns.h"
 #include "Lab/Statistics/Bootstrap.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/StudyTasks.h"
@@ -17,26 +20,9 @@
 namespace physvib {
 namespace {
 
-/// Cells of a row by column name; an empty string for missing columns.
-class Cells {
-public:
-    explicit Cells(const CsvTable& table)
-        : table_{table} {}
-    const std::string& operator()(const CsvRow& row, std::string_view column) const {
-        static const std::string none;
-        const auto at = table_.column(column);
-        return at ? row.cells[*at] : none;
-    }
-    bool has(std::string_view column) const { return table_.column(column).has_value(); }
-
-private:
-    const CsvTable& table_;
-};
-
 struct Attended {
     std::string number, observer;
     std::size_t main = 0, training = 0, unanswered = 0;
-    std::size_t adaptive = 0; ///< number of main trials in adaptive sessions
     std::vector<double> seconds;
 };
 
@@ -54,8 +40,6 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
                 if (number != file.head.end()) found->second.number = number->second;
             }
             Attended& own = found->second;
-            const bool isMain = cell(row, trialColumns::phase) != trialColumns::training;
-            own.adaptive += isMain && trials.knowTasks() && !cell(row, "correct").empty();
             own.observer = cell(row, trialColumns::observer);
             (cell(row, trialColumns::phase) == trialColumns::training ? own.training : own.main) += 1;
             own.unanswered +=
@@ -66,6 +50,16 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
         }
     }
     return people;
+}
+
+/// True if a main trial of our own files was right or wrong at a level that followed the answers.
+bool hasAdaptiveRows(const ReportTrials& trials) {
+    const Cells cell{trials.all};
+    return trials.knowTasks() && std::ranges::any_of(trials.all.rows, [&](const CsvRow& row) {
+               return cell(row, trialColumns::phase) != trialColumns::training &&
+                      answerOf(cell(row, trialColumns::task)) == AnswerKind::choice &&
+                      !cell(row, "correct").empty();
+           });
 }
 
 /// Lists the deviations of a built-in protocol from the thesis.
@@ -130,67 +124,6 @@ void tellCalls(ReportBuilder& report) {
     }
 }
 
-/// Numbers of a cell such as "0.5|0.3", which has two parts.
-std::vector<double> numbersOf(std::string_view cell) {
-    std::vector<double> numbers;
-    while (!cell.empty())
-        if (const auto number = parseNumber<double>(takeUntil('|', cell))) numbers.push_back(*number);
-    return numbers;
-}
-
-/// A sentence on a column of the table of tellDoses(), followed by a space.
-std::string meaningOf(std::string_view column) {
-    if (column == "level_db")
-        return "level_db: in dB of the condition's own level, or of a call's full scale; where participants "
-               "set a "
-               "level, that at the start. ";
-    if (column == trialColumns::peakG)
-        return "peak_g: the peak of what was felt, of each part of a trial, in g. ";
-    if (column == trialColumns::rmsG) return "rms_g: its root mean square, in g. ";
-    if (column == trialColumns::exposure)
-        return "a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1. ";
-    return {};
-}
-
-/// Table of the numeric columns on level and exposure, by condition.
-void tellDoses(ReportBuilder& report) {
-    if (!report.trials.knowTasks()) return; // units of other programs are unknown
-    const CsvTable& all = report.trials.all;
-    const Cells cell{all};
-    ExportTable table{"levels-and-exposure", report.isSimulated(),
-                      "condition,session,measure,values,least,mean,most"};
-    std::string meanings;
-    for (const std::string& column : all.columns) {
-        if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
-        std::map<std::pair<std::string, std::string>, std::vector<double>> values;
-        for (const CsvRow& row : all.rows)
-            for (const double value : numbersOf(cell(row, column)))
-                values[{cell(row, "condition"), cell(row, "session")}].push_back(value);
-        if (column == "level_db" && std::ranges::all_of(values, [](const auto& v) {
-                return std::ranges::all_of(v.second, [](double db) { return db == 0.0; });
-            }))
-            continue;
-        if (!values.empty()) meanings += meaningOf(column);
-        for (const auto& [key, own] : values) {
-            double sum = 0.0;
-            for (const double value : own) sum += value;
-            // means of adaptive levels and accumulated exposure have no meaning
-            const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
-            table.row(key.first, key.second, column, own.size(), *std::ranges::min_element(own),
-                      hasMean ? std::optional{sum / static_cast<double>(own.size())} : std::nullopt,
-                      *std::ranges::max_element(own));
-        }
-    }
-    report.page.subheading("Levels and exposure");
-    if (meanings.empty())
-        return report.page.paragraph("Every trial had the level of its call; nobody measured what was felt.");
-    report.addTable("levels-and-exposure.csv", table.text());
-    report.page.paragraph(meanings.substr(0, meanings.size() - 1));
-    report.page.table(table.text(), "levels-and-exposure.csv");
-    if (meanings.find(trialColumns::exposure) == std::string::npos)
-        report.page.note("exposure was not measured in these trials");
-}
-
 /// "6 female, 5 male, 1 not known": counts of each word. `strangers` is the number of participants without an
 /// entry.
 std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t strangers,
@@ -248,6 +181,17 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
     if (!report.isSimulated() || !facts.people.empty()) report.page.notes(notes);
 }
 
+/// The number chooses the orders: people who share one had the same.
+void tellSameNumbers(ReportPage& page, const std::vector<std::pair<std::string, Attended>>& people) {
+    std::map<std::string, std::vector<std::string>> codes;
+    for (const auto& [code, own] : people)
+        if (!own.number.empty()) codes[own.number].push_back(code);
+    for (const auto& [number, same] : codes)
+        if (same.size() > 1)
+            page.note("participants " + listed(same) + " have the same number, " + number +
+                      ": they had the same orders, which nothing balances");
+}
+
 /// Explains which training trials count: adjustments and staircases count in every session.
 std::string trainingWords(const CsvTable& all) {
     const Cells cell{all};
@@ -284,7 +228,7 @@ void tellParticipants(ReportBuilder& report) {
                         one.excluded);
         }
         table.endRow();
-        if (!facts.isExcluded(code)) most = std::max(most, own.main - own.adaptive);
+        if (!facts.isExcluded(code)) most = std::max(most, own.main);
     }
     report.addTable("participants.csv", table.text());
     report.page.paragraph(counted(people.size(), "participant") + " in " +
@@ -296,13 +240,16 @@ void tellParticipants(ReportBuilder& report) {
                          "nothing here says anything about other people");
     report.page.table(table.text(), "participants.csv");
     std::vector<std::string> exclusions;
+    for (const UnfinishedRun& run : unfinishedRuns(report.trials)) exclusions.push_back(run.words());
+    // Without a protocol only others tell how many trials there were; adaptive sessions have no fixed number.
+    const bool canCompare = !report.trials.protocol && !hasAdaptiveRows(report.trials);
     for (const auto& [code, own] : people) {
         if (facts.isExcluded(code)) {
             exclusions.push_back("participant " + code +
                                  " is excluded, with all trials: " + facts.person(code)->excluded);
             continue;
         }
-        if (own.main - own.adaptive < most)
+        if (canCompare && own.main < most)
             exclusions.push_back("participant " + code + " has " + std::to_string(own.main) +
                                  " trials, others have up to " + std::to_string(most) +
                                  ": tests leave out who lacks a combination of levels");
@@ -313,7 +260,11 @@ void tellParticipants(ReportBuilder& report) {
     if (report.trials.rowsLeftOut > 0)
         exclusions.push_back(counted(report.trials.rowsLeftOut, "row") +
                              " with nothing in one of the named columns left out");
+    tellSameNumbers(report.page, people);
     report.page.subheading("Exclusions");
+    if (!report.trials.protocol && hasAdaptiveRows(report.trials))
+        report.page.note("whether everyone finished is not known: levels followed the answers, and the "
+                         "protocol, which says when that ends, is not known");
     if (exclusions.empty())
         report.page.paragraph("Nobody and no main trial is left out.");
     else
@@ -330,6 +281,7 @@ void tellProcedure(ReportBuilder& report) {
         report.page.note(report.trials.protocolNote);
     tellOrders(report);
     tellApparatus(report);
+    tellTimes(report);
     tellCalls(report);
     tellDoses(report);
 }
@@ -345,11 +297,11 @@ void tellProvenance(ReportBuilder& report) {
         if (const std::string value = report.trials.common(key); !value.empty())
             facts.push_back(words + value);
     const auto has = [&](const char* table) { return report.tables().contains(table); };
-    if (has("psychometric.csv") || has("power-law.csv"))
+    if (report.people() > 1 && (has("psychometric.csv") || has("power-law.csv")))
         facts.push_back("intervals of thresholds and exponents over " + std::to_string(fewestDrawn) +
                         " participants or more: " + std::to_string(bootstrapDraws) +
                         " draws of participants, seed 1; all other intervals over participants: Student's t");
-    else
+    else if (report.people() > 1)
         facts.emplace_back("intervals over participants: Student's t");
     report.page.list(facts);
     report.page.paragraph(std::string{"Every table below is CSV with names in its first line"} +

@@ -120,8 +120,10 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
         if (std::string fault = callsFault(table.value, callFault); !fault.empty())
             return Failure{std::move(fault)};
         if (std::string fault = shared.add(table.value); !fault.empty()) return Failure{std::move(fault)};
-        TrialFile file{std::filesystem::path{path}.filename().string(), trialHeadOf(table.value.comments),
-                       std::move(table.value)};
+        TrialFile file{std::filesystem::path{path}.filename().string(),
+                       trialHeadOf(table.value.comments),
+                       std::move(table.value),
+                       {}};
         if (!trials.files.empty()) {
             const TrialFile& first = trials.files.front();
             if (valueOf(first, "protocol") != valueOf(file, "protocol"))

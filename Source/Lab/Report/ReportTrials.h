@@ -4,6 +4,7 @@
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
 #include "Lab/Files/ColumnNames.h"
+#include "Lab/Files/StudyTimes.h"
 #include "Lab/Files/TrialHead.h"
 #include "Lab/Report/StudyFacts.h"
 #include "Lab/Statistics/Psychometric.h"
@@ -22,6 +23,7 @@ struct TrialFile {
     std::string name; ///< without folder
     TrialHead head;
     CsvTable table;
+    std::vector<StudyMoment> times{}; ///< of the file beside it; empty: there is none
 };
 
 struct ReportTrials {

@@ -39,6 +39,11 @@ bool hasWord(std::string_view condition, const std::string& factor, const std::s
     return false;
 }
 
+/// Shares of one participant have Wilson's interval over trials.
+std::string shareIntervals(const ReportBuilder& report) {
+    return report.people() > 1 ? report.intervals() : ", of one participant: 95 % intervals over trials";
+}
+
 void tellChoiceTests(ReportBuilder& report,
                      const std::vector<std::pair<std::string, std::vector<std::string>>>& factors,
                      const std::string& alternative) {
@@ -156,9 +161,9 @@ void tellChoices(ReportBuilder& report) {
     report.page.figure(
         {sharesChart(report.frame("Shares of the alternatives"), names.empty() ? "condition" : names, groups,
                      chosen)},
-        "Mean of the participants' shares (as thesis Fig. 5.8, which has medians), 95 % intervals over "
-        "participants. Marks: signed ranks of the shares against one half, corrected by Holm for the bars of "
-        "this figure: * p < 0.05, ** p < 0.01, *** p < 0.001.");
+        "Mean of the participants' shares (as thesis Fig. 5.8, which has medians)" + shareIntervals(report) +
+            ". Marks: signed ranks of the shares against one half, corrected by Holm for the bars of "
+            "this figure: * p < 0.05, ** p < 0.01, *** p < 0.001.");
     if (summaries.front().shares.size() != 2) return;
     const std::string alternative = summaries.front().shares.front().alternative;
     tellChoiceTests(report, factors, alternative);
@@ -168,7 +173,7 @@ void tellChoices(ReportBuilder& report) {
     if (several.size() < 2) return;
     report.page.figure(
         {combinationChart(report, trials, several[several.size() - 2], several.back(), alternative)},
-        "Shares by two factors (as thesis Fig. 5.9), 95 % intervals over participants, within 0 and 100 %.");
+        "Shares by two factors (as thesis Fig. 5.9)" + shareIntervals(report) + ", within 0 and 100 %.");
 }
 
 void tellRatings(ReportBuilder& report) {
@@ -204,15 +209,16 @@ void tellRatings(ReportBuilder& report) {
     if (hasMethods)
         report.page.figure(
             factorCharts(report, scales, summaries, tests),
-            "Mean scores by factor (as thesis Fig. 5.13), 95 % intervals over participants. Marks: main "
-            "effect in the analysis of variance of that scale (two levels each, so no pairs are to be "
-            "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05.");
+            "Mean scores by factor (as thesis Fig. 5.13)" + report.intervals() +
+                ". Marks: main "
+                "effect in the analysis of variance of that scale (two levels each, so no pairs are to be "
+                "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05.");
     std::vector<const RatingSummary*> shown;
     for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) // reverse order, so that AV-FV-DRV comes
                                                                      // first
         if (conditions.contains(at->condition)) shown.push_back(&*at);
     report.page.figure({scoresChart(report.frame("Mean scores"), scales, shown)},
-                       "Mean scores by condition (as thesis Fig. 5.14), 95 % intervals over participants.");
+                       "Mean scores by condition (as thesis Fig. 5.14)" + report.intervals() + ".");
 }
 
 } // namespace physvib

@@ -24,6 +24,7 @@ struct StudyFacts {
     std::vector<PersonFacts> people;
     std::string ethics, consent; ///< sentences for the report; if empty, the report has a reminder
     std::string noise;           ///< sentence on the noise level at the ear, likewise
+    std::string plan{};          ///< text of the plan (StudyPlanned.h); empty: none was given
     bool operator==(const StudyFacts&) const = default;
 
     /// Null if the table has no such participant. Any thread.

@@ -4,6 +4,7 @@
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Report/ReportScript.h"
 #include "Lab/Report/ReportSections.h"
+#include "Lab/Report/StudyPlanned.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
 
@@ -62,11 +63,16 @@ StudyReport studyReport(const ReportTrials& trials) {
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
     tellPower(report);
+    for (const ReportTest& test : report.tests()) made.tests.push_back(test.call());
+    if (!trials.facts.plan.empty()) {
+        report.page.heading("Planned and done");
+        const auto compared = comparedWithPlan(trials.facts.plan, "plan", trials, made.tests);
+        report.page.list(compared.value);
+    }
     tellProvenance(report);
     made.files = report.tables();
     made.files["report.R"] = reportScript(report);
     made.files["index.html"] = report.page.html();
-    for (const ReportTest& test : report.tests()) made.tests.push_back(test.call());
     return made;
 }
 

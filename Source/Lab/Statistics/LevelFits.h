@@ -12,6 +12,7 @@ namespace physvib {
 struct LevelAnswer {
     std::string participant;
     double level = 0.0, answer = 0.0;
+    bool isAdaptive = false; ///< earlier answers chose the level, so the answers do not tell the slope
 };
 
 struct ParticipantPsychometric {

@@ -40,7 +40,7 @@ inline std::string callFault(std::string_view call) {
     if (!call.starts_with("render ") && !call.starts_with("stimulus "))
         return "expected render or stimulus, and what they take";
     if (const auto unknown = call.find('{'); unknown != std::string_view::npos)
-        return "expected names of factors in braces, or alternative, object, level_db; found " +
+        return "expected names of factors or variables in braces, or alternative, object, level_db; found " +
                std::string(call.substr(unknown, call.find('}', unknown) - unknown)) + "}";
     if (!std::ranges::all_of(call, [](char c) { return c == ' ' || isPlainCharacter(c); }))
         return "expected letters, digits, spaces and _-+.,:=/%";

@@ -53,8 +53,11 @@ Result<Stimulus> makeStimulus(const StimulusJob& job, const LayoutDescription& l
         return patternStimulus(*parsePatternLabel(pattern->label), layout.geometry.count, carrier,
                                pattern->gapSeconds);
     const auto& phantom = *std::get_if<PhantomJob>(&job.what);
-    return phantomStimulus(phantom.place(), layout.geometry, phantom.law, phantom.exponent, carrier,
-                           phantom.seconds);
+    Stimulus made = phantomStimulus(phantom.place(), layout.geometry, phantom.law, phantom.exponent, carrier,
+                                    phantom.seconds);
+    made.events.front().decayPerSecond = phantom.decayPerSecond;
+    made.events.front().amplitude *= phantom.peakFactor();
+    return made;
 }
 
 } // namespace physvib

@@ -2,8 +2,10 @@
 // Validates a protocol as a whole, and lists the stimuli of its conditions.
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/CallWords.h"
+#include "Lab/Study/NumberWord.h"
 #include "Lab/Study/Trial.h"
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace physvib {
@@ -73,6 +75,10 @@ std::string taskFault(const SessionPlan& s) {
         if (std::string fault = questFault(*s.quest); !fault.empty()) return "quest" + fault;
     if (answer == Kind::wish && !s.isTraining)
         return "task: expected " + std::string{describe(s.task).name} + " in a training session only";
+    if (s.givesFeedback && !s.hasCorrectAnswers())
+        return "feedback: expected it where answers are right or wrong: of a label, a staircase or QUEST+";
+    if (s.intervalSeconds > 0.0 && s.alternatives.size() < 2 && s.objects.size() < 2)
+        return "interval_s: expected two or more alternatives or objects, which follow one another";
     if (answer != Kind::wish && s.fewestTouches > 0)
         return "fewest_touches: expected it of " + tasksThatAnswer({Kind::wish}) + " only";
     return {};
@@ -90,6 +96,11 @@ std::string valuesFault(const CallSet& calls) {
     for (const StudyFactor& factor : calls.factors)
         if (!isPlain(factor.name) || !std::ranges::all_of(factor.values, isPlain))
             return "factors: expected names and values without braces";
+    std::set<std::string> names{"alternative", "object", "level_db"};
+    for (const StudyFactor& factor : calls.factors) names.insert(factor.name);
+    for (const StudyVariable& variable : calls.variables)
+        if (!isPlain(variable.name) || !names.insert(variable.name).second)
+            return "variables: expected a name of its own for each, without braces, found " + variable.name;
     return {};
 }
 
@@ -228,7 +239,7 @@ std::string firstCallFault(const Protocol& p, const ConditionPlan& c,
     const auto parts = namedPartsOf(p, *calls);
     for (const StimulusItem& item : stimuliOf(c))
         for (const std::string& part : parts)
-            if (std::string fault = faultOf(callOf(*calls, item, part, "0")); !fault.empty()) return fault;
+            if (std::string fault = faultOf(callOf(*calls, item, part, 0.0)); !fault.empty()) return fault;
     return {};
 }
 
@@ -289,6 +300,10 @@ std::string validate(const Protocol& p) {
     return {};
 }
 
+double StudyVariable::at(double levelDb) const noexcept {
+    return std::round(at0Db * std::pow(10.0, 0.05 * levelDb) * 1e6) * 1e-6; // short text, as of levels
+}
+
 std::string picturePath(const MaterialPictureFile& picture, const std::string& participant) {
     std::string path = picture.file;
     replaceAll(path, "{participant}", participant);
@@ -313,13 +328,14 @@ std::set<std::string> callPartsOf(const Protocol& p) {
     return parts;
 }
 
-std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part,
-                   const std::string& levelDb) {
+std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb) {
     std::string words = set.call;
     for (const auto& [name, value] : item.values) replaceAll(words, "{" + name + "}", value);
     replaceAll(words, "{alternative}", part);
     replaceAll(words, "{object}", part);
-    replaceAll(words, "{level_db}", levelDb);
+    replaceAll(words, "{level_db}", numberWord(levelDb));
+    for (const StudyVariable& variable : set.variables)
+        replaceAll(words, "{" + variable.name + "}", numberWord(variable.at(levelDb)));
     return words;
 }
 

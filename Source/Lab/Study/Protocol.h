@@ -47,11 +47,20 @@ struct StudyFactor {
     bool operator==(const StudyFactor&) const = default;
 };
 
+/// A quantity of a call that follows the trial's level, as a ratio: at0Db * 10^(level / 20 dB).
+struct StudyVariable {
+    std::string name; ///< with its unit, e.g. "decay_per_s"
+    double at0Db = 1.0;
+    bool operator==(const StudyVariable&) const = default;
+    double at(double levelDb) const noexcept;
+};
+
 /// Stimuli made by calls of `physvib`: every combination of the factors' values replaces {name} in `call`.
-/// {alternative}, {object} and {level_db} are replaced by those of the trial.
+/// {alternative}, {object}, {level_db} and the variables are replaced by those of the trial.
 struct CallSet {
     std::vector<StudyFactor> factors;
     std::string call; ///< e.g. "render drop --set pair={pair} --method {alternative}"
+    std::vector<StudyVariable> variables{};
     bool operator==(const CallSet&) const = default;
 };
 
@@ -118,8 +127,10 @@ struct StaircasePlan {
     std::string alternative;
     double startDb = 6.0, stepDb = 2.0; ///< the step is halved at every reversal, down to leastStepDb
     double leastStepDb = 0.5, leastDb = 0.0, mostDb = 40.0;
-    int down = 2;      ///< consecutive correct answers that lower the level; 2 converges to 70.7 %
-    int reversals = 8; ///< number of reversals at which it ends
+    double upRatio = 1.0; ///< upward step per downward step; 3 with `down` 1 converges to 75 % (Kaernbach
+                          ///< 1991)
+    int down = 2;         ///< consecutive correct answers that lower the level; 2 converges to 70.7 %
+    int reversals = 8;    ///< number of reversals at which it ends
     int mostTrials = 200;
     bool operator==(const StaircasePlan&) const = default;
 };
@@ -136,7 +147,10 @@ struct SessionPlan {
     std::string name;
     bool isTraining = false; ///< not analysed
     StudyTask task = StudyTask::identify;
-    std::string question; ///< text for the participant; empty: the default text of the task
+    std::string question;         ///< text for the participant; empty: the default text of the task
+    std::string instruction;      ///< text of the page before the session; empty: that of the task
+    bool givesFeedback = false;   ///< tells after each answer whether it was correct
+    double intervalSeconds = 0.0; ///< all parts are played one after the other, so far apart; 0: one by one
     Order order = Order::random;
     int repetitions = 1;
     int fewestTouches = 0;     ///< explore: minimum number of touches; 0: every stimulus once
@@ -163,6 +177,10 @@ struct SessionPlan {
     /// The alternative whose level a staircase or QUEST+ controls; null if there is none.
     const std::string* adaptedAlternative() const noexcept {
         return staircase ? &staircase->alternative : quest ? &quest->alternative : nullptr;
+    }
+    /// True if answers are correct or not.
+    bool hasCorrectAnswers() const noexcept {
+        return answer() == AnswerKind::label || adaptedAlternative() != nullptr;
     }
     /// Chance of a correct guess in a choice.
     double guessRate() const noexcept { return 1.0 / static_cast<double>(alternatives.size()); }
@@ -213,8 +231,7 @@ std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition);
 
 /// The call of a stimulus with all names replaced; `part` is the alternative or object. Any thread
 /// (allocates).
-std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part,
-                   const std::string& levelDb);
+std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb);
 
 /// All alternatives and objects that can be put into calls; if there are none, one empty name. Any thread
 /// (allocates).

@@ -15,6 +15,7 @@ namespace physvib {
 struct LocationTrial {
     int targetColumn = 0, targetRow = 0;
     double x = 0.0, y = 0.0;
+    std::string participant{};
     bool operator==(const LocationTrial&) const = default;
 };
 
@@ -75,5 +76,19 @@ CellSpread cellSpread(const std::vector<LocationTrial>& trials,
 /// Any thread (allocates).
 ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
                                      double thresholdPercent = defaultPercentThreshold);
+
+/// How far perceptual resolutions of conditions lie apart by chance.
+struct CellChance {
+    double cells = 0.0;     ///< a larger difference happens in at most 5 % of studies without one
+    std::size_t people = 0; ///< with trials in all conditions; fewer than two: trials are exchanged instead
+};
+
+/// The largest difference of any two of the conditions' numbers of cells, where their names say nothing: each
+/// draw exchanges the conditions within each person, or of one person the trials within each target.
+/// Precondition: the conditions have the same targets. The same seed gives the same result. Any thread
+/// (allocates).
+CellChance cellChance(const std::vector<std::vector<LocationTrial>>& conditions,
+                      double thresholdPercent = defaultPercentThreshold, int draws = 199,
+                      std::uint64_t seed = 1);
 
 } // namespace physvib

@@ -30,7 +30,8 @@ public:
             stepDb_ = std::max(plan_.leastStepDb, 0.5 * stepDb_);
         }
         lastDirection_ = direction;
-        levelDb_ = std::clamp(levelDb_ + direction * stepDb_, plan_.leastDb, plan_.mostDb);
+        levelDb_ = std::clamp(levelDb_ + (direction > 0 ? plan_.upRatio : -1.0) * stepDb_, plan_.leastDb,
+                              plan_.mostDb);
     }
 
     const std::vector<double>& reversals() const noexcept { return reversals_; }

@@ -3,6 +3,7 @@
 #include "Lab/Study/StimulusJob.h"
 #include "Lab/Study/NumberWord.h"
 #include "Lab/Study/PercentCounts.h"
+#include <cmath>
 
 namespace physvib {
 namespace {
@@ -40,6 +41,7 @@ JobFault faultOfKind(const PhantomJob& phantom) {
     if (auto fault = std::visit([](const auto& place) { return placeFault(place); }, phantom.at))
         return fault;
     if (auto fault = rangeFault(words::exponent, phantom.exponent, ranges::exponent)) return fault;
+    if (auto fault = rangeFault(words::decay, phantom.decayPerSecond, ranges::decayPerSecond)) return fault;
     return rangeFault(words::seconds, phantom.seconds, ranges::seconds);
 }
 
@@ -48,6 +50,13 @@ JobFault faultOfKind(const PhantomJob& phantom) {
 FieldPlace PhantomJob::place() const noexcept {
     if (const auto* const point = std::get_if<GridPlace>(&at)) return point->grid.place(point->cell);
     return *std::get_if<FieldPlace>(&at);
+}
+
+double PhantomJob::peakFactor() const noexcept {
+    const double twice = 2.0 * decayPerSecond, // integral of the squared envelope, in s:
+        envelopeSeconds = twice > 0.0 ? -std::expm1(-twice * seconds) / twice : seconds;
+    return levelOf == LevelOf::peak ? 1.0
+                                    : std::sqrt((levelOf == LevelOf::rms ? seconds : 1.0) / envelopeSeconds);
 }
 
 JobFault faultOf(const StimulusJob& job) {

@@ -6,6 +6,7 @@
 #include "Core/PhantomPanner.h"
 #include "Lab/Study/PhantomGrid.h"
 #include "Stimuli/PulsePattern.h"
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,7 +21,8 @@ struct StimulusRange {
 };
 namespace stimulusRanges {
 inline constexpr StimulusRange share{0.0, 1.0}, frequencyHz{limits::slowestToneHz, limits::maxFrequencyHz},
-    levelG{1e-6, 1000.0}, gapSeconds{0.0, 10.0}, exponent{0.01, 100.0}, seconds{0.001, 600.0};
+    levelG{1e-6, 1000.0}, gapSeconds{0.0, 10.0}, exponent{0.01, 100.0}, seconds{0.001, 600.0},
+    decayPerSecond{0.0, 10000.0};
 } // namespace stimulusRanges
 
 /// Consecutive pulses on single actuators.
@@ -37,16 +39,25 @@ struct GridPlace {
     bool operator==(const GridPlace&) const = default;
 };
 
+/// What levelG is of: the peak; the peak of an undamped tone with the same root mean square over the length;
+/// or that of an undamped tone of one second with the same energy.
+enum class LevelOf { peak, rms, energy };
+inline constexpr std::array<std::string_view, 3> levelOfNames{"peak", "rms", "energy"};
+
 /// A phantom sensation between the actuators.
 struct PhantomJob {
     std::variant<FieldPlace, GridPlace> at;
     PanningLaw law = PanningLaw::linear;
     double exponent = 1.0, seconds = 1.0;
+    double decayPerSecond = 0.0; ///< of the amplitude, exp(-decay t); 0: a rectangular burst
+    LevelOf levelOf = LevelOf::peak;
     std::string recording{}; ///< a mono file that replaces the tone, with its own rate and length; empty:
                              ///< none
     bool operator==(const PhantomJob&) const = default;
 
     FieldPlace place() const noexcept;
+    /// Peak over levelG that levelOf asks for.
+    double peakFactor() const noexcept;
 };
 
 struct StimulusJob {
@@ -62,7 +73,8 @@ struct StimulusJob {
 namespace stimulusWords {
 inline constexpr char at[] = "--at", grid[] = "--grid", cell[] = "--cell", points[] = "--points",
                       layout[] = "--layout", frequency[] = "--frequency", levelG[] = "--level-g",
-                      gap[] = "--gap", law[] = "--law", exponent[] = "--exponent", seconds[] = "--seconds";
+                      gap[] = "--gap", law[] = "--law", exponent[] = "--exponent", seconds[] = "--seconds",
+                      decay[] = "--decay", levelOf[] = "--level-of";
 inline constexpr char resonance[] = "resonance"; ///< in place of a frequency
 } // namespace stimulusWords
 

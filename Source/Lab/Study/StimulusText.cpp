@@ -61,6 +61,9 @@ std::string textOf(const PhantomJob& phantom, const StimulusJob& job) {
     CallWriter call{"stimulus phantom"};
     std::visit([&](const auto& place) { addPlace(call, place); }, phantom.at);
     call.addCarrier(job).add(words::law, nameOf(phantom.law)).add(words::exponent, phantom.exponent);
+    if (phantom.decayPerSecond != 0.0) call.add(words::decay, phantom.decayPerSecond);
+    if (phantom.levelOf != LevelOf::peak)
+        call.add(words::levelOf, levelOfNames[static_cast<std::size_t>(phantom.levelOf)]);
     return call.add(words::seconds, phantom.seconds).text;
 }
 

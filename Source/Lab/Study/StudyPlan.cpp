@@ -3,6 +3,7 @@
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyOrder.h"
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
@@ -11,33 +12,88 @@
 namespace physvib {
 namespace {
 
-/// Maximum level of an alternative in a session, summed as Experiment does. An adjusted alternative is played
-/// at the adjusted level.
-double highestOf(const Protocol& protocol, const SessionPlan& session, const Alternative& alternative) {
-    const auto moves = [&](const auto& plan) { return plan && plan->alternative == alternative.name; };
-    if (moves(session.adjustment)) return session.adjustment->mostDb;
-    const auto from = std::ranges::find(protocol.sessions, session.levelsFrom, &SessionPlan::name);
-    double added = 0.0;
-    if (!session.levelsFrom.empty() && from != protocol.sessions.end() && moves(from->adjustment))
-        added = from->adjustment->mostDb;
-    else if (moves(session.staircase))
-        added = session.staircase->mostDb;
-    else if (moves(session.quest))
-        added = session.quest->mostDb;
-    else if (!session.levelsFile.empty())
-        for (const StimulusLevel& level : protocol.levels)
-            if (level.alternative == alternative.name) added = std::max(added, level.levelDb);
-    return alternative.levelDb + added;
+using Levels = std::set<double>; // in dB
+
+/// `start` and all that `steps` lead to within the range, up and down.
+Levels reachedFrom(double start, std::vector<double> steps, double least, double most) {
+    constexpr std::size_t mostLevels = 4096; // steps that do not divide one another reach ever more
+    Levels reached{start};
+    for (std::vector<double> next{start}; !next.empty() && reached.size() < mostLevels;) {
+        const double level = next.back();
+        next.pop_back();
+        for (const double step : steps)
+            for (const double other : {level - step, level + step})
+                if (const double at = std::round(std::clamp(other, least, most) * 1e6) * 1e-6;
+                    reached.insert(at).second)
+                    next.push_back(at);
+    }
+    return reached;
 }
 
-/// Parts of a session's trials, each with its maximum level; one part without a name if trials have none.
-std::map<std::string, double> partsOf(const Protocol& protocol, const SessionPlan& session) {
-    std::map<std::string, double> parts;
+Levels levelsOf(const Adjustment& a) {
+    Levels levels = reachedFrom(a.startDb, {a.stepDb}, a.leastDb, a.mostDb);
+    if (a.startsAnywhere) levels.merge(reachedFrom(a.leastDb, {a.stepDb}, a.leastDb, a.mostDb));
+    return levels;
+}
+
+Levels levelsOf(const StaircasePlan& s) {
+    std::vector<double> steps{s.stepDb};
+    while (steps.back() > s.leastStepDb) steps.push_back(std::max(s.leastStepDb, 0.5 * steps.back()));
+    if (s.upRatio != 1.0)
+        for (std::size_t i = steps.size(); i-- > 0;) steps.push_back(s.upRatio * steps[i]);
+    return reachedFrom(s.startDb, steps, s.leastDb, s.mostDb);
+}
+
+Levels levelsOf(const QuestMethod& q) {
+    const auto levels = questPlan(q, 0.5).levels;
+    return {levels.begin(), levels.end()};
+}
+
+/// Levels that an alternative can have in a session, summed as Experiment does. An adjusted alternative is
+/// played at the adjusted level.
+Levels levelsOf(const Protocol& protocol, const SessionPlan& session, const Alternative& alternative) {
+    const auto moves = [&](const auto& plan) { return plan && plan->alternative == alternative.name; };
+    if (moves(session.adjustment)) return levelsOf(*session.adjustment);
+    const auto from = std::ranges::find(protocol.sessions, session.levelsFrom, &SessionPlan::name);
+    Levels added;
+    if (!session.levelsFrom.empty() && from != protocol.sessions.end() && moves(from->adjustment))
+        added = {from->adjustment->leastDb, from->adjustment->mostDb}; // means of these, and all between
+    else if (moves(session.staircase))
+        added = levelsOf(*session.staircase);
+    else if (moves(session.quest))
+        added = levelsOf(*session.quest);
+    else if (!session.levelsFile.empty())
+        for (const StimulusLevel& level : protocol.levels)
+            if (level.alternative == alternative.name) added.insert(level.levelDb);
+    if (added.empty()) added = {0.0};
+    Levels levels;
+    for (const double db : added) levels.insert(alternative.levelDb + db);
+    return levels;
+}
+
+/// Parts of a session's trials, each with its levels; one part without a name if trials have none.
+std::map<std::string, Levels> partsOf(const Protocol& protocol, const SessionPlan& session) {
+    std::map<std::string, Levels> parts;
     for (const Alternative& alternative : session.alternatives)
-        parts[alternative.name] = highestOf(protocol, session, alternative);
-    for (const std::string& object : session.objects) parts[object] = 0.0;
-    if (parts.empty()) parts[{}] = 0.0;
+        parts[alternative.name] = levelsOf(protocol, session, alternative);
+    for (const std::string& object : session.objects) parts[object] = {0.0};
+    if (parts.empty()) parts[{}] = {0.0};
     return parts;
+}
+
+/// True if a level only scales the samples of this condition's stimuli.
+bool isGain(const ConditionPlan& condition) {
+    const CallSet* const calls = callSetOf(condition.stimuli);
+    if (calls == nullptr) return true; // of patterns and grids
+    constexpr std::string_view gain = "--level-db {level_db}", level = "{level_db}";
+    const auto countOf = [&](std::string_view words) {
+        std::size_t count = 0;
+        for (std::size_t at = calls->call.find(words); at != std::string::npos;
+             at = calls->call.find(words, at + 1))
+            ++count;
+        return count;
+    };
+    return calls->variables.empty() && countOf(level) == countOf(gain);
 }
 
 int trialsOf(const SessionPlan& session, std::size_t stimuli) {
@@ -66,7 +122,7 @@ std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
                 all.emplace_back(PlannedSession{s, c, trialsOf(protocol.sessions[s], items.size()), {}});
             const double each = static_cast<double>(planned.trials) / static_cast<double>(items.size());
             for (const StimulusItem& item : items)
-                for (const auto& [part, db] : partsOf(protocol, protocol.sessions[s]))
+                for (const auto& [part, levels] : partsOf(protocol, protocol.sessions[s]))
                     planned.felt.push_back({c, item.label, part, each});
         }
     }
@@ -82,26 +138,31 @@ TrialJob PlannedStimulus::job(const Protocol& protocol) const {
     record.trial.stimulus = label;
     if (!part.empty()) {
         record.trial.parts = {part};
-        record.trial.partLevelsDb = {highestDb};
-        record.answer.value = highestDb; // an adjustment plays its answered level
+        record.trial.partLevelsDb = {levelDb};
+        record.answer.value = levelDb; // an adjustment plays its answered level
     }
     return jobsOf(protocol, record).front();
 }
 
 std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
-    // maximum level, and the session that sets it
-    std::map<std::string, std::pair<double, std::size_t>> parts;
+    // of each part its levels, each with a session that sets it
+    std::map<std::string, std::map<double, std::size_t>> parts;
     for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
-        for (const auto& [name, db] : partsOf(protocol, protocol.sessions[s]))
-            if (const auto [at, isNew] = parts.try_emplace(name, db, s); !isNew && db > at->second.first)
-                at->second = {db, s};
+        for (const auto& [name, levels] : partsOf(protocol, protocol.sessions[s]))
+            for (const double db : levels) parts[name].try_emplace(db, s);
     // sessions without alternatives play the same stimuli
     if (parts.size() > 1) parts.erase(std::string{});
     std::vector<PlannedStimulus> planned;
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (const StimulusItem& item : stimuliOf(protocol.conditions[c]))
-            for (const auto& [name, of] : parts)
-                planned.push_back({c, of.second, item.label, name, of.first});
+            for (const auto& [name, levels] : parts)
+                for (const auto& [db, session] : levels) {
+                    const bool isHighest = db == levels.rbegin()->first;
+                    if (!isGain(protocol.conditions[c]))
+                        planned.push_back({c, session, item.label, name, db});
+                    else if (isHighest || db == levels.begin()->first)
+                        planned.push_back({c, session, item.label, name, db, isHighest});
+                }
     return planned;
 }
 

@@ -9,17 +9,20 @@
 
 namespace physvib {
 
-/// A stimulus of a condition, or one part of it, at the maximum level of all sessions.
+/// A stimulus of a condition, or one part of it, at a level that a session can reach.
 struct PlannedStimulus {
-    std::size_t condition = 0, session = 0; ///< the session is the one that sets the level
+    std::size_t condition = 0, session = 0; ///< the session is one that sets the level
     std::string label, part;                ///< part is empty if trials have none
-    double highestDb = 0.0;
+    double levelDb = 0.0;
+    bool isHighest = true; ///< false: a lower level of the same samples
 
     /// The job that creates the stimulus. Any thread (allocates).
     TrialJob job(const Protocol& protocol) const;
 };
 
-/// All planned stimuli, in the order of conditions. Any thread (allocates).
+/// All planned stimuli in the order of conditions, each with its levels from the lowest. A level that is only
+/// a gain scales the samples, so its lowest and its highest stand for all; any other use of it is listed
+/// level by level. Any thread (allocates).
 std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol);
 
 /// Number of plays of one part of a stimulus per participant, at one play per trial.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <functional>
 
 namespace physvib {
 namespace {
@@ -52,6 +53,10 @@ StudyInProgress::StudyInProgress(StudyRun run)
     , experiment_{run_.protocol, run_.participant, run_.participant.observer == Participant{}.observer}
     , error_{log_.error()} {
     if (!error_.empty()) return;
+    auto times = loadStudyTimes(timesPathOf(path_));
+    error_ = times.error;
+    times_ = std::move(times.value);
+    if (!error_.empty()) return;
     for (const TrialRecord& record : log_.records()) {
         const std::string fault = experiment_.redo(record);
         if (fault.empty()) continue;
@@ -62,6 +67,16 @@ StudyInProgress::StudyInProgress(StudyRun run)
     }
     before_ = experiment_.trialsTaken();
     if (isOfToday_ && before_ > 0) exposureToday_ = log_.records().back().answer.exposure.value_or(0.0);
+}
+
+std::string StudyInProgress::begin(const Apparatus& now) {
+    return note(log_.records().empty() ? studyEvents::start : studyEvents::resume, now);
+}
+
+std::string StudyInProgress::note(std::string_view event, const Apparatus& now) {
+    times_.push_back({utcNow(), std::string(event), experiment_.trialsTaken(), now.language, now.outputs,
+                      now.noiseOutputs});
+    return writeStudyTimes(timesPathOf(path_), times_);
 }
 
 std::string StudyInProgress::apparatusFault(const Apparatus& now) const {
@@ -80,6 +95,11 @@ std::string StudyInProgress::apparatusFault(const Apparatus& now) const {
         return differs("the master level", numberText(before.masterDb) + " dB",
                        numberText(now.masterDb) + " dB");
     if (before.noiseDb != now.noiseDb) return differs("the pink noise", noiseWords(before), noiseWords(now));
+    const auto began = std::find_if(times_.rbegin(), times_.rend(), std::mem_fn(&StudyMoment::isBegin));
+    if (began == times_.rend()) return {}; // begun by a version that wrote no times
+    if (began->outputs != now.outputs) return differs("the outputs", began->outputs, now.outputs);
+    if (began->noiseOutputs != now.noiseOutputs)
+        return differs("the outputs of the noise", began->noiseOutputs, now.noiseOutputs);
     return {};
 }
 

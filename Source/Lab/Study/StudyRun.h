@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One participant's run of a study with its trial file, for a person or a simulated observer.
 #pragma once
+#include "Lab/Files/StudyTimes.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/Experiment.h"
 #include <filesystem>
@@ -42,9 +43,14 @@ public:
     const std::filesystem::path& path() const noexcept { return path_; }
     const Experiment& experiment() const noexcept { return experiment_; }
     int trialsBefore() const noexcept { return before_; } ///< trials that the file had when it was opened
-    /// Empty, or one line naming the setting of the apparatus that differs from the last recorded trial. A
+    /// Empty, or one line naming the setting of the apparatus that differs from the last recorded trial, or
+    /// the outputs that differ from those of the last start. A
     /// newer program version is allowed, since each row has its version. Any thread (allocates).
     std::string apparatusFault(const Apparatus& now) const;
+    /// Writes the start or resume with this apparatus into the file of times. Empty, or why not.
+    std::string begin(const Apparatus& now);
+    /// Adds an event (studyEvents) with the current time. Empty, or why not.
+    std::string note(std::string_view event, const Apparatus& now = {});
     /// A(8) in m/s^2 after these trials, if the last of them is of today.
     double exposureToday() const noexcept { return exposureToday_; }
 
@@ -68,6 +74,7 @@ private:
     std::filesystem::path path_;
     bool isOfToday_;
     TrialLogFile log_;
+    std::vector<StudyMoment> times_; // of the file of times
     Experiment experiment_;
     int before_ = 0;
     double exposureToday_ = 0.0;

@@ -45,8 +45,8 @@ struct JobMaker {
     TrialJob operator()(const CallSet& set, const Part& part) const {
         const auto items = stimuliOf(condition);
         const auto item = std::ranges::find(items, label(), &StimulusItem::label);
-        return WrittenCall{withSounds(protocol, callOf(set, item != items.end() ? *item : StimulusItem{},
-                                                       part.name, numberWord(part.levelDb)))};
+        return WrittenCall{withSounds(
+            protocol, callOf(set, item != items.end() ? *item : StimulusItem{}, part.name, part.levelDb))};
     }
 };
 
@@ -58,10 +58,9 @@ std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& tr
 
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record) {
     const SessionPlan& session = protocol.sessions[record.trial.session];
-    if (session.answer() == AnswerKind::label) return record.answer.response == record.trial.stimulus;
-    if (const std::string* const adapted = session.adaptedAlternative())
-        return record.answer.response == *adapted;
-    return std::nullopt;
+    if (!session.hasCorrectAnswers()) return std::nullopt;
+    const std::string* const adapted = session.adaptedAlternative();
+    return record.answer.response == (adapted != nullptr ? *adapted : record.trial.stimulus);
 }
 
 std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record) {

@@ -36,6 +36,8 @@ struct Apparatus {
     double masterDb = 0.0;           ///< the mixer's level
     std::optional<double> noiseDb{}; ///< root mean square of pink noise on headphones, dB of full scale;
                                      ///< none: no noise
+    std::string outputs{}, noiseOutputs{}, language{}; ///< "1 2 3 4", "5 6", "ko"; not in rows but in the
+                                                       ///< file of times, see StudyTimes.h
     bool operator==(const Apparatus&) const = default;
 };
 

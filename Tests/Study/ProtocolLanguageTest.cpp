@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Protocols of one's own: variables that follow the level, weighted staircases, levels that can be reached,
+// equal energy, the schema; and the times of a study.
+#include "Io/Disk/ReadFile.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/StudyPlan.h"
+#include "Lab/Study/StudyRun.h"
+#include "Stimuli/SeededRandom.h"
+#include "Study/StaircaseThreshold.h"
+#include "Support/FileTesting.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace physvib {
+namespace {
+
+/// Two alternatives of one call, of which "higher" is moved.
+std::string frequencies(const std::string& more = {}) {
+    return R"({"physvib_protocol": 1, "name": "own", "conditions": [{"name": "c", "layout": "phone2", "stimuli": "calls",
+  "factors": [{"name": "s", "values": ["0.3"]}], "variables": [{"name": "hz", "at_0_db": 200}],
+  "call": "stimulus phantom --at 0.5,0.5 --frequency {hz} --seconds {s} --layout phone2 --level-g 0.5"}],
+  "sessions": [{"name": "main", "task": "choose", "alternatives": [{"name": "standard"}, {"name": "higher"}],
+  "staircase": {"alternative": "higher", "start_db": 2, "step_db": 1, "least_step_db": 1, "most_db": 4, "up_ratio": 3, "down": 1})" +
+           more + "}]}";
+}
+
+TEST(ProtocolLanguage, AVariableFollowsTheLevelInEveryCall) {
+    const auto read = readProtocol(frequencies(), "own.json");
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(readProtocol(protocolJson(read.value), "again").value, read.value);
+    Experiment experiment{read.value, {}};
+    const Trial trial = experiment.trial();
+    const auto jobs = jobsOf(read.value, {trial, {}});
+    ASSERT_EQ(jobs.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::string& call = std::get<WrittenCall>(jobs[i]).words;
+        const char* hz = trial.parts[i] == "higher" ? "--frequency 251.785082 " : "--frequency 200 ";
+        EXPECT_NE(call.find(hz), std::string::npos) << call;
+    }
+}
+
+TEST(ProtocolLanguage, EveryLevelOfAVariableIsPlannedAndOfAGainTheEnds) {
+    std::map<std::string, std::set<double>> levels;
+    for (const PlannedStimulus& s : plannedStimuli(readProtocol(frequencies(), "own").value))
+        levels[s.part].insert(s.levelDb);
+    EXPECT_EQ(levels["standard"], std::set<double>{0.0});
+    EXPECT_EQ(levels["higher"], (std::set<double>{0.0, 1.0, 2.0, 3.0, 4.0}));
+    levels.clear();
+    for (const PlannedStimulus& s : plannedStimuli(findProtocol("level-steps").value)) {
+        levels[s.part].insert(s.levelDb);
+        EXPECT_EQ(s.isHighest, s.part == "standard" || s.levelDb == 12.0) << s.levelDb;
+    }
+    EXPECT_EQ(levels["stronger"], (std::set<double>{0.0, 12.0}));
+}
+
+TEST(ProtocolLanguage, NamesAndFieldsThatCannotBeAreRefusedWithTheirPlace) {
+    const auto refused = [](std::string text, const std::string& from, const std::string& to) {
+        text.replace(text.find(from), from.size(), to);
+        return readProtocol(text, "own.json").error;
+    };
+    EXPECT_EQ(refused(frequencies(), "\"name\": \"hz\"", "\"name\": \"level_db\""),
+              "own.json: conditions[0].variables: expected a name of its own for each, without braces, found "
+              "level_db");
+    EXPECT_NE(refused(frequencies(), "{hz}", "{khz}").find("names of factors or variables"),
+              std::string::npos);
+    EXPECT_NE(refused(frequencies(), "\"at_0_db\": 200", "\"at_0_db\": 0").find("at_0_db: expected 1e-06"),
+              std::string::npos)
+        << refused(frequencies(), "\"at_0_db\": 200", "\"at_0_db\": 0");
+    const std::string rate =
+        R"({"physvib_protocol": 1, "name": "own", "conditions": [{"name": "c", "stimuli": "grid", "columns": 1, "rows": 1}],
+  "sessions": [{"name": "main", "task": "rate", "scales": ["a"], "feedback": true}]})";
+    EXPECT_NE(readProtocol(rate, "own.json").error.find("sessions[0].feedback: expected it where"),
+              std::string::npos);
+    EXPECT_NE(refused(rate, "\"feedback\": true", "\"interval_s\": 0.5").find("sessions[0].interval_s"),
+              std::string::npos);
+}
+
+// Kaernbach 1991: one down, one up, steps up three times as large: 3 (1 - p) = p at 75 %.
+TEST(ProtocolLanguage, AWeightedStaircaseComesToThreeQuarters) {
+    StaircasePlan plan;
+    plan.startDb = 20.0, plan.leastDb = -40.0, plan.stepDb = plan.leastStepDb = 0.25;
+    plan.upRatio = 3.0, plan.down = 1, plan.reversals = 100, plan.mostTrials = 10000;
+    double sum = 0.0;
+    constexpr int runs = 60;
+    for (int run = 0; run < runs; ++run) {
+        SeededRandom random{1, "weighted " + std::to_string(run)};
+        Staircase stairs{plan};
+        while (!stairs.isDone())
+            stairs.answer(random.chance(0.5 + 0.5 / (1.0 + std::exp(-(stairs.levelDb() - 5.0)))));
+        sum += test::thresholdDb(stairs);
+    }
+    EXPECT_NEAR(sum / runs, 5.0, 0.25) << "where 75 % are right";
+}
+
+TEST(ProtocolLanguage, EqualRmsAndEnergyAreThoseOfTheSamples) {
+    for (const double decay : {0.0, 5.0, 80.0})
+        for (const double seconds : {0.1, 0.7}) {
+            double squares = 0.0;
+            constexpr int steps = 100000;
+            for (int i = 0; i < steps; ++i)
+                squares += std::exp(-2.0 * decay * seconds * (i + 0.5) / steps) * seconds / steps;
+            PhantomJob job{FieldPlace{0.5, 0.5}, PanningLaw::linear, 1.0, seconds, decay};
+            EXPECT_EQ(job.peakFactor(), 1.0);
+            job.levelOf = LevelOf::rms;
+            EXPECT_NEAR(job.peakFactor() * std::sqrt(squares / seconds), 1.0, 1e-6);
+            job.levelOf = LevelOf::energy;
+            EXPECT_NEAR(job.peakFactor() * std::sqrt(squares), 1.0, 1e-6);
+        }
+    StimulusJob plain{PhantomJob{FieldPlace{0.5, 0.5}}};
+    EXPECT_EQ(textOf(plain).find("--decay"), std::string::npos) << "rows of before stay the same";
+    std::get<PhantomJob>(plain.what).decayPerSecond = 30.0;
+    std::get<PhantomJob>(plain.what).levelOf = LevelOf::energy;
+    EXPECT_NE(textOf(plain).find("--decay 30 --level-of energy --seconds 1"), std::string::npos)
+        << textOf(plain);
+}
+
+TEST(ProtocolLanguage, TheSchemaHasEveryFieldThatIsReadAndItsRange) {
+    const std::string schema = protocolSchema();
+    for (const char* words :
+         {"\"physvib_protocol\"", "\"variables\"", "\"at_0_db\"", "\"up_ratio\"", "\"interval_s\"",
+          "\"feedback\"", "\"instruction\"", "\"stimuli\"", "\"additionalProperties\": false",
+          "\"latin-square\"", "\"estimate\"", "\"if\"", "\"then\""})
+        EXPECT_NE(schema.find(words), std::string::npos) << words;
+    EXPECT_TRUE(readProtocol("{\"$schema\": \"protocol.schema.json\", " + frequencies().substr(1), "own"));
+}
+
+class TimesOfAStudy : public ::testing::Test {
+protected:
+    void SetUp() override { std::filesystem::create_directories(folder); }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+    StudyRun run() const { return {findProtocol("magnitudes").value, {"P07", 1, "person"}, folder}; }
+    Apparatus with(std::string outputs, std::string noise) const {
+        Apparatus apparatus{"0.2.0", "Fake:hands", 0.0};
+        apparatus.outputs = std::move(outputs), apparatus.noiseOutputs = std::move(noise);
+        apparatus.language = "ko";
+        return apparatus;
+    }
+    void answer(StudyInProgress& study) const {
+        Answer one;
+        one.value = 10.0;
+        one.apparatus = with("1 2 3 4", "5 6");
+        ASSERT_TRUE(study.take(one)) << study.error();
+    }
+    std::filesystem::path folder = std::filesystem::temp_directory_path() / "physvib-times-of-a-study";
+};
+
+TEST_F(TimesOfAStudy, OtherOutputsAreRefusedAndTheTrialFileHasNoTimes) {
+    std::string before;
+    {
+        StudyInProgress study{run()};
+        ASSERT_EQ(study.error(), "");
+        ASSERT_EQ(study.begin(with("1 2 3 4", "5 6")), "");
+        answer(study);
+        ASSERT_EQ(study.note(studyEvents::rest), "");
+    }
+    {
+        StudyInProgress study{run()};
+        ASSERT_EQ(study.error(), "");
+        EXPECT_NE(study.apparatusFault(with("1 2 3 7", "5 6"))
+                      .find("expected the outputs as in the trials before, 1 2 3 4, found 1 2 3 7"),
+                  std::string::npos);
+        EXPECT_NE(study.apparatusFault(with("1 2 3 4", "7 8")).find("the outputs of the noise"),
+                  std::string::npos);
+        ASSERT_EQ(study.apparatusFault(with("1 2 3 4", "5 6")), "");
+        ASSERT_EQ(study.begin(with("1 2 3 4", "5 6")), "");
+    }
+    const auto times = loadStudyTimes(timesPathOf(run().trialFile()));
+    ASSERT_TRUE(times) << times.error;
+    ASSERT_EQ(times.value.size(), 3u);
+    EXPECT_EQ(times.value[0].event, "start");
+    EXPECT_EQ(times.value[1].event, "break");
+    EXPECT_EQ(times.value[2].event, "resume");
+    EXPECT_EQ(times.value[2].trials, 1);
+    EXPECT_EQ(times.value[2].language, "ko");
+    for (const StudyMoment& m : times.value) EXPECT_GT(secondsOf(m.timeUtc), 1.7e9) << m.timeUtc;
+    EXPECT_EQ(readFile(run().trialFile().string(), 1'000'000).value.find("5 6"), std::string::npos);
+}
+
+TEST(StudyTimes, SecondsAreThoseOfTheCalendar) {
+    EXPECT_EQ(secondsOf("1970-01-01T00:00:00Z"), 0.0);
+    EXPECT_EQ(secondsOf("2026-11-24T14:02:31Z"), 1795528951.0);
+    for (const char* wrong :
+         {"", "2026-02-30T00:00:00Z", "2026-11-24 14:02:31Z", "2026-11-24T24:00:00Z", "x026-11-24T14:02:31Z"})
+        EXPECT_TRUE(std::isnan(secondsOf(wrong))) << wrong;
+}
+
+} // namespace
+} // namespace physvib
