@@ -31,6 +31,7 @@ inline SessionSetup sessionSetup(const LoadedRender& job) {
     setup.location = run.location;
     setup.channels = job.channels();
     setup.panner = job.panner();
+    setup.layout = job.layout;
     setup.equalised = job.equalised();
     setup.shaping = job.shaping();
     setup.recordings = job.feltRecordings();

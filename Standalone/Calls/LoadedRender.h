@@ -47,9 +47,10 @@ struct LoadedRender {
         return scene ? scene->name : clip ? options.scene : options.fromEvents;
     }
 
-    /// Of the materials.
+    /// Of the materials and parts.
     SoundNames names() const {
         SoundNames all = listNames;
+        for (const EnchanterDescription& one : layout.enchanters) all.parts.add(one.part);
         if (scene) all.addAll(scene->materials);
         if (session)
             for (const SceneTake& take : session->log.takes) all.addAll(take.scene->materials);

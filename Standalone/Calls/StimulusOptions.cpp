@@ -5,6 +5,7 @@
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/PercentCounts.h"
+#include <algorithm>
 #include <cmath>
 
 namespace physvib {
@@ -84,6 +85,14 @@ void declareStimulus(OptionTable& command, StimulusOptions& o) {
         .in(ranges::gapSeconds.least, ranges::gapSeconds.most);
     wav.add("recording", o.phantom.recording, "one channel").required().as("FILE.wav");
     phantom.add(words::seconds, o.phantom.seconds, "length").in(ranges::seconds.least, ranges::seconds.most);
+    phantom.add(words::decay, o.phantom.decayPerSecond, "decay of the amplitude, 1/s; 0: a burst")
+        .in(ranges::decayPerSecond.least, ranges::decayPerSecond.most);
+    phantom
+        .add(words::levelOf, o.levelOf,
+             "--level-g is the peak, or that of a burst of the same rms over the length, or of a burst of 1 "
+             "s of the "
+             "same energy")
+        .oneOf({"peak", "rms", "energy"});
     all.add("--enchanters", o.enchanters, "how many").in(1, 26);
     for (OptionTable* const one : {&pattern, &phantom}) declareCarrier(*one, o);
     for (OptionTable* const one : {&phantom, &wav}) declarePlace(*one, o);
@@ -107,6 +116,8 @@ Result<StimulusJob> readStimulus(const OptionTable& command, const StimulusOptio
         if (o.at.empty() == o.cell.empty())
             return Failure{"give either --at X,Y or --grid CxR with --cell r,c"};
         auto& phantom = job.what.emplace<PhantomJob>(o.phantom);
+        phantom.levelOf =
+            static_cast<LevelOf>(std::ranges::find(levelOfNames, o.levelOf) - levelOfNames.begin());
         if (o.at.empty())
             phantom.at = gridPlace(o);
         else

@@ -16,7 +16,7 @@ struct StimulusOptions {
     PhantomJob phantom;
     StimulusJob job;            ///< fields common to both kinds
     std::string grid, cell, at; ///< "5x5", "2,3"; or "0.25,0.5"
-    std::string points = "corners", frequency = "205";
+    std::string points = "corners", frequency = "205", levelOf = "peak";
     int sampleRateHz = 48000;
     int enchanters = 4; ///< for `stimulus list`
     std::string wavPath, picturePath;

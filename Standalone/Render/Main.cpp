@@ -157,6 +157,7 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
             return !wav || wav->write(channels, frames);
         });
     warn(status.rejected, "events that could not be played");
+    warn(status.withoutPart, "events of a part of the body that no actuator has, felt by their place on all");
     warn(status.stolen, "modes faded out early because too many different ones sounded at once");
     tellOutside(source, settings.panner, std::llround(o.seconds * 1e9));
     std::string error;

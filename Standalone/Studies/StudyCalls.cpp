@@ -10,6 +10,7 @@
 #include "Lab/Study/StudyRun.h"
 #include "Live/Session/StimulusRender.h"
 #include "Options/Parser.h"
+#include "Scene/EventsCsv.h"
 #include "Scene/LayoutNamed.h"
 #include <algorithm>
 #include <cmath>
@@ -18,17 +19,24 @@
 namespace physvib {
 namespace {
 
-/// Loads scene and layout of the job for live playback; empty, or one error line.
+/// Loads scene or events, and layout, of the job for live playback; empty, or one error line.
 std::string prepareScene(const RenderJob& o, LoadedRender& job) {
     if (o.actuator != "none") return "--actuator is not yet felt here, only rendered";
     if (!o.coupling.empty()) return "--coupling is not yet felt here, only rendered";
     if (auto fault = sceneFault(o); !fault.empty()) return fault;
-    if (o.scene.empty()) return "expected a scene";
     auto layout = layoutNamed(o.layout);
     if (!layout) return layout.error;
+    job.layout = std::move(layout.value);
+    if (!o.fromEvents.empty()) {
+        auto list = loadEventsCsv(o.fromEvents);
+        job.made.events = std::move(list.value.events);
+        job.listField = list.value.field;
+        job.listNames = std::move(list.value.names);
+        return list.error;
+    }
+    if (o.scene.empty()) return "expected a scene, or --from-events";
     auto scene = findScene(o.scene, o.settings);
     if (!scene) return scene.error;
-    job.layout = std::move(layout.value);
     job.scene = std::move(scene.value);
     return {};
 }
@@ -37,7 +45,7 @@ Result<FeltStimulus> ofScene(const RenderJob& o) {
     LoadedRender job{o, {}, {}, {}, {}};
     if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
     Patience patience{Patience::usualSeconds}; // fixed, since the call may be untrusted
-    job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
+    if (job.scene) job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
     if (auto fault = patience.fault(); !fault.empty()) return Failure{fault};
     std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
     if (auto fault = takeRecordings(job, job.made.events, o.scene); !fault.empty()) return Failure{fault};
@@ -50,6 +58,7 @@ Result<FeltStimulus> ofScene(const RenderJob& o) {
 Result<FeltWorld> asWorld(const RenderJob& o) {
     LoadedRender job{o, {}, {}, {}, {}};
     if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
+    if (!job.scene) return Failure{"expected a scene, found events, which nobody can see"};
     if (auto fault = fixedLevelFault(job); !fault.empty()) return Failure{fault};
     if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene); !fault.empty())
         return Failure{fault};
@@ -92,7 +101,8 @@ struct ParsedCall {
     }
     /// Prefers files in `folder`, if they exist.
     void findFiles(const std::string& folder) {
-        for (std::string* path : {&renderOptions.layout, &renderOptions.scene, &stimulusOptions.job.layout})
+        for (std::string* path : {&renderOptions.layout, &renderOptions.scene, &renderOptions.fromEvents,
+                                  &stimulusOptions.job.layout})
             *path = besideProtocol(folder, *path);
         for (RecordedSound& sound : renderOptions.sounds) sound.path = besideProtocol(folder, sound.path);
     }
@@ -159,7 +169,7 @@ std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condi
         for (const std::string& value : calls->factors[f].values) {
             StimulusItem item = first;
             item.values[f].second = value;
-            if (auto fault = studyCallFault(callOf(*calls, item, *callPartsOf(protocol).begin(), "0"),
+            if (auto fault = studyCallFault(callOf(*calls, item, *callPartsOf(protocol).begin(), 0.0),
                                             condition, protocol.folder);
                 !fault.empty())
                 return fault;

@@ -100,7 +100,8 @@ CheckedStimulus checkStimulus(const Protocol& protocol, const PlannedStimulus& p
     CheckedStimulus checked{.condition = planned.condition,
                             .label = planned.label,
                             .part = planned.part,
-                            .levelDb = planned.highestDb,
+                            .levelDb = planned.levelDb,
+                            .isHighest = planned.isHighest,
                             .error = {}};
     const auto* const world = std::get_if<WorldSet>(&protocol.conditions[planned.condition].stimuli);
     checked.isOpenEnded = world != nullptr && world->hasHands;
@@ -146,14 +147,15 @@ void judge(const Protocol& protocol, const CheckedStimulus& s, StudyCheck& check
             nameOf(protocol, s) + ": turned down to " + fixedNumber(100.0 * s.guardGain, 0) +
             " % where it is slowest, as its actuator would get nearly direct current: what is "
             "felt differs from what is asked for");
+    if (!s.isHighest || s.levelDb <= -limits::maxLevelDb) return; // the latter is meant to be silent
     if (s.peakG <= 0.0)
         check.warnings.push_back(nameOf(protocol, s) + ": nothing is felt");
     else if (const double db = aboveThresholdDb(s); db < weakDb && !s.isOpenEnded)
-        check.warnings.push_back(
-            nameOf(protocol, s) + ": weak at its highest level: " + fixedNumber(1e3 * s.peakG, 1) + " mg, " +
-            fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +
-            " the threshold of detection at " + fixedNumber(s.frequencyHz, 0) +
-            " Hz (assumed: " + fixedNumber(1e3 * detectionThresholdG(s.frequencyHz), 0) + " mg)");
+        check.warnings.push_back(nameOf(protocol, s) + ": weak: " + fixedNumber(1e3 * s.peakG, 1) + " mg, " +
+                                 fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +
+                                 " the threshold of detection at " + fixedNumber(s.frequencyHz, 0) +
+                                 " Hz (assumed: " + fixedNumber(1e3 * detectionThresholdG(s.frequencyHz), 0) +
+                                 " mg)");
 }
 
 using Cells = std::vector<std::string>;
@@ -203,13 +205,13 @@ std::string listOf(const char* what, const std::vector<std::string>& lines) {
 
 std::string minutes(double seconds) { return fixedNumber(seconds / 60.0, 0) + " min"; }
 
-/// The result for a stimulus of the plan; null if there is none.
+/// The result for a stimulus of the plan at its highest level; null if there is none.
 const CheckedStimulus* checkedOf(const std::vector<CheckedStimulus>& all, std::size_t condition,
                                  const std::string& label, const std::string& part) {
-    const auto found = std::ranges::find_if(all, [&](const CheckedStimulus& s) {
+    const auto found = std::find_if(all.rbegin(), all.rend(), [&](const CheckedStimulus& s) {
         return s.condition == condition && s.label == label && (s.part == part || part.empty());
     });
-    return found != all.end() ? &*found : nullptr;
+    return found != all.rend() ? &*found : nullptr;
 }
 
 void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
@@ -239,7 +241,7 @@ void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
         check.warnings.push_back("breaks: expected one at least every " +
                                  minutes(longestWithoutBreakSeconds) + ", found " +
                                  minutes(time.longestStretchSeconds) + " without");
-    if (protocol.conditions.size() < 2) return;
+    if (protocol.conditions.size() < 2 || participants < 1) return;
     const OrderBalance balance = orderBalance(protocol, participants);
     const std::string words = std::to_string(participants) + " participants: a condition is at one place " +
                               std::to_string(balance.fewestAtPlace) + " to " +
@@ -293,10 +295,12 @@ std::string levelFault(const Protocol& protocol, const PlannedStimulus& planned)
 
 } // namespace
 
-StudyCheck checkStudy(const Protocol& protocol, int participants) {
+StudyCheck checkStudy(const Protocol& protocol, int participants, const std::function<bool()>& goesOn) {
     StudyCheck check;
-    for (const PlannedStimulus& planned : plannedStimuli(protocol))
+    for (const PlannedStimulus& planned : plannedStimuli(protocol)) {
+        if (goesOn && !goesOn()) return check;
         check.stimuli.push_back(checkStimulus(protocol, planned));
+    }
     for (const CheckedStimulus& s : check.stimuli) judge(protocol, s, check);
     judgePlan(protocol, participants, check);
     judgeBreaks(protocol, check);
@@ -335,15 +339,18 @@ std::string htmlOf(const StudyCheck& check, const Protocol& protocol) {
         page.list(check.deviations);
     }
     page.heading("Stimuli");
-    page.paragraph("Of the strongest actuator, at the highest level that a session can set, without the "
-                   "limiter. peak_g and rms_g are accelerations in g; above_threshold_db is the peak over an "
-                   "assumed threshold of detection.");
+    page.paragraph(
+        "Of the strongest actuator, at the lowest and the highest level that a session can set (at "
+        "each, where a level is more than a gain), without the limiter. peak_g and rms_g are accelerations "
+        "in g; above_threshold_db is the peak over an "
+        "assumed threshold of detection.");
     page.table(csvOf(rowsOf(protocol, check.stimuli)), "physvib study check", check.stimuli.size());
     return page.html();
 }
 
 std::string limiterFault(const Protocol& protocol) {
     for (const PlannedStimulus& planned : plannedStimuli(protocol)) {
+        if (!planned.isHighest) continue;
         const StimulusSet& set = protocol.conditions[planned.condition].stimuli;
         const auto* const world = std::get_if<WorldSet>(&set);
         if (world != nullptr && world->hasHands) continue;

@@ -3,17 +3,19 @@
 // balance of orders.
 #pragma once
 #include "Lab/Study/Protocol.h"
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace physvib {
 
-/// A stimulus of a condition, or one part of it (an alternative or object), at its maximum level in the
-/// protocol.
+/// A stimulus of a condition, or one part of it (an alternative or object), at a level that its sessions can
+/// reach.
 struct CheckedStimulus {
     std::size_t condition = 0; ///< index in the protocol
     std::string label, part;   ///< part is empty if there are none
-    double levelDb = 0.0;      ///< maximum level of the part in all sessions
+    double levelDb = 0.0;      ///< level of the part
+    bool isHighest = true;     ///< false: a lower level of the same samples, of which nothing is expected
     double seconds = 0.0;      ///< duration
     double frequencyHz = 0.0;  ///< of the strongest impact or pulse
     double peakShare = 0.0; ///< of the actuator with the largest share of its full scale; without the limiter
@@ -41,8 +43,9 @@ std::string textOf(const StudyCheck& check, const Protocol& protocol);
 /// The check as a self-contained HTML page. Any thread (allocates).
 std::string htmlOf(const StudyCheck& check, const Protocol& protocol);
 
-/// Renders every stimulus once. Message thread only.
-StudyCheck checkStudy(const Protocol& protocol, int participants);
+/// Renders every stimulus that a session can reach (see plannedStimuli). Orders are judged for so many
+/// participants; 0: not at all. Ends early once `goesOn` returns false. One thread at a time.
+StudyCheck checkStudy(const Protocol& protocol, int participants, const std::function<bool()>& goesOn = {});
 
 /// The first stimulus that needs the limiter or exceeds its layout at its maximum level, and the full scale
 /// it would need; empty if there is none. Interactive worlds are skipped, because their levels depend on the

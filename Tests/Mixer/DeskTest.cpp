@@ -47,6 +47,27 @@ TEST(Desk, SoloMutesTheOthers) {
     EXPECT_EQ(muted, (std::vector<int>{0, 1, 3}));
 }
 
+TEST(Desk, ATestPulseIsOnItsActuatorAloneInSpaceToo) {
+    for (const char* name : {"ring4", "glove5", "sleeve8", "vest16"}) {
+        Desk desk{onlyNoDevice(), noDevice};
+        desk.change("Layout", [&](Mix& mix) {
+            mix.layout = presetLayout(name);
+            mix.resizeStrips();
+        });
+        for (int j = 0; j < desk.mix().count(); ++j) {
+            desk.strikes().testPulse(j);
+            ASSERT_TRUE(
+                runUntil([&] { return desk.saved().log.strikes.size() == static_cast<std::size_t>(j) + 1; }));
+            const auto log = desk.saved().log;
+            PhantomPanner::Gains gains{};
+            const CollisionEvent& pulse = log.strikes.back();
+            log.panners.back().panner.gainsAt(pulse, gains);
+            for (int k = 0; k < desk.mix().count(); ++k)
+                EXPECT_NEAR(gains[static_cast<std::size_t>(k)], j == k ? 1.0 : 0.0, 1e-6) << name << j << k;
+        }
+    }
+}
+
 TEST(Desk, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
     Desk desk{onlyNoDevice(), noDevice};
     desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });

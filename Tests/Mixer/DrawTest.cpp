@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing by mouse and keys, and the first start, in the mixer's view: what they do is in the world, in the
 // saved session, and comes back by undo.
+#include "Host/FakeAudioDevice.h"
 #include "Live/Devices/LikelyDevices.h"
+#include "Live/Devices/PicoDevice.h"
 #include "Mixer/Desk/PaceWatch.h"
 #include "Mixer/Window/FirstStart.h"
-#include "MixerTesting.h"
+#include "NewSceneRig.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/World/Simulation.h"
@@ -15,31 +17,7 @@ namespace {
 using namespace test;
 using juce::KeyPress;
 
-struct Board {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    DrawPane& pane = view.world().drawing();
-    WorldView& world = view.world().view();
-
-    Board() {
-        view.setSize(1440, 900);
-        desk.setSlowness(0);
-        desk.change("New scene", [&](Mix& mix) {
-            mix.scene = std::make_shared<const Scene>(newScene(*mix.scene, SceneGround::floor));
-        });
-        settle();
-    }
-    void settle() {
-        desk.dispatchPendingMessages();
-        runFor(0.15); // the view shows the world as it is felt, L later: until then poses of the scene before
-        runUntil([&] {
-            return view.refresh(), std::ranges::all_of(drawn().bodies, [&](const BodyDescription& b) {
-                       return world.poseOfBody(b.name).has_value();
-                   });
-        });
-    }
-    const Scene& drawn() { return desk.world().drawing().drawn(); }
-    Vector share(double x, double y) { return {x * drawn().fieldWidthMetres, y * drawn().fieldHeightMetres}; }
+struct Board : NewSceneRig {
     juce::MouseEvent mouse(Vector at, Vector pressedAt) {
         const auto now = juce::Time::getCurrentTime();
         return {juce::Desktop::getInstance().getMainMouseSource(),
@@ -212,6 +190,28 @@ TEST(Script, AnEditOfTheDrawingEndsTheRecordingAndStays) {
     EXPECT_NE(board.desk.world().drawing().find("ball 1"), nullptr);
 }
 
+TEST(NewScene, ABallThatFallsInANewBoxIsFelt) {
+    for (const SceneGround ground : {SceneGround::box, SceneGround::floor}) {
+        const Scene& like = *findBuiltInScene("shake-the-box");
+        for (const auto& material : like.materials) {
+            Scene scene = newScene(like, ground);
+            BodyDescription ball;
+            ball.name = "ball";
+            ball.positionMetres = {3.0, 2.0};
+            ball.fixtures.resize(1);
+            ball.fixtures[0].shape = CircleShape{0.15};
+            ball.fixtures[0].material = static_cast<int>(&material - like.materials.data());
+            scene.bodies.push_back(ball);
+            const auto events = runScene(scene, {1, 100}, 2'000'000'000).events;
+            ASSERT_FALSE(events.empty()) << material.name;
+            double strongest = 0.0;
+            for (const auto& e : events) strongest = std::max(strongest, std::abs(e.amplitude));
+            EXPECT_GT(strongest, 0.001) << material.name << ": -60 dB";
+            std::cout << material.name << ": " << strongest << " of full scale\n";
+        }
+    }
+}
+
 /// More than the machine steps in real time.
 Scene heap() {
     Scene scene = newScene(*findBuiltInScene("shake-the-box"), SceneGround::box);
@@ -257,6 +257,64 @@ TEST(FirstStart, TheInterfaceComesFirstAndNoDeviceLast) {
     for (const auto& device : ordered) names.push_back(device.name);
     EXPECT_EQ(names, (std::vector<std::string>{"system", "USB Audio", "Default ALSA Output", "HDMI 0",
                                                "no device"}));
+}
+
+TEST(FirstStart, APicoComesFirstWithALayoutOfItsOwn) {
+    const std::string pico = "PhysVib pico8, USB Audio; Direct hardware device without any conversions";
+    const auto ordered = byLikelihood({{"JACK", "system", 8}, {"ALSA", pico, 8}});
+    EXPECT_EQ(ordered.front().name, pico);
+    EXPECT_STREQ(layoutFor(8, pico), "pico8");
+    EXPECT_STREQ(layoutFor(4, "CoreAudio:PhysVib pico4"), "pico4");
+    EXPECT_STREQ(layoutFor(8, picoDeviceName), "pico8") << "as play calls the first one";
+    EXPECT_STREQ(layoutFor(8, "system"), "phone4");
+}
+
+TEST(FirstStart, APicoReplacesTheFirstLayoutAndNoChosenOneThatFits) {
+    Mix mix = Desk::firstMix();
+    keepTo(8, mix, "ALSA:PhysVib pico8");
+    EXPECT_EQ(mix.layout.name, "pico8");
+    EXPECT_EQ(mix.count(), 8);
+    mix.layout = presetLayout("ring4");
+    mix.resizeStrips();
+    keepTo(8, mix, "ALSA:PhysVib pico8");
+    EXPECT_EQ(mix.layout.name, "ring4");
+    keepTo(2, mix, "ALSA:PhysVib pico8");
+    EXPECT_EQ(mix.layout.name, "phone2") << "a system may show two outputs of it";
+}
+
+TEST(FirstStart, ADeviceWithoutOutputsIsNoChoiceAndNoDeviceSaysWhatThatMeans) {
+    FakeInterface server, ears;
+    server.name = "PulseAudio Sound Server";
+    server.outputs = 0;
+    ears.name = "ears";
+    ears.outputs = 2;
+    const auto titles = [](const std::vector<FeltChoice>& choices) {
+        juce::StringArray all;
+        for (const auto& choice : choices) all.add(choice.title);
+        return all.joinIntoString("; ");
+    };
+    EXPECT_EQ(titles(feltChoices(fakeDrivers({&server, &ears}), {})),
+              "Headphones: Fake:ears; Fake: ears, 2 outputs: two actuators; No device: seen, not felt");
+    const auto none = feltChoices(fakeDrivers({&server}), {});
+    EXPECT_EQ(titles(none), "No device: seen, not felt");
+    Desk desk{onlyNoDevice(), noDevice};
+    FirstStart card{desk, none};
+    bool hasEnded = false;
+    card.onEnd = [&](bool) { hasEnded = true; };
+    card.keyPressed(KeyPress{KeyPress::returnKey});
+    EXPECT_TRUE(hasEnded);
+    EXPECT_TRUE(desk.trouble().contains("not felt")) << "never without a word";
+}
+
+TEST(FirstStart, TestsFromTheLevelOfBeforeIfThatIsLower) {
+    Desk desk{onlyNoDevice(), noDevice};
+    desk.change("Level", [](Mix& mix) { mix.levelDb = -40.0; });
+    desk.setSlowness(0);
+    FirstStart card{desk, {{"four", noDevice, 4}}};
+    card.test(4);
+    EXPECT_EQ(desk.mix().levelDb, -40.0);
+    card.end(true);
+    EXPECT_EQ(desk.session().world().slowness(), 0) << "as it was";
 }
 
 TEST(FirstStart, ABoardIsOfferedBeforeControllers) {

@@ -144,7 +144,7 @@ TEST_F(LanesByHand, OfASecondGroupAreItsOwnAndAllAreSeenToTheirEnds) {
     });
     desk.dispatchPendingMessages();
     for (const auto& [lastSeconds, middleSeconds] : {std::pair{12.0, 10.0}, {25.0, 15.0}, {100.0, 60.0}}) {
-        desk.change("Lane", [&](Mix& mix) { mix.groups[1].lane = {{lastSeconds, -10.0}}; });
+        desk.change("Lane", [last = lastSeconds](Mix& mix) { mix.groups[1].lane = {{last, -10.0}}; });
         desk.dispatchPendingMessages();
         view.refresh();
         row = dynamic_cast<LaneRow*>(find(view, "Gain lane of Right hand"));

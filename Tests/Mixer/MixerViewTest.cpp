@@ -272,10 +272,70 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     press("Attach an actuator");
     EXPECT_EQ(desk.mix().count(), 5);
     EXPECT_NE(find(view, "Gain of E"), nullptr);
-    view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
-    EXPECT_TRUE(desk.isSilent());
+    for (int k = 0; k < 5; ++k) {
+        view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+        EXPECT_TRUE(desk.isSilent() && desk.output().isSilent()) << "pressed " << k + 1 << " times";
+    }
     view.keyPressed(juce::KeyPress{'z', juce::ModifierKeys::commandModifier, 0});
     EXPECT_EQ(desk.mix().count(), 4);
+    press("Redo");
+    EXPECT_EQ(desk.mix().count(), 5);
+    press("Undo");
+    EXPECT_EQ(desk.mix().count(), 4);
+    EXPECT_TRUE(find(view, "Undo")->isEnabled());
+    bool isSaved = false, isOpened = false;
+    view.topBar().onSave = [&] { isSaved = true; };
+    view.topBar().onMenu = [&](juce::Component&) { isOpened = true; };
+    press("Save the session (Ctrl+S)");
+    press("Menu");
+    EXPECT_TRUE(isSaved && isOpened);
+}
+
+TEST(MixerView, WhatIsSilentStandsStill) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().masterPeak > 0.001f; }));
+    desk.setSilent(true);
+    const auto isStill = [&] {
+        view.refresh();
+        const auto& moment = view.latest();
+        return moment.masterPeak == 0.0f &&
+               std::ranges::all_of(moment.meters.peaks, [](float p) { return p == 0.0f; }) &&
+               std::ranges::all_of(moment.holds, [](float p) { return p == 0.0f; });
+    };
+    const auto played = desk.look().session.render.played;
+    EXPECT_TRUE(isStill()) << "at once";
+    EXPECT_TRUE(runUntil([&] { return desk.look().session.render.played > played + 5; }));
+    EXPECT_TRUE(isStill()) << "though the world goes on";
+    desk.setSilent(false);
+    EXPECT_TRUE(runUntil([&] { return view.refresh(), view.latest().masterPeak > 0.001f; }));
+}
+
+TEST(MixerView, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    bool hasActed = false;
+    desk.report("one");
+    desk.messages().add({"two", false, {"Heal", [&] { hasActed = true; }}});
+    desk.dispatchPendingMessages();
+    auto* label = dynamic_cast<juce::Label*>(find(view, "Trouble"));
+    ASSERT_NE(label, nullptr);
+    EXPECT_EQ(label->getText(), "one");
+    EXPECT_EQ(find(view, "Heal"), nullptr);
+    dynamic_cast<juce::Button*>(find(view, "Dismiss the message"))->onClick();
+    desk.dispatchPendingMessages();
+    EXPECT_EQ(label->getText(), "two");
+    dynamic_cast<juce::Button*>(find(view, "Heal"))->onClick();
+    desk.dispatchPendingMessages();
+    EXPECT_TRUE(hasActed);
+    EXPECT_FALSE(label->isVisible());
+    desk.messages().add({"three", false, {"Heal", [] {}}});
+    desk.report("four");
+    EXPECT_EQ(desk.trouble(), "four");
+    desk.report({});
+    EXPECT_EQ(desk.trouble(), "three") << "nobody has acted on it yet";
+    desk.messages().withdraw("three");
+    EXPECT_TRUE(desk.trouble().isEmpty());
 }
 
 TEST(MixerView, IsDrawnWhileStripsGo) { // the window is told a moment later; its timer may come first

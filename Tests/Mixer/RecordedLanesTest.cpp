@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-float lastGain(Desk& desk, int channel) {
+float lastRecordedGain(Desk& desk, int channel) {
     float gain = 1.0f;
     for (const auto& c : desk.saved().log.channels)
         if (c.kind == RenderControl::Kind::gain && c.channel == channel) gain = c.value;
@@ -36,11 +36,11 @@ TEST(Lanes, FadersThatAreMovedWhileItRecordsAreWrittenAndPlayedAgain) {
     EXPECT_EQ(desk.mix().strips[2].lane.back().db, -20.0);
     EXPECT_EQ(desk.mix().groups[0].lane.back().db, -12.0);
     EXPECT_TRUE(desk.mix().strips[0].lane.empty());
-    EXPECT_NEAR(lastGain(desk, 2), 0.0501, 1e-3) << "felt as when it was moved";
+    EXPECT_NEAR(lastRecordedGain(desk, 2), 0.0501, 1e-3) << "felt as when it was moved";
     desk.restart(desk.mix().seed);
-    ASSERT_TRUE(runUntil([&] { return desk.look(), std::abs(lastGain(desk, 2) - 0.501f) < 1e-3f; }))
-        << lastGain(desk, 2);
-    ASSERT_TRUE(runUntil([&] { return desk.look(), std::abs(lastGain(desk, 2) - 0.0501f) < 1e-3f; }))
+    ASSERT_TRUE(runUntil([&] { return desk.look(), std::abs(lastRecordedGain(desk, 2) - 0.501f) < 1e-3f; }))
+        << lastRecordedGain(desk, 2);
+    ASSERT_TRUE(runUntil([&] { return desk.look(), std::abs(lastRecordedGain(desk, 2) - 0.0501f) < 1e-3f; }))
         << "and falls again";
     desk.undoManager().undo();
     EXPECT_TRUE(desk.mix().strips[2].lane.empty());
@@ -50,9 +50,9 @@ TEST(Lanes, FadersThatAreMovedWhileItRecordsAreWrittenAndPlayedAgain) {
 TEST(Lanes, WithoutAPointTheFaderIsHeardAgain) {
     Desk desk{onlyNoDevice(), noDevice};
     desk.change("Lane", [](Mix& mix) { mix.strips[1].lane = {{0.0, -20.0}}; });
-    ASSERT_TRUE(runUntil([&] { return std::abs(lastGain(desk, 1) - 0.1f) < 1e-6f; }));
+    ASSERT_TRUE(runUntil([&] { return std::abs(lastRecordedGain(desk, 1) - 0.1f) < 1e-6f; }));
     desk.undoManager().undo();
-    EXPECT_EQ(lastGain(desk, 1), 1.0f);
+    EXPECT_EQ(lastRecordedGain(desk, 1), 1.0f);
 }
 
 class RecordedLanes : public ::testing::Test {

@@ -16,7 +16,7 @@ mkdir -p "$out"
 home=$(mktemp -d)
 pid=""
 trap 'test -z "$pid" || kill -9 "$pid" 2>/dev/null || :; rm -rf "$home"' EXIT
-export XDG_CONFIG_HOME="$home/config"
+export XDG_CONFIG_HOME="$home/config" HOME="$home"
 cat >"$home/floor.json" <<'JSON'
 {"physvib_scene": 1, "name": "floor", "field_m": [6, 3], "gravity_m_per_s2": [0, -9.8], "drive_gain": 40,
  "materials": [{"name": "wood", "density_kg_per_m2": 850, "friction": 0.4, "restitution": 0.6, "frequency_hz": 80, "decay_per_s": 30},
@@ -87,7 +87,7 @@ subprocess.run([sys.argv[1], "render", "own.json", "--out", "own.wav", "--events
 def rows(path):
     lines = [l for l in open(path) if not l.startswith("#")]
     return [(float(r.pop("time_s")), tuple(sorted(r.items()))) for r in csv.DictReader(lines)]
-live, rendered = rows("session-take.csv"), rows("own.csv")
+live, rendered = rows("Documents/PhysVib/session-take.csv"), rows("own.csv")
 same = [a[1] == b[1] for a, b in zip(live, rendered)]
 shifts = [a[0] - b[0] for a, b in zip(live, rendered)]
 print(f"bodies {', '.join(b['name'] for b in scene['bodies'])}; joints {len(scene.get('joints', []))}; script of {len(script)} inputs, {end:.2f} s")

@@ -73,7 +73,7 @@ std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events,
         if (!waitFor([&] { return onset < BoardLink::nowNs() + 2 * BoardLink::sendAheadMs * ms; },
                      1'000'000'000))
             break;
-        panner.gainsAt(event.x, event.y, gains);
+        panner.gainsOf(event, Spread::layout, gains);
         link.push({onset, boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
         end = onset + event.durationNs +
               (event.decayPerSecond > 0 ? static_cast<std::int64_t>(7.0 / event.decayPerSecond * 1e9) : 0);
@@ -127,7 +127,7 @@ std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t del
         made.clear();
         world.step(made);
         for (const CollisionEvent& event : made) {
-            panner.gainsAt(event.x, event.y, gains);
+            panner.gainsOf(event, Spread::layout, gains);
             link.push({start + event.timeNs + delayNs,
                        boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
         }

@@ -135,6 +135,9 @@ void summarise(Rig& rig, std::uint64_t played) {
     std::cout << "worst load " << 100 * o.worstLoad << " %, "
               << (o.deviceXruns < 0 ? "xruns not counted by" : std::to_string(o.deviceXruns) + " xruns of")
               << " the device\n";
+    if (r.withoutPart > 0)
+        std::cout << r.withoutPart
+                  << " of a part of the body that no actuator is on, felt by their place on all\n";
     if (session.timeline().toldAheadNs() > 0)
         std::cout << "messages were felt " << 1e3 * session.timeline().directSeconds()
                   << " ms after they came\n";

@@ -227,7 +227,7 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
             return leave(exitUsage, o.scene.scene + ": boards and controllers play no recordings; "
                                                     "expected a --device alone");
         noteGiven(command, o.scene);
-        auto taken = takeSound(o.scene, job);
+        auto taken = takeSound(o.scene, o.device, job);
         if (!taken) return leave(exitFailed, taken.error);
         sound = std::move(taken.value);
     } else if (const int code = takeScene(job); code != exitDone)

@@ -12,7 +12,6 @@ namespace physvib {
 namespace {
 
 constexpr std::array<std::string_view, 3> endings{".wav", ".flac", ".ogg"};
-constexpr int mostOfPresets = 4;
 
 std::string channelsOf(const LoadedClip& sound) {
     return std::to_string(sound.channels.size()) + " channels";
@@ -30,16 +29,17 @@ bool namesSound(std::string_view file) {
     return clipFormatOf(file) || std::ranges::any_of(endings, ends);
 }
 
-Result<LoadedClip> takeSound(RenderJob& options, LoadedRender& job) {
+Result<LoadedClip> takeSound(RenderJob& options, std::string_view device, LoadedRender& job) {
     auto sound = loadWholeClip(options.scene);
     if (!sound) return sound;
     const auto count = static_cast<int>(sound.value.channels.size());
     const ContactRecording& first = sound.value.channels.front();
     if (!options.given.contains("--layout") && hasOneEach(sound.value)) {
-        if (count > mostOfPresets)
+        ActuatorLayout layout;
+        options.layout = layoutFor(count, device);
+        if (layoutPreset(options.layout, layout) && layout.count != count)
             return Failure{options.scene + ": " + channelsOf(sound.value) +
                            ": expected --layout with a file of as many actuators (Docs/render.md)"};
-        options.layout = layoutFor(count);
     }
     if (!options.given.contains("--seconds"))
         options.seconds = static_cast<double>(first.samples.size()) / first.sampleRateHz;

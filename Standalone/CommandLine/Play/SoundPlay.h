@@ -15,7 +15,7 @@ bool namesSound(std::string_view file);
 
 /// Reads the sound file given as scene. Sets a scene without bodies in `job`; sets the file's duration and a
 /// layout with one actuator per channel in `options`, unless given. Or one error line. Message thread.
-Result<LoadedClip> takeSound(RenderJob& options, LoadedRender& job);
+Result<LoadedClip> takeSound(RenderJob& options, std::string_view device, LoadedRender& job);
 
 /// Empty, or an error if the layout has fewer actuators than channels.
 std::string soundFault(const LoadedClip& sound, const LoadedRender& job);

@@ -30,7 +30,7 @@ StrikeGains gainsOf(const LoadedRender& job) {
                job.session->log.panners[next].timeNs <= event.timeNs)
             panner = job.session->log.panners[next++].panner;
         gains = {};
-        panner.gainsAt(event.x, event.y, event.spread, gains);
+        panner.gainsOf(event, event.spread, gains);
     };
 }
 

@@ -47,6 +47,7 @@ void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
     say(job.made.drops, "collisions lost because too many began in one physics step");
     say(status.rejected, "events that could not be played");
     say(status.late, "events played late");
+    say(status.withoutPart, "events of a part of the body that no actuator has, felt by their place on all");
     say(status.stolen, "modes faded out early because too many different ones sounded at once");
     say(status.nonFinite, "samples that were not finite and became silence");
     say(status.guarded, "times an actuator was turned down, as it would have got nearly direct current");

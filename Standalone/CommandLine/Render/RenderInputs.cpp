@@ -12,7 +12,7 @@ namespace {
 
 std::string readInputs(LoadedRender& job) {
     if (job.session && !job.options.given.contains("--layout")) {
-        job.layout = describeLayout("session", job.session->panner.layout());
+        job.layout = job.session->layout;
     } else {
         auto layout = layoutNamed(job.options.layout);
         if (!layout) return layout.error;

@@ -81,6 +81,9 @@ void declareReport(OptionTable& command, ReportOptions& o) {
         .add("--noise", o.job.noise,
              "sentence on the noise as the participants heard it, e.g. its level in dB(A)")
         .as("WORDS");
+    command
+        .add("--plan", o.job.planPath, "what `study plan` wrote before the study: the page says what differs")
+        .as("PLAN.txt");
     declareColumns(command, o.columnWords);
     command.add("--guess", o.job.guess, "of psychometric functions in other programs' tables: as in analyse")
         .in(0.0, 0.9);
@@ -101,6 +104,7 @@ int runReport(ReportOptions& o) {
     std::vector<std::string> inputs = o.job.files;
     if (!o.protocol.empty()) inputs.push_back(o.protocol);
     if (!o.job.peoplePath.empty()) inputs.push_back(o.job.peoplePath);
+    if (!o.job.planPath.empty()) inputs.push_back(o.job.planPath);
     if (const int code = write(o.job.folder, report.value.files, inputs); code != exitDone) return code;
     for (const std::string& note : report.value.notes) warn(note);
     tellIfSimulated(report.value.isSimulated);

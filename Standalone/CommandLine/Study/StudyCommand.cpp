@@ -7,6 +7,7 @@
 #include "Lab/Files/LevelsFile.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/StudyPlanned.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyRun.h"
 #include "Live/Recordings/LoadContact.h"
@@ -33,6 +34,7 @@ struct StudyOptions {
     std::vector<std::string> trials; ///< levels: trial files of the adjustments
     std::string levelsPath;          ///< levels: output file
     std::string pagePath;            ///< check: HTML output; empty: none
+    std::string planPath;            ///< plan: output file; empty: none
     double paceSeconds = 0.0;        ///< delay per trial, to watch or interrupt it
 };
 
@@ -156,6 +158,17 @@ int check(const StudyOptions& o) {
     return found.errors.empty() ? exitDone : exitFailed;
 }
 
+int plan(const StudyOptions& o) {
+    const auto protocol = protocolNamed(o.protocol);
+    if (!protocol) return leave(exitFailed, protocol.error);
+    const auto planned = plannedStudy(protocol.value, o.participants);
+    if (!planned) return leave(exitFailed, planned.error);
+    if (const int code = writeStudyFiles({StudyFile{o.planPath, planned.value}}); code != exitDone)
+        return code;
+    std::cout << planned.value;
+    return exitDone;
+}
+
 int levels(const StudyOptions& o) {
     const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
@@ -183,6 +196,7 @@ int levels(const StudyOptions& o) {
 
 void declareStudy(OptionTable& command, StudyOptions& o) {
     command.addCommand("list", "the built-in protocols, one per line");
+    command.addCommand("schema", "the JSON schema of protocols, for editors that check while one writes");
     OptionTable& show = command.addCommand("show", "a protocol as JSON, to start your own from");
     OptionTable& run = command.addCommand("run", "runs a study, or goes on with it where it was cut off");
     OptionTable& check =
@@ -191,7 +205,12 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
     OptionTable& levels = command.addCommand(
         "levels", "averages what experts set in a protocol's adjustments, for the levels_file of another");
     levels.add("--out", o.levelsPath, "a level per stimulus").written("FILE.csv").required();
-    for (OptionTable* const one : {&show, &run, &check, &levels})
+    OptionTable& plan = command.addCommand(
+        "plan", "design, number of participants, stop rules, exclusions, tests and corrections, as text to "
+                "register before the study; nobody feels anything");
+    plan.add("--participants", o.participants, "how many are to take part").in(1, 1000).required();
+    plan.add("--out", o.planPath, "the same text, for report --plan").written("PLAN.txt");
+    for (OptionTable* const one : {&show, &run, &check, &levels, &plan})
         one->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
     levels.add("trials", o.trials, "trial files of that protocol").as("TRIALS.csv").required();
     run.add("--observer", o.observer, "who answers: " + std::string(observerNames));
@@ -212,9 +231,11 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
 
 int runStudy(const OptionTable& command, const StudyOptions& o) {
     if (command.isCalled("list")) return list();
+    if (command.isCalled("schema")) return std::cout << protocolSchema(), exitDone;
     if (command.isCalled("run")) return run(o);
     if (command.isCalled("check")) return check(o);
     if (command.isCalled("levels")) return levels(o);
+    if (command.isCalled("plan")) return plan(o);
     const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
     std::cout << protocolJson(protocol.value);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's state, the session that plays it, and its output device.
 #include "Mixer/Desk/Desk.h"
+#include "Mixer/Desk/DeskRouting.h"
 #include "Mixer/Desk/DeskWords.h"
 #include "Scene/SceneCatalogue.h"
 #include <algorithm>
@@ -27,11 +28,21 @@ SessionSetup setupOf(const Mix& mix) {
     setup.stepsPerSecond = stepsPerSecond;
     setup.channels = Desk::channels;
     setup.panner = mix.panner();
+    setup.layout = mix.layout;
     setup.longestGapSeconds = Desk::gapSeconds;
     setup.contactSound.emplace();
     setup.ears = 2;
     setup.marks = MarkedOnsets::all;
     return setup;
+}
+
+/// Strips of new actuators are no louder than the quietest that is heard.
+void quietenNew(std::span<const Strip> before, std::span<Strip> strips) {
+    double most = mostStripDb;
+    for (const Strip& strip : before)
+        if (strip.gainDb > leastStripDb) most = std::min(most, strip.gainDb);
+    for (std::size_t j = before.size(); j < strips.size(); ++j)
+        strips[j].gainDb = std::min(strips[j].gainDb, most);
 }
 
 RigSettings rigOf(const Mix& mix, const DeviceChoice& device) {
@@ -62,7 +73,7 @@ private:
     Mix before_, after_;
 };
 
-Desk::Desk(AudioDrivers drivers, const DeviceChoice& device, Mix mix)
+Desk::Desk(AudioDrivers drivers, const DeviceChoice& device, Mix mix, DeskStart start)
     : mix_{std::move(mix)}
     , rig_{rigOf(mix_, device), drivers}
     , device_{rig_, std::move(drivers), mix_, [this] { sendChangeMessage(); }}
@@ -76,15 +87,20 @@ Desk::Desk(AudioDrivers drivers, const DeviceChoice& device, Mix mix)
                world_,
                [this] { edited(true); },
                [this](const Result<std::string>& note) { takeFelt(note); }} {
+    const auto without = settleOutputs(mix_.strips);
     saved_.run = setupOf(mix_).run();
     saved_.panner = mix_.panner();
+    saved_.layout = mix_.layout;
     mostEnchanters_ = mix_.count();
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
     session().sinks().attach(signals_.tap());
     const auto fault = rig_.connectSinks();
+    setSilent(start.isSilent); // before anything can be felt
+    session().world().setSlowness(start.isPaused ? 0 : 1);
     open(device);
     if (!fault.empty()) report(utf8(fault));
+    reportWithout(*this, without);
     told_.follow(session(), mix_);
     told_.tell(session(), mix_);
     edits_ = 0;
@@ -103,7 +119,11 @@ void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
     // undo restores the scene as it was drawn
     if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene)
         mix_.scene = std::make_shared<const Scene>(drawn);
-    undo_.perform(new MixEdit{*this, mix_, next});
+    Mix settled = next;
+    quietenNew(mix_.strips, settled.strips);
+    const auto without = settleOutputs(settled.strips);
+    undo_.perform(new MixEdit{*this, mix_, std::move(settled)});
+    reportWithout(*this, without);
 }
 
 void Desk::apply(const Mix& next) {
@@ -117,7 +137,10 @@ void Desk::apply(const Mix& next) {
     told_.tell(session(), mix_);
     if (!mix_.strips.empty() &&
         !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))
-        if (const auto error = device_.assign(); !error.empty()) report(utf8(error));
+        if (const auto error = device_.assign(); !error.empty()) {
+            takeOutputs(output().channelMap(), mix_.strips); // a refused output is neither shown nor saved
+            report(utf8(error));
+        }
     output().setLevel(masterGain(mix_));
     sendChangeMessage();
 }
@@ -135,8 +158,14 @@ bool Desk::attach(double shareX, double shareY) {
         layout.name = "own";
         layout.enchanters.push_back(
             {label(n), layout.enchanters.back().actuator, layout.enchanters.back().fullScaleG});
-        layout.geometry.places[static_cast<std::size_t>(layout.geometry.count++)] = {
-            shareX * layout.geometry.extentWidthMetres, shareY * layout.geometry.extentHeightMetres};
+        auto& geometry = layout.geometry;
+        const double x = shareX * geometry.extentWidthMetres, y = shareY * geometry.extentHeightMetres;
+        // in space: as deep as, and on the part of, the one that is nearest in the view
+        const auto others = std::span{geometry.places}.first(static_cast<std::size_t>(geometry.count));
+        const auto nearest = *std::ranges::min_element(
+            others, {}, [=](const ActuatorPlace& at) { return std::hypot(at.xMetres - x, at.yMetres - y); });
+        geometry.places[others.size()] = {x, y, nearest.zMetres, nearest.part};
+        ++geometry.count;
         mix.strips.push_back(nextStrip(mix.strips));
         mix.strips.back().gainDb = newStripDb;
     });
@@ -168,7 +197,9 @@ const SavedSession& Desk::saved() {
 }
 
 std::string Desk::open(const DeviceChoice& choice) {
+    const int slowness = session().world().slowness();
     auto error = device_.open(choice);
+    session().world().setSlowness(slowness); // the first device resets it
     report(deviceTrouble_ = utf8(error));
     signals_.setRate(output().sampleRateHz());
     return error;
@@ -188,8 +219,16 @@ std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
 void Desk::watchOutput() {
     told_.tell(session(), mix_); // retries controls for which the queue was full
     if (isSilent_ != output().isSilent()) showSilence();
+    const int slowness = session().world().slowness();
     device_.maintain();
-    if (const auto trouble = device_.trouble(); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
+    session().world().setSlowness(slowness);
+    const auto trouble = device_.trouble();
+    if (trouble == deviceTrouble_) return;
+    const auto before = std::exchange(deviceTrouble_, trouble);
+    if (trouble.isNotEmpty())
+        report(trouble);
+    else
+        messages_.withdraw(before);
 }
 
 void Desk::restart(std::uint32_t seed) {
@@ -215,11 +254,9 @@ void Desk::edited(bool isShown) {
 void Desk::takeFelt(const Result<std::string>& note) {
     if (!note) return report(utf8(note.error));
     const auto mute = device_.withoutClips();
-    juce::StringArray news{
-        utf8(note.value),
-        mute.isEmpty() ? "" : "The " + mute + " plays no clips: it is felt on the device alone"};
-    news.removeEmptyStrings();
-    if (!news.isEmpty()) tell(news.joinIntoString("; "));
+    if (!note.value.empty()) tell(utf8(note.value));
+    if (mute.isNotEmpty())
+        messages_.add({"The " + mute + " plays no clips: it is felt on the device alone", true});
     edited();
 }
 
@@ -228,13 +265,6 @@ void Desk::setSilent(bool silent) {
     showSilence();
 }
 
-void Desk::stop() {
-    hasStopped_ = !isSilent_;
-    setSilent(true);
-}
-
-void Desk::takeEscape() { setSilent(std::exchange(hasStopped_, false) || !isSilent_); }
-
 void Desk::showSilence() {
     isSilent_ = output().isSilent();
     sendChangeMessage();
@@ -242,19 +272,6 @@ void Desk::showSilence() {
 
 void Desk::setDisplayWidth(double metres) {
     displayWidthMetres_ = metres;
-    sendChangeMessage();
-}
-
-void Desk::report(const juce::String& trouble) {
-    if (trouble == trouble_ && !isNews_) return;
-    trouble_ = trouble;
-    isNews_ = false;
-    sendChangeMessage();
-}
-
-void Desk::tell(const juce::String& news) {
-    trouble_ = news;
-    isNews_ = true;
     sendChangeMessage();
 }
 

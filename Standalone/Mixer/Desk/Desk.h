@@ -7,6 +7,7 @@
 #include "Mixer/Desk/DeskExposure.h"
 #include "Mixer/Desk/DeskInputs.h"
 #include "Mixer/Desk/DeskLanes.h"
+#include "Mixer/Desk/DeskMessages.h"
 #include "Mixer/Desk/DeskRecording.h"
 #include "Mixer/Desk/DeskScript.h"
 #include "Mixer/Desk/DeskSignals.h"
@@ -15,7 +16,7 @@
 #include "Mixer/Desk/RecentContacts.h"
 #include "Mixer/Desk/ToldMix.h"
 #include <juce_data_structures/juce_data_structures.h>
-#include <memory>
+
 #include <string>
 #include <vector>
 
@@ -30,13 +31,14 @@ public:
 
     /// Plays `mix` on `device`, one of `types`; trouble() reports a failure. Sample rate and block size stay
     /// until another device is opened.
-    Desk(AudioDrivers drivers, const DeviceChoice& device, Mix mix = firstMix());
+    Desk(AudioDrivers drivers, const DeviceChoice& device, Mix mix = firstMix(), DeskStart start = {});
     static Mix firstMix(); ///< *Shake the box* on PHONE4 at a safe level
     ~Desk() override;
 
     const Mix& mix() const noexcept { return mix_; }
     /// Applies another mixer state as an undoable edit named `name`. In a series of edits with `goesOn`, such
     /// as those of a held fader, only the first starts a new undo step.
+    /// An actuator whose output another one has gets none, which is reported.
     void edit(const juce::String& name, const Mix& next, bool goesOn = false);
     template <class Change>
     void change(const juce::String& name, Change change, bool goesOn = false) {
@@ -48,6 +50,7 @@ public:
     bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false if there is
                                                ///< no channel left
     void detach(int enchanter);                ///< the last actuator cannot be detached
+
     std::uint64_t edits() const noexcept { return edits_; } ///< inputs included; for unsaved changes
     const SavedSession& saved(); ///< the session until now; rendering it reproduces what was played
     void restart(std::uint32_t seed);
@@ -74,20 +77,21 @@ public:
     std::string monitorInstead(std::vector<int> outputs, double db);
     void setSilent(bool silent);                         ///< set by the user at the machine
     bool isSilent() const noexcept { return isSilent_; } ///< as displayed: keys refer to what users see
-    void stop();                                         ///< first action of Esc
-    void takeEscape(); ///< an Esc that no other component used: ends a silence that already existed
+
     void setDisplayWidth(double metres); ///< of the display, to scale drags; 0: as the system reports
     double displayWidthMetres() const noexcept { return displayWidthMetres_; }
     DeskMoment look(); ///< changes since the last call; at most about 30 times a second
-    const juce::String& trouble() const noexcept { return trouble_; } ///< error in one line, or empty
-    void report(const juce::String& trouble);
-    void tell(const juce::String& news); ///< reports a success in the same place
-    bool isNews() const noexcept { return isNews_; }
+    DeskMessages& messages() noexcept { return messages_; }
+    const juce::String& trouble() const noexcept { return messages_.shown().words; } ///< one line, or empty
+    bool isNews() const noexcept { return messages_.shown().isNews; }
+    void report(const juce::String& trouble) { messages_.show({trouble}); }
+    void tell(const juce::String& news) { messages_.show({news, true}); } ///< reports a success there
 
 private:
     class MixEdit;
     friend class DeskInputs; // calls showSilence() and, often, takePlayed()
     void edited(bool isShown = true);
+
     void watchOutput();
     void beginWorld(bool isSameScene);
     void apply(const Mix& next);
@@ -103,9 +107,10 @@ private:
     DeskRecording recording_;
     juce::UndoManager undo_;
     DeskWorld world_;
-    juce::String trouble_, deviceTrouble_; // trouble_ is displayed; deviceTrouble_ is the device's last error
+    DeskMessages messages_{[this] { sendChangeMessage(); }};
+    juce::String deviceTrouble_; // the device's last error
     double displayWidthMetres_ = 0.0;
-    bool isSilent_ = false, hasStopped_ = false, isNews_ = false;
+    bool isSilent_ = false;
     std::uint64_t edits_ = 0;
     ToldMix told_;
     SavedSession saved_;

@@ -8,7 +8,7 @@ DeskMoment Desk::look() {
     const WorldRunner& world = session().world();
     signals_.follow(world.take(), 1e-9 * static_cast<double>(world.sceneNs()) - device_.playOutSeconds(),
                     world.slowness());
-    const float loudest = signals_.read(now_, mix_.count());
+    const float loudest = signals_.read(now_, mix_.count(), isSilent_);
     now_.session = session().status();
     now_.device = output().status();
     exposure_.update();
@@ -23,7 +23,7 @@ DeskMoment Desk::look() {
     now_.meters.enchanters = mix_.count();
     for (std::size_t j = 0; j < static_cast<std::size_t>(mix_.count()); ++j)
         now_.meters.isConnected[j] = mix_.strips[j].output >= 0;
-    now_.masterPeak = isSilent_ ? 0.0f : loudest * masterGain(mix_);
+    now_.masterPeak = loudest * masterGain(mix_);
     now_.sessionNs = session().world().readPoses(now_.poses);
     now_.aheadNs = static_cast<std::int64_t>(1e9 * device_.playOutSeconds());
     watchOutput();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Snapshot of the mixer for display, and the choice of its device.
+// Snapshot of the mixer for display, how it begins, and the choice of its device.
 #pragma once
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/ChannelMeters.h"
@@ -24,6 +24,12 @@ struct DeskMoment {
     double dailyExposure = 0.0;                       ///< A(8) of the mixer's output today, m/s^2
     SessionStatus session;
     AudioOutputStatus device;
+};
+
+/// How a session begins.
+struct DeskStart {
+    bool isSilent = false; ///< nothing is felt until the silence is lifted
+    bool isPaused = false; ///< the world stands still
 };
 
 /// The requested device.

@@ -27,12 +27,15 @@ void DeskSignals::follow(std::size_t take, double feltSeconds, int slowness) {
     if (std::abs(feltSeconds - takeTrace_.seconds()) > mostOffSeconds) takeTrace_.moveTo(feltSeconds);
 }
 
-float DeskSignals::read(DeskMoment& moment, int enchanters) {
+float DeskSignals::read(DeskMoment& moment, int enchanters, bool isSilent) {
     const double now = nowMs(), passed = std::min(1000.0, now - readAtMs_);
     readAtMs_ = now;
     const auto fall = static_cast<float>(std::pow(10.0, -meterFallDbPerSecond * passed / 20'000.0));
-    for (auto& peak : moment.meters.peaks) peak = peak * fall < 1e-4f ? 0.0f : peak * fall;
-    tap_.read([&](const float* const* block, int frames) { measure(block, frames, moment, enchanters); });
+    for (auto& peak : moment.meters.peaks) peak = isSilent || peak * fall < 1e-4f ? 0.0f : peak * fall;
+    if (isSilent) moment.holds.fill(0.0f);
+    tap_.read([&](const float* const* block, int frames) {
+        isSilent ? measureSilence(frames, moment, enchanters) : measure(block, frames, moment, enchanters);
+    });
     float loudest = 0.0f;
     for (std::size_t j = 0; j < static_cast<std::size_t>(enchanters); ++j) {
         const float peak = moment.meters.peaks[j];
@@ -41,6 +44,14 @@ float DeskSignals::read(DeskMoment& moment, int enchanters) {
         loudest = std::max(loudest, peak);
     }
     return loudest;
+}
+
+// The tap lies before the master, which mutes.
+void DeskSignals::measureSilence(int frames, DeskMoment& moment, int enchanters) {
+    if (zeros_.size() < static_cast<std::size_t>(frames)) zeros_.resize(static_cast<std::size_t>(frames));
+    std::array<const float*, limits::maxEnchanters> block{};
+    block.fill(zeros_.data());
+    measure(block.data(), frames, moment, enchanters);
 }
 
 void DeskSignals::measure(const float* const* block, int frames, DeskMoment& moment, int enchanters) {

@@ -7,6 +7,7 @@
 #include "Mixer/Strips/SpectrumTrace.h"
 #include "Mixer/Strips/TakeTrace.h"
 #include <array>
+#include <vector>
 
 namespace physvib {
 
@@ -26,11 +27,12 @@ public:
     void follow(std::size_t take, double feltSeconds, int slowness);
 
     /// Updates peaks and holds of `moment`, which must be the same object each time. Returns the loudest peak
-    /// of the first `enchanters`.
-    float read(DeskMoment& moment, int enchanters);
+    /// of the first `enchanters`. `isSilent`: the output is muted, so all signals are shown as zeros.
+    float read(DeskMoment& moment, int enchanters, bool isSilent);
 
 private:
     void measure(const float* const* block, int frames, DeskMoment& moment, int enchanters);
+    void measureSilence(int frames, DeskMoment& moment, int enchanters);
 
     SignalTap tap_{limits::maxEnchanters, 1 << 14};
     ScopeTrace scope_;
@@ -40,6 +42,7 @@ private:
     int sampleRateHz_ = 48000;
     std::array<double, limits::maxEnchanters> heldAtMs_{};
     double readAtMs_ = 0.0;
+    std::vector<float> zeros_;
 };
 
 } // namespace physvib

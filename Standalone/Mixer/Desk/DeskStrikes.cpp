@@ -31,14 +31,17 @@ EnchanterPlace DeskStrikes::onField(double shareX, double shareY) const {
 EnchanterPlace DeskStrikes::placeOf(int enchanter) const {
     const auto& layout = mix_.layout.geometry;
     const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
-    return {place.xMetres / layout.extentWidthMetres * mix_.scene->fieldWidthMetres,
-            place.yMetres / layout.extentHeightMetres * mix_.scene->fieldHeightMetres};
+    const double wide = mix_.scene->fieldWidthMetres;
+    return {place.xMetres / layout.extentWidthMetres * wide,
+            place.yMetres / layout.extentHeightMetres * mix_.scene->fieldHeightMetres,
+            place.zMetres / layout.extentWidthMetres * wide};
 }
 
 bool DeskStrikes::strike(std::vector<CollisionEvent> strikes, const EnchanterPlace& at) {
     for (auto& s : strikes) {
         s.x = at.xMetres;
         s.y = at.yMetres;
+        s.z = at.zMetres;
     }
     const bool isStruck{session_.take({Strikes{strikes}})};
     onStrike_();

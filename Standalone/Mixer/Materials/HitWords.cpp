@@ -21,7 +21,7 @@ juce::String materialName(const Scene& scene, const CollisionEvent& hit) {
 
 FeltMost feltMost(const Mix& mix, const CollisionEvent& hit) {
     PhantomPanner::Gains gains{};
-    mix.panner().gainsAt(hit.x, hit.y, gains);
+    mix.panner().gainsOf(hit, Spread::layout, gains);
     FeltMost most;
     for (int j = 0; j < mix.count(); ++j) {
         const auto i = static_cast<std::size_t>(j);

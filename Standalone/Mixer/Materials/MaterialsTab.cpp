@@ -2,6 +2,7 @@
 // Controls of the materials tab: list, frequency and decay, surface, test spot, and a thread that measures
 // recordings.
 #include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Materials/FeltRange.h"
 #include "Mixer/Materials/MaterialColumns.h"
 #include "Mixer/Window/Parts.h"
@@ -236,7 +237,8 @@ void MaterialsTab::visibilityChanged() {
 
 void MaterialsTab::browse() {
     chooser_ = std::make_unique<juce::FileChooser>(
-        "A recording of one hit", juce::File::getCurrentWorkingDirectory(), "*.wav;*.flac;*.ogg", false);
+        "A recording of one hit", juce::SharedResourcePointer<UserFolder> {} -> place(), "*.wav;*.flac;*.ogg",
+        false);
     chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
                           [this](const juce::FileChooser& chooser) {
                               if (const auto file = chooser.getResult(); file != juce::File{}) measure(file);

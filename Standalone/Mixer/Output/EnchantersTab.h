@@ -11,8 +11,10 @@ public:
     /// `world` shows the gain map of the actuator selected here.
     EnchantersTab(Desk& desk, WorldView& world);
     void takeMix() override;
+    void editRow(int enchanter); ///< asks for name, profile and full scale
     void paint(juce::Graphics& g) override;
     void resized() override;
+    int leastHeight() const override { return 300; } // four rows of the list
     void visibilityChanged() override {
         world_.showGainsOf(isVisible() && maps_.getToggleState() ? chosen_ : -1);
     }
@@ -42,7 +44,6 @@ private:
         EnchantersTab& tab_;
     };
     void choose(int enchanter);
-    void editRow(int enchanter);
     void takePreset();
 
     Desk& desk_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exports the selected contacts of the events list to files.
+#include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Output/EventsTab.h"
 #include <algorithm>
 #include <limits>
@@ -27,10 +28,10 @@ juce::String EventsTab::fileName() const {
 void EventsTab::saveAs() {
     if (chosen_.empty()) return;
     using B = juce::FileBrowserComponent;
-    chooser_ =
-        std::make_unique<juce::FileChooser>("Save the chosen contacts as a clip",
-                                            juce::File::getCurrentWorkingDirectory().getChildFile(fileName()),
-                                            "*" + hitEndings().joinIntoString(";*"), false);
+    chooser_ = std::make_unique<juce::FileChooser>(
+        "Save the chosen contacts as a clip",
+        juce::SharedResourcePointer<UserFolder> {} -> place().getChildFile(fileName()),
+        "*" + hitEndings().joinIntoString(";*"), false);
     chooser_->launchAsync(B::saveMode | B::warnAboutOverwriting | B::canSelectFiles,
                           [this](const juce::FileChooser& chooser) {
                               if (chooser.getResult() != juce::File{}) saveTo(chooser.getResult());

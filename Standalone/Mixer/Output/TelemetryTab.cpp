@@ -62,6 +62,8 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
         {"Dropped", count(session.world().drops()) + " hits in a step", noneIsGood(session.world().drops())},
         {"Refused", count(moment.session.refused) + " without room, " + count(r.rejected) + " unplayable",
          noneIsGood(refused)},
+        {"Elsewhere", count(r.withoutPart) + " hits of a part without an actuator",
+         noneIsGood(r.withoutPart)},
         marginFact(moment, output.sampleRateHz()),
         {"Stalls", number(1e-6 * static_cast<double>(session.world().slippedNs()), 0) + " ms of the world"},
         {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early",

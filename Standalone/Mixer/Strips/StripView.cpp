@@ -67,7 +67,8 @@ StripView::StripView(Desk& desk, int strip)
     output_.setTitle("Output of " + label);
     output_.setJustificationType(juce::Justification::centred);
     output_.onChange = [this] {
-        change("Output", [this](Strip& s) { s.output = output_.getSelectedId() - 2; });
+        desk_.change("Output of " + utf8(desk_.mix().layout.enchanters[index_].label),
+                     [this](Mix& mix) { giveOutput(mix.strips, index_, output_.getSelectedId() - 2); });
     };
     group_ = quietButton("group", "Group of " + label);
     group_->onClick = [this] { showGroupMenu(desk_, index_, *group_); };
@@ -94,7 +95,14 @@ void StripView::change(const juce::String& name, Change change, bool goesOn) {
 void StripView::fillOutputs() {
     output_.clear(juce::dontSendNotification);
     output_.addItem("none", 1);
-    for (int k = 0; k < desk_.device().outputs(); ++k) output_.addItem("out " + juce::String{k + 1}, k + 2);
+    std::vector<juce::String> names;
+    for (int k = 0; k < desk_.device().outputs(); ++k) names.push_back("out " + juce::String{k + 1});
+    const Mix& mix = desk_.mix();
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) // who would be exchanged
+        if (const auto k = static_cast<std::size_t>(mix.strips[j].output);
+            j != index_ && mix.strips[j].output >= 0 && k < names.size())
+            names[k] += " of " + utf8(mix.layout.enchanters[j].label);
+    for (int id = 2; const auto& name : names) output_.addItem(name, id++);
     if (strip().output >= desk_.device().outputs())
         output_.addItem("out " + juce::String{strip().output + 1} + " (not there)", strip().output + 2);
 }
@@ -168,9 +176,10 @@ void StripView::paint(juce::Graphics& g) {
     for (const int db : {0, -20, -40, -60}) { // scale of the meter, right of the fader
         const auto y = static_cast<float>(meter_.getY()) +
                        static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
-        g.drawText(number(db, 0),
-                   juce::Rectangle<float>{static_cast<float>(getWidth()) - 25.0f, y - 7.0f, 24.0f, 14.0f},
-                   juce::Justification::centredRight, false);
+        g.drawText(
+            number(db, 0),
+            juce::Rectangle<float>{static_cast<float>(fader_.getRight()) - 3.0f, y - 7.0f, 24.0f, 14.0f},
+            juce::Justification::centredRight, false);
     }
 }
 
@@ -208,9 +217,10 @@ void StripView::resized() {
     for (auto* button : {&mute_, &solo_, &polarity_, &delay_})
         button->setBounds(row.removeFromLeft(each).reduced(1, 0));
     area.removeFromBottom(8);
-    meter_.setBounds(area.withWidth(12).withX(10));
+    const int left = (getWidth() - width) / 2;
+    meter_.setBounds(area.withWidth(12).withX(left + 10));
     ceiling_.placeOver(meter_.getBounds());
-    fader_.setBounds(area.withX(24).withWidth(32).expanded(0, 8));
+    fader_.setBounds(area.withX(left + 24).withWidth(32).expanded(0, 8));
 }
 
 MasterStrip::MasterStrip(Desk& desk)

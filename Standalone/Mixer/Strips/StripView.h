@@ -10,11 +10,12 @@ namespace physvib {
 
 class StripView final : public juce::Component, public juce::FileDragAndDropTarget {
 public:
-    static constexpr int width = 78;
+    static constexpr int width = 78, mostWidth = 132; ///< they share the panel
 
     StripView(Desk& desk, int strip);
     void takeMix();
     void refresh(const DeskMoment& moment);
+    void showOutputs() { output_.showPopup(); }
     bool keyPressed(const juce::KeyPress& key) override;
     void mouseDown(const juce::MouseEvent& e) override;
     void paint(juce::Graphics& g) override;

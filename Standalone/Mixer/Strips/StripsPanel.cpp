@@ -100,20 +100,37 @@ void StripsPanel::focusOfChildComponentChanged(FocusChangeType) {
 
 void StripsPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
 
+int StripsPanel::fixedWidth() const {
+    return static_cast<int>(groups_.size()) * (GroupView::width + between) + attachWidth;
+}
+
+int StripsPanel::widthFor(int strip) const {
+    return static_cast<int>(strips_.size()) * (strip + between) + fixedWidth() + MasterStrip::width + 8 +
+           2 * panelInset;
+}
+
+void StripsPanel::showOutputs(int enchanter) {
+    if (enchanter < 0 || enchanter >= static_cast<int>(strips_.size())) return;
+    auto& strip = *strips_[static_cast<std::size_t>(enchanter)];
+    viewport_.setViewPosition(std::max(0, strip.getX() - between), 0);
+    strip.showOutputs();
+}
+
 void StripsPanel::resized() {
     auto area = getLocalBounds().reduced(panelInset, 10);
     master_.setBounds(area.removeFromRight(MasterStrip::width));
     area.removeFromRight(8);
     viewport_.setBounds(area);
-    const int needed = (static_cast<int>(strips_.size()) + 1) * (StripView::width + 6) +
-                       static_cast<int>(groups_.size()) * (GroupView::width + 6);
+    const int strips = std::max(1, static_cast<int>(strips_.size())), rest = area.getWidth() - fixedWidth(),
+              width = juce::jlimit(StripView::width, StripView::mostWidth, rest / strips - between),
+              needed = strips * (width + between) + fixedWidth();
     row_.setSize(std::max(needed, area.getWidth()), area.getHeight() - (needed > area.getWidth() ? 10 : 0));
     auto places = row_.getLocalBounds();
     for (auto& strip : strips_)
-        strip->setBounds(places.removeFromLeft(StripView::width)), places.removeFromLeft(6);
+        strip->setBounds(places.removeFromLeft(width)), places.removeFromLeft(between);
     for (auto& group : groups_)
-        group->setBounds(places.removeFromLeft(GroupView::width)), places.removeFromLeft(6);
-    attach_.setBounds(places.removeFromLeft(StripView::width).withTrimmedTop(2).withTrimmedBottom(2));
+        group->setBounds(places.removeFromLeft(GroupView::width)), places.removeFromLeft(between);
+    attach_.setBounds(places.removeFromLeft(attachWidth).withTrimmedTop(2).withTrimmedBottom(2));
 }
 
 } // namespace physvib

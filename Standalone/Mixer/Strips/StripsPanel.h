@@ -11,6 +11,9 @@ public:
     explicit StripsPanel(Desk& desk);
     void takeMix();
     void refresh(const DeskMoment& moment);
+    int widthFor(int strip) const; ///< with all strips in sight, each so wide
+    /// Opens the list of outputs of a strip.
+    void showOutputs(int enchanter);
     void paint(juce::Graphics& g) override;
     void resized() override;
     void focusOfChildComponentChanged(FocusChangeType) override; ///< scrolls to the focused strip
@@ -25,6 +28,8 @@ private:
         void mouseDrag(const juce::MouseEvent& e) override;
     };
 
+    static constexpr int between = 6, attachWidth = 52;
+    int fixedWidth() const; ///< of the row, beside its strips
     void makeStrips();
     void makeGroups();
 

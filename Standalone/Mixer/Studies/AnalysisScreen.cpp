@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shows results of the same analysis functions as `physvib analyse`.
 #include "Mixer/Studies/AnalysisScreen.h"
+#include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Studies/StudyParts.h"
 
 namespace physvib {
@@ -44,8 +45,22 @@ void withoutHatches(juce::XmlElement& svg) {
 } // namespace
 
 AnalysisScreen::AnalysisScreen(Desk& desk, const std::vector<juce::File>& files)
-    : desk_{desk} {
-    setTitle("Analysis");
+    : AnalysisScreen{desk, "Analysis"} {
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&kind_, choose_.get()})
+        addAndMakeVisible(c);
+    analyse(files);
+}
+
+AnalysisScreen::AnalysisScreen(Desk& desk, const juce::String& title, AnalysisReport report)
+    : AnalysisScreen{desk, title} {
+    report_ = std::move(report);
+    showWords();
+}
+
+AnalysisScreen::AnalysisScreen(Desk& desk, const juce::String& title)
+    : desk_{desk}
+    , title_{title} {
+    setTitle(title);
     setOpaque(true);
     setWantsKeyboardFocus(true);
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
@@ -68,16 +83,14 @@ AnalysisScreen::AnalysisScreen(Desk& desk, const std::vector<juce::File>& files)
     words_.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
     words_.setEscapeAndReturnKeysConsumed(false);
     words_.setFont(juce::Font{text::medium});
-    for (juce::Component* c :
-         std::initializer_list<juce::Component*>{&kind_, choose_.get(), close_.get(), &silence_, &words_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{close_.get(), &silence_, &words_})
         addAndMakeVisible(c);
     prepareControls(*this);
-    analyse(files);
     refresh();
 }
 
 void AnalysisScreen::refresh() {
-    silence_.setButtonText(desk_.isSilent() ? "SILENT  Esc: feel" : "SILENCE  Esc");
+    silence_.setButtonText(desk_.isSilent() ? "SILENT: press to feel" : "SILENCE  Esc");
     silence_.setToggleState(desk_.isSilent(), juce::dontSendNotification);
 }
 
@@ -96,8 +109,9 @@ bool AnalysisScreen::keyPressed(const juce::KeyPress& key) {
 }
 
 void AnalysisScreen::browse() {
-    const auto folder = files_.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
-                                       : files_.front().getParentDirectory();
+    const auto folder = files_.empty() ? juce::SharedResourcePointer<UserFolder> {
+        } -> place()
+            : files_.front().getParentDirectory();
     chooser_ = std::make_unique<juce::FileChooser>("Trials of a study", folder, "*.csv", false);
     constexpr int which = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles |
                           juce::FileBrowserComponent::canSelectMultipleItems;
@@ -131,6 +145,7 @@ void AnalysisScreen::run(const std::string& name) {
         picture_ = juce::Drawable::createFromSVG(*svg);
     }
     showWords();
+    resized();
     repaint();
 }
 
@@ -152,7 +167,7 @@ void AnalysisScreen::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::ground));
     g.setColour(shade(*this, Shade::text));
     g.setFont(juce::Font{text::large, juce::Font::bold});
-    auto title = files_.empty() ? juce::String{"Analysis"} : files_.front().getFileName();
+    auto title = files_.empty() ? title_ : files_.front().getFileName();
     if (files_.size() > 1) title << " and " << static_cast<int>(files_.size() - 1) << " more";
     g.drawText(title, titleArea_, juce::Justification::centredLeft, true);
     if (const auto* const whole = dynamic_cast<const juce::DrawableComposite*>(picture_.get())) {
@@ -174,7 +189,8 @@ void AnalysisScreen::resized() {
     kind_.setBounds(head.removeFromRight(200).withSizeKeepingCentre(190, rowHeight));
     titleArea_ = head;
     area.removeFromTop(16);
-    words_.setBounds(area.removeFromLeft(std::min(wordsWidth, area.getWidth() / 2)));
+    words_.setBounds(picture_ == nullptr ? area
+                                         : area.removeFromLeft(std::min(wordsWidth, area.getWidth() / 2)));
     pictureArea_ = area.withTrimmedLeft(24);
 }
 

@@ -11,6 +11,8 @@ namespace physvib {
 class AnalysisScreen final : public juce::Component {
 public:
     AnalysisScreen(Desk& desk, const std::vector<juce::File>& files);
+    /// Shows this report instead, under that title.
+    AnalysisScreen(Desk& desk, const juce::String& title, AnalysisReport report);
     ~AnalysisScreen() override;
 
     std::function<void()> onClose;
@@ -30,11 +32,13 @@ public:
     void parentHierarchyChanged() override;
 
 private:
+    AnalysisScreen(Desk& desk, const juce::String& title);
     void browse();
     void run(const std::string& name);
     void showWords();
 
     Desk& desk_;
+    juce::String title_;
     std::vector<juce::File> files_;
     AnalysisReport report_;
     std::unique_ptr<juce::Drawable> picture_;

@@ -6,10 +6,10 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Live/Devices/NoDevice.h"
+#include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Studies/StudyLooks.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
-#include "Studies/StudyCheck.h"
 
 namespace physvib {
 namespace {
@@ -70,8 +70,8 @@ StudiesTab::StudiesTab(Desk& desk)
     wordsChoice_.addItem("what the protocol says", protocolWordsId);
     wordsChoice_.addItem("English", englishId);
     for (int id = firstWordsId; const Words& words : builtInWords())
-        wordsChoice_.addItem(hasLetters({}, utf8(words.language)) ? utf8(words.language) : utf8(words.name),
-                             id++);
+        wordsChoice_.addItem(
+            hasLetters({}, utf8(words.language)) ? utf8(words.language) : utf8(words.inEnglish), id++);
     wordsChoice_.addItem("Words file" + dots(), fileId);
     wordsChoice_.setSelectedId(protocolWordsId, juce::dontSendNotification);
     wordsChoice_.onChange = [this] { pickWords(); };
@@ -91,6 +91,9 @@ StudiesTab::StudiesTab(Desk& desk)
     browse_->onClick = [this] { browseFolder(); };
     analyse_ = quietButton("Analyse", "Analyse the participant's trials, or other files");
     analyse_->onClick = [this] { analyse(); };
+    findings_ = quietButton("Checking" + dots(), "What `study check` found: levels, orders, times");
+    findings_->setTitle("Findings of the check");
+    findings_->onClick = [this] { showFindings(); };
     begin_.setTitle("Begin the study");
     begin_.onClick = [this] { begin(); };
     for (auto* editor : {&code_, &number_, &folder_}) {
@@ -99,21 +102,27 @@ StudiesTab::StudiesTab(Desk& desk)
         editor->onTextChange = [this] { look(); };
     }
     for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_,
-             browse_.get(), &noiseName_, &noise_, &noiseLevelName_, &noiseLevel_, &wordsName_, &wordsChoice_,
-             &answersName_, &answersChoice_, &begin_, analyse_.get()})
+             &choiceName_,  &choice_,         &codeName_,   &code_,         &numberName_,
+             &number_,      &folderName_,     &folder_,     browse_.get(),  &noiseName_,
+             &noise_,       &noiseLevelName_, &noiseLevel_, &wordsName_,    &wordsChoice_,
+             &answersName_, &answersChoice_,  &begin_,      analyse_.get(), findings_.get()})
         addAndMakeVisible(c);
-    setFolder(juce::File::getSpecialLocation(juce::File::userDocumentsDirectory));
+    setFolder(juce::SharedResourcePointer<UserFolder> {} -> place());
     setParticipant("P01", 1);
     chooseProtocol(knownProtocols().front().name);
 }
 
-StudiesTab::~StudiesTab() { end(); }
+StudiesTab::~StudiesTab() {
+    end();
+    stopCheck();
+}
 
 std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
     auto protocol = protocolNamed(nameOrPath);
     auto fault = protocol ? protocolFault(protocol.value, nameOrPath) : protocol.error;
     if (!fault.empty()) return say(utf8(fault), Shade::limit), fault;
+    stopCheck();
+    check_.reset();
     protocol_ = std::move(protocol.value);
     const auto& all = knownProtocols();
     const auto known = std::ranges::find(all, nameOrPath, &Protocol::name);
@@ -275,7 +284,7 @@ void StudiesTab::look() {
     const StudyRun chosen = run();
     const auto path = chosen.trialFile();
     std::error_code none;
-    begin_.setEnabled(!code_.isEmpty());
+    begin_.setEnabled(!code_.isEmpty() && check_.has_value());
     if (code_.isEmpty()) return begin_.setButtonText("Begin"), say("Expected a code", Shade::muted);
     if (!std::filesystem::exists(path, none))
         return begin_.setButtonText("Begin"),
@@ -293,6 +302,45 @@ void StudiesTab::look() {
         say(utf8(log.error), Shade::limit);
 }
 
+void StudiesTab::stopCheck() {
+    isCheckWanted_ = false;
+    checking_ = {}; // waits for the stimulus that is being rendered
+}
+
+/// Starts the check of a new protocol beside the message thread, and takes its result.
+void StudiesTab::updateCheck() {
+    if (checking_.valid() && checking_.wait_for(std::chrono::seconds{0}) == std::future_status::ready) {
+        check_ = checking_.get();
+        look();
+    }
+    if (!check_ && !checking_.valid() && protocol_ && isVisible()) {
+        isCheckWanted_ = true;
+        checking_ = std::async(std::launch::async, [this, protocol = *protocol_] {
+            return checkStudy(protocol, 0, [this] { return isCheckWanted_.load(); });
+        });
+    }
+    const auto count = check_ ? check_->errors.size() + check_->warnings.size() : 0;
+    findings_->setEnabled(check_.has_value());
+    findings_->setButtonText(!check_      ? "Checking" + dots()
+                             : count == 0 ? juce::String{"Checked"}
+                             : count == 1 ? juce::String{"1 finding"}
+                                          : juce::String{static_cast<int>(count)} + " findings");
+}
+
+void StudiesTab::showFindings() {
+    auto* view = findParentComponentOfClass<MixerView>();
+    if (screen_ || analysis_ || !check_ || view == nullptr) return;
+    AnalysisReport report;
+    for (const auto* lines : {&check_->facts, &check_->deviations})
+        for (const std::string& line : *lines) report.words += line + "\n\n";
+    for (const std::string& line : check_->errors) report.warnings.push_back("Refused: " + line);
+    report.warnings.insert(report.warnings.end(), check_->warnings.begin(), check_->warnings.end());
+    analysis_ =
+        std::make_unique<AnalysisScreen>(desk_, "Check of " + titleOf(protocol_->name), std::move(report));
+    analysis_->onClose = [this] { end(); };
+    cover(*view, *analysis_);
+}
+
 void StudiesTab::say(const juce::String& words, Shade shade) {
     words_ = words;
     wordsShade_ = shade;
@@ -304,9 +352,14 @@ std::string StudiesTab::begin() {
     auto* view = findParentComponentOfClass<MixerView>();
     if (screen_ || analysis_ || !protocol_ || view == nullptr) return "expected a mixer without a study";
     if (code_.isEmpty()) return refuse("expected a participant's code");
+    stopCheck(); // one that is not made yet: a program called this, as the button waits for the check
     if (auto fault = faultOf(run()); !fault.empty()) return refuse(fault);
     if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
-    if (auto fault = limiterFault(*protocol_); !fault.empty()) return refuse(protocol_->name + ": " + fault);
+    if (auto fault = !check_                  ? limiterFault(*protocol_)
+                     : check_->errors.empty() ? ""
+                                              : check_->errors.front();
+        !fault.empty())
+        return refuse(protocol_->name + ": " + fault);
     auto words =
         findWords(wordsPath_.empty() ? besideProtocol(protocol_->folder, protocol_->words) : wordsPath_);
     if (!words) return refuse(words.error);
@@ -318,11 +371,15 @@ std::string StudiesTab::begin() {
         return refuse(fault);
     auto pictures = materialPictures(*protocol_, run().participant.code);
     if (!pictures) return refuse(pictures.error);
+    juce::File{folder_.getText()}.createDirectory(); // a failure is reported with the file's name
     auto study = std::make_unique<StudyInProgress>(run());
     if (!study->error().empty()) return refuse(study->error());
     if (auto fault = desk_.device().listening().hear(listening()); !fault.empty()) return refuse(fault);
-    if (auto fault = study->apparatusFault(apparatusOf(desk_)); !fault.empty())
-        return desk_.device().listening().endStudy(), refuse(fault);
+    Apparatus apparatus = apparatusOf(desk_);
+    apparatus.language = words.value.name.empty() ? "en" : words.value.name;
+    auto unlike = study->apparatusFault(apparatus);
+    if (unlike.empty()) unlike = study->begin(apparatus);
+    if (!unlike.empty()) return desk_.device().listening().endStudy(), refuse(unlike);
     screen_ = std::make_unique<StudyScreen>(desk_, std::move(study), std::move(words.value),
                                             answersChoice_.getSelectedId() == answersElsewhereId,
                                             std::move(pictures.value));
@@ -384,6 +441,10 @@ juce::StringArray StudiesTab::advice() const {
     if (protocol_ && protocol_->hasPinkNoise && listening().noise.empty())
         lines.add("The protocol asks for pink noise on headphones: choose their outputs.");
     if (level_.isNotEmpty()) lines.add(level_);
+    if (check_ && !check_->errors.empty())
+        lines.add(utf8(check_->errors.front()));
+    else if (check_ && !check_->warnings.empty())
+        lines.add(utf8(check_->warnings.front()));
     return lines;
 }
 
@@ -415,7 +476,9 @@ void StudiesTab::resized() {
         label.setBounds(area.removeFromTop(captionHeight));
     };
     caption(choiceName_);
-    choice_.setBounds(area.removeFromTop(rowHeight));
+    auto first = area.removeFromTop(rowHeight);
+    findings_->setBounds(first.removeFromRight(100));
+    choice_.setBounds(first.withTrimmedRight(gap));
     area.removeFromTop(space);
     aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - 42, 0, 98));
     const auto pair = [&area, captionHeight](juce::Label& leftName, juce::Component& left,
@@ -444,6 +507,13 @@ void StudiesTab::resized() {
     begin_.setBounds(row.removeFromLeft(140));
     analyse_->setBounds(row.removeFromRight(80));
     wordsArea_ = row.withTrimmedLeft(gap);
+}
+
+bool pauseStudy(MixerView& view) {
+    auto* const tab = dynamic_cast<StudiesTab*>(view.tabs().find("Studies"));
+    if (tab == nullptr || tab->screen() == nullptr) return false;
+    tab->screen()->closeRequested();
+    return true;
 }
 
 void chooseStudy(MixerView& view, const StudyCall& call) {

@@ -6,6 +6,9 @@
 #include "Mixer/Studies/StudyFont.h"
 #include "Mixer/Studies/StudyScreen.h"
 #include "Mixer/Window/TabPanel.h"
+#include "Studies/StudyCheck.h"
+#include <atomic>
+#include <future>
 
 namespace physvib {
 
@@ -52,7 +55,12 @@ public:
     juce::Rectangle<int> adviceArea() const noexcept { return levelArea_; }
 
     void takeMix() override;
+    int leastHeight() const override { return 246; } // the controls without captions, and a line of advice
+    /// The check of the protocol; none while it is made. It is made while the tab is seen.
+    const std::optional<StudyCheck>& check() const noexcept { return check_; }
+
     void refresh(const DeskMoment&) override {
+        updateCheck();
         if (screen_) screen_->refresh();
         if (analysis_) analysis_->refresh();
     }
@@ -71,6 +79,9 @@ private:
     void browseWords();
     ListeningSettings listening() const;
     void say(const juce::String& words, Shade shade);
+    void stopCheck();
+    void updateCheck();
+    void showFindings();
     StudyRun run() const; ///< the selection; precondition: there is a protocol
 
     Desk& desk_;
@@ -83,7 +94,8 @@ private:
         answersName_;
     std::vector<std::vector<int>> noiseOutputs_; // in the order of the list
     juce::TextEditor code_, number_, folder_;
-    std::unique_ptr<juce::TextButton> browse_, analyse_;
+    std::unique_ptr<juce::TextButton> browse_, analyse_, findings_;
+    std::optional<StudyCheck> check_; // of protocol_
     juce::TextButton begin_{"Begin"};
     juce::Rectangle<int> aboutArea_, levelArea_, wordsArea_;
     std::unique_ptr<juce::FileChooser> chooser_;
@@ -91,7 +103,13 @@ private:
     std::unique_ptr<StudyScreen> screen_;
     std::unique_ptr<AnalysisScreen> analysis_;
     std::vector<juce::Component::SafePointer<juce::Component>> hidden_; // while the screen covers them
+    std::atomic<bool> isCheckWanted_{false};
+    std::future<StudyCheck> checking_; // the last member: it is waited for first
 };
+
+/// The window is to be closed: pauses or leaves a study on its screen. False if there is none. Message
+/// thread.
+bool pauseStudy(MixerView& view);
 
 /// Shows the tab with these selections; it displays errors in the protocol. Message thread.
 void chooseStudy(MixerView& view, const StudyCall& call);

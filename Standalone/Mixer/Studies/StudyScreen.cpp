@@ -38,6 +38,11 @@ Apparatus apparatusOf(Desk& desk) {
     const ListeningSettings& listening = desk.device().listening().settings();
     Apparatus with{PHYSVIB_VERSION, desk.output().device(), desk.mix().levelDb};
     if (!listening.noise.empty()) with.noiseDb = listening.noiseDb;
+    const auto add = [](std::string& words, int output) {
+        words.append(words.empty() ? "" : " ").append(output < 0 ? "-" : std::to_string(output + 1));
+    };
+    for (const Strip& strip : desk.mix().strips) add(with.outputs, strip.output);
+    for (const int output : listening.noise) add(with.noiseOutputs, output);
     return with;
 }
 
@@ -101,12 +106,14 @@ void StudyScreen::parentSizeChanged() {
 
 void StudyScreen::showNext() {
     const bool asksComment = page_ == Page::trial && !study_->protocol().closingQuestion.empty();
-    if (experiment().isDone()) return showPage(asksComment ? Page::comment : Page::done);
+    if (experiment().isDone())
+        return note(studyEvents::end), showPage(asksComment ? Page::comment : Page::done);
     if (isExposed()) return showPage(Page::exposed);
     const Trial& trial = experiment().trial();
     const bool isFirstSeen = !answers_;
     if (!isFirstSeen && trial.number > 1 && trial.restSeconds <= 0.0) return showTrial();
     restEndsMs_ = nowMs() + 1e3 * trial.restSeconds;
+    if (trial.restSeconds > 0.0) note(studyEvents::rest);
     showPage(Page::pause);
 }
 
@@ -187,8 +194,22 @@ void StudyScreen::fail(const std::string& reason) {
     showPage(Page::fault);
 }
 
+void StudyScreen::note(std::string_view event) {
+    if (const auto fault = study_->note(event); !fault.empty()) desk_.report(utf8(fault));
+}
+
+void StudyScreen::closeRequested() {
+    if (page_ == Page::comment) return takeComment();
+    if (page_ != Page::pause && page_ != Page::trial) return leave();
+    note(studyEvents::pause);
+    sound_.stop();
+    pane_.world().end();
+    showPage(Page::paused);
+}
+
 void StudyScreen::leave() {
     if (isFeeling() && !hasHands()) return;
+    if (!experiment().isDone()) note(studyEvents::leave);
     // asynchronous, because it deletes this component
     if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); });
 }
@@ -196,8 +217,10 @@ void StudyScreen::leave() {
 void StudyScreen::goOn() {
     switch (page_) {
     case Page::pause:
-        if (restLeft() <= 0.0) showTrial();
-        return;
+        if (restLeft() > 0.0) return;
+        if (experiment().trial().restSeconds > 0.0) note(studyEvents::goOn);
+        return showTrial();
+    case Page::paused: return note(studyEvents::goOn), showNext();
     case Page::trial: return;
     case Page::comment: return takeComment();
     case Page::done:
@@ -219,7 +242,7 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
     if (key.isKeyCode(KeyPress::tabKey)) return false; // moves the focus
     const int digit = static_cast<int>(key.getTextCharacter() - '1');
     if (key.isKeyCode(KeyPress::escapeKey))
-        desk_.takeEscape(), refresh();
+        desk_.setSilent(true), refresh();
     else if (page_ == Page::comment)
         return false;
     else if (page_ == Page::trial && pane_.takeKey(key)) {

@@ -24,12 +24,15 @@ public:
 
     const StudyInProgress& study() const noexcept { return *study_; }
     const StudyWords& words() const noexcept { return say_; }
-    enum class Page { pause, trial, comment, done, exposed, fault };
+    enum class Page { pause, trial, comment, done, exposed, fault, paused };
     Page page() const noexcept { return page_; }
     int plays() const noexcept { return progress_ ? progress_->plays() : 0; } ///< of the current trial
     bool isFeeling() const { return sound_.isPlaying() || pane_.isPlaying(); }
     StudyWorldPane& world() noexcept { return pane_; }
     StudyAnswerPane& answers() noexcept { return answers_; }
+
+    /// The window is to be closed: a running study pauses and says so; then, and at its end, it closes.
+    void closeRequested();
 
     /// Updates breaks, playback and the answer. To be called about 30 times a second.
     void refresh();
@@ -46,11 +49,13 @@ private:
     void showParts();
     void previewWorld();
     void fail(const std::string& reason);
+    void note(std::string_view event); ///< into the file of times
     void goOn();
     void leave();
     void play(std::size_t part);
     std::string begin(std::size_t part);
     void playWanted();
+    void playSequence();
     void pause();
     void asked();
     void confirm();
@@ -108,7 +113,9 @@ private:
     std::vector<std::string> sessions_; // sessions felt in this trial
     std::vector<FeltLevel> felt_;       // by part
     std::size_t part_ = 0;
-    double limiterDb_ = 0.0; // maximum gain reduction observed in this trial
+    double endedMs_ = 0.0;         // when that part ended
+    std::optional<bool> wasRight_; // the answer before, if the session gives feedback
+    double limiterDb_ = 0.0;       // maximum gain reduction observed in this trial
     double counted_ = 0.0, firstFeltMs_ = 0.0, restEndsMs_ = 0.0;
 
     BigButton next_{"Next", "Next"}, pause_{"Pause", "Pause"};

@@ -19,6 +19,7 @@ double StudyScreen::restLeft() const { return std::max(0.0, 1e-3 * (restEndsMs_ 
 
 /// The part after the last played one; at first, the first.
 std::size_t StudyScreen::nextPart() const {
+    if (experiment().session().intervalSeconds > 0.0 && !hasHands()) return 0; // starts the sequence
     return progress_->plays() == 0 ? 0 : (part_ + 1) % parts_.size();
 }
 
@@ -63,6 +64,15 @@ void StudyScreen::playWanted() {
     const auto part = *wanted_;
     wanted_.reset();
     play(part);
+}
+
+/// The parts after the first, each the session's interval after the one before.
+void StudyScreen::playSequence() {
+    const double interval = experiment().session().intervalSeconds;
+    const std::size_t next = part_ + 1;
+    if (interval > 0.0 && !isFeeling() && !hasHands() && next < parts_.size() &&
+        progress_->plays(next) < progress_->plays(part_) && nowMs() >= endedMs_ + 1e3 * interval)
+        play(next);
 }
 
 void StudyScreen::pause() {
@@ -131,6 +141,8 @@ void StudyScreen::take(Answer answer) {
     answer.sessions = sessions_;
     const auto session = experiment().sessionNumber();
     markers_.push(markerWords("answer") + ";response=" + answer.response);
+    const auto right = isCorrect(study_->protocol(), {experiment().trial(), answer});
+    wasRight_ = experiment().session().givesFeedback ? right : std::nullopt;
     if (!study_->take(std::move(answer))) return fail(study_->error());
     const bool staysOpen = !experiment().isDone() && isExploring() &&
                            experiment().sessionNumber() == session &&
@@ -156,9 +168,10 @@ void StudyScreen::updateTrial() {
             -toDecibels(std::max(1e-6, static_cast<double>(desk_.session().status().render.limiterGain))));
     pane_.refresh();
     markFelt();
-    if (wasFeeling && !isFeeling()) resized();
+    if (wasFeeling && !isFeeling()) endedMs_ = nowMs(), resized();
     if (!pane_.world().fault().empty()) return fail(pane_.world().fault());
     playWanted();
+    playSequence();
     if (exploring_ && !isFeeling() && progress_->plays() > 0) return take(*exploring_);
     const bool isOpen =
         !isFeeling() && !desk_.isSilent() && (progress_->canAnswer() || answers_->isOpen() || isExploring());

@@ -14,7 +14,7 @@ void StudyScreen::refresh() {
     const bool hasFocus = hasKeyboardFocus(true) || (elsewhere_ && elsewhere_->hasKeyboardFocus(true));
     if (isShowing() && !hasFocus) grabKeyboardFocus(); // an answer may then take it
     const bool isSilent = desk_.isSilent();
-    silence_.setButtonText(isSilent ? say_("SILENT  Esc: feel") : say_("SILENCE  Esc"));
+    silence_.setButtonText(isSilent ? say_("SILENT: press to feel") : say_("SILENCE  Esc"));
     silence_.setToggleState(isSilent, juce::dontSendNotification);
     leave_->setEnabled(!isFeeling() || hasHands());
     if (page_ == Page::trial) updateTrial();
@@ -22,6 +22,7 @@ void StudyScreen::refresh() {
         next_.setEnabled(restLeft() <= 0.0);
         next_.setWords(say_(experiment().trial().number == 1 ? "Begin" : "Go on"), say_("Enter"));
     }
+    if (page_ == Page::paused) next_.setEnabled(true), next_.setWords(say_("Go on"), say_("Enter"));
     if (page_ == Page::comment) next_.setEnabled(true), next_.setWords(say_("Next"));
     if (page_ == Page::done || page_ == Page::exposed || page_ == Page::fault)
         next_.setEnabled(true), next_.setWords(say_("Close"), say_("Enter"));
@@ -62,7 +63,10 @@ void StudyScreen::updateParts() {
                             : say_("felt {n} times", {{"n", juce::String{progress_->plays(i)}}}));
         button.setWords(words, remarks.joinIntoString(",  "));
         button.setToggleState(isPlaying, juce::dontSendNotification);
-        button.setEnabled((!isFeeling() || hasHands()) && !desk_.isSilent() && progress_->canPlay(i));
+        const bool isInSequence = session.intervalSeconds > 0.0 && !hasHands() &&
+                                  (i > 0 || progress_->plays(0) > progress_->plays(parts_.size() - 1));
+        button.setEnabled((!isFeeling() || hasHands()) && !desk_.isSilent() && progress_->canPlay(i) &&
+                          !isInSequence);
         if (session.leastSeconds > 0.0) button.setShare(progress_->seconds(i) / session.leastSeconds);
     }
 }
@@ -76,6 +80,7 @@ juce::String StudyScreen::headline() const {
     case Page::done: return say_("Thank you. That was everything.");
     case Page::exposed: return say_("That is enough vibration for today: the study pauses.");
     case Page::fault: return say_("The study cannot go on.");
+    case Page::paused: return say_("The study is paused.");
     case Page::pause: break;
     }
     const Trial& trial = experiment().trial();
@@ -87,7 +92,9 @@ juce::String StudyScreen::headline() const {
 juce::String StudyScreen::body() const {
     switch (page_) {
     case Page::trial:
-        if (desk_.isSilent()) return say_("Everything is silent. Esc: feel again.");
+        if (desk_.isSilent()) return say_("Everything is silent. Press the button to feel again.");
+        if (wasRight_ && plays() == 0 && desk_.trouble().isEmpty())
+            return say_(*wasRight_ ? "That was right." : "That was wrong.");
         return desk_.trouble().isNotEmpty()
                    ? juce::String{desk_.trouble()}
                    : say_.instruction(experiment().session(), experiment().condition()).replace("\n", " ");
@@ -100,6 +107,8 @@ juce::String StudyScreen::body() const {
                "\n" + say_("What you answered is kept, and the study goes on there another day.");
     case Page::fault:
         return utf8(fault_) + "\n" + say_("What was answered so far is kept, and the study goes on there.");
+    case Page::paused:
+        return say_("What you answered is kept. Close the window again to leave; the study goes on here.");
     case Page::pause: return say_.instruction(experiment().session(), experiment().condition());
     }
     return {};

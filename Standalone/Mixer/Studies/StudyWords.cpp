@@ -40,6 +40,7 @@ juce::String StudyWords::feel(const SessionPlan& session) const {
 
 juce::String StudyWords::instruction(const SessionPlan& session, const ConditionPlan& condition) const {
     const StudyWords& say = *this;
+    if (!session.instruction.empty()) return say(session.instruction);
     if (const auto* world = std::get_if<WorldSet>(&condition.stimuli); world != nullptr && world->hasHands)
         return say("The numbers show one world each: drag what moves in it, and tilt it with the arrow keys, "
                    "each about half of the time.") +

@@ -5,6 +5,7 @@
 #include "Core/Limits.h"
 #include "Live/Devices/LikelyDevices.h"
 #include "Live/Devices/NoDevice.h"
+#include "Live/Devices/PicoDevice.h"
 #include <algorithm>
 #include <optional>
 
@@ -22,9 +23,10 @@ juce::String outputsText(int outputs) {
 
 } // namespace
 
-void keepTo(int outputs, Mix& mix) {
-    if (mix.count() <= outputs) return;
-    mix.layout = presetLayout(layoutFor(outputs), mix.layout.enchanters);
+void keepTo(int outputs, Mix& mix, std::string_view device) {
+    const bool isFirst = mix.layout.name == Desk::firstMix().layout.name; // nobody has chosen it
+    if (mix.count() <= outputs && !(isPico(device) && isFirst)) return;
+    mix.layout = presetLayout(layoutFor(outputs, device), mix.layout.enchanters);
     mix.resizeStrips();
 }
 
@@ -40,8 +42,8 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
     const auto devices = byLikelihood(listAudioDevices(drivers));
     std::vector<FeltChoice> many, few, all;
     for (const auto& device : devices) {
-        if (device.type == noDeviceType) continue;
         const int outputs = ownOutputs(device);
+        if (device.type == noDeviceType || outputs < 1) continue; // nothing could be felt or heard there
         FeltChoice choice{utf8(device.type + ": " + device.name) + ", " + outputsText(outputs) +
                               (outputs == 2 ? ": two actuators" : ""),
                           {device.type + ":" + device.name},
@@ -111,7 +113,10 @@ void FirstStart::choose(int index) {
 void FirstStart::playHere() {
     if (choices_.empty()) return end(false);
     const FeltChoice choice = choices_[static_cast<std::size_t>(chosen_)];
-    if (choice.outputs == 0) return end(true);
+    if (choice.outputs == 0) {
+        desk_.tell("No device: the world is seen, not felt. Output has the devices");
+        return end(true);
+    }
     if (choice.isBeside) {
         if (onBeside) onBeside(choice.device);
         return;
@@ -130,12 +135,12 @@ void FirstStart::listen() {
 }
 
 void FirstStart::test(int outputs) {
-    slowness_ = std::max(1, desk_.session().world().slowness());
+    if (tested_ < 0) slowness_ = desk_.session().world().slowness();
     desk_.setSlowness(0); // pause the world, so that only test pulses are felt
-    desk_.change("First start", [outputs](Mix& mix) {
-        keepTo(outputs, mix);
+    desk_.change("First start", [&, outputs](Mix& mix) {
+        keepTo(outputs, mix, desk_.device().choice().name);
         for (int j = 0; j < mix.count(); ++j) mix.strips[static_cast<std::size_t>(j)].output = j;
-        mix.levelDb = firstDb;
+        mix.levelDb = std::min(firstDb, mix.levelDb);
     });
     tested_ = 0;
     looks_ = 0;
@@ -174,9 +179,9 @@ void FirstStart::feltAt(double shareX, double shareY) {
     if (isGone()) return next();
     desk_.change("Place of an actuator", [&](Mix& mix) {
         auto& layout = mix.layout.geometry;
-        layout.places[static_cast<std::size_t>(tested_)] = {
-            juce::jlimit(0.0, 1.0, shareX) * layout.extentWidthMetres,
-            juce::jlimit(0.0, 1.0, shareY) * layout.extentHeightMetres};
+        auto& place = layout.places[static_cast<std::size_t>(tested_)]; // depth and part stay
+        place.xMetres = juce::jlimit(0.0, 1.0, shareX) * layout.extentWidthMetres;
+        place.yMetres = juce::jlimit(0.0, 1.0, shareY) * layout.extentHeightMetres;
         mix.layout.name = "own";
     });
     next();

@@ -6,6 +6,7 @@
 #include "Mixer/Window/Parts.h"
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
@@ -32,8 +33,9 @@ std::vector<SinkOffer> likelySinks();
 /// likelySinks().
 std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vector<SinkOffer>& offers);
 
-/// Reduces the layout to a preset with at most that number of actuators. Message thread.
-void keepTo(int outputs, Mix& mix);
+/// Reduces the layout to a preset with at most that number of actuators; a Pico gets its own one. Message
+/// thread.
+void keepTo(int outputs, Mix& mix, std::string_view device = {});
 
 /// Card over the window, usable by keys alone: up, down and Return; then Return (felt), L (louder), N (not
 /// felt). Message thread only.

@@ -11,7 +11,7 @@
 namespace physvib {
 namespace {
 
-constexpr const char* sessionPattern = "*.json";
+constexpr const char* sessionEnding = ".json";
 constexpr double movieSeconds = 60.0;
 constexpr double longestRender = 86'400.0; // the limit of `physvib render`
 
@@ -39,30 +39,35 @@ Result<Mix> mixWith(Mix mix, const juce::File& file) {
 bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isOwn) {
     auto session = loadSession(pathOf(file));
     if (session) {
-        Mix mix = mixOf(session.value);
-        if (!isOwn) return playLowered(std::move(mix), document), true;
-        if (before_) lowerTo(*before_, mix); // the copy may lack the last seconds
-        return play(std::move(mix), document), true;
+        // the copy may lack the last seconds; who has used this run has set other levels since
+        const bool isAsLeft = isOwn && before_ && !isChanged();
+        playLowered(isAsLeft ? *before_ : limits(), mixOf(session.value), document,
+                    endsPaused(session.value));
+        return true;
     }
     if (!desk_) play(firstMix(), {});
     say(utf8(session.error));
     return false;
 }
 
-void MixerWindow::playLowered(Mix mix, const juce::File& document) {
+void MixerWindow::playLowered(const DeskLimits& most, Mix mix, const juce::File& document, bool isPaused) {
     const Mix asked = mix;
-    const auto lowered = lowerTo(limits(), mix);
-    play(std::move(mix), document);
+    const auto lowered = lowerTo(most, mix);
+    play(std::move(mix), document, isPaused);
     tellLowered(lowered, asked);
 }
 
 void MixerWindow::tellLowered(const std::string& lowered, const Mix& asked) {
     asked_ = lowered.empty() ? std::nullopt : std::optional{asked};
-    if (asked_) say("Lowered to this desk: " + utf8(lowered) + ". The menu has the file's own levels");
+    if (asked_)
+        desk_->messages().add({"Lowered to this desk: " + utf8(lowered),
+                               false,
+                               {"Levels of the file", [this] { takeAsked(); }}});
 }
 
 // The user may set levels that a file may not.
 void MixerWindow::takeAsked() {
+    if (!asked_) return;
     desk_->change("Levels of the file", [this](Mix& mix) {
         mix.levelDb = asked_->levelDb;
         if (asked_->count() == mix.count()) mix.strips = asked_->strips;
@@ -75,7 +80,7 @@ void MixerWindow::start(const juce::File& file) {
     if (!file.existsAsFile()) return play(firstMix(), file);
     if (fileKind(pathOf(file)) == FileKind::session) return void(load(file, file));
     const auto mix = mixWith(firstMix(), file);
-    if (mix) return playLowered(mix.value, {});
+    if (mix) return playLowered(limits(), mix.value, {});
     play(firstMix(), {});
     say(utf8(mix.error));
 }
@@ -85,34 +90,73 @@ juce::String MixerWindow::documentName() const {
 }
 
 juce::File MixerWindow::folderOfDocuments() const {
-    return document_ != juce::File{} ? document_.getParentDirectory()
-                                     : juce::File::getCurrentWorkingDirectory();
+    if (document_ != juce::File{}) return document_.getParentDirectory();
+    const auto folder = folder_->make();
+    return folder ? folder.value : juce::File::getSpecialLocation(juce::File::userHomeDirectory);
 }
 
-void MixerWindow::chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving,
-                             std::function<void(const juce::File&)> use, const juce::String& suggested) {
-    using B = juce::FileBrowserComponent;
-    const auto folder = folderOfDocuments();
-    const auto first =
-        suggested.isEmpty() ? folder : folder.getNonexistentChildFile(suggested, pattern.substring(1), false);
-    chooser_ = std::make_unique<juce::FileChooser>(title, first, pattern, false);
-    chooser_->launchAsync((isSaving ? B::saveMode | B::warnAboutOverwriting : B::openMode) |
-                              B::canSelectFiles,
-                          [use = std::move(use)](const juce::FileChooser& c) {
-                              if (c.getResult() != juce::File{}) use(c.getResult());
-                          });
+void MixerWindow::tellSaved(const juce::String& words, const juce::File& file) {
+    desk_->messages().show(
+        {words + " " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}});
+}
+
+void MixerWindow::chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
+                             std::function<void(const juce::File&)> use, const juce::String& suggested,
+                             const juce::File& in) {
+    const auto setting = "folder" + ending; // the last one, of each kind of file
+    const juce::File last{files_.settings().getValue(setting)};
+    const auto folder = in != juce::File{} ? in : last.isDirectory() ? last : folderOfDocuments();
+    const auto name =
+        suggested.isEmpty()
+            ? juce::String{}
+            : folder.getNonexistentChildFile(suggested, ending, false).getFileNameWithoutExtension();
+    auto card = std::make_unique<FileCard>(FileCard::Choice{title, ending, folder, isSaving, name});
+    // asynchronous, because its button's click is still being handled
+    const auto close = [this](std::function<void()> then) {
+        juce::MessageManager::callAsync(
+            [safe = juce::Component::SafePointer<MixerWindow>{this}, then = std::move(then)] {
+                if (safe == nullptr) return;
+                safe->view_->setCard(nullptr);
+                then();
+            });
+    };
+    card->onCancel = [close] { close([] {}); };
+    card->onFile = [this, setting, use = std::move(use), close](const juce::File& file) {
+        files_.settings().setValue(setting, file.getParentDirectory().getFullPathName());
+        close([use, file] { use(file); });
+    };
+    view_->setCard(std::move(card));
+}
+
+void MixerWindow::ask(const juce::String& title, const juce::String& words,
+                      std::vector<std::pair<juce::String, std::function<void()>>> answers,
+                      const std::vector<QuestionCard::Field>& fields) {
+    std::vector<QuestionCard::Answer> all;
+    for (auto& [answer, act] : answers) all.push_back({answer, std::move(act)});
+    all.push_back(
+        {"Cancel", [this] { view_->setCard(nullptr); }, true, juce::KeyPress{juce::KeyPress::escapeKey}});
+    view_->setQuestion(std::make_unique<QuestionCard>(title, words, std::move(all), fields));
+}
+
+juce::String MixerWindow::takeAnswer(const juce::String& field) {
+    const auto value = view_->question() ? view_->question()->value(field) : juce::String{};
+    view_->setCard(nullptr);
+    return value;
 }
 
 void MixerWindow::askThen(std::function<void()> goOn) {
     if (!isChanged()) return goOn();
-    juce::AlertWindow::showYesNoCancelBox(
-        juce::MessageBoxIconType::QuestionIcon, "Save the session?",
-        "What was changed since it was saved would be lost.", "Save", "Do not save", "Cancel", view_.get(),
-        juce::ModalCallbackFunction::create([this, goOn = std::move(goOn)](int answer) {
-            if (answer == 0) return;
-            if (answer == 1) save();
-            if (answer == 2 || !isChanged()) goOn();
-        }));
+    ask("Save the session?", "What was changed since it was saved would be lost.",
+        {{"Save",
+          [this, goOn] {
+              view_->setCard(nullptr);
+              save();
+              if (!isChanged()) goOn();
+          }},
+         {"Do not save", [this, goOn] {
+              view_->setCard(nullptr);
+              goOn();
+          }}});
 }
 
 void MixerWindow::newDocument() {
@@ -123,7 +167,7 @@ void MixerWindow::newDocument() {
 }
 
 void MixerWindow::openDocument() {
-    chooseFile("Open a session, a scene or a layout", sessionPattern, false,
+    chooseFile("Open a session, a scene or a layout", sessionEnding, false,
                [this](const juce::File& file) { openFile(file); });
 }
 
@@ -154,8 +198,8 @@ void MixerWindow::save() {
 
 void MixerWindow::saveAs() {
     chooseFile(
-        "Save the session", sessionPattern, true,
-        [this](const juce::File& file) { saveTo(file.withFileExtension("json")); }, documentName());
+        "Save the session", sessionEnding, true, [this](const juce::File& file) { saveTo(file); },
+        documentName());
 }
 
 void MixerWindow::saveTo(const juce::File& file) {
@@ -173,35 +217,27 @@ void MixerWindow::saveTo(const juce::File& file) {
 
 void MixerWindow::record() {
     if (desk_->recording().isRunning()) return desk_->recording().stop();
-    const auto file = folderOfDocuments().getNonexistentChildFile(documentName() + "-take", ".wav", false);
-    const auto error = desk_->recording().start(file);
+    const auto file = folder_->fresh(documentName() + "-take", {".wav", ".csv"});
+    const auto error = file ? desk_->recording().start(file.value) : file.error;
     view_->topBar().setRecording(error.empty());
     if (!error.empty()) say(utf8(error));
 }
 
 void MixerWindow::renderOffline() {
     const double played = 1e-9 * static_cast<double>(desk_->saved().lengthNs);
-    auto* window = new juce::AlertWindow{"Render the session",
-                                         "It was played for " + number(played, 1) +
-                                             " s. Beyond that its last scene goes on by itself.",
-                                         juce::MessageBoxIconType::NoIcon, view_.get()};
-    // without thousands separators
-    window->addTextEditor("seconds", juce::String{std::ceil(10.0 * played) / 10.0, 1}, "Seconds");
-    window->getTextEditor("seconds")->setInputRestrictions(8, "0123456789.");
-    window->addButton("Choose a file" + dots(), 1, juce::KeyPress{juce::KeyPress::returnKey});
-    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    window->enterModalState(
-        true, juce::ModalCallbackFunction::create([this, window](int answer) {
-            const double seconds = window->getTextEditorContents("seconds").getDoubleValue();
-            if (answer == 0) return;
-            if (!(seconds >= 0.1 && seconds <= longestRender))
-                return say("Seconds to render: expected 0.1 to " + number(longestRender, 0));
-            chooseFile(
-                "Render the session to", "*.wav", true,
-                [this, seconds](const juce::File& file) { renderTo(file.withFileExtension("wav"), seconds); },
-                documentName());
-        }),
-        true);
+    ask("Render the session",
+        "It was played for " + number(played, 1) + " s. Beyond that its last scene goes on by itself.",
+        {{"Choose a file" + dots(),
+          [this] {
+              const double seconds = takeAnswer("Seconds").getDoubleValue();
+              if (!(seconds >= 0.1 && seconds <= longestRender))
+                  return say("Seconds to render: expected 0.1 to " + number(longestRender, 0));
+              chooseFile(
+                  "Render the session to", ".wav", true,
+                  [this, seconds](const juce::File& file) { renderTo(file, seconds); }, documentName());
+          }}},
+        // without thousands separators
+        {{"Seconds", juce::String{std::ceil(10.0 * played) / 10.0, 1}, "0123456789."}});
 }
 
 void MixerWindow::make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work) {
@@ -222,9 +258,8 @@ void MixerWindow::saveMovie() {
     if (desk_->saved().lengthNs < 1'000'000'000)
         return say("Save movie: expected a session of at least a second");
     chooseFile(
-        "Save the last minute as a movie", "*.webp", true,
-        [this](const juce::File& file) { saveMovieTo(file.withFileExtension("webp"), movieSeconds); },
-        documentName() + "-movie");
+        "Save the last minute as a movie", ".webp", true,
+        [this](const juce::File& file) { saveMovieTo(file, movieSeconds); }, documentName() + "-movie");
 }
 
 void MixerWindow::saveMovieTo(const juce::File& file, double seconds) {
@@ -235,18 +270,16 @@ void MixerWindow::saveMovieTo(const juce::File& file, double seconds) {
 
 void MixerWindow::exportLayout() {
     chooseFile(
-        "Save the layout to", sessionPattern, true,
+        "Save the layout to", sessionEnding, true,
         [this](const juce::File& file) {
-            if (const auto error =
-                    writeFile(pathOf(file.withFileExtension("json")), layoutJson(desk_->mix().layout));
-                !error.empty())
+            if (const auto error = writeFile(pathOf(file), layoutJson(desk_->mix().layout)); !error.empty())
                 say(utf8(error));
         },
         "layout");
 }
 
 void MixerWindow::import(const juce::String& title) {
-    chooseFile(title, sessionPattern, false, [this](const juce::File& file) { openFile(file); });
+    chooseFile(title, sessionEnding, false, [this](const juce::File& file) { openFile(file); });
 }
 
 } // namespace physvib

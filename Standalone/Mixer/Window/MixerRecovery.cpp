@@ -31,13 +31,17 @@ void MixerWindow::offerRecovery() {
     for (; shown < most; ++shown) {
         const auto session = RecoveryCopies::read(copies[shown]);
         if (session) break;
-        if (shown == 0) sayAlso(utf8(session.error) + "; it stays until it is discarded");
+        if (shown == 0) desk_->messages().add({utf8(session.error) + "; it stays until it is discarded"});
     }
     showCopy(copies, shown == most ? 0 : shown);
 }
 
 void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at) {
-    if (copies.empty()) return view_->setQuestion(nullptr);
+    if (copies.empty()) {
+        if (view_->question() == nullptr) return;
+        view_->setQuestion(nullptr);
+        return showHintOnce();
+    }
     const std::size_t most = std::min(copies.size(), mostOffered);
     const auto copy = copies[at];
     const auto session = RecoveryCopies::read(copy);
@@ -57,7 +61,7 @@ void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std
     std::vector<QuestionCard::Answer> answers{
         {"Take it up", [this, copy] { takeUp(copy); }, static_cast<bool>(session)},
         {"Discard it", [discard, copy] { discard({copy}); }},
-        {"Not now", [this] { view_->setQuestion(nullptr); }}};
+        {"Not now", [this] { view_->setQuestion(nullptr), showHintOnce(); }}};
     if (most > 1) {
         answers.push_back({"Newer", [this, copies, at] { showCopy(copies, at - 1); }, at > 0,
                            juce::KeyPress{juce::KeyPress::leftKey}});
@@ -79,6 +83,7 @@ void MixerWindow::takeUp(const std::filesystem::path& copy) {
         savedEdits_ = neverSaved;
         files_.copies().forget(); // the previous session was saved or discarded by the user
         files_.copies().goOnFrom(copy);
+        showHintOnce();
         if (const auto error = files_.keepNow(*desk_); !error.empty()) say(utf8(error));
     });
 }

@@ -11,17 +11,13 @@ namespace physvib {
 
 void MixerWindow::saveScene(bool isNow) {
     files_.scenesFolder().createDirectory();
-    using B = juce::FileBrowserComponent;
-    chooser_ = std::make_unique<juce::FileChooser>(
-        "Save as scene", files_.scenesFolder().getChildFile("scene.json"), "*.json", false);
-    chooser_->launchAsync(B::saveMode | B::warnAboutOverwriting | B::canSelectFiles,
-                          [this, isNow](const juce::FileChooser& c) {
-                              if (c.getResult() == juce::File{}) return;
-                              const auto file = c.getResult().withFileExtension("json");
-                              if (const auto error = saveSceneTo(file, isNow); !error.empty())
-                                  return say(utf8(error));
-                              desk_->tell("Saved " + file.getFullPathName());
-                          });
+    chooseFile(
+        "Save as scene", ".json", true,
+        [this, isNow](const juce::File& file) {
+            if (const auto error = saveSceneTo(file, isNow); !error.empty()) return say(utf8(error));
+            desk_->tell("Saved " + file.getFullPathName());
+        },
+        "scene", files_.scenesFolder());
 }
 
 std::string MixerWindow::saveSceneTo(const juce::File& file, bool isNow) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layout of the panels, keyboard handling, and display updates 30 times a second.
+// The panels, keyboard handling, and display updates.
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Output/EnchantersTab.h"
@@ -15,7 +15,7 @@ namespace physvib {
 
 namespace {
 
-constexpr int barHeight = 52, stripsHeight = 292, troubleHeight = 34;
+constexpr int dismissWidth = 90;
 
 } // namespace
 
@@ -29,6 +29,11 @@ MixerView::MixerView(Desk& desk)
     setTitle("PhysVib mixer");
     setWantsKeyboardFocus(true);
     tabs_.add("Actuators", std::make_unique<EnchantersTab>(desk, world_.view()));
+    world_.onOutput = [this](int enchanter) { strips_.showOutputs(enchanter); };
+    world_.onProfile = [this](int enchanter) {
+        if (auto* actuators = dynamic_cast<EnchantersTab*>(tabs_.find("Actuators")))
+            actuators->editRow(enchanter);
+    };
     tabs_.add("Materials", std::make_unique<MaterialsTab>(desk, world_.view()));
     tabs_.add("Output", std::make_unique<OutputTab>(desk));
     tabs_.add("Studies", std::make_unique<StudiesTab>(desk));
@@ -37,15 +42,30 @@ MixerView::MixerView(Desk& desk)
     scope_.add("Events", std::make_unique<EventsTab>(desk));
     scope_.add("Telemetry", std::make_unique<TelemetryTab>(desk));
     trouble_.setTitle("Trouble");
-    trouble_.setBorderSize({0, panelInset, 0, panelInset});
     trouble_.setFont(juce::Font{text::medium});
     dismiss_ = quietButton("Dismiss", "Dismiss the message");
     dismiss_->onClick = [this] { desk_.report({}); };
-    for (juce::Component* c :
-         std::initializer_list<juce::Component*>{&bar_, &world_, &tabs_, &scope_, &strips_})
+    act_ = quietButton({}, "Act on the message");
+    act_->onClick = [this] {
+        const auto act = desk_.messages().shown().act.run;
+        desk_.report({});
+        if (act) act();
+    };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&world_, &tabs_, &scope_, &strips_,
+                                                                      &side_, &lower_, &between_, &bar_})
         addAndMakeVisible(c);
+    side_.onMove = [this](int by) { moveDivider(&Dividers::side, -by, getWidth(), tabs_.getWidth()); };
+    lower_.onMove = [this](int by) { moveDivider(&Dividers::lower, -by, getHeight(), scope_.getHeight()); };
+    between_.onMove = [this](int by) { moveDivider(&Dividers::strips, -by, getWidth(), strips_.getWidth()); };
+    for (const auto& [divider, which] :
+         {std::pair{&side_, &Dividers::side}, {&lower_, &Dividers::lower}, {&between_, &Dividers::strips}})
+        divider->onReset = [this, which = which] {
+            dividers_.*which = 0.0;
+            resized();
+        };
     addChildComponent(trouble_);
     addChildComponent(*dismiss_);
+    addChildComponent(*act_);
     prepareControls(*this);
     desk_.addChangeListener(this);
     addMouseListener(this, true);
@@ -78,10 +98,38 @@ void MixerView::takeMix() {
     const bool isTrouble = desk_.trouble().isNotEmpty();
     trouble_.setText(desk_.trouble(), juce::dontSendNotification);
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
-    if (isTrouble == trouble_.isVisible())
-        return repaint(trouble_.getBounds().getUnion(dismiss_->getBounds()));
+    const auto tint = shade(*this, desk_.isNews() ? Shade::accent : Shade::limit);
+    trouble_.setColour(juce::Label::backgroundColourId,
+                       shade(*this, Shade::panel).interpolatedWith(tint, 0.25f));
+    const auto& act = desk_.messages().shown().act.name;
+    act_->setButtonText(act);
+    act_->setTitle(act);
+    act_->setTooltip(act);
+    act_->setVisible(act.isNotEmpty());
     trouble_.setVisible(isTrouble);
     dismiss_->setVisible(isTrouble);
+    resized(); // the strips or the field may want another share
+}
+
+// The handle moves with the panels, so each call starts from their present places.
+void MixerView::moveDivider(double Dividers::*which, int pixels, int whole, int now) {
+    dividers_.*which = static_cast<double>(now + pixels) /
+                       (whole - (which == &Dividers::lower ? bar_.getHeight() : 0) - 2 * gap);
+    resized();
+}
+
+void MixerView::setDividers(const Dividers& dividers) {
+    dividers_ = dividers;
+    resized();
+}
+
+void MixerView::setShow(bool isShow) {
+    isShow_ = isShow;
+    for (juce::Component* c :
+         std::initializer_list<juce::Component*>{&tabs_, &scope_, &strips_, &side_, &lower_, &between_})
+        c->setVisible(!isShow);
+    bar_.setShow(isShow);
+    world_.setShow(isShow);
     resized();
     repaint();
 }
@@ -101,23 +149,40 @@ void MixerView::showLetters() {
     repaint();
 }
 
-void MixerView::refresh() {
+void MixerView::look() {
     latest_ = desk_.look();
-    bar_.refresh(latest_);
+    for (std::size_t j = 0; j < peaks_.size(); ++j) peaks_[j] = std::max(peaks_[j], latest_.meters.peaks[j]);
     world_.refresh(latest_);
-    tabs_.refresh(latest_);
-    scope_.refresh(latest_);
-    strips_.refresh(latest_);
+}
+
+void MixerView::refresh() {
+    look();
+    latest_.meters.peaks = std::exchange(peaks_, {});
+    bar_.refresh(latest_);
+    if (!isShow_) {
+        tabs_.refresh(latest_);
+        scope_.refresh(latest_);
+        strips_.refresh(latest_);
+    }
     keepPace();
 }
 
-// Reduces the update rate while the world is paused and nothing plays.
+// Motion needs more pictures than numbers and meters do.
+void MixerView::timerCallback() {
+    const bool isSeldom = getTimerInterval() > 1000 / framesPerSecond;
+    isSeldom || ++looks_ % worldsPerPanel == 0 ? refresh() : look();
+}
+
+// Reduces the update rate while nothing moves and nothing plays, or nobody sees it.
 void MixerView::keepPace() {
     const auto& peaks = latest_.meters.peaks;
     const bool isAtRest = desk_.session().world().slowness() == 0 && latest_.hits.empty() &&
                           std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
     restedLooks_ = isAtRest ? restedLooks_ + 1 : 0;
-    const int wanted = 1000 / (restedLooks_ > 2 * framesPerSecond ? restFramesPerSecond : framesPerSecond);
+    const auto* peer = getPeer();
+    const bool isHidden = peer != nullptr && peer->isMinimised(),
+               isSeldom = isHidden || restedLooks_ > 2 * framesPerSecond / worldsPerPanel;
+    const int wanted = 1000 / (isSeldom ? restFramesPerSecond : framesPerSecond);
     if (isTimerRunning() && getTimerInterval() != wanted) startTimer(wanted);
 }
 
@@ -131,16 +196,16 @@ void MixerView::setFirstStart(std::unique_ptr<FirstStart> card) {
     firstStart_ = std::move(card);
     if (!firstStart_) return grabKeyboardFocus();
     addAndMakeVisible(*firstStart_);
-    resized();
+    placeCards();
     firstStart_->grabKeyboardFocus();
 }
 
-void MixerView::setQuestion(std::unique_ptr<QuestionCard> card) {
-    question_ = std::move(card);
-    if (!question_) return grabKeyboardFocus();
-    addAndMakeVisible(*question_);
-    resized();
-    question_->grabKeyboardFocus();
+void MixerView::setCard(std::unique_ptr<juce::Component> card) {
+    card_ = std::move(card);
+    if (!card_) return grabKeyboardFocus();
+    addAndMakeVisible(*card_);
+    placeCards();
+    card_->grabKeyboardFocus();
 }
 
 void MixerView::setDropShown(bool isShown) {
@@ -168,10 +233,10 @@ bool MixerView::covered(const juce::KeyPress& key) {
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (!world_.isVisible() && covered(key)) return true;
-    if (question_ && question_->keyPressed(key)) return true; // regardless of the focus
+    if (card_ && card_->keyPressed(key)) return true; // regardless of the focus
     if (firstStart_ && firstStart_->keyPressed(key)) return true;
     setHint(false);
-    if (key == KeyPress::escapeKey) return desk_.takeEscape(), true;
+    if (key == KeyPress::escapeKey) return desk_.setSilent(true), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
     if (key == KeyPress{'.'}) return desk_.session().world().stepOnce(), true;
     if (key == KeyPress{'z', juce::ModifierKeys::commandModifier, 0}) return desk_.undoManager().undo(), true;
@@ -181,12 +246,7 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
     return world_.keyPressed(key);
 }
 
-void MixerView::paint(juce::Graphics& g) {
-    g.fillAll(shade(*this, Shade::ground));
-    if (!trouble_.isVisible()) return;
-    g.setColour(shade(*this, desk_.isNews() ? Shade::accent : Shade::limit).withAlpha(0.22f));
-    g.fillRoundedRectangle(trouble_.getBounds().getUnion(dismiss_->getBounds()).toFloat(), 6.0f);
-}
+void MixerView::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::ground)); }
 
 void MixerView::paintOverChildren(juce::Graphics& g) {
     if (isDropShown_) {
@@ -212,27 +272,40 @@ void MixerView::paintOverChildren(juce::Graphics& g) {
 
 void MixerView::resized() {
     auto area = getLocalBounds();
-    bar_.setBounds(area.removeFromTop(barHeight));
-    area.reduce(gap, gap);
-    if (trouble_.isVisible()) {
-        auto row = area.removeFromTop(troubleHeight);
-        dismiss_->setBounds(row.removeFromRight(90));
-        trouble_.setBounds(row);
-        area.removeFromTop(gap);
+    if (isShow_) {
+        world_.setBounds(area);
+        bar_.setBounds(area.removeFromTop(TopBar::lineHeight).removeFromRight(TopBar::showWidth));
+    } else {
+        bar_.setBounds(area.removeFromTop(TopBar::heightFor(getWidth())));
+        const auto a = arrange(area.reduced(gap),
+                               {world_.fieldAspect(), strips_.widthFor(StripView::width),
+                                strips_.widthFor(StripView::mostWidth)},
+                               dividers_);
+        for (const auto& [panel, bounds] :
+             std::initializer_list<std::pair<juce::Component*, juce::Rectangle<int>>>{{&world_, a.world},
+                                                                                      {&tabs_, a.tabs},
+                                                                                      {&scope_, a.scope},
+                                                                                      {&strips_, a.strips},
+                                                                                      {&side_, a.side},
+                                                                                      {&lower_, a.lower},
+                                                                                      {&between_, a.between}})
+            panel->setBounds(bounds);
     }
-    const int lower = std::min(stripsHeight, area.getHeight() * 44 / 100);
-    auto bottom = area.removeFromBottom(lower);
-    area.removeFromBottom(gap);
-    const int right = juce::jlimit(400, 640, area.getWidth() * 39 / 100);
-    tabs_.setBounds(area.removeFromRight(right));
-    area.removeFromRight(gap);
-    world_.setBounds(area);
-    const auto middle = getLocalBounds().withTrimmedTop(barHeight).getCentre();
+    const auto banner = world_.bannerArea() + world_.getPosition();
+    trouble_.setBounds(banner);
+    auto buttons = banner.reduced(2);
+    dismiss_->setBounds(buttons.removeFromRight(dismissWidth - 4));
+    if (act_->isVisible())
+        act_->setBounds(
+            buttons.removeFromRight(30 + juce::Font{text::medium}.getStringWidth(act_->getButtonText())));
+    trouble_.setBorderSize({0, panelInset, 0, banner.getRight() - buttons.getRight() + 4});
+    placeCards();
+}
+
+void MixerView::placeCards() {
+    const auto middle = getLocalBounds().withTrimmedTop(TopBar::heightFor(getWidth())).getCentre();
     if (firstStart_) firstStart_->setCentrePosition(middle);
-    if (question_) question_->setCentrePosition(middle);
-    strips_.setBounds(bottom.removeFromRight(right));
-    bottom.removeFromRight(gap);
-    scope_.setBounds(bottom);
+    if (card_) card_->setCentrePosition(middle);
 }
 
 } // namespace physvib

@@ -3,6 +3,8 @@
 #pragma once
 #include "Host/Views/EmergencyStop.h"
 #include "Mixer/Strips/StripsPanel.h"
+#include "Mixer/Window/Arrangement.h"
+#include "Mixer/Window/Divider.h"
 #include "Mixer/Window/FirstStart.h"
 #include "Mixer/Window/QuestionCard.h"
 #include "Mixer/Window/ShownLetters.h"
@@ -17,7 +19,8 @@ class MixerView final : public juce::Component,
                         private juce::ChangeListener,
                         private juce::Timer {
 public:
-    static constexpr int framesPerSecond = 30, restFramesPerSecond = 5, leastWidth = 1040, leastHeight = 640;
+    static constexpr int framesPerSecond = 60, restFramesPerSecond = 5, leastWidth = 1000, leastHeight = 640;
+    static constexpr int worldsPerPanel = 3; ///< pictures of the world for each of the other panels
 
     explicit MixerView(Desk& desk);
     ~MixerView() override;
@@ -27,6 +30,11 @@ public:
     const DeskMoment& latest() const noexcept { return latest_; } ///< displayed state
     void setGround(Ground ground);
     Ground ground() const noexcept { return look_.ground(); }
+    const Dividers& dividers() const noexcept { return dividers_; }
+    void setDividers(const Dividers& dividers);
+    /// Shows the world alone, with the button that silences.
+    void setShow(bool isShow);
+    bool isShow() const noexcept { return isShow_; }
 
     TopBar& topBar() noexcept { return bar_; }
     WorldPanel& world() noexcept { return world_; }
@@ -34,12 +42,15 @@ public:
     TabPanel& scope() noexcept { return scope_; }
     /// Three lines of help for new users; a click or key closes them.
     void setHint(bool isShown);
+    bool isHintShown() const noexcept { return isHintShown_; }
     /// Shows a card over the world, which gets the keyboard; null: none.
     void setFirstStart(std::unique_ptr<FirstStart> card);
     FirstStart* firstStart() noexcept { return firstStart_.get(); }
-    /// Shows a question in the centre; null: none.
-    void setQuestion(std::unique_ptr<QuestionCard> card);
-    QuestionCard* question() noexcept { return question_.get(); }
+    /// Shows a question or a choice of files in the centre; null: none.
+    void setCard(std::unique_ptr<juce::Component> card);
+    juce::Component* card() noexcept { return card_.get(); }
+    void setQuestion(std::unique_ptr<QuestionCard> card) { setCard(std::move(card)); }
+    QuestionCard* question() noexcept { return dynamic_cast<QuestionCard*>(card_.get()); }
     /// Highlights the window while an acceptable file is dragged over it.
     void setDropShown(bool isShown);
     /// Files of a drag that leaves the window, if it contains played events.
@@ -54,7 +65,10 @@ public:
 
 private:
     void changeListenerCallback(juce::ChangeBroadcaster*) override { takeMix(); }
-    void timerCallback() override { refresh(); }
+    void timerCallback() override;
+    void look();
+    void moveDivider(double Dividers::*which, int pixels, int whole, int now);
+    void placeCards();
     bool covered(const juce::KeyPress& key);
     void takeMix();
     void showLetters();
@@ -66,17 +80,21 @@ private:
     WorldPanel world_;
     TabPanel tabs_{"Tabs"}, scope_{"Scope"};
     StripsPanel strips_;
-    juce::Label trouble_;
-    std::unique_ptr<juce::TextButton> dismiss_;
+    Dividers dividers_;
+    Divider side_{"Divider of world and tabs", true}, lower_{"Divider of upper and lower panels", false},
+        between_{"Divider of scope and strips", true};
+    juce::Label trouble_; // over the world
+    std::unique_ptr<juce::TextButton> dismiss_, act_;
     std::unique_ptr<FirstStart> firstStart_;
-    std::unique_ptr<QuestionCard> question_;
+    std::unique_ptr<juce::Component> card_;
     ShownLetters letters_;
     std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edit count of the world at the last check
-    bool isHintShown_ = false, isDropShown_ = false;
+    bool isHintShown_ = false, isDropShown_ = false, isShow_ = false;
     DeskMoment latest_;
-    int restedLooks_ = 0;
+    int restedLooks_ = 0, looks_ = 0;
+    std::array<float, limits::maxEnchanters> peaks_{}; // since the strips were updated
     juce::TooltipWindow tooltips_{this, 600};
-    EmergencyStop stop_{*this, [this] { desk_.stop(); }};
+    EmergencyStop stop_{*this, [this] { desk_.setSilent(true); }};
 };
 
 } // namespace physvib

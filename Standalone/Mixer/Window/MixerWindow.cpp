@@ -20,7 +20,9 @@ OscUse oscUseNamed(const juce::String& name) {
     return found == oscUseNames.end() ? OscUse::off : static_cast<OscUse>(found - oscUseNames.begin());
 }
 
-constexpr const char* chosenSetting = "device-chosen";          // the user has chosen a device, or none
+constexpr const char* chosenSetting = "device-chosen"; // the user has chosen a device, or none
+constexpr const char* silentSetting = "silent";
+constexpr const char* folderSetting = "files-folder"; // of recordings and documents; empty: UserFolder's own
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
 /// Size of borders and title bar; the exact size is known only after the window exists.
 constexpr juce::Point<int> frameRoom{8, 40};
@@ -46,6 +48,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     device_.marker = settings.getIntValue("marker") - 1;
     for (const SinkKind& kind : sinkKinds())
         device_.want(kind, settings.getValue(kind.setting.data()).toStdString());
+    folder_->choose(juce::File::createFileWithoutCheckingPath(settings.getValue(folderSetting)));
     dragged_->setEnding(std::max(0, hitEndings().indexOf(settings.getValue("clip-ending"))));
     setUsingNativeTitleBar(true);
     const bool endedBadly = !files_.copies().leftBehind().empty();
@@ -53,6 +56,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     start(file);
     setResizable(true, false);
     setResizeLimits(MixerView::leastWidth, MixerView::leastHeight, 7680, 4320);
+    applyZoom();
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
         const auto room = display->userArea;
         centreWithSize(std::min(1440, room.getWidth() - frameRoom.x),
@@ -68,17 +72,16 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
         juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
             if (safe != nullptr) safe->showFirstStart();
         });
-    else if (!endedBadly && !settings.getBoolValue("hint-seen"))
-        view_->setHint(true);
-    if (!endedBadly) settings.setValue("hint-seen", true); // it would cover a question
     tellInstead();
     offerRecovery();
-    if (!files_.settingsFault().empty()) sayAlso(utf8(files_.settingsFault()));
+    if (!isFirst && !endedBadly) showHintOnce(); // else after the questions
+    if (!files_.settingsFault().empty()) desk_->messages().add({utf8(files_.settingsFault())});
     startTimer(500);
 }
 
 MixerWindow::~MixerWindow() {
     stopTimer();
+    files_.settings().setValue(silentSetting, desk_->isSilent());
     files_.setLimits(limits());
     files_.setExposureToday(desk_->exposure().squareGSeconds(), true);
     rendering_.reset();
@@ -88,15 +91,15 @@ MixerWindow::~MixerWindow() {
 }
 
 // A document gets a new Desk: its session starts at 0, without undo steps.
-void MixerWindow::play(Mix mix, const juce::File& document) {
-    const bool wasSilent = desk_ && desk_->isSilent(), wasAsked = view_ && view_->question() != nullptr;
+void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
+    const bool wasSilent = desk_ ? desk_->isSilent() : files_.settings().getBoolValue(silentSetting);
+    const bool wasAsked = view_ && view_->question() != nullptr;
     const double exposure = desk_ ? desk_->exposure().squareGSeconds() : files_.exposureToday();
     asked_.reset();
     clearContentComponent();
     view_.reset();
     desk_.reset();
-    desk_ = std::make_unique<Desk>(drivers_, device_, std::move(mix));
-    if (wasSilent) desk_->setSilent(true);
+    desk_ = std::make_unique<Desk>(drivers_, device_, std::move(mix), DeskStart{wasSilent, isPaused});
     desk_->exposure().goOnFrom(exposure);
     view_ = std::make_unique<MixerView>(*desk_);
     setContentNonOwned(view_.get(), getWidth() == 0);
@@ -104,6 +107,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
     savedEdits_ = desk_->edits();
     view_->topBar().onMenu = [this](juce::Component& from) { showMenu(from); };
     view_->topBar().onRecord = [this] { record(); };
+    view_->topBar().onSave = [this] { save(); };
     desk_->device().onSinksWanted =
         [safe = juce::Component::SafePointer<MixerWindow>{this}](const DeviceChoice& choice) {
             juce::MessageManager::callAsync([safe, choice] { // asynchronous, because the calling tab is
@@ -118,7 +122,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
         if (error.isEmpty())
-            desk_->tell("Recorded " + file.getFullPathName() + ", and its events beside it");
+            tellSaved("Recorded, with its events beside it:", file);
         else
             say(file.getFileName() + ": " + error);
     };
@@ -132,6 +136,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
     }
     desk_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
     view_->setGround(files_.settings().getValue("look") == "light" ? Ground::light : Ground::dark);
+    view_->setDividers(Dividers::of(files_.settings().getValue("panels")));
     view_->grabKeyboardFocus();
     nameWindow();
     if (wasAsked) offerRecovery();
@@ -143,7 +148,7 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
         for (const SinkKind& kind : sinkKinds())
             files_.settings().setValue(kind.setting.data(), utf8(choice.placeOf(kind)));
         const bool isFirst = view_->firstStart() != nullptr;
-        play(Mix{desk_->mix()}, document_);
+        play(Mix{desk_->mix()}, document_, desk_->session().world().slowness() == 0);
         if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
     });
@@ -159,7 +164,9 @@ FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
         if (hasChosen) files_.settings().setValue(chosenSetting, true);
         // asynchronous, because its button's click is still being handled
         juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
-            if (safe != nullptr) safe->view_->setFirstStart(nullptr);
+            if (safe == nullptr) return;
+            safe->view_->setFirstStart(nullptr);
+            safe->showHintOnce();
         });
     };
     card->onBeside = [this](const DeviceChoice& choice) {
@@ -178,8 +185,14 @@ void MixerWindow::tellInstead() {
     if (desk_->trouble().isEmpty() || wanted.starts_with(std::string{noDeviceType} + ":")) return;
     for (const auto& there : byLikelihood(listAudioDevices(drivers_)))
         if (there.type != noDeviceType && there.type + ":" + there.name != wanted)
-            return desk_->report(desk_->trouble() + "; there is " + utf8(there.type + ": " + there.name) +
-                                 " (" + juce::String{there.channels} + " outputs) instead, under Output");
+            return desk_->messages().add({"There is " + utf8(there.type + ": " + there.name) + " (" +
+                                          juce::String{there.channels} + " outputs) instead, under Output"});
+}
+
+void MixerWindow::showHintOnce() {
+    auto& settings = files_.settings();
+    if (!settings.getBoolValue("hint-seen")) view_->setHint(true);
+    settings.setValue("hint-seen", true);
 }
 
 void MixerWindow::nameWindow() {
@@ -210,6 +223,8 @@ void MixerWindow::timerCallback() {
     settings.setValue("monitor-db", device_.monitorDb);
     settings.setValue("marker", device_.marker + 1);
     settings.setValue("clip-ending", hitEndings()[dragged_->ending()]);
+    settings.setValue(silentSetting, desk_->isSilent());
+    settings.setValue("panels", view_->dividers().text());
     files_.setLimits(limits());
     files_.setExposureToday(desk_->exposure().squareGSeconds());
     offerMonitor();
@@ -221,8 +236,8 @@ Mix MixerWindow::firstMix() {
     Mix mix = Desk::firstMix();
     if (const int outputs = settings.getIntValue("outputs");
         outputs > 0 && settings.getValue("device") == utf8(device_.name))
-        keepTo(outputs, mix);
-    if (before_) mix.levelDb = before_->levelDb;
+        keepTo(outputs, mix, device_.name);
+    lowerTo(limits(), mix);
     for (Strip& strip : mix.strips)
         if (std::ranges::find(device_.monitor, strip.output) != device_.monitor.end()) strip.output = -1;
     return mix;
@@ -235,8 +250,10 @@ void MixerWindow::offerMonitor() {
         !device_.sinks.empty() || !device_.monitor.empty())
         return;
     settings.setValue("monitor-offered", true);
-    desk_->tell("This device has two outputs. With headphones there, what is felt can be heard: choose "
-                "Monitor under Output");
+    desk_->messages().add(
+        {"This device has two outputs. With headphones there, what is felt can be heard: choose "
+         "Monitor under Output",
+         true});
 }
 
 // Not while a study uses the mixer's output.
@@ -250,6 +267,7 @@ void MixerWindow::filesDropped(const juce::StringArray& files, int, int) {
 }
 
 void MixerWindow::requestQuit() {
+    if (pauseStudy(*view_)) return;
     askThen([this] {
         files_.copies().forget();
         juce::JUCEApplicationBase::quit();
@@ -266,31 +284,35 @@ void MixerWindow::setDisplayWidth(double mm) {
     files_.settings().setValue(displayWidthSetting, mm);
 }
 
+void MixerWindow::chooseFolder() {
+    using B = juce::FileBrowserComponent;
+    chooser_ = std::make_unique<juce::FileChooser>("The folder of recordings, sessions, movies and studies",
+                                                   folder_->place(), "*", false);
+    chooser_->launchAsync(B::openMode | B::canSelectDirectories, [this](const juce::FileChooser& c) {
+        if (c.getResult() == juce::File{}) return;
+        folder_->choose(c.getResult());
+        files_.settings().setValue(folderSetting, c.getResult().getFullPathName());
+        if (const auto folder = folder_->make(); folder) tellSaved("Files go to", folder.value);
+    });
+}
+
 // Display sizes reported by the system are often wrong.
 void MixerWindow::askDisplayWidth() {
     const double now =
         1e3 * displayOf(*view_).getWidth() / screenPixelsPerMetre(*view_, desk_->displayWidthMetres());
-    auto* window = new juce::AlertWindow{"Width of the display",
-                                         "Drags in the world are measured in metres of the screen. Measure "
-                                         "its picture from left to right, in mm; empty: as the system says.",
-                                         juce::MessageBoxIconType::NoIcon, this};
-    window->addTextEditor("mm", number(now, 0), "mm");
-    window->addButton("Set", 1, juce::KeyPress{juce::KeyPress::returnKey});
-    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    window->enterModalState(
-        true,
-        juce::ModalCallbackFunction::create(
-            [safe = juce::Component::SafePointer<MixerWindow>{this}, window](int answer) {
-                if (answer == 0 || safe == nullptr) return;
-                const auto words = window->getTextEditorContents("mm").trim();
-                const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
-                if (words.isEmpty() || isDisplayWidth(1e-3 * mm))
-                    safe->setDisplayWidth(mm);
-                else
-                    safe->say("Width of the display: expected " + number(1e3 * leastDisplayMetres, 0) +
-                              " to " + number(1e3 * mostDisplayMetres, 0) + " mm, found " + words);
-            }),
-        true);
+    ask("Width of the display",
+        "Drags in the world are measured in metres of the screen. Measure its picture from left to right, in "
+        "mm; "
+        "empty: as the system says.",
+        {{"Set",
+          [this] {
+              const auto words = takeAnswer("Width in mm");
+              const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
+              if (words.isEmpty() || isDisplayWidth(1e-3 * mm)) return setDisplayWidth(mm);
+              say("Width of the display: expected " + number(1e3 * leastDisplayMetres, 0) + " to " +
+                  number(1e3 * mostDisplayMetres, 0) + " mm, found " + words);
+          }}},
+        {{"Width in mm", number(now, 0)}});
 }
 
 bool MixerWindow::keyPressed(const juce::KeyPress& key) {
@@ -303,6 +325,8 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     if (key == KeyPress{'r', command | shift, 0}) return recordScript(), true;
     if (key == KeyPress{'e', command, 0}) return renderOffline(), true;
     if (key == KeyPress{'q', command, 0}) return requestQuit(), true;
+    if (key == KeyPress::F11Key) return setShow(!view_->isShow()), true;
+    if (key == KeyPress{'0', command, 0}) return setZoom(0), true;
     if (key == KeyPress::F10Key) return showMenu(view_->topBar()), true;
     return view_->keyPressed(key);
 }
@@ -360,6 +384,8 @@ void MixerWindow::showMenu(juce::Component& from) {
     look.addItem("Dark", true, !isLight, [this] { setGround(Ground::dark); });
     look.addItem("Light", true, isLight, [this] { setGround(Ground::light); });
     menu.addSubMenu("Look", look);
+    item("Folder of recordings" + dots(), {}, [this] { chooseFolder(); });
+    menu.addSubMenu("View", viewMenu());
     item("Width of the display" + dots(), {}, [this] { askDisplayWidth(); });
     item("Hint", {}, [this] { view_->setHint(true); });
     item("Quit", "Ctrl+Q", [this] { requestQuit(); });

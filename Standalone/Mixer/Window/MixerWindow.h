@@ -2,7 +2,9 @@
 // The mixer's window with its document: opens, saves, records and renders, and asks before unsaved changes
 // are lost.
 #pragma once
+#include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Output/HitFiles.h"
+#include "Mixer/Window/FileCard.h"
 #include "Mixer/Window/MixerFiles.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/RenderTask.h"
@@ -39,6 +41,12 @@ public:
     std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or an error
     void recordScript();               ///< records user input in the world: starts or ends
     void newScene(SceneGround ground); ///< keeps field and materials of the current scene
+    /// Size of everything in the window; 0: by the display's size. A percentage that leaves no room for the
+    /// window is lowered.
+    void setZoom(int percent);
+    int zoom(); ///< %, as asked for
+    /// Full screen: the world alone, and the button that silences.
+    void setShow(bool isShow);
     /// Asks if changes would be lost, then quits.
     void requestQuit();
 
@@ -62,35 +70,42 @@ private:
     void testBeside(int outputs);
     void tellInstead();
     void start(const juce::File& file);
-    void play(Mix mix, const juce::File& document);
-    /// `isOwn`: a file that the mixer saved itself keeps its levels.
+    void play(Mix mix, const juce::File& document, bool isPaused = false);
+    /// `isOwn`: a copy of the run that crashed is lowered to the levels at its end.
     bool load(const juce::File& file, const juce::File& document, bool isOwn = false);
-    /// Plays a file with its levels lowered to the mixer's previous limits. Reports what was lowered; the
-    /// menu restores it.
-    void playLowered(Mix mix, const juce::File& document);
+    /// Plays a file with its levels lowered to `most`. Reports what was lowered; a button restores it.
+    void playLowered(const DeskLimits& most, Mix mix, const juce::File& document, bool isPaused = false);
     void tellLowered(const std::string& lowered, const Mix& asked);
     void takeAsked();
     DeskLimits limits() const { return desk_ ? DeskLimits::of(desk_->mix()) : files_.limits(); }
     void useSinks(const DeviceChoice& choice);
     void saveTo(const juce::File& file);
     void askThen(std::function<void()> goOn);
-    void chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving,
-                    std::function<void(const juce::File&)> use,
-                    const juce::String& suggested = {}); ///< `suggested`: a file name without extension
+    /// `suggested`: a file name without extension; `in`: a folder instead of the last one.
+    void chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
+                    std::function<void(const juce::File&)> use, const juce::String& suggested = {},
+                    const juce::File& in = {});
+    /// Asks in the window. An answer that uses a field takes it by takeAnswer(), which closes the card.
+    void ask(const juce::String& title, const juce::String& words,
+             std::vector<std::pair<juce::String, std::function<void()>>> answers,
+             const std::vector<QuestionCard::Field>& fields = {});
+    juce::String takeAnswer(const juce::String& field);
     void offerRecovery();
     void showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at);
     void takeUp(const std::filesystem::path& copy);
     void offerMonitor();
-    Mix firstMix(); ///< its actuators do not use the monitor's outputs
+    Mix firstMix(); ///< no louder than the mixer was left, and not on the monitor's outputs
     void showMenu(juce::Component& from);
     void setGround(Ground ground);
+    void applyZoom();
+    juce::PopupMenu viewMenu();
     void setDisplayWidth(double mm);
     void askDisplayWidth();
     void nameWindow();
     void say(const juce::String& words) { desk_->report(words); }
-    void sayAlso(const juce::String& words) {
-        say(desk_->trouble().isEmpty() || desk_->isNews() ? words : desk_->trouble() + "; " + words);
-    }
+    void tellSaved(const juce::String& words, const juce::File& file); ///< with a button that shows the file
+    void showHintOnce();
+    void chooseFolder();
     juce::File folderOfDocuments() const;
     juce::String documentName() const;
     void make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work);
@@ -98,6 +113,7 @@ private:
     AudioDrivers drivers_;
     MixerFiles files_;
     juce::SharedResourcePointer<DraggedFiles> dragged_;
+    juce::SharedResourcePointer<UserFolder> folder_;
     DeviceChoice device_;
     std::unique_ptr<Desk> desk_;
     std::unique_ptr<MixerView> view_;
@@ -106,7 +122,7 @@ private:
     std::optional<DeskLimits> before_; // limits before a run that crashed
     static constexpr std::uint64_t neverSaved = UINT64_MAX; // never equals a count of edits
     std::uint64_t savedEdits_ = 0;
-    std::unique_ptr<juce::FileChooser> chooser_;
+    std::unique_ptr<juce::FileChooser> chooser_; // of the folder
     std::unique_ptr<juce::Thread> rendering_;
 };
 

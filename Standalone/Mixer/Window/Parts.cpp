@@ -25,6 +25,20 @@ juce::Path pathOf(Sign sign) {
         p.addTriangle(-8.2f, -1.0f, -1.6f, -2.2f, -5.6f, -7.0f);
         break;
     }
+    case Sign::save: // down into a tray
+        p.addRectangle(-1.0f, -7.0f, 2.0f, 7.0f);
+        p.addTriangle(-4.5f, -1.5f, 4.5f, -1.5f, 0.0f, 3.5f);
+        p.addRectangle(-7.0f, 5.0f, 14.0f, 2.0f);
+        break;
+    case Sign::undo:
+    case Sign::redo: {
+        juce::Path arc;
+        arc.addCentredArc(0.5f, 1.5f, 5.5f, 4.5f, 0.0f, -1.3f, 2.6f, true);
+        juce::PathStrokeType{2.0f}.createStrokedPath(p, arc);
+        p.addTriangle(-8.0f, 0.5f, -1.0f, 1.5f, -6.5f, -5.5f);
+        if (sign == Sign::redo) p.applyTransform(juce::AffineTransform::scale(-1.0f, 1.0f));
+        break;
+    }
     case Sign::plus:
         p.addRectangle(-6.0f, -1.0f, 12.0f, 2.0f);
         p.addRectangle(-1.0f, -6.0f, 2.0f, 12.0f);

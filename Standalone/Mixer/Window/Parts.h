@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-enum class Sign { play, pause, step, restart, plus, sweep };
+enum class Sign { play, pause, step, restart, plus, sweep, save, undo, redo };
 
 /// Button with a drawn icon; `name` is for screen readers and the tooltip.
 class SignButton final : public juce::Button {

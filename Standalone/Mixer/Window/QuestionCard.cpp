@@ -5,7 +5,34 @@
 
 namespace physvib {
 
-QuestionCard::QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers)
+/// A field with its title.
+class QuestionCard::Input final : public juce::Component {
+public:
+    explicit Input(const Field& field)
+        : name{field.title} {
+        text.setTitle(name);
+        text.setFont(juce::Font{physvib::text::medium});
+        text.setText(field.value, false);
+        text.setSelectAllWhenFocused(true);
+        if (field.allowed.isNotEmpty()) text.setInputRestrictions(32, field.allowed);
+        addAndMakeVisible(text);
+    }
+    void paint(juce::Graphics& g) override {
+        g.setColour(shade(*this, Shade::muted));
+        g.setFont(juce::Font{physvib::text::small});
+        g.drawText(name, getLocalBounds().withWidth(nameWidth), juce::Justification::centredLeft, true);
+    }
+    void resized() override { text.setBounds(getLocalBounds().withTrimmedLeft(nameWidth)); }
+
+    static constexpr int nameWidth = 130;
+    const juce::String name;
+    juce::TextEditor text;
+};
+
+QuestionCard::~QuestionCard() = default;
+
+QuestionCard::QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers,
+                           const std::vector<Field>& fields)
     : answers_{std::move(answers)} {
     setTitle(title);
     setDescription(words);
@@ -29,9 +56,22 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
         button.onClick = [this, k] { act(k); };
         addAndMakeVisible(button);
     }
+    for (const Field& field : fields) {
+        auto& added = *inputs_.emplace_back(std::make_unique<Input>(field));
+        addAndMakeVisible(added);
+        added.text.onReturnKey = [this] { act(0); };
+        added.text.onEscapeKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::escapeKey}); };
+    }
     prepareControls(*this);
     const int rows = (static_cast<int>(answers_.size()) + perRow - 1) / perRow;
-    setSize(wide, 174 + rows * (rowHigh + gap));
+    setSize(wide, (words.isEmpty() ? 110 : 174) + rows * (rowHigh + gap) +
+                      static_cast<int>(inputs_.size()) * (rowHeight + gap));
+}
+
+juce::String QuestionCard::value(const juce::String& field) const {
+    for (const auto& input : inputs_)
+        if (input->name == field) return input->text.getText().trim();
+    return {};
 }
 
 void QuestionCard::answer(const juce::String& words) {
@@ -70,7 +110,12 @@ void QuestionCard::resized() {
         buttons_[k]->setBounds(rows.getX() + at % perRow * (width + gap),
                                rows.getY() + at / perRow * (rowHigh + gap), width, rowHigh);
     }
-    words_.setBounds(area.withTrimmedTop(4).withTrimmedBottom(gap));
+    area.removeFromBottom(gap);
+    for (auto input = inputs_.rbegin(); input != inputs_.rend(); ++input) {
+        (*input)->setBounds(area.removeFromBottom(rowHeight));
+        area.removeFromBottom(gap);
+    }
+    words_.setBounds(area.withTrimmedTop(4));
 }
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dialogue card over the window: Return selects the first answer, buttons and keys the others.
+// Dialogue card over the window, with fields to fill in: Return selects the first answer, buttons and keys
+// the others.
 #pragma once
 #include "Mixer/Window/Parts.h"
 #include <functional>
@@ -20,7 +21,17 @@ public:
         juce::KeyPress key{};
     };
 
-    QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers);
+    /// Asks for a text.
+    struct Field {
+        juce::String title, value;
+        juce::String allowed{}; ///< characters; empty: all
+    };
+
+    QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers,
+                 const std::vector<Field>& fields = {});
+    ~QuestionCard() override;
+
+    juce::String value(const juce::String& field) const; ///< as typed
 
     /// Same as a click on that button; no effect if it is missing or disabled.
     void answer(const juce::String& words);
@@ -30,11 +41,13 @@ public:
     void resized() override;
 
 private:
+    class Input;
     void act(std::size_t which);
 
     juce::Label title_, words_;
     std::vector<Answer> answers_;
     std::vector<std::unique_ptr<juce::TextButton>> buttons_;
+    std::vector<std::unique_ptr<Input>> inputs_;
 };
 
 } // namespace physvib

@@ -39,8 +39,13 @@ void TabPanel::add(const juce::String& name, std::unique_ptr<Tab> tab) {
     auto button = std::make_unique<Name>(name);
     button->onClick = [this, name] { choose(name); };
     addAndMakeVisible(*button);
-    addChildComponent(*tab);
-    pages_.push_back({std::move(button), std::move(tab)});
+    auto view = std::make_unique<juce::Viewport>();
+    view->setViewedComponent(tab.get(), false);
+    view->setScrollBarsShown(true, false);
+    tab->setVisible(false); // tabs tell by their visibility whether they are chosen
+    view->setScrollBarThickness(8);
+    addChildComponent(*view);
+    pages_.push_back({std::move(button), std::move(tab), std::move(view)});
     if (pages_.size() == 1) choose(name);
 }
 
@@ -49,6 +54,7 @@ void TabPanel::choose(const juce::String& name) {
         const bool isChosen = pages_[i].name->getName() == name;
         if (isChosen) chosen_ = i;
         pages_[i].name->setToggleState(isChosen, juce::dontSendNotification);
+        pages_[i].view->setVisible(isChosen);
         pages_[i].tab->setVisible(isChosen);
     }
     resized();
@@ -87,7 +93,11 @@ void TabPanel::resized() {
         page.name->setBounds(
             names.removeFromLeft(widthOf(page.name->getName()) + rest).withTrimmedRight(rest / 3));
     area.removeFromTop(10);
-    for (auto& page : pages_) page.tab->setBounds(area);
+    for (auto& page : pages_) {
+        page.view->setBounds(area);
+        const int least = page.tab->leastHeight(), room = least > area.getHeight() ? 12 : 0;
+        page.tab->setSize(area.getWidth() - room, std::max(area.getHeight(), least));
+    }
 }
 
 } // namespace physvib

@@ -35,11 +35,14 @@ TopBar::TopBar(Desk& desk)
     setTitle("Transport and device");
     menu_.setTitle("Menu");
     menu_.setTooltip("Open, save, record, render (F10)");
-    menu_.getProperties().set(quietProperty, true);
-    menu_.getProperties().set(titleProperty, true);
     menu_.onClick = [this] {
         if (onMenu) onMenu(menu_);
     };
+    save_.onClick = [this] {
+        if (onSave) onSave();
+    };
+    undo_.onClick = [this] { desk_.undoManager().undo(); };
+    redo_.onClick = [this] { desk_.undoManager().redo(); };
     scene_.setTitle("Scene");
     listScenes();
     scene_.onChange = [this] { chooseScene(); };
@@ -75,11 +78,11 @@ TopBar::TopBar(Desk& desk)
     };
     silence_.getProperties().set(stopProperty, true);
     silence_.setTitle("Silence");
-    silence_.setTooltip("Silence every actuator at once; again: play on (Esc)");
+    silence_.setTooltip("Silence every actuator at once (Esc); a press lifts the silence");
     silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &menu_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_, &seed_, &time_, &record_,
-             &device_, &board_, &load_, &silence_})
+             &menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_, &seed_,
+             &time_, &record_, &device_, &board_, &load_, &silence_})
         addAndMakeVisible(c);
     setRecording(false);
     takeMix();
@@ -129,8 +132,13 @@ void TopBar::takeMix() {
     slow_.setButtonText(slowness < 2 ? juce::String::fromUTF8("1\xc3\x97") : "1/" + juce::String{slowness});
     slow_.setToggleState(slowness > 1, juce::dontSendNotification);
     silence_.setToggleState(desk_.isSilent(), juce::dontSendNotification);
-    silence_.setButtonText(desk_.isSilent() ? "SILENT  Esc: play" : "SILENCE  Esc");
+    silence_.setButtonText(desk_.isSilent() ? "SILENT: press" : "SILENCE  Esc");
     seedName_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    const auto& history = desk_.undoManager();
+    undo_.setEnabled(history.canUndo());
+    redo_.setEnabled(history.canRedo());
+    undo_.setTooltip("Undo: " + history.getUndoDescription() + " (Ctrl+Z)");
+    redo_.setTooltip("Redo: " + history.getRedoDescription() + " (Ctrl+Shift+Z)");
 }
 
 void TopBar::setRecording(bool isRecording) {
@@ -152,7 +160,7 @@ void TopBar::refresh(const DeskMoment& moment) {
     else
         device_.set(
             dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
-            "felt " + number(1e3 * desk_.device().playOutSeconds(), 0) + " ms after the contact",
+            "latency " + number(1e3 * desk_.device().playOutSeconds(), 0) + " ms",
             isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
     const auto& r = moment.session.render;
@@ -173,30 +181,51 @@ void TopBar::refresh(const DeskMoment& moment) {
                       : Shade::limit);
 }
 
-void TopBar::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::panel)); }
+void TopBar::setShow(bool isShow) {
+    isShow_ = isShow;
+    for (auto* child : getChildren()) child->setVisible(!isShow || child == &silence_);
+}
+
+void TopBar::paint(juce::Graphics& g) {
+    if (!isShow_) g.fillAll(shade(*this, Shade::panel));
+}
 
 void TopBar::resized() {
     auto area = getLocalBounds().reduced(gap, 9);
-    const bool isWide = getWidth() > 1240;
-    const int between = isWide ? gap : 8;
-    silence_.setBounds(area.removeFromRight(isWide ? 150 : 124));
+    const bool isOneLine = getHeight() <= lineHeight;
+    auto states = isOneLine ? juce::Rectangle<int>{} : area.removeFromBottom(secondLine);
+    area.setHeight(lineHeight - 18);
+    const int between = isOneLine ? gap : 8, tight = isOneLine ? 6 : 2;
+    constexpr int button = 36;
+    silence_.setBounds(area.removeFromRight(isOneLine ? 150 : 140));
     area.removeFromRight(between);
-    menu_.setBounds(area.removeFromLeft(94));
-    area.removeFromLeft(between);
-    scene_.setBounds(area.removeFromLeft(isWide ? 176 : 128));
-    area.removeFromLeft(between);
-    for (juce::Component* button :
-         std::initializer_list<juce::Component*>{&pause_, &step_, &slow_, &restart_})
-        button->setBounds(area.removeFromLeft(isWide ? 36 : 32)), area.removeFromLeft(isWide ? 6 : 4);
-    area.removeFromLeft(isWide ? 6 : 0);
-    seedName_.setBounds(area.removeFromLeft(isWide ? 40 : 0));
-    seed_.setBounds(area.removeFromLeft(isWide ? 44 : 34));
-    time_.setBounds(area.removeFromLeft(isWide ? 86 : 78));
-    record_.setBounds(area.removeFromLeft(isWide ? 92 : 84));
-    area.removeFromLeft(isWide ? 18 : between);
-    const int load = isWide ? 130 : 112, board = getWidth() > 1360 ? 116 : 0;
-    load_.setBounds(area.removeFromRight(load));
-    board_.setBounds(area.removeFromRight(board));
+    struct Control {
+        juce::Component* component;
+        int width, after;
+    };
+    for (const auto& [component, width, after] :
+         std::initializer_list<Control>{{&menu_, 76, between},
+                                        {&save_, button, tight},
+                                        {&undo_, button, tight},
+                                        {&redo_, button, between},
+                                        {&scene_, isOneLine ? 168 : 150, between},
+                                        {&pause_, button, tight},
+                                        {&step_, button, tight},
+                                        {&slow_, button, tight},
+                                        {&restart_, button, between},
+                                        {&seedName_, 40, 0},
+                                        {&seed_, 44, 0},
+                                        {&time_, 86, 0},
+                                        {&record_, 92, between}}) {
+        component->setBounds(area.removeFromLeft(width));
+        area.removeFromLeft(after);
+    }
+    placeStates(isOneLine ? area : states);
+}
+
+void TopBar::placeStates(juce::Rectangle<int> area) {
+    load_.setBounds(area.removeFromRight(130));
+    board_.setBounds(area.removeFromRight(area.getWidth() > 360 ? 116 : 0));
     device_.setBounds(area.withTrimmedRight(8));
 }
 

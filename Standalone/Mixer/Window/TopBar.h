@@ -15,25 +15,35 @@ public:
     void togglePause();
 
     std::function<void(juce::Component& from)> onMenu;
-    std::function<void()> onRecord, onOpenScene;
+    std::function<void()> onRecord, onSave, onOpenScene;
     std::function<void(const juce::File&)> onOwnScene;
     void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below the built-in ones
     void setRecording(bool isRecording);
+    /// Only the button that silences is left.
+    void setShow(bool isShow);
+
+    static constexpr int lineHeight = 52, showWidth = 174;
+    /// One line, or two in a narrow window.
+    static int heightFor(int width) { return width >= leastOneLine ? lineHeight : lineHeight + secondLine; }
 
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
+    static constexpr int leastOneLine = 1360, secondLine = 38;
+    void placeStates(juce::Rectangle<int> area);
+    bool isShow_ = false;
     void chooseScene();
     void listScenes();
     juce::Array<juce::File> own_;
 
     Desk& desk_;
     int looks_ = 0;
-    juce::TextButton menu_{"PhysVib"}, slow_, record_, silence_{"SILENCE  Esc"};
+    juce::TextButton menu_{"Menu"}, slow_, record_, silence_{"SILENCE  Esc"};
     juce::ComboBox scene_;
     SignButton pause_{Sign::pause, "Pause the world"}, step_{Sign::step, "One step of the world"},
-        restart_{Sign::restart, "Start the scene anew"};
+        restart_{Sign::restart, "Start the scene anew"}, save_{Sign::save, "Save the session (Ctrl+S)"},
+        undo_{Sign::undo, "Undo"}, redo_{Sign::redo, "Redo"};
     juce::Label seedName_, seed_, time_;
     TwoLines device_{"Device state"}, board_{"Board state"}, load_{"Load"};
 };

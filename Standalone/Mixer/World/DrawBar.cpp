@@ -47,79 +47,29 @@ void DrawBar::show() {
     snap_.setToggleState(pane_.snaps(), juce::dontSendNotification);
 }
 
+namespace {
+constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1;
+}
+
+int DrawBar::highFor(int height) {
+    return height + between >= buttonCount * (high + between) ? high : lowHigh;
+}
+
+int DrawBar::perColumn(int height) { return std::max(1, (height + between) / (highFor(height) + between)); }
+
+int DrawBar::widthFor(int height) {
+    const int rows = perColumn(height);
+    return (buttonCount + rows - 1) / rows * (wide + between) - between;
+}
+
 void DrawBar::resized() {
-    constexpr int between = 3;
-    const int high = std::min(30, (getHeight() + between) / static_cast<int>(tools_.size() + 1) - between);
-    auto area = getLocalBounds();
-    for (auto& button : tools_) button->setBounds(area.removeFromTop(high)), area.removeFromTop(between);
-    snap_.setBounds(area.removeFromTop(high));
-}
-
-class MaterialPalette::Swatch final : public juce::Button {
-public:
-    Swatch(const juce::String& name, juce::Colour colour)
-        : juce::Button{name}
-        , colour_{colour} {
-        setTitle("Material " + name);
-        setTooltip(name + ": draw with it; with the mouse over it, it is played once");
-        setWantsKeyboardFocus(true);
+    const int rows = perColumn(getHeight()), each = highFor(getHeight());
+    for (int k = 0; k <= static_cast<int>(tools_.size()); ++k) {
+        auto& button = k < static_cast<int>(tools_.size())
+                           ? static_cast<juce::Component&>(*tools_[static_cast<std::size_t>(k)])
+                           : snap_;
+        button.setBounds(k / rows * (wide + between), k % rows * (each + between), wide, each);
     }
-    int wanted() const { return 34 + juce::Font{text::small}.getStringWidth(getName()); }
-    std::function<void()> onEnter;
-    void mouseEnter(const juce::MouseEvent& e) override {
-        juce::Button::mouseEnter(e);
-        if (onEnter) onEnter();
-    }
-    void paintButton(juce::Graphics& g, bool isOver, bool) override {
-        g.setColour(shade(*this, getToggleState() ? Shade::raised : Shade::panel)
-                        .brighter(isOver ? 0.1f : 0.0f)
-                        .withAlpha(0.95f));
-        g.fillRoundedRectangle(getLocalBounds().toFloat(), 6.0f);
-        g.setColour(colour_);
-        g.fillEllipse(8.0f, 0.5f * static_cast<float>(getHeight()) - 6.0f, 12.0f, 12.0f);
-        g.setColour(shade(*this, getToggleState() ? Shade::text : Shade::muted));
-        g.setFont(juce::Font{text::small});
-        g.drawText(getName(), getLocalBounds().withTrimmedLeft(26), juce::Justification::centredLeft, true);
-    }
-
-private:
-    juce::Colour colour_;
-};
-
-MaterialPalette::MaterialPalette(Desk& desk, DrawPane& pane)
-    : desk_{desk}
-    , pane_{pane} {
-    setTitle("Materials to draw with");
-    setInterceptsMouseClicks(false, true);
-}
-
-MaterialPalette::~MaterialPalette() = default;
-
-void MaterialPalette::show() {
-    const auto& materials = desk_.world().drawing().drawn().materials;
-    if (shown_ != materials) {
-        shown_ = materials;
-        swatches_.clear();
-        for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
-            auto& swatch = *swatches_.emplace_back(std::make_unique<Swatch>(
-                utf8(materials[static_cast<std::size_t>(i)].name), palette::material(i)));
-            swatch.onClick = [this, i] { pane_.setMaterial(i); };
-            // a material that makes no sound reports it elsewhere
-            swatch.onEnter = [this, i] { desk_.strikes().audition(i, 0.5, 0.5); };
-            addAndMakeVisible(swatch);
-            prepareControls(swatch); // it is created after the other controls
-        }
-        resized();
-    }
-    for (std::size_t i = 0; i < swatches_.size(); ++i)
-        swatches_[i]->setToggleState(static_cast<int>(i) == pane_.material(), juce::dontSendNotification);
-}
-
-void MaterialPalette::resized() {
-    auto area = getLocalBounds();
-    for (auto& swatch : swatches_)
-        swatch->setBounds(area.removeFromLeft(std::min(swatch->wanted(), area.getWidth()))),
-            area.removeFromLeft(4);
 }
 
 BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
@@ -133,6 +83,8 @@ BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
     name_.setFont(juce::Font{text::small, juce::Font::bold});
     caption(densityName_, "density");
     caption(bounceName_, "bounce");
+    caption(speedName_, "motor");
+    caption(torqueName_, "torque");
     moves_.setTitle("Moves");
     moves_.setTooltip("Moving, or static");
     moves_.onClick = [this, change] {
@@ -146,7 +98,7 @@ BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
         change("Haptic source",
                [is = source_.getToggleState()](const Scene& s, BodyDescription& b) { setSource(s, b, is); });
     };
-    for (auto* slider : {&density_, &bounce_}) {
+    for (auto* slider : {&density_, &bounce_, &speed_, &torque_}) {
         slider->setSliderStyle(juce::Slider::LinearHorizontal);
         slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 62, 20);
     }
@@ -170,9 +122,27 @@ BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
             },
             goesOn);
     });
+    constexpr double fastest = 20.0; // rad/s, about three turns a second
+    speed_.setTitle("Motor speed");
+    speed_.setTooltip("Speed of the motor, in rad/s, counter-clockwise; 0 with a torque: a brake");
+    speed_.setRange(-fastest, fastest, 0.1);
+    speed_.setDoubleClickReturnValue(true, 0.0);
+    torque_.setTitle("Motor torque");
+    torque_.setTooltip("Most that the motor turns with, in N m; 0: no motor");
+    torque_.setRange(0.0, 1e6, 1.0);
+    torque_.setSkewFactorFromMidPoint(1e3);
+    for (auto* slider : {&speed_, &torque_}) onSlide(*slider, [this](bool goesOn) { drive(goesOn); });
     for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_})
+             &name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_, &speedName_,
+             &speed_, &torqueName_, &torque_})
         addAndMakeVisible(c);
+}
+
+void BodyPanel::drive(bool goesOn) {
+    const auto actions = driven(desk_.world().drawing(), drivenJoint_,
+                                {speed_.getValue(), torque_.getValue()}, desk_.world().posesNow());
+    const auto error = actions ? desk_.world().edit("Motor", actions.value, goesOn) : actions.error;
+    if (!error.empty()) desk_.report(utf8(error));
 }
 
 void BodyPanel::show() {
@@ -181,9 +151,20 @@ void BodyPanel::show() {
     setVisible(body != nullptr && pane_.tool() == DrawTool::choose);
     if (body == nullptr) return;
     const Scene& scene = desk_.world().drawing().drawn();
-    name_.setText(chosen.size() == 1 ? utf8(chosen[0])
-                                     : juce::String{static_cast<int>(chosen.size())} + " bodies",
-                  juce::dontSendNotification);
+    const auto* motor = chosen.size() == 1 ? motorOf(scene, chosen[0]) : nullptr;
+    drivenJoint_ = motor ? motor->name : std::string{};
+    for (juce::Component* c :
+         std::initializer_list<juce::Component*>{&speedName_, &speed_, &torqueName_, &torque_})
+        c->setVisible(motor != nullptr);
+    if (motor && !speed_.isMouseButtonDown() && !torque_.isMouseButtonDown()) {
+        speed_.setValue(driveOf(*motor).radiansPerSecond, juce::dontSendNotification);
+        torque_.setValue(driveOf(*motor).maxTorqueNewtonMetres, juce::dontSendNotification);
+    }
+    const auto material = utf8(scene.materials[static_cast<std::size_t>(body->fixtures[0].material)].name);
+    name_.setText(
+        (chosen.size() == 1 ? utf8(chosen[0]) : juce::String{static_cast<int>(chosen.size())} + " bodies") +
+            " " + juce::String::charToString(0x00b7) + " " + material,
+        juce::dontSendNotification);
     moves_.setToggleState(body->type == BodyType::dynamicBody, juce::dontSendNotification);
     source_.setToggleState(std::ranges::any_of(body->fixtures, &FixtureDescription::isCamera),
                            juce::dontSendNotification);
@@ -193,7 +174,7 @@ void BodyPanel::show() {
         bounce_.setValue(fixture.restitution.value_or(
                              scene.materials[static_cast<std::size_t>(fixture.material)].restitution),
                          juce::dontSendNotification);
-    for (auto* label : {&densityName_, &bounceName_})
+    for (auto* label : {&densityName_, &bounceName_, &speedName_, &torqueName_})
         label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
@@ -205,11 +186,14 @@ void BodyPanel::paint(juce::Graphics& g) {
 void BodyPanel::resized() {
     auto area = getLocalBounds().reduced(10, 6);
     name_.setBounds(area.removeFromTop(24));
-    auto row = area.removeFromTop(28);
+    auto row = area.removeFromTop(rowHigh);
     moves_.setBounds(row.removeFromLeft(80));
     source_.setBounds(row);
-    for (const auto& [label, slider] : {std::pair{&densityName_, &density_}, {&bounceName_, &bounce_}}) {
-        row = area.removeFromTop(28);
+    for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
+                                        {&bounceName_, &bounce_},
+                                        {&speedName_, &speed_},
+                                        {&torqueName_, &torque_}}) {
+        row = area.removeFromTop(rowHigh); // of no height where there is no motor
         label->setBounds(row.removeFromLeft(50));
         slider->setBounds(row);
     }

@@ -15,17 +15,22 @@ public:
     ~DrawBar() override;
     void show(); ///< updates after changes of the pane
     void resized() override;
-    static constexpr int wide = 34;
+    /// One column, or as many as the height needs.
+    static int widthFor(int height);
 
 private:
+    static constexpr int wide = 34, high = 30, lowHigh = 26, between = 3;
+    /// Buttons are a little lower before there is another column.
+    static int highFor(int height);
+    static int perColumn(int height);
     class ToolButton;
     DrawPane& pane_;
     std::vector<std::unique_ptr<ToolButton>> tools_;
     juce::TextButton snap_{"#"};
 };
 
-/// Name and colour of each material: a click selects it for drawing, and hovering plays it once. Message
-/// thread only.
+/// Name and colour of each material: a click selects it for drawing, and hovering plays it once. With the
+/// rain, also its number of balls. Message thread only.
 class MaterialPalette final : public juce::Component {
 public:
     MaterialPalette(Desk& desk, DrawPane& pane);
@@ -39,24 +44,30 @@ private:
     DrawPane& pane_;
     std::vector<Material> shown_;
     std::vector<std::unique_ptr<Swatch>> swatches_;
+    juce::ComboBox count_;
 };
 
-/// Static or moving, haptic source or not, density and restitution of the selected bodies. Message thread
-/// only.
+/// Static or moving, haptic source or not, density and restitution of the selected bodies; speed and torque
+/// of the motor of a single one. Message thread only.
 class BodyPanel final : public juce::Component {
 public:
     BodyPanel(Desk& desk, DrawPane& pane);
     void show();
     void paint(juce::Graphics& g) override;
     void resized() override;
-    static constexpr int wide = 232, high = 124;
+    int wantedHeight() const { return drivenJoint_.empty() ? high : high + 2 * rowHigh; }
+    static constexpr int wide = 232;
 
 private:
+    static constexpr int high = 124, rowHigh = 28;
+    void drive(bool goesOn);
+
     Desk& desk_;
     DrawPane& pane_;
-    juce::Label name_, densityName_, bounceName_;
+    std::string drivenJoint_; // of the single selected body; empty: none
+    juce::Label name_, densityName_, bounceName_, speedName_, torqueName_;
     juce::ToggleButton moves_{"moves"}, source_{"haptic source"};
-    juce::Slider density_, bounce_;
+    juce::Slider density_, bounce_, speed_, torque_;
 };
 
 } // namespace physvib

@@ -20,6 +20,14 @@ std::string DrawPane::fieldBody(std::vector<Action>& actions, const Vector& plac
     return disc.name;
 }
 
+void DrawPane::joinAt(DrawTool tool, Vector place) {
+    const DrawTool before = tool_;
+    use(tool);
+    to_ = place;
+    join();
+    use(before);
+}
+
 void DrawPane::join() {
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
     const bool isPoint = tool_ == DrawTool::pin || tool_ == DrawTool::motor;

@@ -18,12 +18,24 @@ void DrawPane::scaleChosen(double factor) {
                  [factor](const Scene&, BodyDescription& body) { body = scaledBody(body, factor, factor); });
 }
 
-void DrawPane::paste(const Copied& copy) {
-    const double step = desk_.world().scene().fieldHeightMetres / 20.0;
+void DrawPane::paste(const Copied& copy, Vector beside) {
     std::vector<std::string> names;
-    edit("Paste", pasted(desk_.world().drawing(), copy, {step, step}, names));
+    edit("Paste", pasted(desk_.world().drawing(), copy, beside, names));
     use(DrawTool::choose);
     choose(names);
+}
+
+void DrawPane::pasteAt(Vector place) {
+    const Vector& from = copied_.bodies.front().positionMetres;
+    paste(copied_, {place.x - from.x, place.y - from.y});
+}
+
+void DrawPane::copy(const std::vector<std::string>& names) {
+    copied_ = copied(desk_.world().drawing(), names);
+}
+
+void DrawPane::eraseAll(const std::vector<std::string>& names) {
+    edit("Erase", erased(desk_.world().drawing(), names));
 }
 
 bool DrawPane::takeToolKey(const juce::KeyPress& key) {
@@ -51,13 +63,14 @@ bool DrawPane::takeKey(const juce::KeyPress& key) {
         for (const auto& body : desk_.world().drawing().drawn().bodies) all.push_back(body.name);
         return use(DrawTool::choose), choose(all), true;
     }
-    if (key == KeyPress{'v', command, 0} && !copied_.bodies.empty()) return paste(copied_), true;
-    if (key == KeyPress::tabKey || chosen_.empty()) return false;
     const double step = desk_.world().scene().fieldHeightMetres / gridsPerField;
-    if (key == KeyPress::deleteKey || key == KeyPress::backspaceKey)
-        return edit("Erase", erased(desk_.world().drawing(), chosen_)), true;
-    if (key == KeyPress{'c', command, 0}) return copied_ = copied(desk_.world().drawing(), chosen_), true;
-    if (key == KeyPress{'d', command, 0}) return paste(copied(desk_.world().drawing(), chosen_)), true;
+    const Vector beside{2.0 * step, 2.0 * step};
+    if (key == KeyPress{'v', command, 0} && hasCopy()) return paste(copied_, beside), true;
+    if (key == KeyPress::tabKey || chosen_.empty()) return false;
+    if (key == KeyPress::deleteKey || key == KeyPress::backspaceKey) return eraseAll(chosen_), true;
+    if (key == KeyPress{'c', command, 0}) return copy(chosen_), true;
+    if (key == KeyPress{'d', command, 0})
+        return paste(copied(desk_.world().drawing(), chosen_), beside), true;
     if (key == KeyPress::leftKey) return nudge({-step, 0.0}, 0.0), true;
     if (key == KeyPress::rightKey) return nudge({step, 0.0}, 0.0), true;
     if (key == KeyPress::upKey) return nudge({0.0, step}, 0.0), true;

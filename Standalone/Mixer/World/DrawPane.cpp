@@ -39,8 +39,16 @@ void DrawPane::setSnapping(bool snaps) {
     if (onChange) onChange();
 }
 
+void DrawPane::setRainCount(int count) {
+    rainCount_ = count;
+    if (onChange) onChange();
+}
+
 void DrawPane::choose(std::vector<std::string> names) {
     chosen_ = std::move(names);
+    // the palette shows what the selection is made of
+    if (const auto* body = chosen_.empty() ? nullptr : desk_.world().drawing().find(chosen_[0]))
+        material_ = body->fixtures[0].material;
     if (onChange) onChange();
     repaint();
 }
@@ -89,7 +97,7 @@ std::optional<BodyPlace> DrawPane::placeNow(const std::string& name) const {
 // ---- the mouse
 
 void DrawPane::mouseDown(const juce::MouseEvent& e) {
-    if (e.mods.isPopupMenu()) return;
+    if (e.mods.isPopupMenu()) return onMenu ? onMenu(e.position) : void();
     to_ = at(e);
     if (tool_ == DrawTool::polygon) {
         stroke_.push_back(to_);
@@ -120,7 +128,7 @@ void DrawPane::mouseUp(const juce::MouseEvent& e) {
     isDrawing_ = false;
     const bool hasMoved = e.getDistanceFromDragStart() > 2;
     if (isStroke(tool_))
-        add(drawnNow());
+        addStroke();
     else if (isJoint(tool_))
         join();
     else if (tool_ == DrawTool::choose && hasMoved) {

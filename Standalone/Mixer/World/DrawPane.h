@@ -28,7 +28,21 @@ public:
     void changeChosen(const juce::String& name,
                       const std::function<void(const Scene&, BodyDescription&)>& change, bool goesOn = false);
 
-    std::function<void()> onChange; ///< tool, selection or material changed
+    /// Number of bodies of one rain.
+    int rainCount() const noexcept { return rainCount_; }
+    void setRainCount(int count);
+    juce::Rectangle<float> chosenArea() const; ///< of the selected bodies with their handles, in pixels
+
+    // Menu commands, at places in metres of the field.
+    void addAt(DrawTool tool, Vector place); ///< a body of the usual size
+    void joinAt(DrawTool tool, Vector place);
+    void copy(const std::vector<std::string>& names);
+    bool hasCopy() const noexcept { return !copied_.bodies.empty(); }
+    void pasteAt(Vector place);
+    void eraseAll(const std::vector<std::string>& names);
+
+    std::function<void()> onChange;                       ///< tool, selection or material changed
+    std::function<void(juce::Point<float> place)> onMenu; ///< right click
 
     void takeMix(); ///< the mixer state changed
     bool takeKey(const juce::KeyPress& key);
@@ -53,14 +67,16 @@ private:
     BodyDescription sizedNow() const;
     std::map<std::string, BodyPlace> movedNow() const;
     Result<BodyDescription> drawnNow() const;
-    void add(Result<BodyDescription> body);
+    Result<std::vector<BodyDescription>> rainNow() const;
+    void addStroke();
+    void add(Result<std::vector<BodyDescription>> bodies);
     void join();
     void erase(const juce::MouseEvent& e);
     void edit(const juce::String& name, std::vector<Action> actions, bool goesOn = false);
     void grip(const juce::MouseEvent& e);
     void nudge(Vector byMetres, double byRadians);
     void scaleChosen(double factor);
-    void paste(const Copied& copy);
+    void paste(const Copied& copy, Vector beside);
     void closePolygon();
     void addInTheMiddle();
     bool takeToolKey(const juce::KeyPress& key);
@@ -77,6 +93,7 @@ private:
     WorldView& view_;
     DrawTool tool_ = DrawTool::hand;
     int material_ = -1; // at first, the first material with a frequency
+    int rainCount_ = 50;
     bool snaps_ = false, isDrawing_ = false;
     std::vector<std::string> chosen_;
     Copied copied_;

@@ -35,6 +35,15 @@ juce::Path signOf(DrawTool tool) {
         line.addLineSegment({-7.0f, 5.0f, 7.0f, -5.0f}, 5.0f);
         p = line;
         break;
+    case DrawTool::rain:
+        for (const auto& [x, y] : {std::pair{-6.0f, -6.0f},
+                                   {2.0f, -7.0f},
+                                   {-2.0f, 0.0f},
+                                   {5.0f, 0.0f},
+                                   {-6.0f, 5.0f},
+                                   {2.0f, 6.0f}})
+            p.addEllipse(x - 2.0f, y - 2.0f, 4.5f, 4.5f);
+        break;
     case DrawTool::pin:
         p.addEllipse(-4.0f, -4.0f, 8.0f, 8.0f);
         line.addEllipse(-8.0f, -8.0f, 16.0f, 16.0f);
@@ -196,6 +205,12 @@ void DrawPane::drawStroke(juce::Graphics& g) const {
         return g.strokePath(path, juce::PathStrokeType{2.0f});
     }
     if (tool_ == DrawTool::rope || tool_ == DrawTool::slider) return g.drawLine({from, to}, 2.0f);
+    if (tool_ == DrawTool::rain) {
+        if (const auto bodies = rainNow())
+            for (const auto& body : bodies.value)
+                drawOutline(g, body, {body.positionMetres, 0.0}, accent, true);
+        return;
+    }
     if (const auto body = drawnNow())
         drawOutline(g, body.value, {body.value.positionMetres, body.value.angleRadians}, accent, true);
 }

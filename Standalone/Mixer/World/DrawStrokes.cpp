@@ -30,24 +30,55 @@ Result<BodyDescription> DrawPane::drawnNow() const {
     }
 }
 
-void DrawPane::add(Result<BodyDescription> body) {
-    if (!body) return desk_.report(utf8(body.error));
+// A click gives a rain of the usual size.
+Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
+    const auto& scene = desk_.world().scene();
+    const Vector from = stroke_.empty() ? to_ : stroke_[0];
+    const bool isClick = between(from, to_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
+    const double x = 0.15 * scene.fieldWidthMetres, y = 0.15 * scene.fieldHeightMetres;
+    return isClick ? drawnRain({from.x - x, from.y - y}, {from.x + x, from.y + y}, rainCount_)
+                   : drawnRain(from, to_, rainCount_);
+}
+
+void DrawPane::addStroke() {
+    if (tool_ == DrawTool::rain) return add(rainNow());
+    auto body = drawnNow();
+    if (!body) return add(Failure{body.error});
+    add(std::vector{std::move(body.value)});
+}
+
+// One edit. Of several bodies, the first has the free name and the others are numbered after it.
+void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
+    if (!bodies) return desk_.report(utf8(bodies.error));
     const auto& drawing = desk_.world().drawing();
     if (drawing.drawn().materials.empty()) return desk_.report("The scene has no materials to draw with");
     const auto& words = wordsOf(tool_);
-    body.value.name = drawing.freeName(juce::String{words.name}.toLowerCase().toStdString());
-    for (auto& fixture : body.value.fixtures) fixture.material = material_;
+    const auto name = drawing.freeName(juce::String{words.name}.toLowerCase().toStdString());
     const bool sounds = drawing.drawn().materials[static_cast<std::size_t>(material_)].frequencyHz > 0.0;
-    if (sounds && startsAsSource(drawing.drawn(), body.value)) setSource(drawing.drawn(), body.value, true);
-    edit("Draw a " + juce::String{words.name}.toLowerCase(), {SpawnAction{body.value, {}}});
+    std::vector<Action> actions;
+    for (auto& body : bodies.value) {
+        body.name = actions.empty() ? name : name + "." + std::to_string(actions.size() + 1);
+        for (auto& fixture : body.fixtures) fixture.material = material_;
+        if (sounds && startsAsSource(drawing.drawn(), body)) setSource(drawing.drawn(), body, true);
+        actions.push_back(SpawnAction{std::move(body), {}});
+    }
+    edit("Draw a " + juce::String{words.name}.toLowerCase(), std::move(actions));
 }
 
 void DrawPane::closePolygon() {
-    const auto body = drawnPolygon(stroke_);
+    addStroke();
     stroke_.clear();
     isDrawing_ = false;
-    add(body);
     repaint();
+}
+
+void DrawPane::addAt(DrawTool tool, Vector place) {
+    const DrawTool before = tool_;
+    use(tool);
+    to_ = place;
+    stroke_ = {place};
+    addStroke();
+    use(before);
 }
 
 void DrawPane::addInTheMiddle() {
@@ -64,7 +95,7 @@ void DrawPane::addInTheMiddle() {
         return all;
     };
     const auto before = names().size();
-    add(drawnNow());
+    addStroke();
     stroke_.clear();
     const auto after = names();
     if (after.size() == before) return;

@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-enum class DrawTool { hand, choose, ball, box, polygon, line, wall, pin, rope, slider, motor, eraser };
+enum class DrawTool { hand, choose, ball, box, polygon, line, wall, rain, pin, rope, slider, motor, eraser };
 
 struct DrawToolWords {
     DrawTool tool;
@@ -15,7 +15,7 @@ struct DrawToolWords {
 };
 
 /// In the order of the tool bar.
-inline constexpr std::array<DrawToolWords, 12> drawTools{{
+inline constexpr std::array<DrawToolWords, 13> drawTools{{
     {DrawTool::hand, 'h', "Hand", "Drag a body to throw it, with Shift to hold it"},
     {DrawTool::choose, 's', "Select",
      "Click a body, or drag around several; drag to move, handles to size and turn"},
@@ -24,6 +24,8 @@ inline constexpr std::array<DrawToolWords, 12> drawTools{{
     {DrawTool::polygon, 'p', "Polygon", "Click the corners; double click or Enter ends it"},
     {DrawTool::line, 'l', "Line", "Draw a line freely"},
     {DrawTool::wall, 'w', "Wall", "Drag from end to end"},
+    {DrawTool::rain, 'n', "Rain",
+     "Drag over the place from which balls fall; how many is beside the materials"},
     {DrawTool::pin, 'i', "Pin", "Click where two bodies overlap; a single one is pinned to the field"},
     {DrawTool::rope, 'r', "Rope", "Drag from one body to another, or to the field"},
     {DrawTool::slider, 'd', "Slider", "Drag along the way of a body"},
@@ -33,7 +35,7 @@ inline constexpr std::array<DrawToolWords, 12> drawTools{{
 
 inline bool isStroke(DrawTool tool) {
     return tool == DrawTool::ball || tool == DrawTool::box || tool == DrawTool::line ||
-           tool == DrawTool::wall;
+           tool == DrawTool::wall || tool == DrawTool::rain;
 }
 inline bool isJoint(DrawTool tool) {
     return tool == DrawTool::pin || tool == DrawTool::rope || tool == DrawTool::slider ||

@@ -48,14 +48,15 @@ WorldPanel::WorldPanel(Desk& desk)
             "Move " + utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label),
             [&](Mix& mix) {
                 auto& layout = mix.layout.geometry;
-                layout.places[static_cast<std::size_t>(enchanter)] = {to.x * layout.extentWidthMetres,
-                                                                      to.y * layout.extentHeightMetres};
+                auto& place = layout.places[static_cast<std::size_t>(enchanter)]; // depth and part stay
+                place.xMetres = to.x * layout.extentWidthMetres;
+                place.yMetres = to.y * layout.extentHeightMetres;
                 mix.layout.name = "own";
             },
             std::exchange(isMoving_, true));
     };
     view_.addMouseListener(this, false);
-    view_.onMenu = [this](const std::string& body, FieldShare at) { showMenu(body, at); };
+    view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) { showMenu(place); };
     sentence_.setTitle("Strongest hit");
     sentence_.setFont(juce::Font{text::medium});
     sentence_.setMinimumHorizontalScale(0.8f);
@@ -84,7 +85,6 @@ WorldPanel::WorldPanel(Desk& desk)
             goesOn);
     });
     for (auto* name : {&tiltName_, &dragName_}) name->setFont(juce::Font{text::small});
-    view_.setFootRoom(44);
     for (juce::Component* c : std::initializer_list<juce::Component*>{
              &view_, &pane_, &bar_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_})
         addAndMakeVisible(c);
@@ -126,9 +126,53 @@ void WorldPanel::takeMix() {
 void WorldPanel::showTools() {
     bar_.show();
     palette_.show();
-    palette_.setVisible(pane_.tool() != DrawTool::hand);
-    script_.refresh(pane_.tool() == DrawTool::hand);
+    palette_.setVisible(!isShow_ && pane_.tool() != DrawTool::hand);
+    script_.refresh(!isShow_ && pane_.tool() == DrawTool::hand);
     body_.show();
+    placeInspector();
+}
+
+// The corner where it lies is kept while it covers nothing that is selected.
+void WorldPanel::placeInspector() {
+    if (!body_.isVisible()) return;
+    const auto chosen = pane_.chosenArea().toNearestInt() + pane_.getPosition();
+    const auto room = getLocalBounds()
+                          .withTrimmedLeft(bar_.getRight())
+                          .withTrimmedTop(40)
+                          .withTrimmedBottom(48)
+                          .reduced(8, 0);
+    const auto size = juce::Rectangle<int>{BodyPanel::wide, body_.wantedHeight()};
+    const auto covered = [&](const juce::Rectangle<int>& place) {
+        const auto common = place.getIntersection(chosen);
+        return common.getWidth() * common.getHeight();
+    };
+    std::vector<juce::Rectangle<int>> places{
+        size.withPosition(body_.getPosition()),
+        size.withPosition(room.getRight() - size.getWidth(), room.getY()),
+        size.withPosition(room.getPosition()),
+        size.withBottomY(room.getBottom()).withX(room.getRight() - size.getWidth()),
+        size.withBottomY(room.getBottom()).withX(room.getX())};
+    if (!room.contains(places.front())) places.erase(places.begin());
+    body_.setBounds(*std::ranges::min_element(places, {}, covered));
+}
+
+double WorldPanel::fieldAspect() const {
+    const auto& scene = desk_.world().scene();
+    return scene.fieldWidthMetres / std::max(scene.fieldHeightMetres, 1e-6);
+}
+
+juce::Rectangle<int> WorldPanel::bannerArea() const {
+    return getLocalBounds().withTrimmedLeft(isShow_ ? 8 : bar_.getRight()).reduced(8, 4).withHeight(36);
+}
+
+void WorldPanel::setShow(bool isShow) {
+    isShow_ = isShow;
+    if (isShow) pane_.use(DrawTool::hand);
+    for (juce::Component* c :
+         std::initializer_list<juce::Component*>{&bar_, &sentence_, &tilt_, &tiltName_, &drag_, &dragName_})
+        c->setVisible(!isShow);
+    showTools();
+    resized();
 }
 
 // ---- a scene's player
@@ -245,38 +289,9 @@ void WorldPanel::refresh(const DeskMoment& moment) {
     lookAfterPlayer();
     moveHand();
     if (desk_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
+    placeInspector(); // what is selected moves
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
                   std::span{moment.meters.peaks}.first(static_cast<std::size_t>(desk_.mix().count()))});
-}
-
-void WorldPanel::showMenu(const std::string& body, FieldShare at) {
-    juce::PopupMenu menu, materials;
-    const auto& scene = desk_.world().scene();
-    for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
-        const auto name = utf8(scene.materials[static_cast<std::size_t>(i)].name);
-        materials.addItem(name, [this, body, i] {
-            edit("Material of " + utf8(body), MaterialAction{body, everyFixture, i});
-        });
-    }
-    if (!body.empty()) {
-        menu.addSectionHeader(utf8(body));
-        menu.addSubMenu("Material", materials);
-        menu.addItem("Select", [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
-        menu.addItem("Remove", [this, body] {
-            if (const auto fault =
-                    desk_.world().edit("Remove " + utf8(body), erased(desk_.world().drawing(), {body}));
-                !fault.empty())
-                desk_.report(utf8(fault));
-        });
-        menu.addSeparator();
-    }
-    for (const DrawTool tool : {DrawTool::ball, DrawTool::box})
-        menu.addItem("Draw a " + juce::String{wordsOf(tool).name}.toLowerCase(),
-                     [this, tool] { pane_.use(tool); });
-    menu.addItem("Attach an actuator here", desk_.mix().count() < limits::maxEnchanters, false,
-                 [this, at] { desk_.attach(at.x, at.y); });
-    menu.setLookAndFeel(&getLookAndFeel());
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
 }
 
 void WorldPanel::edit(const juce::String& name, const Action& action) {
@@ -288,21 +303,23 @@ void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
 void WorldPanel::resized() {
     auto area = getLocalBounds().reduced(panelInset, 10);
     auto row = area.removeFromBottom(38);
-    law_.setVisible(getWidth() >= lawNeeds);
+    law_.setVisible(!isShow_ && getWidth() >= lawNeeds);
     if (law_.isVisible()) law_.setBounds(row.removeFromRight(174));
     dragName_.setBounds(row.removeFromRight(104));
     drag_.setBounds(row.removeFromRight(38));
     tiltName_.setBounds(row.removeFromRight(58));
     tilt_.setBounds(row.removeFromRight(38));
     sentence_.setBounds(row);
-    view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
-    pane_.setBounds(view_.getBounds());
     auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(48);
-    bar_.setBounds(top.removeFromLeft(DrawBar::wide));
+    const int tools = isShow_ ? 0 : DrawBar::widthFor(top.getHeight());
+    bar_.setBounds(top.removeFromLeft(tools));
+    view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
+    view_.setRoom(isShow_ ? juce::BorderSize<int>{} : juce::BorderSize<int>{20, tools - 12, 44, 0});
+    pane_.setBounds(view_.getBounds());
     top.removeFromLeft(8);
     script_.setBounds(top.withHeight(script_.getHeight()));
     palette_.setBounds(top.removeFromTop(26));
-    body_.setBounds(top.withTrimmedTop(6).removeFromTop(BodyPanel::high).removeFromRight(BodyPanel::wide));
+    placeInspector();
 }
 
 } // namespace physvib

@@ -22,6 +22,19 @@ public:
     WorldView& view() noexcept { return view_; }
     DrawPane& drawing() noexcept { return pane_; }
     void tilt(double degrees) { tilt_.turnTo(degrees); } ///< turns gravity to that angle
+    /// The field and its actuators alone.
+    void setShow(bool isShow);
+    /// What a right click there offers. `place` in pixels of the view.
+    juce::PopupMenu menuAt(juce::Point<float> place);
+    double fieldAspect() const; ///< width by height
+    /// Where a message lies over this panel: beside the tools, above the field.
+    juce::Rectangle<int> bannerArea() const;
+
+    /// Pixels of the panel that the field does not fill.
+    static constexpr int besideField = 104, aboveAndBelowField = 134;
+
+    // Menu commands on an actuator that other panels carry out.
+    std::function<void(int enchanter)> onOutput, onProfile;
 
     bool keyPressed(const juce::KeyPress& key) override;
     bool keyStateChanged(bool isDown) override;
@@ -36,7 +49,11 @@ private:
     void hold(const std::string& body, Vector point, Vector to);
     void letGo(const std::string& body);
     void moveHand();
-    void showMenu(const std::string& body, FieldShare at);
+    void showMenu(juce::Point<float> place);
+    void addActuatorItems(juce::PopupMenu& menu, int enchanter);
+    void addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place);
+    void addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector place);
+    void placeInspector();
     void showTools();
     void edit(const juce::String& name, const Action& action);
     void play(const std::vector<Action>& actions);
@@ -61,6 +78,7 @@ private:
     std::optional<GripAction> hand_; // position since the last moveHand()
     double handAtMs_ = 0.0;
     bool isMoving_ = false; // a badge is being moved since the mouse was pressed
+    bool isShow_ = false;
     double hitAtMs_ = 0.0;
     CollisionEvent told_;
     std::shared_ptr<const Scene> shown_;

@@ -63,6 +63,16 @@ StudiesTab& studies(MixerView& view) {
     return *find<StudiesTab>(view, "Studies");
 }
 
+/// The tab with a protocol whose check is made.
+StudiesTab& showChecked(MixerView& view) {
+    auto& tab = studies(view);
+    tab.setFolder(juce::File{"/home/lab/studies"});
+    tab.chooseProtocol("model-or-sound");
+    for (int tries = 0; tries < 200 && !tab.check(); ++tries) wait(view, 0.1);
+    wait(view, 0.1);
+    return tab;
+}
+
 /// The screen of that trial, behind its pause.
 StudyScreen* show(MixerView& view, const std::string& protocol, StudyTask task, int trial,
                   bool isPauseSeen = false) {
@@ -128,7 +138,8 @@ void setScale(MixerView& view, const juce::String& title, double points) {
 
 const std::vector<StudyShot>& studyShots() {
     static const std::vector<StudyShot> shots{
-        {"studies-tab", [](Desk&, MixerView& v) { studies(v).setFolder(juce::File{"/home/lab/studies"}); }},
+        {"studies-tab", [](Desk&, MixerView& v) { showChecked(v); }},
+        {"studies-findings", [](Desk&, MixerView& v) { press(showChecked(v), "Findings of the check"); }},
         {"studies-training",
          [](Desk&, MixerView& v) { type(show(v, "patterns", StudyTask::explore, 60), 'a'); }},
         {"studies-pattern",

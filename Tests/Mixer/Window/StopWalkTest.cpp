@@ -16,7 +16,7 @@ constexpr int gateSteps = 400; // of a thousand; 31 to 38 menus, lists and dialo
 TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
     juce::Desktop::setMousePosition({0, 0});
     TestFolder folder;
-    folder.folder.setAsCurrentWorkingDirectory(); // what is saved on the way
+    setenv("HOME", folder.folder.getFullPathName().toRawUTF8(), 1); // what is saved on the way
     const SystemChooser chooser{folder.folder};
     std::unique_ptr<MixerWindow> window;
     const char* const device = std::getenv("PHYSVIB_STOP_DEVICE"); // measured there as well, by

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The line above the world: errors and news, one at a time, each with a button for what can be done about it.
+#pragma once
+#include <deque>
+#include <functional>
+#include <juce_core/juce_core.h>
+#include <utility>
+
+namespace physvib {
+
+/// A button beside a message; without a name there is none.
+struct DeskAct {
+    juce::String name;
+    std::function<void()> run;
+};
+
+struct DeskMessage {
+    juce::String words;  ///< one line; empty: none
+    bool isNews = false; ///< a success; else an error
+    DeskAct act{};
+};
+
+/// Message thread only.
+class DeskMessages {
+public:
+    /// `onChange` is called when another message is shown.
+    explicit DeskMessages(std::function<void()> onChange)
+        : onChange_{std::move(onChange)} {}
+
+    const DeskMessage& shown() const noexcept { return shown_; }
+
+    /// Replaces the message. Without words the next one that waits is shown.
+    void show(DeskMessage message);
+
+    /// Shows the message after those that are there.
+    void add(DeskMessage message);
+
+    /// Removes messages that begin with these words, since they are no longer true.
+    void withdraw(const juce::String& words);
+
+private:
+    std::function<void()> onChange_;
+    DeskMessage shown_;
+    std::deque<DeskMessage> waiting_;
+};
+
+} // namespace physvib

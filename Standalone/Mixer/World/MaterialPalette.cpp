@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Chips of the materials to draw with: each shows its decay, and plays under the mouse.
+#include "Host/Views/Palette.h"
+#include "Mixer/World/DrawBar.h"
+#include <cmath>
+
+namespace physvib {
+
+/// A material's chip: a picture of its decay, or a flat line for a material that does not vibrate.
+class MaterialPalette::Swatch final : public juce::Button {
+public:
+    Swatch(const Material& material, juce::Colour colour)
+        : juce::Button{utf8(material.name)}
+        , material_{material}
+        , colour_{colour} {
+        const auto name = utf8(material.name);
+        setTitle("Material " + name);
+        setTooltip(isFelt()
+                       ? name + ": draw with it; with the mouse over it, it is played once"
+                       : name + " does not vibrate: it is felt only where it hits a haptic source of "
+                                "another material. A frequency and a decay in its scene file change that");
+        setWantsKeyboardFocus(true);
+    }
+    /// With remark: says in words that it is not felt.
+    int wanted(bool hasRemark) const { return 38 + juce::Font{text::small}.getStringWidth(words(hasRemark)); }
+    void setRemark(bool hasRemark) {
+        hasRemark_ = hasRemark;
+        repaint();
+    }
+    std::function<void()> onEnter;
+    void mouseEnter(const juce::MouseEvent& e) override {
+        juce::Button::mouseEnter(e);
+        if (onEnter) onEnter();
+    }
+    void paintButton(juce::Graphics& g, bool isOver, bool) override {
+        g.setColour(shade(*this, getToggleState() ? Shade::raised : Shade::panel)
+                        .brighter(isOver ? 0.1f : 0.0f)
+                        .withAlpha(0.95f));
+        g.fillRoundedRectangle(getLocalBounds().toFloat(), 6.0f);
+        g.setColour(colour_);
+        g.strokePath(decay(), juce::PathStrokeType{1.6f},
+                     juce::AffineTransform::translation(7.0f, 0.5f * static_cast<float>(getHeight())));
+        g.setColour(shade(*this, getToggleState() ? Shade::text : Shade::muted));
+        g.setFont(juce::Font{text::small});
+        g.drawText(words(hasRemark_), getLocalBounds().withTrimmedLeft(30), juce::Justification::centredLeft,
+                   true);
+    }
+
+private:
+    bool isFelt() const { return material_.frequencyHz > 0.0; }
+    juce::String words(bool hasRemark) const {
+        return getName() + (hasRemark && !isFelt() ? ": not felt" : "");
+    }
+    /// The first tenth of a second, with fewer waves than it has, so that they can be told apart.
+    juce::Path decay() const {
+        constexpr double wide = 18.0, high = 8.0, seconds = 0.1, wavesPerHertz = 0.012;
+        juce::Path path;
+        path.startNewSubPath(0.0f, 0.0f);
+        for (double x = 0.5; x <= wide; x += 0.5) {
+            const double share = x / wide;
+            const double wave =
+                std::sin(juce::MathConstants<double>::twoPi * wavesPerHertz * material_.frequencyHz * share);
+            path.lineTo(
+                static_cast<float>(x),
+                static_cast<float>(-high * wave * std::exp(-material_.decayPerSecond * seconds * share)));
+        }
+        return path;
+    }
+
+    const Material material_;
+    const juce::Colour colour_;
+    bool hasRemark_ = false;
+};
+
+MaterialPalette::MaterialPalette(Desk& desk, DrawPane& pane)
+    : desk_{desk}
+    , pane_{pane} {
+    setTitle("Materials to draw with");
+    setInterceptsMouseClicks(false, true);
+    count_.setTitle("Balls of a rain");
+    count_.setTooltip("How many balls a rain has");
+    for (const int count : {10, 20, 50, 100, 200, 500, 1000})
+        count_.addItem(juce::String{count} + " balls", count);
+    count_.onChange = [this] { pane_.setRainCount(count_.getSelectedId()); };
+    addChildComponent(count_);
+}
+
+MaterialPalette::~MaterialPalette() = default;
+
+void MaterialPalette::show() {
+    const auto& materials = desk_.world().drawing().drawn().materials;
+    if (shown_ != materials) {
+        shown_ = materials;
+        swatches_.clear();
+        for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
+            auto& swatch = *swatches_.emplace_back(
+                std::make_unique<Swatch>(materials[static_cast<std::size_t>(i)], palette::material(i)));
+            swatch.onClick = [this, i] { pane_.setMaterial(i); };
+            // a material that makes no sound reports it elsewhere
+            swatch.onEnter = [this, i] { desk_.strikes().audition(i, 0.5, 0.5); };
+            addAndMakeVisible(swatch);
+            prepareControls(swatch); // it is created after the other controls
+        }
+        resized();
+    }
+    count_.setSelectedId(pane_.rainCount(), juce::dontSendNotification);
+    if (const bool isRain = pane_.tool() == DrawTool::rain; isRain != count_.isVisible()) {
+        count_.setVisible(isRain);
+        resized();
+    }
+    for (std::size_t i = 0; i < swatches_.size(); ++i)
+        swatches_[i]->setToggleState(static_cast<int>(i) == pane_.material(), juce::dontSendNotification);
+}
+
+void MaterialPalette::resized() {
+    constexpr int between = 4;
+    auto area = getLocalBounds();
+    if (count_.isVisible()) count_.setBounds(area.removeFromLeft(106)), area.removeFromLeft(between);
+    int wide = 0;
+    for (const auto& swatch : swatches_) wide += swatch->wanted(true) + between;
+    const bool hasRemarks = wide <= area.getWidth();
+    for (auto& swatch : swatches_) {
+        swatch->setRemark(hasRemarks);
+        swatch->setBounds(area.removeFromLeft(std::min(swatch->wanted(hasRemarks), area.getWidth())));
+        area.removeFromLeft(between);
+    }
+}
+
+} // namespace physvib

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The panels at any size: nothing cut, nothing crushed, and what is dragged stays.
+#include "MixerTesting.h"
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+constexpr std::array<std::pair<int, int>, 6> sizes{{{MixerView::leastWidth, MixerView::leastHeight},
+                                                    {1024, 700},
+                                                    {1280, 720},
+                                                    {1440, 900},
+                                                    {2560, 1440},
+                                                    {3840, 2160}}};
+
+std::vector<juce::Rectangle<int>> panelsOf(const Arrangement& a) {
+    return {a.world, a.tabs, a.scope, a.strips, a.side, a.lower, a.between};
+}
+
+TEST(Arrangement, PanelsFillTheWindowWithoutOverlapAtEverySizeAndDivider) {
+    for (const auto& [width, height] : sizes)
+        for (const double aspect : {0.5, 1.0, 1.78, 4.0})
+            for (const int strips : {300, 760, 9000})
+                for (const double share : {0.0, 0.05, 0.5, 0.95}) {
+                    const juce::Rectangle<int> area{12, 64, width - 24, height - 102};
+                    const auto a = arrange(area, {aspect, strips / 2, strips}, {share, share, share});
+                    const auto where = juce::String{width} + " aspect " + juce::String{aspect} + " strips " +
+                                       juce::String{strips} + " at " + juce::String{share};
+                    int covered = 0;
+                    const auto panels = panelsOf(a);
+                    for (std::size_t i = 0; i < panels.size(); ++i) {
+                        EXPECT_TRUE(area.contains(panels[i])) << where << " panel " << i;
+                        covered += panels[i].getWidth() * panels[i].getHeight();
+                        for (std::size_t k = 0; k < i; ++k)
+                            EXPECT_TRUE(panels[i].getIntersection(panels[k]).isEmpty())
+                                << where << " " << i << " " << k;
+                    }
+                    EXPECT_EQ(covered, area.getWidth() * area.getHeight()) << where;
+                    EXPECT_GE(a.scope.getHeight(), Arrangement::leastLower) << where;
+                    EXPECT_GE(a.world.getHeight(), Arrangement::leastWorldHeight) << where;
+                    EXPECT_GE(a.tabs.getWidth(), Arrangement::leastSide) << where;
+                    EXPECT_GE(a.world.getWidth(), Arrangement::leastSide) << where;
+                    EXPECT_GE(a.strips.getWidth(), Arrangement::leastStrips) << where;
+                    EXPECT_GE(a.scope.getWidth(), Arrangement::leastScope) << where;
+                }
+}
+
+TEST(Arrangement, TheWorldGetsTheLargestPart) {
+    for (const auto& [width, height] : sizes) {
+        const auto a = arrange({width, height}, {1.78, 514, 760}, {});
+        const auto area = [](const juce::Rectangle<int>& r) { return r.getWidth() * r.getHeight(); };
+        for (const auto& other : {a.tabs, a.scope, a.strips}) EXPECT_GT(area(a.world), area(other)) << width;
+    }
+}
+
+TEST(Arrangement, DividersAreKeptAsTextAndNonsenseIsAutomatic) {
+    const Dividers dividers{0.3125, 0.25, 0.5};
+    EXPECT_EQ(Dividers::of(dividers.text()), dividers);
+    EXPECT_EQ(Dividers::of("nan 7 -1"), Dividers{});
+    EXPECT_EQ(Dividers::of(""), Dividers{});
+}
+
+struct Window {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    void attach(int count) {
+        while (desk.mix().count() < count && desk.attach(0.5, 0.5)) {
+        }
+        desk.dispatchPendingMessages();
+    }
+};
+
+TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
+    Window w;
+    const auto widthOf = [&](const char* title) { return find(w.view, title)->getWidth(); };
+    w.view.setSize(1280, 720);
+    const int narrow = widthOf("Strip A");
+    auto* attach = find(w.view, "Attach an actuator");
+    EXPECT_TRUE(find(w.view, "Mixer")
+                    ->getLocalBounds()
+                    .contains(find(w.view, "Mixer")->getLocalArea(attach, attach->getLocalBounds())))
+        << "the next place is in sight";
+    w.view.setSize(3840, 2160);
+    EXPECT_EQ(widthOf("Strip A"), StripView::mostWidth);
+    EXPECT_GE(narrow, StripView::width);
+    EXPECT_LT(narrow, StripView::mostWidth);
+    w.attach(64);
+    EXPECT_EQ(widthOf("Strip A"), StripView::width) << "64 scroll";
+}
+
+TEST(Arrangement, ADividerIsDraggedMovedByKeysAndMadeAutomatic) {
+    Window w;
+    w.view.setSize(1440, 900);
+    auto* divider = dynamic_cast<Divider*>(find(w.view, "Divider of world and tabs"));
+    auto* tabs = find(w.view, "Tabs");
+    ASSERT_NE(divider, nullptr);
+    const int before = tabs->getWidth();
+    divider->onMove(-50);
+    EXPECT_NEAR(tabs->getWidth(), before + 50, 1);
+    const int dragged = tabs->getWidth();
+    EXPECT_TRUE(divider->keyPressed(juce::KeyPress{juce::KeyPress::rightKey}));
+    EXPECT_NEAR(tabs->getWidth(), dragged - 16, 1);
+    EXPECT_FALSE(divider->keyPressed(juce::KeyPress{juce::KeyPress::upKey}));
+    const auto kept = w.view.dividers();
+    EXPECT_GT(kept.side, 0.0);
+    divider->mouseDoubleClick(mouseAt(*divider, {4.0f, 4.0f}));
+    EXPECT_EQ(tabs->getWidth(), before);
+    w.view.setDividers(kept);
+    EXPECT_NEAR(tabs->getWidth(), dragged - 16, 1);
+    auto* lower = dynamic_cast<Divider*>(find(w.view, "Divider of upper and lower panels"));
+    const int high = find(w.view, "Scope")->getHeight();
+    lower->onMove(-40);
+    EXPECT_NEAR(find(w.view, "Scope")->getHeight(), high + 40, 1);
+    EXPECT_TRUE(lower->keyPressed(juce::KeyPress{juce::KeyPress::downKey}));
+    EXPECT_NEAR(find(w.view, "Scope")->getHeight(), high + 24, 1);
+    auto* between = dynamic_cast<Divider*>(find(w.view, "Divider of scope and strips"));
+    const int wide = find(w.view, "Mixer")->getWidth();
+    between->onMove(30);
+    EXPECT_NEAR(find(w.view, "Mixer")->getWidth(), wide - 30, 1);
+}
+
+TEST(Arrangement, ANarrowBarHasTwoLinesAndNothingOfItIsCut) {
+    Window w;
+    for (const auto& [width, height] : sizes) {
+        w.view.setSize(width, height);
+        auto* bar = find(w.view, "Transport and device");
+        EXPECT_EQ(bar->getHeight() > TopBar::lineHeight, width < 1360) << width;
+        std::vector<juce::Rectangle<int>> places;
+        for (auto* child : bar->getChildren()) {
+            if (child->getBounds().isEmpty()) continue;
+            EXPECT_TRUE(bar->getLocalBounds().contains(child->getBounds()))
+                << child->getTitle() << " at " << width;
+            for (const auto& other : places)
+                EXPECT_TRUE(other.getIntersection(child->getBounds()).isEmpty())
+                    << child->getTitle() << " at " << width;
+            places.push_back(child->getBounds());
+        }
+        EXPECT_GE(find(*bar, "Device state")->getWidth(), 200) << width;
+    }
+}
+
+TEST(Arrangement, TheToolsKeepTheirSizeInALowWindow) {
+    Window w;
+    for (const auto& [width, height] : sizes) {
+        w.view.setSize(width, height);
+        auto* tools = find(w.view, "Tools");
+        for (auto* tool : tools->getChildren()) {
+            EXPECT_GE(tool->getHeight(), 26) << tool->getTitle() << " at " << height;
+            EXPECT_TRUE(tools->getLocalBounds().contains(tool->getBounds()))
+                << tool->getTitle() << " at " << height;
+        }
+        for (int j = 0; j < 4; ++j) {
+            auto& world = w.view.world().view();
+            const auto badge = w.view.world().getLocalPoint(&world, world.placeOfEnchanter(j)).toInt();
+            EXPECT_FALSE(tools->getBounds().expanded(12).contains(badge)) << j << " at " << width;
+            EXPECT_FALSE(w.view.world().bannerArea().expanded(0, 12).contains(badge)) << j << " at " << width;
+        }
+    }
+}
+
+TEST(Arrangement, AMessageLiesOverTheWorldAndMovesNothing) {
+    Window w;
+    w.view.setSize(1440, 900);
+    const auto before = w.view.world().getBounds();
+    const auto place = w.view.world().view().placeOfEnchanter(0);
+    w.desk.report("a fault");
+    w.desk.dispatchPendingMessages();
+    auto* banner = find(w.view, "Trouble");
+    ASSERT_TRUE(banner->isVisible());
+    EXPECT_EQ(w.view.world().getBounds(), before);
+    EXPECT_EQ(w.view.world().view().placeOfEnchanter(0), place);
+    EXPECT_TRUE(before.contains(banner->getBounds()));
+    EXPECT_GT(w.view.getIndexOfChildComponent(banner), w.view.getIndexOfChildComponent(&w.view.world()))
+        << "over it";
+    EXPECT_TRUE(banner->findColour(juce::Label::backgroundColourId).isOpaque());
+}
+
+TEST(Arrangement, AShowIsTheWorldAndTheButtonThatSilences) {
+    Window w;
+    w.view.setSize(1440, 900);
+    w.view.setShow(true);
+    EXPECT_EQ(w.view.world().getBounds(), w.view.getLocalBounds());
+    auto* silence = find(w.view, "Silence");
+    EXPECT_TRUE(silence->isVisible());
+    EXPECT_GE(silence->getWidth(), 120);
+    for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})
+        EXPECT_FALSE(find(w.view, title)->isVisible()) << title;
+    w.view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    EXPECT_TRUE(w.desk.isSilent());
+    w.view.setShow(false);
+    for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})
+        EXPECT_TRUE(find(w.view, title)->isVisible()) << title;
+    EXPECT_LT(w.view.world().getWidth(), 1000);
+}
+
+TEST(Arrangement, APageWithoutRoomScrolls) {
+    Window w;
+    w.view.setSize(1280, 720);
+    w.view.tabs().choose("Output");
+    auto* page = w.view.tabs().find("Output");
+    EXPECT_GE(page->getHeight(), page->leastHeight());
+    auto* viewport = page->findParentComponentOfClass<juce::Viewport>();
+    ASSERT_NE(viewport, nullptr);
+    EXPECT_LT(viewport->getHeight(), page->getHeight());
+    EXPECT_TRUE(viewport->isVerticalScrollBarShown());
+    w.view.setSize(3840, 2160);
+    EXPECT_EQ(viewport->getHeight(), page->getHeight());
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cards that ask for files and values: names are kept, nothing is replaced by one press, Esc cancels.
+#include "Mixer/Window/FileCard.h"
+#include "MixerTesting.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+struct Asked {
+    TestFolder folder;
+    juce::File taken;
+    int cancelled = 0;
+    std::unique_ptr<FileCard> card;
+
+    explicit Asked(bool isSaving, const juce::String& name = {}) {
+        folder("inner").createDirectory();
+        folder("there.json").replaceWithText("{}");
+        folder("picture.png").replaceWithText("x");
+        card = std::make_unique<FileCard>(FileCard::Choice{"A file", ".json", folder.folder, isSaving, name});
+        card->onFile = [this](const juce::File& file) { taken = file; };
+        card->onCancel = [this] { ++cancelled; };
+    }
+    juce::ListBox& list() { return dynamic_cast<juce::ListBox&>(*find(*card, "Files of the folder")); }
+};
+
+TEST(FileCard, ATypedNameStaysInAnotherFolderAndGetsItsEnding) {
+    Asked asked{true, "session"};
+    EXPECT_EQ(asked.card->name(), "session");
+    asked.card->setName("my hands");
+    asked.list().selectRow(0);
+    asked.card->take();
+    EXPECT_EQ(asked.card->folder(), asked.folder("inner"));
+    EXPECT_EQ(asked.card->name(), "my hands");
+    asked.card->keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
+    EXPECT_EQ(asked.taken, asked.folder("inner").getChildFile("my hands.json"));
+}
+
+TEST(FileCard, AFileIsReplacedAtTheSecondPressOnly) {
+    Asked asked{true, "there"};
+    asked.card->take();
+    EXPECT_EQ(asked.taken, juce::File{});
+    EXPECT_TRUE(asked.card->words().contains("there.json exists")) << asked.card->words();
+    asked.card->setName("there"); // typed again: asked again
+    asked.card->setName("other");
+    asked.card->setName("there");
+    dynamic_cast<juce::TextEditor&>(*find(*asked.card, "Name of the file")).onTextChange();
+    asked.card->take();
+    EXPECT_EQ(asked.taken, juce::File{});
+    asked.card->take();
+    EXPECT_EQ(asked.taken, asked.folder("there.json"));
+}
+
+TEST(FileCard, ListsFoldersAndFilesOfTheEndingAndOpensOnlyWhatIsThere) {
+    Asked asked{false};
+    EXPECT_EQ(asked.list().getModel()->getNumRows(), 2);
+    EXPECT_EQ(asked.list().getModel()->getNameForRow(1), "there.json");
+    asked.card->take();
+    EXPECT_EQ(asked.card->words(), "Expected a name");
+    asked.card->setName("gone");
+    asked.card->take();
+    EXPECT_TRUE(asked.card->words().contains("gone.json: expected")) << asked.card->words();
+    EXPECT_EQ(asked.taken, juce::File{});
+    asked.list().selectRow(1);
+    EXPECT_EQ(asked.card->name(), "there");
+    asked.card->take();
+    EXPECT_EQ(asked.taken, asked.folder("there.json"));
+    asked.card->keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    EXPECT_EQ(asked.cancelled, 1);
+}
+
+TEST(FileCard, SavesInAFolderThatIsThereOnly) {
+    Asked asked{true};
+    asked.card->setName("missing/mine");
+    asked.card->take();
+    EXPECT_EQ(asked.taken, juce::File{});
+    EXPECT_TRUE(asked.card->words().contains("expected a folder")) << asked.card->words();
+    asked.card->setName("inner/mine.json");
+    asked.card->take();
+    EXPECT_EQ(asked.taken, asked.folder("inner").getChildFile("mine.json"));
+}
+
+TEST(QuestionCard, FieldsAreReadAndEscIsTheAnswerThatHasIt) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    juce::String taken;
+    bool isCancelled = false;
+    view.setQuestion(std::make_unique<QuestionCard>(
+        "Render", "How long?",
+        std::vector<QuestionCard::Answer>{
+            {"Take", [&] { taken = view.question()->value("Seconds"); }},
+            {"Cancel", [&] { isCancelled = true; }, true, juce::KeyPress{juce::KeyPress::escapeKey}}},
+        std::vector<QuestionCard::Field>{{"Seconds", "2.5"}}));
+    auto* editor = dynamic_cast<juce::TextEditor*>(find(view, "Seconds"));
+    ASSERT_NE(editor, nullptr);
+    EXPECT_GE(editor->getHeight(), 24);
+    EXPECT_TRUE(view.question()->getLocalBounds().contains(
+        view.question()->getLocalArea(editor, editor->getLocalBounds())));
+    editor->setText("7.5", false);
+    editor->onReturnKey();
+    EXPECT_TRUE(runUntil([&] { return taken == "7.5"; }, 1.0)) << taken;
+    editor->onEscapeKey();
+    EXPECT_TRUE(runUntil([&] { return isCancelled; }, 1.0));
+}
+
+} // namespace
+} // namespace physvib

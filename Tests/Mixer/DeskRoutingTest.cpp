@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the strips say of outputs is what the device plays, whatever is chosen, refused, saved and opened.
+#include "Host/FakeAudioDevice.h"
+#include "Live/Documents/SessionFile.h"
+#include "MixerTesting.h"
+#include "Stimuli/SeededRandom.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// A desk of four strips on eight outputs, in a world that stands still.
+struct RoutedDesk {
+    explicit RoutedDesk(Mix mix = Desk::firstMix())
+        : desk{fakeDrivers({&hands}), {"Fake:hands", 0, 0}, std::move(mix), {.isPaused = true}} {
+        for (int k = 0; k < 50; ++k) hands.play(64);
+    }
+    /// Where that strip's test is heard: the loudest output, if the others are silent.
+    int heardOf(int strip) {
+        const auto played = desk.session().status().render.played;
+        std::vector<float> peaks(static_cast<std::size_t>(hands.outputs));
+        const auto hear = [&] {
+            const auto block = hands.play(64);
+            for (std::size_t o = 0; o < block.size(); ++o)
+                for (const float x : block[o]) peaks[o] = std::max(peaks[o], std::abs(x));
+        };
+        desk.strikes().testPulse(strip);
+        EXPECT_TRUE(runUntil([&] { return hear(), desk.session().status().render.played > played; }));
+        for (int k = 0; k < 60; ++k) hear();
+        for (int k = 0; k < 400; ++k) hands.play(64); // it rings out
+        if (noise >= 0) peaks[static_cast<std::size_t>(noise)] = 0.0f;
+        const auto loudest = std::ranges::max_element(peaks);
+        if (*loudest < 1e-3f) return -1;
+        const auto sounds = std::ranges::count_if(peaks, [&](float p) { return p > 0.01f * *loudest; });
+        EXPECT_EQ(sounds, 1) << "felt on its own output alone";
+        return static_cast<int>(loudest - peaks.begin());
+    }
+    void give(std::size_t strip, int output) { // as the strip's list does
+        desk.change("Output", [&](Mix& mix) { giveOutput(mix.strips, strip, output); });
+    }
+    void expectAsShown(const std::string& after) {
+        for (int j = 0; j < desk.mix().count(); ++j) {
+            const int shown = desk.mix().strips[static_cast<std::size_t>(j)].output;
+            EXPECT_EQ(heardOf(j), shown < hands.outputs ? shown : -1) << after << ": strip " << j;
+        }
+    }
+    std::vector<int> outputs() const {
+        std::vector<int> all;
+        for (const Strip& strip : desk.mix().strips) all.push_back(strip.output);
+        return all;
+    }
+
+    int noise = -1; ///< an output that a study uses
+    FakeInterface hands;
+    Desk desk;
+};
+
+void setOutputs(Mix& mix, const std::vector<int>& outputs) {
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) mix.strips[j].output = outputs[j];
+}
+
+/// As a file of any program may have it.
+SavedSession opened(SavedSession session, const std::vector<int>& outputs) {
+    setOutputs(*session.mix, outputs);
+    auto read = readSession(sessionJson(session), "session");
+    EXPECT_TRUE(read) << read.error;
+    return std::move(read.value);
+}
+
+TEST(DeskRouting, EveryStripsTestOnEveryOutputIsHeardWhereTheStripSays) {
+    RoutedDesk routed;
+    for (std::size_t j = 0; j < 4; ++j)
+        for (int output = 0; output < routed.hands.outputs; ++output) {
+            routed.give(j, output);
+            ASSERT_EQ(routed.desk.mix().strips[j].output, output);
+            routed.expectAsShown("strip " + std::to_string(j) + " to output " + std::to_string(output));
+        }
+    EXPECT_TRUE(routed.desk.trouble().isEmpty()) << routed.desk.trouble();
+}
+
+TEST(DeskRouting, AnOutputThatAnotherHasIsExchanged) {
+    RoutedDesk routed;
+    routed.give(1, 0);
+    EXPECT_EQ(routed.outputs(), (std::vector{1, 0, 2, 3}));
+    routed.give(1, 1);
+    routed.give(0, 2); // A, B for C, D
+    routed.give(1, 3);
+    EXPECT_EQ(routed.outputs(), (std::vector{2, 3, 0, 1}));
+    routed.expectAsShown("exchanged");
+    routed.desk.undoManager().undo();
+    EXPECT_EQ(routed.outputs(), (std::vector{2, 1, 0, 3})) << "one act, one step back";
+    routed.give(2, -1);
+    EXPECT_EQ(routed.outputs(), (std::vector{2, 1, -1, 3}));
+    routed.give(2, 3);
+    EXPECT_EQ(routed.outputs(), (std::vector{2, 1, 3, -1})) << "who had none gives none";
+    routed.expectAsShown("taken");
+    EXPECT_TRUE(routed.desk.trouble().isEmpty()) << routed.desk.trouble();
+}
+
+TEST(DeskRouting, ARefusedOutputIsNeitherShownNorSaved) {
+    RoutedDesk routed;
+    ListeningSettings ofStudy;
+    ofStudy.noise = {routed.noise = 6};
+    ASSERT_EQ(routed.desk.device().listening().hear(ofStudy), "");
+    routed.give(0, 6);
+    EXPECT_TRUE(routed.desk.trouble().contains("output 7")) << routed.desk.trouble();
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 2, 3}));
+    EXPECT_EQ(routed.desk.saved().mix->strips[0].output, 0);
+    routed.expectAsShown("refused");
+}
+
+TEST(DeskRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {
+    RoutedDesk first;
+    const auto session = opened(first.desk.saved(), {0, 0, 2, 2});
+    RoutedDesk routed{mixOf(session)};
+    EXPECT_TRUE(routed.desk.look().device.isRunning);
+    EXPECT_EQ(routed.outputs(), (std::vector{0, -1, 2, -1}));
+    routed.expectAsShown("opened");
+    EXPECT_EQ(routed.desk.trouble(), "B, D have no outputs: other actuators have them");
+    MixerView view{routed.desk};
+    auto* button = dynamic_cast<juce::Button*>(find(view, "Give free outputs"));
+    ASSERT_NE(button, nullptr);
+    EXPECT_TRUE(button->isVisible());
+    button->onClick();
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 2, 3}));
+    routed.expectAsShown("healed");
+    routed.desk.dispatchPendingMessages();
+    EXPECT_TRUE(routed.desk.trouble().isEmpty()) << routed.desk.trouble();
+    EXPECT_FALSE(button->isVisible());
+}
+
+TEST(DeskRouting, WhereNoOutputIsFreeItSaysSo) {
+    Mix mix = Desk::firstMix();
+    setOutputs(mix, {0, 0, 1, 1});
+    FakeInterface two;
+    two.outputs = 2;
+    Desk desk{fakeDrivers({&two}), {"Fake:hands", 0, 0}, mix};
+    const auto heal = desk.messages().shown().act.run;
+    ASSERT_TRUE(heal);
+    heal();
+    EXPECT_EQ(desk.trouble(), "The device has no other free output");
+}
+
+TEST(DeskRouting, NewActuatorsAreNoLouderThanTheQuietest) {
+    Desk desk{onlyNoDevice(), noDevice};
+    desk.change("Gains", [](Mix& mix) {
+        mix.strips[1].gainDb = -30.0;
+        mix.strips[2].gainDb = leastStripDb; // silence is no level
+    });
+    desk.change("Preset", [](Mix& mix) {
+        mix.layout = presetLayout("vest16");
+        mix.resizeStrips();
+    });
+    ASSERT_TRUE(desk.attach(0.5, 0.5));
+    for (std::size_t j = 4; j < 17; ++j) EXPECT_EQ(desk.mix().strips[j].gainDb, -30.0) << j;
+    EXPECT_EQ(desk.mix().strips[0].gainDb, 0.0);
+}
+
+TEST(DeskRouting, TwoHundredRandomRoutingsAreSavedAndOpened) {
+    SeededRandom random{59};
+    RoutedDesk first;
+    const SavedSession saved = first.desk.saved();
+    for (int k = 0; k < 200; ++k) {
+        std::vector<int> wanted(4);
+        for (int& output : wanted) output = static_cast<int>(random.below(10)) - 1; // none, or one of nine
+        RoutedDesk routed{mixOf(opened(saved, wanted))};
+        std::vector<int> expected = wanted;
+        for (std::size_t j = 1; j < wanted.size(); ++j)
+            if (std::find(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(j), wanted[j]) !=
+                wanted.begin() + static_cast<std::ptrdiff_t>(j))
+                expected[j] = -1;
+        ASSERT_EQ(routed.outputs(), expected) << k;
+        const auto told = routed.desk.trouble();
+        ASSERT_EQ(told.contains(" no output: another") || told.contains(" no outputs: other"),
+                  expected != wanted)
+            << k << told;
+        ASSERT_TRUE(routed.desk.look().device.isRunning) << k;
+        const auto again = readSession(sessionJson(routed.desk.saved()), "session");
+        ASSERT_TRUE(again) << again.error;
+        ASSERT_EQ(mixOf(again.value).strips, routed.desk.mix().strips) << k;
+        if (k % 20 == 0) routed.expectAsShown("routing " + std::to_string(k));
+    }
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What lies under the pointer has its own menu; motors, rain, and an inspector that covers nothing selected.
+#include "Mixer/World/DrawBar.h"
+#include "NewSceneRig.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+struct Field : NewSceneRig {
+    WorldPanel& panel = view.world();
+
+    void add(DrawTool tool, double x, double y) { pane.addAt(tool, share(x, y)), settle(); }
+    juce::PopupMenu menuAt(Vector place) { return panel.menuAt(world.placeOfMetres(place)); }
+};
+
+juce::StringArray wordsOf(const juce::PopupMenu& menu) {
+    juce::StringArray words;
+    for (juce::PopupMenu::MenuItemIterator it{menu}; it.next();)
+        if (!it.getItem().isSeparator) words.add(it.getItem().text);
+    return words;
+}
+
+void press(const juce::PopupMenu& menu, const juce::String& words) {
+    for (juce::PopupMenu::MenuItemIterator it{menu, true}; it.next();)
+        if (it.getItem().text == words) {
+            ASSERT_TRUE(it.getItem().isEnabled) << words;
+            return it.getItem().action();
+        }
+    FAIL() << words << " is not among " << wordsOf(menu).joinIntoString(", ");
+}
+
+TEST(WorldMenu, EachThingHasItsOwn) {
+    Field f;
+    f.add(DrawTool::ball, 0.5, 0.5);
+    const auto ball = wordsOf(f.menuAt(f.share(0.5, 0.5))), empty = wordsOf(f.menuAt(f.share(0.2, 0.8))),
+               badge = wordsOf(f.panel.menuAt(f.world.placeOfEnchanter(0)));
+    for (const char* words : {"ball 1", "Material", "Motor here", "Copy", "Delete"})
+        EXPECT_TRUE(ball.contains(words)) << words << ": " << ball.joinIntoString(", ");
+    for (const char* words : {"Add ball", "Add box", "Add rain", "Paste here", "Attach an actuator here"})
+        EXPECT_TRUE(empty.contains(words)) << words << ": " << empty.joinIntoString(", ");
+    for (const char* words : {"Actuator A", "Test pulse", "Sweep", "Detach"})
+        EXPECT_TRUE(badge.contains(words)) << words << ": " << badge.joinIntoString(", ");
+    EXPECT_FALSE(ball.contains("Detach") || badge.contains("Material") || empty.contains("Delete"));
+    const auto& floor = f.drawn().bodies[0];
+    const auto under =
+        wordsOf(f.menuAt(f.world.poseOfBody(floor.name) ? Vector{f.world.poseOfBody(floor.name)->xMetres,
+                                                                 f.world.poseOfBody(floor.name)->yMetres}
+                                                        : Vector{}));
+    EXPECT_TRUE(under.contains(utf8(floor.name)) && under.contains("Material")) << under.joinIntoString(", ");
+}
+
+TEST(WorldMenu, WhatItSaysIsDone) {
+    Field f;
+    f.add(DrawTool::ball, 0.5, 0.5);
+    const auto at = f.share(0.5, 0.5);
+    const int drawn = f.desk.world().drawing().find("ball 1")->fixtures[0].material;
+    int other = 0;
+    while (other == drawn || f.drawn().materials[static_cast<std::size_t>(other)].frequencyHz <= 0.0) ++other;
+    press(f.menuAt(at), utf8(f.drawn().materials[static_cast<std::size_t>(other)].name));
+    EXPECT_EQ(f.desk.world().drawing().find("ball 1")->fixtures[0].material, other) << f.desk.trouble();
+    press(f.menuAt(at), "Copy");
+    press(f.menuAt(f.share(0.2, 0.8)), "Paste here");
+    f.settle();
+    const auto* pasted = f.desk.world().drawing().find("ball 2");
+    ASSERT_NE(pasted, nullptr) << f.desk.trouble();
+    EXPECT_NEAR(pasted->positionMetres.x, f.share(0.2, 0.8).x, 0.01 * f.drawn().fieldWidthMetres);
+    EXPECT_NEAR(pasted->positionMetres.y, f.share(0.2, 0.8).y, 0.01 * f.drawn().fieldHeightMetres);
+    f.pane.use(DrawTool::hand);
+    press(f.menuAt(at), "Delete");
+    EXPECT_EQ(f.desk.world().drawing().find("ball 1"), nullptr);
+    f.desk.undoManager().undo();
+    EXPECT_NE(f.desk.world().drawing().find("ball 1"), nullptr);
+    f.settle();
+    press(f.menuAt(f.share(0.8, 0.8)), "Add box");
+    EXPECT_NE(f.desk.world().drawing().find("box 1"), nullptr);
+    EXPECT_EQ(f.pane.tool(), DrawTool::hand) << "the tool stays";
+    press(f.menuAt(f.share(0.6, 0.9)), "Attach an actuator here");
+    EXPECT_EQ(f.desk.mix().count(), 5);
+    f.settle();
+    press(f.panel.menuAt(f.world.placeOfEnchanter(4)), "Detach");
+    EXPECT_EQ(f.desk.mix().count(), 4);
+    const auto strikes = f.desk.saved().log.strikes.size();
+    press(f.panel.menuAt(f.world.placeOfEnchanter(1)), "Test pulse");
+    EXPECT_EQ(f.desk.saved().log.strikes.size(), strikes + 1);
+}
+
+TEST(WorldMenu, ARightClickOpensItWithEveryToolAndDrawsNothing) {
+    Field f;
+    int asked = 0;
+    f.world.onMenu = f.pane.onMenu = [&](juce::Point<float>) { ++asked; };
+    const auto bodies = f.drawn().bodies.size();
+    const auto click = mouseAt(f.pane, {300.0f, 200.0f}, juce::ModifierKeys::rightButtonModifier);
+    for (const auto& words : drawTools) {
+        f.pane.use(words.tool);
+        f.pane.mouseDown(click);
+        f.pane.mouseUp(click);
+    }
+    EXPECT_EQ(asked, static_cast<int>(drawTools.size()));
+    f.world.mouseDown(mouseAt(f.world, {300.0f, 200.0f}, juce::ModifierKeys::rightButtonModifier));
+    EXPECT_EQ(asked, static_cast<int>(drawTools.size()) + 1);
+    EXPECT_EQ(f.drawn().bodies.size(), bodies);
+}
+
+TEST(Motor, SpeedAndTorqueAreChangedInTheInspectorAndUndone) {
+    Field f;
+    f.add(DrawTool::box, 0.5, 0.5);
+    press(f.menuAt(f.share(0.5, 0.5)), "Motor here");
+    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.desk.trouble();
+    f.settle();
+    const auto before = driveOf(f.drawn().joints[0]);
+    EXPECT_GT(before.maxTorqueNewtonMetres, 0.0);
+    press(f.menuAt(f.share(0.5, 0.5)), "Motor: speed and torque");
+    auto *speed = dynamic_cast<juce::Slider*>(find(f.panel, "Motor speed")),
+         *torque = dynamic_cast<juce::Slider*>(find(f.panel, "Motor torque"));
+    ASSERT_TRUE(speed != nullptr && torque != nullptr);
+    EXPECT_NEAR(speed->getValue(), before.radiansPerSecond, 0.05);
+    EXPECT_GT(speed->getHeight(), 14);
+    speed->setValue(-8.0, juce::sendNotificationSync);
+    torque->setValue(5'000.0, juce::sendNotificationSync);
+    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.desk.trouble();
+    EXPECT_NEAR(driveOf(f.drawn().joints[0]).radiansPerSecond, -8.0, 1e-9);
+    EXPECT_NEAR(driveOf(f.drawn().joints[0]).maxTorqueNewtonMetres, 5'000.0, 1e-9);
+    f.settle();
+    f.desk.setSlowness(1);
+    const double angle = f.world.poseOfBody("box 1")->angleRadians;
+    runFor(1.0);
+    f.view.refresh();
+    EXPECT_LT(f.world.poseOfBody("box 1")->angleRadians, angle - 1.0) << "it turns the other way now";
+    f.desk.undoManager().undo();
+    f.desk.undoManager().undo();
+    EXPECT_EQ(driveOf(f.drawn().joints[0]), before);
+    f.pane.choose({"box 1"});
+    f.add(DrawTool::ball, 0.2, 0.8);
+    f.pane.use(DrawTool::choose);
+    f.pane.choose({"ball 1"});
+    EXPECT_FALSE(speed->isVisible()) << "a body without one has no such rows";
+}
+
+TEST(Rain, HasTheNumberAndMaterialThatWereChosenAsOneEdit) {
+    Field f;
+    f.pane.use(DrawTool::rain);
+    auto* count = dynamic_cast<juce::ComboBox*>(find(f.panel, "Balls of a rain"));
+    ASSERT_NE(count, nullptr);
+    EXPECT_TRUE(count->isVisible());
+    count->setSelectedId(100, juce::sendNotificationSync);
+    f.pane.setMaterial(2);
+    const auto before = f.drawn().bodies.size();
+    f.add(DrawTool::rain, 0.5, 0.7);
+    ASSERT_EQ(f.drawn().bodies.size(), before + 100) << f.desk.trouble();
+    const auto& balls = f.drawn().bodies;
+    for (std::size_t i = before; i < balls.size(); ++i) {
+        EXPECT_EQ(balls[i].fixtures[0].material, 2);
+        const double radius = std::get<CircleShape>(balls[i].fixtures[0].shape).radiusMetres;
+        for (std::size_t k = before; k < i; ++k)
+            EXPECT_GT(std::hypot(balls[i].positionMetres.x - balls[k].positionMetres.x,
+                                 balls[i].positionMetres.y - balls[k].positionMetres.y),
+                      2.0 * radius)
+                << "they do not touch";
+    }
+    f.desk.undoManager().undo();
+    EXPECT_EQ(f.drawn().bodies.size(), before) << "one edit";
+    f.pane.use(DrawTool::ball);
+    EXPECT_FALSE(count->isVisible());
+}
+
+TEST(Inspector, NeverCoversWhatIsSelectedAndNamesItsMaterial) {
+    Field f;
+    f.pane.use(DrawTool::choose);
+    auto* inspector = find(f.panel, "Chosen bodies");
+    for (const auto& [x, y] : {std::pair{0.93, 0.93}, {0.07, 0.93}, {0.93, 0.15}, {0.07, 0.15}, {0.5, 0.5}}) {
+        f.add(DrawTool::ball, x, y);
+        f.pane.use(DrawTool::choose);
+        const auto name = f.drawn().bodies.back().name;
+        f.pane.choose({name});
+        f.view.refresh();
+        ASSERT_TRUE(inspector->isVisible());
+        EXPECT_TRUE(inspector->getBounds()
+                        .getIntersection(f.pane.chosenArea().toNearestInt() + f.pane.getPosition())
+                        .isEmpty())
+            << x << ", " << y;
+        EXPECT_TRUE(f.panel.getLocalBounds().contains(inspector->getBounds())) << x << ", " << y;
+    }
+    f.pane.setMaterial(3);
+    f.desk.dispatchPendingMessages();
+    f.pane.choose({f.drawn().bodies.back().name});
+    EXPECT_EQ(f.pane.material(), 3);
+    bool isNamed = false;
+    for (auto* child : inspector->getChildren())
+        if (auto* label = dynamic_cast<juce::Label*>(child))
+            isNamed = isNamed || label->getText().contains(utf8(f.drawn().materials[3].name));
+    EXPECT_TRUE(isNamed);
+}
+
+TEST(Badges, OfSixtyFourActuatorsEachShowsItsWholeLabel) {
+    Field f;
+    while (f.desk.mix().count() < 64 && f.desk.attach(0.5, 0.5)) {
+    }
+    f.desk.dispatchPendingMessages();
+    for (int j = 0; j < 64; ++j) {
+        const auto label = utf8(f.desk.mix().layout.enchanters[static_cast<std::size_t>(j)].label);
+        EXPECT_GE(f.world.badgeAt(j).getWidth(),
+                  juce::Font(text::small, juce::Font::bold).getStringWidthFloat(label))
+            << label;
+    }
+}
+
+} // namespace
+} // namespace physvib
