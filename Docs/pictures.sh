@@ -20,6 +20,9 @@ draw Docs/shake-the-box.png --picture render shake-the-box --seconds 10
 draw Docs/shake-the-box.webp --movie render shake-the-box --seconds 6
 draw Docs/drop.png --picture render drop --seconds 6
 draw Docs/marbles.png --picture render marbles --seconds 10
+glove="--from-events Docs/glove.csv --layout glove5 --seconds 1.5" # written by physvib-glove-mujoco (Tests/Engines)
+draw Docs/glove.png --picture render $glove
+draw Docs/glove.webp --movie render $glove
 mv "$folder/list" $list
 [ "${2:-}" != renders ] || exit 0
 Tests/figures/mixer.sh "$bin/physvib-mixer-shots"

@@ -24,13 +24,14 @@ public:
 
     virtual BodyFacts facts(std::uint64_t body) const = 0;
 
-    /// The current motion, and the motion at the beginning of the step.
+    /// The current motion, and the motion at the beginning of the step. These, the centre and the moment of
+    /// inertia are those of the plane: `release` timing uses them.
     virtual BodyMotion motion(std::uint64_t body) const = 0;
     virtual BodyMotion motionBefore(std::uint64_t body) const = 0;
 
     /// Centre of mass, m, world; and the world position of a point given in the body's frame.
     virtual Vector2 centre(std::uint64_t body) const = 0;
-    virtual Vector2 toWorld(std::uint64_t body, Vector2 ofBody) const = 0;
+    virtual Vector3 toWorld(std::uint64_t body, Vector2 ofBody) const = 0;
 
     /// Moment of inertia about the centre of mass, kg m^2.
     virtual double inertia(std::uint64_t body) const = 0;

@@ -20,19 +20,19 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
 void ChainLoads::settle() {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const Contact& contact = contacts_[i];
-        if (!contact.isSolved || contact.isUnknown ||
-            contact.now.lengthSquared() <= contact.load.lengthSquared())
+        const Vector3 load = pasts_[i].load;
+        if (!contact.isSolved || contact.isUnknown || contact.now.lengthSquared() <= load.lengthSquared())
             continue;
         const TouchingPairs::Name& of = pasts_[i].of;
-        const Vector2 beyond = contact.now - contact.load;
+        const Vector3 beyond = contact.now - load;
         const float size = beyond.length();
         pass(of.a, of.b, -beyond, size, contact.point);
         pass(of.b, of.a, beyond, size, contact.point);
     }
 }
 
-void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size,
-                      Vector2 point) {
+void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size,
+                      Vector3 point) {
     if (!table_.isCamera(slot)) return;
     const auto index = static_cast<std::size_t>(slot);
     if (passed_.size() <= index) passed_.resize(index + 1);
@@ -54,7 +54,7 @@ void ChainLoads::endStep(const ContactGraph& graph) noexcept {
         if (contact.isSolved) {
             if (contact.isUnknown) past.pushed.fill(contact.now);
             past.pushed = {contact.now, past.pushed[0], past.pushed[1]};
-            contact.load = smallestOf(past.pushed);
+            past.load = smallestOf(past.pushed);
             contact.now = {};
             contact.isSolved = contact.isUnknown = false;
         } else if (!graph.isTouching(past.of.a, past.of.b)) {
@@ -69,7 +69,7 @@ void ChainLoads::forget(std::int32_t slot) noexcept {
 }
 
 // Without branches, which could not be predicted here.
-Vector2 ChainLoads::smallestOf(const std::array<Vector2, 3>& pushed) noexcept {
+Vector3 ChainLoads::smallestOf(const std::array<Vector3, 3>& pushed) noexcept {
     const float squared[] = {pushed[0].lengthSquared(), pushed[1].lengthSquared(), pushed[2].lengthSquared()};
     const auto ofNewer = static_cast<std::size_t>(squared[1] < squared[0]);
     return pushed[squared[2] < squared[ofNewer] ? 2 : ofNewer];
@@ -78,7 +78,7 @@ Vector2 ChainLoads::smallestOf(const std::array<Vector2, 3>& pushed) noexcept {
 ChainLoads::Contact& ChainLoads::meet(const TouchingPairs::Name& pair, bool isUnknown) {
     pairs_[pair.number].load = static_cast<std::int32_t>(contacts_.size());
     pasts_.push_back({pair});
-    return contacts_.emplace_back(Contact{{}, {}, {}, pair.b, false, isUnknown});
+    return contacts_.emplace_back(Contact{{}, {}, pair.b, false, isUnknown});
 }
 
 void ChainLoads::drop(std::size_t index) noexcept {

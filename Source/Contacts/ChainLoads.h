@@ -5,7 +5,7 @@
 #include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/TouchingPairs.h"
-#include "Contacts/Vector2.h"
+#include "Contacts/Vector3.h"
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -21,17 +21,17 @@ namespace physvib {
 class ChainLoads {
 public:
     struct Passed {
-        Vector2 newtonSeconds;
+        Vector3 newtonSeconds;
         float strongest = 0.0F;                  ///< magnitude of the part that came through `other`
         std::int32_t other = FixtureTable::none; ///< slot of the neighbour that transmitted most
-        Vector2 point;
+        Vector3 point;
     };
 
     ChainLoads(const FixtureTable& table, TouchingPairs& pairs);
 
     /// Within a step: an existing contact of (a, b) has pushed b by `newtonSeconds` (world), and a by the
     /// opposite.
-    void add(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
+    void add(const TouchingPairs::Name& pair, Vector3 newtonSeconds, Vector3 point) {
         Contact& contact = find(pair, true);
         // Summed over the step's points and solver passes, and over the segments of a chain.
         contact.now += contact.b == pair.b ? newtonSeconds : -newtonSeconds;
@@ -62,23 +62,23 @@ public:
 
 private:
     struct alignas(32) Contact { // read for every push: half a cache line
-        Vector2 now, point;      // now: impulse on b in this step
-        Vector2 load;
+        Vector3 now, point;      // now: impulse on b in this step
         std::int32_t b;
         bool isSolved;
         bool isUnknown; // first seen in mid-contact: the impulse of this step is taken as its load
     };
     struct Past { // read once per step
         TouchingPairs::Name of;
-        std::array<Vector2, 3> pushed{}; // newest first
+        Vector3 load{};
+        std::array<Vector3, 3> pushed{}; // newest first
     };
-    static Vector2 smallestOf(const std::array<Vector2, 3>& pushed) noexcept;
+    static Vector3 smallestOf(const std::array<Vector3, 3>& pushed) noexcept;
     Contact& find(const TouchingPairs::Name& pair, bool isUnknown) {
         const std::int32_t at = pairs_[pair.number].load;
         return at != TouchingPairs::none ? contacts_[static_cast<std::size_t>(at)] : meet(pair, isUnknown);
     }
     Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
-    void pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size, Vector2 point);
+    void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size, Vector3 point);
     void drop(std::size_t index) noexcept;
 
     const FixtureTable& table_;

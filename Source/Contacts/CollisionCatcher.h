@@ -110,7 +110,7 @@ public:
 
     /// Adds the impulse, N s in the world, by which parts that do not collide have pushed b, and a by the
     /// opposite.
-    void push(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
+    void push(const TouchingPairs::Name& pair, Vector3 newtonSeconds, Vector3 point) {
         hasHeard_ = true;
         if (const std::int32_t last = pairs_[pair.number].last; last != TouchingPairs::none)
             last_[static_cast<std::size_t>(last)].newtonSeconds += newtonSeconds;
@@ -131,7 +131,7 @@ public:
 private:
     struct Aftermath { // impulse in this step of a pair that collided in the last one
         std::int32_t pair;
-        Vector2 newtonSeconds;
+        Vector3 newtonSeconds;
     };
     Collision* weakest(bool isDirect) noexcept;
 

@@ -81,6 +81,7 @@ struct OutputFacts {
     std::uint64_t dropped = 0;             ///< events for which the queue had no room, since then
     std::uint64_t rejected = 0;            ///< events that cannot be played, since then
     const PhantomPanner* panner = nullptr; ///< layout and field of later events; null: unknown
+    std::uint64_t withoutPart = 0; ///< events of a part of the body that no actuator is on, since then
 };
 
 /// The most likely reason why nothing, or not everything, is felt, as one sentence with names of physvib.h.

@@ -101,8 +101,10 @@ void ContactEvents::vanish(std::int32_t slot) {
     conclude();
     if (settings_.keepsHitsOfDestroyed) {
         impacts_.clear();
-        onset_.finish(slot, span_, impacts_);
-        release_.finish(slot, span_, impacts_);
+        StepSpan span = span_;
+        span.earliestNs = settledNs(); // earlier events may have been taken
+        onset_.finish(slot, span, impacts_);
+        release_.finish(slot, span, impacts_);
         addImpacts();
     }
     release(slot);

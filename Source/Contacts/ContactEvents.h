@@ -82,9 +82,10 @@ public:
     void endStep();
 
     /// World time after the last step; and the time before which all events are final: one step earlier,
-    /// because a contact may be reported up to one step late.
+    /// because a contact may be reported up to one step late. The latter stays until a step's reports have
+    /// become events.
     std::int64_t timeNs() const noexcept { return span_.endNs; }
-    std::int64_t settledNs() const noexcept { return span_.startNs; }
+    std::int64_t settledNs() const noexcept { return isConcluded_ ? span_.startNs : span_.earliestNs; }
     double stepSeconds() const noexcept { return span_.seconds(); }
 
     /// Appends the final events in time order.

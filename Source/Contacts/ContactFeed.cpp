@@ -13,17 +13,21 @@ constexpr std::string_view unknownBody = "body: expected one that has been told"
 constexpr std::string_view outsideStep = "step: expected to be within one";
 constexpr std::string_view withinStep = "step: expected not to be within one";
 
-bool isFinite(Vector2 v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y); }
+bool isFinite(Vector3 v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-bool isFinite(const BodyMotion& motion) noexcept {
-    return isFinite(motion.metresPerSecond) && std::isfinite(motion.radiansPerSecond);
+bool isFinite(const SpaceMotion& motion) noexcept {
+    return isFinite(motion.metresPerSecond) && isFinite(motion.radiansPerSecond);
+}
+
+SpaceMotion inSpace(const BodyMotion& motion) noexcept {
+    return {motion.metresPerSecond, {0.0F, 0.0F, motion.radiansPerSecond}};
 }
 
 // False of NaN.
 bool isWithin(double value, double least, double most) noexcept { return value >= least && value <= most; }
 
 // False of NaN. Engines round.
-bool isUnit(Vector2 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; }
+bool isUnit(Vector3 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; }
 
 const ImpactSettings& onsetAlone(const ImpactSettings& settings) {
     if (settings.timing != ImpactTiming::onset)
@@ -38,7 +42,7 @@ std::string_view faultOf(const FedContact& contact) noexcept {
     if (!isFinite(contact.point)) return "point: expected numbers";
     if (!isUnit(contact.normal)) return "normal: expected a length of 1";
     if (!isWithin(contact.impulseNewtonSeconds.value_or(0.0), -most, most) ||
-        !isWithin(contact.tangentialNewtonSeconds, -most, most))
+        !isWithin(contact.tangentialNewtonSeconds, -most, most) || !isFinite(contact.frictionNewtonSeconds))
         return "impulse: expected a number of N s";
     if (!isWithin(contact.approachMetresPerSecond.value_or(0.0), -most, most))
         return "approach: expected a number of m/s";
@@ -101,14 +105,25 @@ std::string_view ContactFeed::set(std::int32_t id, const FedBody& body, const Ha
 }
 
 std::string_view ContactFeed::move(std::int32_t id, Vector2 centre, const BodyMotion& motion) {
+    return moveInSpace(id, centre, inSpace(motion));
+}
+
+std::string_view ContactFeed::moveInSpace(std::int32_t id, Vector3 centre, const SpaceMotion& motion,
+                                          const std::optional<InverseInertia>& inverse) {
     if (!contacts_->bodies().has(id)) return unknownBody;
     if (!isFinite(centre)) return "place: expected numbers";
     if (!isFinite(motion)) return "velocity: expected numbers";
-    contacts_->bodies().move(id, centre, motion);
+    if (inverse && !inverse->isValid())
+        return "inverse inertia: expected that of a body (xx, yy, zz, xy, xz, yz; 0 where it cannot turn)";
+    contacts_->bodies().move(id, centre, motion, inverse);
     return {};
 }
 
 std::string_view ContactFeed::moved(std::int32_t id, const BodyMotion& motion) {
+    return movedInSpace(id, inSpace(motion));
+}
+
+std::string_view ContactFeed::movedInSpace(std::int32_t id, const SpaceMotion& motion) {
     if (!contacts_->bodies().has(id)) return unknownBody;
     if (!contacts_->isStepping()) return outsideStep;
     if (!isFinite(motion)) return "velocity: expected numbers";

@@ -5,6 +5,7 @@
 #include "Contacts/ContactCounts.h"
 #include "Contacts/HapticFixture.h"
 #include "Contacts/ImpactSettings.h"
+#include "Contacts/InverseInertia.h"
 #include "Contacts/PairSounds.h"
 #include "Contacts/Vector2.h"
 #include "Core/CollisionEvent.h"
@@ -21,8 +22,9 @@ class FedContacts;
 /// What the caller reports of a body, once.
 struct FedBody {
     double massKg = 0.0;                ///< 0: what strikes it does not move it (a floor, a wall, a platform)
-    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; 0:
-                                        ///< impacts count as if they went through the centre
+    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; in space
+                                        ///< about every axis, unless moveInSpace() says more; 0: impacts
+                                        ///< count as if they went through the centre
     double gravityScale = 1.0;          ///< how much of the world's gravity pulls it
 };
 
@@ -37,12 +39,15 @@ struct FedContact {
     static constexpr std::int32_t byPlace = -2; ///< as pointId: of an engine that does not number its points
     static constexpr double latestFraction = 2.0; ///< see fraction
 
-    std::int32_t a = -1;                           ///< a body
-    std::int32_t b = -1;                           ///< the other
-    Vector2 point;                                 ///< m, in the plane of the field
-    Vector2 normal{0.0F, 1.0F};                    ///< of length 1, from a to b
-    std::optional<double> impulseNewtonSeconds;    ///< along the normal, in this step
-    double tangentialNewtonSeconds = 0.0;          ///< to the left of the normal; only with an impulse
+    std::int32_t a = -1;                        ///< a body
+    std::int32_t b = -1;                        ///< the other
+    Vector3 point;                              ///< m; z: across the plane of the field
+    Vector3 normal{0.0F, 1.0F, 0.0F};           ///< of length 1, from a to b
+    std::optional<double> impulseNewtonSeconds; ///< along the normal, in this step
+    double tangentialNewtonSeconds = 0.0;       ///< to the left of the normal, of engines in the plane;
+                                                ///< only with an impulse
+    Vector3 frictionNewtonSeconds; ///< on b, across the normal, of engines in space, instead of the number
+                                   ///< above; only with an impulse
     std::optional<double> approachMetresPerSecond; ///< before the engine's solver
     double restitution = 0.0;                      ///< 0 to 1, of the pair; used where no impulse is reported
     std::optional<double> effectiveMassKg; ///< used where no impulse is reported; without it, it follows
@@ -107,12 +112,18 @@ public:
 
     /// Centre of mass, and motion before the engine's solver.
     std::string_view move(std::int32_t id, Vector2 centre, const BodyMotion& motion);
+    /// The same in space. `inverse`: of its moments of inertia as it is turned now; without it,
+    /// FedBody::inertiaKgSquareMetres counts about every axis, as of a ball.
+    std::string_view moveInSpace(std::int32_t id, Vector3 centre, const SpaceMotion& motion,
+                                 const std::optional<InverseInertia>& inverse = {});
 
     /// Motion after the engine's solver, for engines that report no impulses; call it within a step, before
     /// the step's contacts. Where both bodies of a soft contact, or of one without an impulse, have it, the
     /// impulses follow from their momentum; how hard a soft impact is still follows from its speed. `move`
     /// then has the velocity without contacts: with what gravity adds in the step.
     std::string_view moved(std::int32_t id, const BodyMotion& motion);
+    /// The same in space.
+    std::string_view movedInSpace(std::int32_t id, const SpaceMotion& motion);
 
     /// Removes a body, not within a step. Its events so far stay, or not
     /// (ImpactSettings::keepsHitsOfDestroyed).

@@ -3,14 +3,25 @@
 // point.
 #include "Contacts/FedBodies.h"
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace physvib {
 
 namespace {
 
-Vector2 velocityAt(const BodyMotion& motion, Vector2 arm) noexcept {
-    return motion.metresPerSecond + motion.radiansPerSecond * arm.turnedLeft();
+Vector3 velocityAt(const SpaceMotion& motion, Vector3 arm) noexcept {
+    return motion.metresPerSecond + cross(motion.radiansPerSecond, arm);
+}
+
+/// Speed across the normal that a spin gives a point: |(spin x arm) x normal|.
+double slideOf(Vector3 spin, Vector3 arm, Vector3 normal) noexcept {
+    const double about = dot(spin, normal), along = dot(arm, normal);
+    const auto part = [=](float r, float w) {
+        return static_cast<double>(r) * about - static_cast<double>(w) * along;
+    };
+    const double x = part(arm.x, spin.x), y = part(arm.y, spin.y), z = part(arm.z, spin.z);
+    return std::sqrt(x * x + y * y + z * z);
 }
 
 } // namespace
@@ -28,13 +39,15 @@ void FedBodies::set(std::int32_t id, const FedBody& body) {
     largestMassKg_ = std::max(largestMassKg_, body.massKg);
 }
 
-void FedBodies::move(std::int32_t id, Vector2 centre, const BodyMotion& motion) {
+void FedBodies::move(std::int32_t id, Vector3 centre, const SpaceMotion& motion,
+                     const std::optional<InverseInertia>& inverse) {
     Body& body = bodies_[static_cast<std::size_t>(slots_.find(nameOf(id)))];
     body.centre = centre;
     body.motion = motion;
+    body.inverse = inverse;
 }
 
-void FedBodies::moveAfter(std::int32_t id, const BodyMotion& motion) {
+void FedBodies::moveAfter(std::int32_t id, const SpaceMotion& motion) {
     Body& body = bodies_[static_cast<std::size_t>(slots_.find(nameOf(id)))];
     body.after = motion;
     body.afterAge = age_;
@@ -71,52 +84,64 @@ double FedBodies::largestMassKg() {
     return largestMassKg_;
 }
 
-double FedBodies::approach(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const {
+double FedBodies::approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
     const Body &bodyA = at(nameOf(a)), &bodyB = at(nameOf(b));
-    const Vector2 nearing =
+    const Vector3 nearing =
         velocityAt(bodyA.motion, point - bodyA.centre) - velocityAt(bodyB.motion, point - bodyB.centre);
     return dot(nearing, normal);
 }
 
-double FedBodies::approachAfter(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const {
+double FedBodies::approachAfter(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
     const auto after = [&](const Body& body) { return body.told.massKg > 0.0 ? body.after : body.motion; };
     const Body &bodyA = at(nameOf(a)), &bodyB = at(nameOf(b));
-    const Vector2 nearing =
+    const Vector3 nearing =
         velocityAt(after(bodyA), point - bodyA.centre) - velocityAt(after(bodyB), point - bodyB.centre);
     return dot(nearing, normal);
 }
 
-double FedBodies::slide(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const {
+double FedBodies::slide(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
     double sum = 0.0;
     for (const Body* body : {&at(nameOf(a)), &at(nameOf(b))})
-        sum +=
-            std::abs(dot(body->motion.metresPerSecond, normal.turnedLeft())) +
-            std::abs(static_cast<double>(body->motion.radiansPerSecond) * dot(point - body->centre, normal));
+        sum += lengthOf(cross(body->motion.metresPerSecond, normal)) +
+               slideOf(body->motion.radiansPerSecond, point - body->centre, normal);
     return sum;
 }
 
-double FedBodies::coupling(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal, Vector2 otherPoint,
-                           Vector2 otherNormal) const {
+// Divides by the moment of inertia where that is known, instead of multiplying by its inverse: the last bit
+// may differ.
+double FedBodies::turning(const Body& body, Vector3 lever, Vector3 other) noexcept {
+    if (body.inverse) return body.inverse->between(lever, other);
+    if (!(body.told.inertiaKgSquareMetres > 0.0)) return 0.0;
+    return InverseInertia::ofBall(1.0).between(lever, other) / body.told.inertiaKgSquareMetres;
+}
+
+InverseInertia FedBodies::inverseInertia(std::int32_t id) const {
+    const Body& body = at(nameOf(id));
+    if (!(body.told.massKg > 0.0)) return {};
+    if (body.inverse) return *body.inverse;
+    const double told = body.told.inertiaKgSquareMetres;
+    return InverseInertia::ofBall(told > 0.0 ? 1.0 / told : 0.0);
+}
+
+double FedBodies::coupling(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal, Vector3 otherPoint,
+                           Vector3 otherNormal) const {
     double sum = 0.0;
     for (const Body* body : {&at(nameOf(a)), &at(nameOf(b))}) {
         if (!(body->told.massKg > 0.0)) continue;
         sum += dot(normal, otherNormal) / body->told.massKg;
-        if (!(body->told.inertiaKgSquareMetres > 0.0)) continue;
-        const double lever = dot((point - body->centre).turnedLeft(), normal),
-                     other = dot((otherPoint - body->centre).turnedLeft(), otherNormal);
-        sum += lever * other / body->told.inertiaKgSquareMetres;
+        sum += turning(*body, cross(point - body->centre, normal),
+                       cross(otherPoint - body->centre, otherNormal));
     }
     return sum;
 }
 
-double FedBodies::effectiveMassKg(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const {
+double FedBodies::effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
     double perKg = 0.0;
     for (const Body* body : {&at(nameOf(a)), &at(nameOf(b))}) {
         if (!(body->told.massKg > 0.0)) continue;
         perKg += 1.0 / body->told.massKg;
-        if (!(body->told.inertiaKgSquareMetres > 0.0)) continue;
-        const double lever = dot((point - body->centre).turnedLeft(), normal);
-        perKg += lever * lever / body->told.inertiaKgSquareMetres;
+        const Vector3 lever = cross(point - body->centre, normal);
+        perKg += turning(*body, lever, lever);
     }
     return perKg > 0.0 ? 1.0 / perKg : std::numeric_limits<double>::infinity();
 }

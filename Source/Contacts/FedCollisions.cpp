@@ -75,10 +75,17 @@ void FedContacts::strike(const FedContact& contact, double pushed) {
         collision->point += static_cast<float>(impulse / sum) * (contact.point - collision->point);
         collision->normalImpulse = sum;
         collision->tangentialImpulse += isImpulseTold ? contact.tangentialNewtonSeconds : 0.0;
+        if (isImpulseTold) addFriction(*collision, contact, pair.a, 1.0F);
     } else if (impulse > collision->normalImpulse) {
         collision->normalImpulse = impulse;
         collision->point = contact.point;
     }
+}
+
+// A contact may name its bodies in the other order than the collision does.
+void FedContacts::addFriction(Collision& collision, const FedContact& contact, std::int32_t a,
+                              float share) noexcept {
+    collision.frictionNewtonSeconds += (collision.a == a ? share : -share) * contact.frictionNewtonSeconds;
 }
 
 void FedContacts::load(const FedContact& contact) {
@@ -88,8 +95,8 @@ void FedContacts::load(const FedContact& contact) {
     if (!events_.catcher().isHeard(pair)) return;
     const auto along = static_cast<float>(*contact.impulseNewtonSeconds),
                across = static_cast<float>(contact.tangentialNewtonSeconds);
-    events_.catcher().push(pair, along * contact.normal + across * contact.normal.turnedLeft(),
-                           contact.point);
+    const Vector3 inPlane = along * contact.normal + across * physvib::inPlane(contact.normal).turnedLeft();
+    events_.catcher().push(pair, inPlane + contact.frictionNewtonSeconds, contact.point);
 }
 
 void FedContacts::rub(const FedContact& contact, const TouchingPairs::Name& pair) {

@@ -76,6 +76,8 @@ private:
     void passOver(const TouchingPairs::Name& pair, const FedContact& contact, double speed, double impulse);
     void strikeTogether();
     double fastestOfNew() const;
+    static void addFriction(Collision& collision, const FedContact& contact, std::int32_t a,
+                            float share) noexcept;
     void load(const FedContact& contact);
     void rub(const FedContact& contact, const TouchingPairs::Name& pair);
     double fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept;

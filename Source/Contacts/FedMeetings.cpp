@@ -20,6 +20,7 @@ FedContact FedContacts::withMomentum(const Waiting& each) const {
     if (each.momentum == FedPoints::none) return contact;
     contact.impulseNewtonSeconds = momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum));
     contact.tangentialNewtonSeconds = 0.0;
+    contact.frictionNewtonSeconds = {};
     return contact;
 }
 
@@ -95,7 +96,7 @@ void FedContacts::strikeTogether() {
     const FedContact& first = together_.front()->contact;
     const TouchingPairs::Name pair = nameOf(first);
     double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = FedContact::latestFraction, ofPush = 0.0;
-    Vector2 point;
+    Vector3 point;
     for (std::size_t i = 0; i < meeting_.size(); ++i) {
         const MeetingPoint& each = meeting_[i];
         all += each.newtonSeconds;
@@ -131,9 +132,11 @@ void FedContacts::strikeTogether() {
     collision->normalImpulse = sum;
     if (!first.isImpulseOfPair) return;
     collision->tangentialImpulse += share * first.tangentialNewtonSeconds;
+    addFriction(*collision, first, pair.a, static_cast<float>(share));
     FedContact rest = first; // the impulse of old points is a load
     rest.impulseNewtonSeconds = (1.0 - share) * *first.impulseNewtonSeconds;
     rest.tangentialNewtonSeconds = (1.0 - share) * first.tangentialNewtonSeconds;
+    rest.frictionNewtonSeconds = static_cast<float>(1.0 - share) * first.frictionNewtonSeconds;
     if (share < 1.0) load(rest);
 }
 

@@ -3,8 +3,7 @@
 // last step.
 #pragma once
 #include "Contacts/ContactFeed.h"
-#include "Contacts/Vector2.h"
-#include <cmath>
+#include "Contacts/Vector3.h"
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -25,7 +24,7 @@ public:
     /// Records a point of this step. True if the pair did not have it in the last step: no point of that
     /// number, or none within `withinMetres` across the normal. Distance along the normal does not count,
     /// because surfaces sink into each other, by several centimetres where contacts are springs.
-    bool isNew(Chain& chain, std::int32_t id, Vector2 place, Vector2 normal, double withinMetres) {
+    bool isNew(Chain& chain, std::int32_t id, Vector3 place, Vector3 normal, double withinMetres) {
         bool isOld = false;
         for (std::int32_t at = chain.before; at != none && !isOld;
              at = before_[static_cast<std::size_t>(at)].next) {
@@ -45,12 +44,10 @@ public:
     }
 
 private:
-    static double across(Vector2 way, Vector2 normal) noexcept {
-        return std::abs(static_cast<double>(way.y * normal.x - way.x * normal.y));
-    }
+    static double across(Vector3 way, Vector3 normal) noexcept { return lengthOf(cross(way, normal)); }
 
     struct Point {
-        Vector2 place;
+        Vector3 place;
         std::int32_t id, next;
     };
     std::vector<Point> now_, before_;

@@ -4,7 +4,7 @@
 #pragma once
 #include "Contacts/IntegerMap.h"
 #include "Contacts/LastingContacts.h"
-#include "Contacts/Vector2.h"
+#include "Contacts/Vector3.h"
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,7 +16,7 @@ namespace physvib {
 struct Rub {
     std::int32_t a = 0, b = 0; ///< slots of the FixtureTable
     double newtonSeconds = 0.0;
-    Vector2 point;                     ///< world
+    Vector3 point;                     ///< world
     double alongA = 0.0, alongB = 0.0; ///< m/s, speed of the point along each surface; their difference is
                                        ///< the slip
 };
@@ -35,7 +35,7 @@ private:
     struct Track {
         std::uint64_t key;
         LastingPoint point;
-        Vector2 before;
+        Vector3 before;
         bool isNew, isTold;
     };
     void drop(std::size_t track);

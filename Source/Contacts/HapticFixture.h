@@ -4,6 +4,7 @@
 #include "Contacts/Texture.h"
 #include "Contacts/Voice.h"
 #include "Core/Limits.h"
+#include "Core/PartNumber.h"
 #include "Core/SoundNumber.h"
 #include <array>
 #include <cstdint>
@@ -33,6 +34,8 @@ struct HapticFixture {
     Texture texture{};           ///< for bodies that roll and slide along it
     std::optional<double> handMassKg{}; ///< m_h of Eq. 5.4 for this haptic source, instead of the settings'
     SoundNumber sound = 0;              ///< of events of its first mode, for which there may be a recording
+    PartNumber part = 0; ///< part of the body on whose actuators this haptic source is felt; 0: on all, by
+                         ///< its place
 };
 
 /// True if an impact with these values could not be played: it would not decay, or drive a coil with nearly
@@ -67,6 +70,7 @@ inline std::string_view faultOf(const HapticFixture& values) noexcept {
     if (!isWithin(values.gain, 1.0e6)) return "gain: expected 0 to 10^6";
     if (!isWithin(values.handMassKg.value_or(0.0), 1.0e12)) return "hand mass: expected 0 to 10^12 kg";
     if (values.sound < 0) return "sound: expected a number from 0 on";
+    if (values.part < 0) return "part: expected a number from 0 on";
     return faultOf(values.texture);
 }
 

@@ -60,17 +60,22 @@ struct Collision {
     std::int32_t pair = 0;     // number of the pair
     std::int32_t order = 0;    // order of collisions and ended contacts within the step
     float gravityScale = 1.0F; // the larger one of the two bodies
-    Vector2 point;             // world
+    Vector3 point;             // world
     double fraction = 0.0;     // time of touch in steps after the start of this step, -1 (start of the one
                                // before) to 1
     double lighterMassKg = 0.0;
     double expectedNewtonSeconds = 0.0; // estimate from approach speed and lighter mass, before the solver
-    BodyMotion motionA, motionB;        // before the solver
+    BodyMotion motionA, motionB;        // before the solver; these two for `release` timing, which is planar
     Vector2 armA, armB;                 // from the centre of mass to the point
     double normalImpulse = 0.0, tangentialImpulse = 0.0; // N s, of the parts that met, summed over the solver
                                                          // passes of the step
+    Vector3 frictionNewtonSeconds; // of engines that report it as a vector, instead of tangentialImpulse
 
-    double impulse() const noexcept { return std::hypot(normalImpulse, tangentialImpulse); }
+    double impulse() const noexcept {
+        // hypot of a 0 is exact, so a world in the plane keeps its bits
+        const auto friction = static_cast<double>(frictionNewtonSeconds.length());
+        return std::hypot(normalImpulse, std::hypot(tangentialImpulse, friction));
+    }
 };
 
 /// A contact that ended.
@@ -87,7 +92,7 @@ struct Impact {
     std::int32_t other;  // slot of the fixture that touches it there, or FixtureTable::none
     std::int64_t timeNs;
     double newtonSeconds;
-    Vector2 point;
+    Vector3 point;
     ContactKind kind = ContactKind::hit;
 };
 

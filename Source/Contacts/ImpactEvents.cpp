@@ -77,6 +77,7 @@ void EventMaker::hold(std::int32_t camera) {
     own_ = modelOf(of.values, model_);
     event_.source.fixture = of.id;
     event_.source.massKg = massOf(of, bodies_);
+    event_.source.part = of.values.part;
     if (settings_.location == ImpactLocation::fixture) place(bodies_.toWorld(of.body.body, of.centre));
 }
 
@@ -110,10 +111,12 @@ void EventMaker::addModes(const Sound& sound) noexcept {
         if (mode.frequencyHz > 0.0) add({mode.frequencyHz, mode.decayPerSecond, mode.relativeAmplitude, 0});
 }
 
-void EventMaker::place(Vector2 world) noexcept {
-    const Vector2 from = world - settings_.fieldOrigin;
+// The field lies in the plane: its origin and rotation leave z as it is.
+void EventMaker::place(Vector3 world) noexcept {
+    const Vector2 from = inPlane(world) - settings_.fieldOrigin;
     event_.x = static_cast<double>(cos_ * from.x + sin_ * from.y);
     event_.y = static_cast<double>(cos_ * from.y - sin_ * from.x);
+    event_.z = static_cast<double>(world.z);
 }
 
 } // namespace physvib

@@ -39,7 +39,7 @@ private:
     void meet(std::int32_t other);
     template <class Sound>
     void addModes(const Sound& sound) noexcept;
-    void place(Vector2 world) noexcept;
+    void place(Vector3 world) noexcept;
 
     const FixtureTable& table_;
     const PairSounds& pairs_;

@@ -26,8 +26,8 @@ struct LastingPoint {
     std::uint64_t feature = 0; ///< identifies the point within the pair; the same from step to step
     double normalNewtonSeconds = 0.0;
     double slipMetresPerSecond = 0.0; ///< of one surface relative to the other
-    Vector2 point;                    ///< world, at the end of the step
-    Vector2 metresPerSecond;          ///< of the contact point itself
+    Vector3 point;                    ///< world, at the end of the step
+    Vector3 metresPerSecond;          ///< of the contact point itself
     SurfacePath onA, onB;
 };
 

@@ -10,7 +10,7 @@ namespace physvib {
 
 namespace {
 
-constexpr std::size_t maxPoints = 16; // per pair, in the plane; further ones lie between the others
+constexpr std::size_t maxPoints = 16; // per pair; further ones lie between the others
 constexpr int mostLandingSweeps = 200;
 
 /// Target speed of each point, and the coupling between points.

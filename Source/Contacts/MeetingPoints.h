@@ -2,7 +2,7 @@
 // Impulses at the points where two bodies collide, solved together.
 #pragma once
 #include "Contacts/FedBodies.h"
-#include "Contacts/Vector2.h"
+#include "Contacts/Vector3.h"
 #include <span>
 
 namespace physvib {
@@ -10,7 +10,7 @@ namespace physvib {
 /// One contact point. New points are to separate at `restitution` times their approach speed; old ones only
 /// stay closed.
 struct MeetingPoint {
-    Vector2 point, normal; ///< normal: from A to B, of length 1
+    Vector3 point, normal; ///< normal: from A to B, of length 1
     double approach = 0.0; ///< m/s, before the engine's solver
     double restitution = 0.0;
     bool isNew = false;

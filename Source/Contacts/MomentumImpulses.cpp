@@ -23,30 +23,25 @@ std::int32_t MomentumImpulses::know(const FedBodies& bodies, std::int32_t id) {
     const FedBody& told = bodies.told(id);
     if (!(told.massKg > 0.0)) return none;
     if (const std::int32_t known = bodyOf_.find(FedBodies::nameOf(id)); known != none) return known;
-    bodies_.push_back(
-        {1.0 / told.massKg, told.inertiaKgSquareMetres > 0.0 ? 1.0 / told.inertiaKgSquareMetres : 0.0});
+    bodies_.push_back({1.0 / told.massKg, bodies.inverseInertia(id)});
     bodyOf_.set(FedBodies::nameOf(id), static_cast<std::int32_t>(bodies_.size()) - 1);
     return static_cast<std::int32_t>(bodies_.size()) - 1;
 }
 
-std::size_t MomentumImpulses::add(const FedBodies& bodies, std::int32_t a, std::int32_t b, Vector2 point,
-                                  Vector2 normal) {
-    const auto lever = [&](std::int32_t id) {
-        return dot((point - bodies.centre(FedBodies::nameOf(id))).turnedLeft(), normal);
-    };
+std::size_t MomentumImpulses::add(const FedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
+                                  Vector3 normal) {
     Point made{know(bodies, a),
                know(bodies, b),
-               static_cast<double>(normal.x),
-               static_cast<double>(normal.y),
-               lever(a),
-               lever(b),
+               normal,
+               bodies.lever(a, point, normal),
+               bodies.lever(b, point, normal),
                0.0,
                0.0,
                0.0};
-    const auto ease = [&](std::int32_t body, double arm) {
+    const auto ease = [&](std::int32_t body, Vector3 lever) {
         if (body == none) return 0.0;
         const Body& of = bodies_[static_cast<std::size_t>(body)];
-        return of.perKg + arm * arm * of.perInertia;
+        return of.perKg + of.turning.between(lever, lever);
     };
     made.perNewtonSecond = ease(made.a, made.leverA) + ease(made.b, made.leverB);
     made.change = bodies.approach(a, b, point, normal) - bodies.approachAfter(a, b, point, normal);
@@ -54,26 +49,32 @@ std::size_t MomentumImpulses::add(const FedBodies& bodies, std::int32_t a, std::
     return points_.size() - 1;
 }
 
+// Speed of the body's point along the normal.
+double MomentumImpulses::along(const Body& body, Vector3 normal, Vector3 lever) noexcept {
+    const auto product = [](const std::array<double, 3>& of, Vector3 by) {
+        return of[0] * static_cast<double>(by.x) + of[1] * static_cast<double>(by.y) +
+               of[2] * static_cast<double>(by.z);
+    };
+    return product(body.velocity, normal) + product(body.spin, lever);
+}
+
 double MomentumImpulses::found(const Point& point) const {
     double sum = 0.0;
-    if (point.a != none) {
-        const Body& a = bodies_[static_cast<std::size_t>(point.a)];
-        sum -= a.x * point.nx + a.y * point.ny + a.spin * point.leverA;
-    }
-    if (point.b != none) {
-        const Body& b = bodies_[static_cast<std::size_t>(point.b)];
-        sum += b.x * point.nx + b.y * point.ny + b.spin * point.leverB;
-    }
+    if (point.a != none) sum -= along(bodies_[static_cast<std::size_t>(point.a)], point.normal, point.leverA);
+    if (point.b != none) sum += along(bodies_[static_cast<std::size_t>(point.b)], point.normal, point.leverB);
     return sum;
 }
 
 void MomentumImpulses::push(const Point& point, double newtonSeconds) {
-    const auto on = [&](std::int32_t which, double impulse, double lever) {
+    const auto on = [&](std::int32_t which, double impulse, Vector3 lever) {
         if (which == none) return;
         Body& body = bodies_[static_cast<std::size_t>(which)];
-        body.x += impulse * body.perKg * point.nx;
-        body.y += impulse * body.perKg * point.ny;
-        body.spin += impulse * body.perInertia * lever;
+        const float normal[] = {point.normal.x, point.normal.y, point.normal.z};
+        const std::array<double, 3> spin = body.turning.spin(impulse, lever);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            body.velocity[axis] += impulse * body.perKg * static_cast<double>(normal[axis]);
+            body.spin[axis] += spin[axis];
+        }
     };
     on(point.a, -newtonSeconds, point.leverA);
     on(point.b, newtonSeconds, point.leverB);

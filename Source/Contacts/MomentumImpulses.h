@@ -4,7 +4,9 @@
 #pragma once
 #include "Contacts/FedBodies.h"
 #include "Contacts/IntegerMap.h"
-#include "Contacts/Vector2.h"
+#include "Contacts/InverseInertia.h"
+#include "Contacts/Vector3.h"
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,22 +22,25 @@ public:
     void clear();
     /// Adds a point of two bodies whose velocities are known (FedBodies::hasAfter). Returns its number, from
     /// 0 on.
-    std::size_t add(const FedBodies& bodies, std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal);
+    std::size_t add(const FedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal);
     void solve();
     double newtonSeconds(std::size_t point) const { return points_[point].newtonSeconds; }
 
 private:
     static constexpr std::int32_t none = IntegerMap::none;
     struct Body {
-        double perKg, perInertia;
-        double x = 0.0, y = 0.0, spin = 0.0; // changes by the impulses found so far, m/s and rad/s
+        double perKg;
+        InverseInertia turning;
+        // changes by the impulses found so far, m/s and rad/s
+        std::array<double, 3> velocity{}, spin{};
     };
     struct Point {
-        std::int32_t a, b;             // bodies, or none: immovable
-        double nx, ny, leverA, leverB; // m
-        double change;                 // m/s by which the contact has reduced the approach speed
+        std::int32_t a, b;              // bodies, or none: immovable
+        Vector3 normal, leverA, leverB; // m
+        double change;                  // m/s by which the contact has reduced the approach speed
         double perNewtonSecond, newtonSeconds;
     };
+    static double along(const Body& body, Vector3 normal, Vector3 lever) noexcept;
     std::int32_t know(const FedBodies& bodies, std::int32_t id);
     double found(const Point& point) const;
     void push(const Point& point, double newtonSeconds);

@@ -110,6 +110,11 @@ std::string outputReason(const ContactCounts& made, const OutputFacts& output) {
     if (output.late > 0)
         return counted(output.late, "event") +
                " came late and were played at once: send them earlier, or raise the latency (longest_gap_s).";
+    if (output.withoutPart > 0)
+        return counted(output.withoutPart, "event") +
+               " belong to a part of the body that no actuator is on, and are felt by their place on all: "
+               "give "
+               "the layout's actuators that part, or the body another.";
     if (output.levelGain < 0.03)
         return "The level of the output is low, " + threeDigits(toDecibels(output.levelGain)) +
                " dB: raise it.";

@@ -109,11 +109,12 @@ void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
     const Collision* const cause = &catcher_.collisions()[static_cast<std::size_t>(strongest)];
     const ChainLoads::Passed passed = catcher_.loads().passed(camera);
     const bool isKnown = passed.other != FixtureTable::none;
-    const Vector2 point = isKnown ? passed.point : cause->point;
+    const Vector3 point = isKnown ? passed.point : cause->point;
     const std::uint64_t body = table_[camera].body.body;
     push({camera, isKnown ? passed.other : cause->a, cause->a, cause->b, cause->order, false, false,
-          span.timeNs(cause->fraction), point, point - bodies_.centre(body), bodies_.motionBefore(body),
-          std::min(table_.mobility(camera).movableMassKg, cause->lighterMassKg), cause->gravityScale});
+          span.timeNs(cause->fraction), point, inPlane(point) - bodies_.centre(body),
+          bodies_.motionBefore(body), std::min(table_.mobility(camera).movableMassKg, cause->lighterMassKg),
+          cause->gravityScale});
 }
 
 void ReleaseImpacts::push(const Strike& strike) {

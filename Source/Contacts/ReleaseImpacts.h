@@ -61,7 +61,8 @@ private:
         std::int32_t order;         // of its beginning within the step; in earlier steps: -1
         bool isDirect, isOver;
         std::int64_t beginNs;
-        Vector2 point, arm; // arm: from the centre of mass to the point, -l of Eq. 5.3
+        Vector3 point;
+        Vector2 arm; // from the centre of mass to the point, -l of Eq. 5.3
         BodyMotion start;
         double lighterMassKg;
         float gravityScale;

@@ -12,7 +12,7 @@ namespace physvib {
 struct ClockLaw {
     int sampleRateHz = 48000;       ///< of the audio device
     int blockFrames = 512;          ///< the largest block
-    int stepsPerSecond = 100;       ///< of the physics world
+    int stepsPerSecond = 100;       ///< of the physics world; 0: there is none
     double longestGapSeconds = 0.0; ///< longest time between two calls of the driver, which steps the world,
                                     ///< without an event being late
     int limiterFrames = 0;          ///< the renderer's own latency, part of L
@@ -23,7 +23,7 @@ struct ClockLaw {
     /// may not have begun, one in which events wait to be sorted) + the latency of the limiter or of the
     /// sinks, whichever is longer.
     std::int64_t playOutFrames() const noexcept {
-        const double seconds = longestGapSeconds + 2.0 / stepsPerSecond;
+        const double seconds = longestGapSeconds + 2.0 * stepSeconds();
         return blockFrames + framesUp(seconds) + std::max<std::int64_t>(limiterFrames, framesUp(sinkSeconds));
     }
     /// Latency in frames of events that pass neither world nor sink: one block and the limiter.
@@ -31,13 +31,14 @@ struct ClockLaw {
     /// How far the world may lag behind session time without any of its events being late, even at the very
     /// end of a block: the longest gap and one step that may not have begun.
     std::int64_t safeLagNs() const noexcept {
-        return static_cast<std::int64_t>((longestGapSeconds + 1.0 / stepsPerSecond) * 1e9);
+        return static_cast<std::int64_t>((longestGapSeconds + stepSeconds()) * 1e9);
     }
     /// The same limit at the very beginning of a block, because session time advances by blocks. A driver
     /// that is in time never measures more.
     std::int64_t longestLagNs() const noexcept {
         return safeLagNs() + static_cast<std::int64_t>(1e9 * blockFrames / sampleRateHz);
     }
+    double stepSeconds() const noexcept { return stepsPerSecond > 0 ? 1.0 / stepsPerSecond : 0.0; } ///< or 0
     /// L in seconds.
     double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; }
     /// Seconds to frames, rounded up. Any thread.

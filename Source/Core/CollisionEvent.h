@@ -3,6 +3,7 @@
 // passes nothing else to the renderer.
 #pragma once
 #include "Core/Limits.h"
+#include "Core/PartNumber.h"
 #include "Core/SoundNumber.h"
 #include "Core/Spread.h"
 #include <cmath>
@@ -17,11 +18,12 @@ enum class ContactKind : std::uint8_t { hit, roll, slide };
 /// The two fixtures of a collision, and how hard it was. Rendering does not need it; event lists, views and
 /// studies do.
 struct CollisionSource {
-    std::int32_t fixture = -1;                               ///< fixture that is a haptic source; -1: unknown
-    std::int32_t other = -1;                                 ///< the fixture it collided with; -1: unknown
-    double impulseNewtonSeconds = 0.0;                       ///< 0: unknown
-    double massKg = 0.0;                                     ///< of the body that carries `fixture`
-    ContactKind kind = ContactKind::hit;                     ///< impact, or grain
+    std::int32_t fixture = -1;           ///< fixture that is a haptic source; -1: unknown
+    std::int32_t other = -1;             ///< the fixture it collided with; -1: unknown
+    double impulseNewtonSeconds = 0.0;   ///< 0: unknown
+    double massKg = 0.0;                 ///< of the body that carries `fixture`
+    ContactKind kind = ContactKind::hit; ///< impact, or grain
+    PartNumber part = 0; ///< part of the body on whose actuators it is felt; 0: on all, by its place
     bool operator==(const CollisionSource&) const = default; ///< Compares all members.
 };
 
@@ -31,6 +33,7 @@ struct StrikeCourse {
                                                ///< in a straight line at constant speed
     std::int64_t travelNs = 0;                 ///< 0: it stays at its starting point
     std::int64_t sinceNs = 0; ///< age of the tone at the onset: phase and decay continue from there
+    double toZ = 0.0;         ///< end point across the plane, m; 0 in a world in a plane
     bool operator==(const StrikeCourse&) const = default; ///< Compares all members.
 };
 
@@ -48,6 +51,7 @@ struct CollisionEvent {
     StrikeCourse course{};       ///< for events that no world produced
     Spread spread = Spread::layout; ///< how it is distributed over the actuators
     SoundNumber sound = 0;          ///< the recording that plays it; 0, or if there is none: its frequency
+    double z = 0.0;                 ///< place across the plane of x and y, m; 0 in a world in a plane
     bool operator==(const CollisionEvent&) const = default; ///< Compares all members.
 };
 
@@ -68,10 +72,19 @@ inline bool isPlayable(const CollisionEvent& e) noexcept {
     const bool ends = e.decayPerSecond > 0.0 || e.durationNs > 0;
     const StrikeCourse& c = e.course;
     const bool goes = c.travelNs >= 0 && c.travelNs <= limits::maxTimeNs && c.sinceNs >= 0 &&
-                      c.sinceNs <= limits::maxTimeNs && std::isfinite(c.toX) && std::isfinite(c.toY);
+                      c.sinceNs <= limits::maxTimeNs && std::isfinite(c.toX) && std::isfinite(c.toY) &&
+                      std::isfinite(c.toZ);
     const bool isSound = e.sound >= 0 && !(isClip(e.sound) && c.travelNs > 0);
     return inTime && audible && ends && goes && isSound && !isTooSlow(e) && std::isfinite(e.x) &&
-           std::isfinite(e.y);
+           std::isfinite(e.y) && std::isfinite(e.z);
+}
+
+/// The event where it is after that share of its way, 0 to 1. Any thread.
+inline CollisionEvent movedAlong(CollisionEvent e, double share) noexcept {
+    e.x += share * (e.course.toX - e.x);
+    e.y += share * (e.course.toY - e.y);
+    e.z += share * (e.course.toZ - e.z);
+    return e;
 }
 
 } // namespace physvib

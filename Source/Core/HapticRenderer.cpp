@@ -21,7 +21,7 @@ bool HapticRenderer::canTake(const RendererSettings& settings) noexcept {
 bool HapticRenderer::prepare(const RendererSettings& settings) noexcept {
     isPrepared_ = canTake(settings);
     position_ = 0;
-    played_ = late_ = rejected_ = 0;
+    played_ = late_ = rejected_ = withoutPart_ = 0;
     channels_ = std::clamp(settings.outputs(), 0, limits::maxEnchanters);
     if (!isPrepared_) return false;
     settings_ = settings;
@@ -130,12 +130,13 @@ bool HapticRenderer::strike(const CollisionEvent& event, FramePosition onset) no
     played_ += taken ? 1 : 0;
     late_ += taken && delay > 0 ? 1 : 0;
     rejected_ += taken ? 0 : 1;
+    withoutPart_ += taken && panner_.lacksPartOf(event) ? 1 : 0;
     return taken;
 }
 
 bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onset,
                                  std::int64_t closeFrame) noexcept {
-    panner_.gainsAt(event, event.x, event.y, gains_);
+    panner_.gainsAt(event, gains_);
     std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
     Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, closeFrame};
     if (event.course.sinceNs > 0) {
@@ -149,9 +150,9 @@ bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onse
     return isCoupled() ? strikeCoupled(s) : bank_.strike(s, gains_.data());
 }
 
-MovingTones::Drive HapticRenderer::driveAt(const CollisionEvent& event, double x, double y) noexcept {
+MovingTones::Drive HapticRenderer::driveAt(const CollisionEvent& event) noexcept {
     MovingTones::Drive drive;
-    panner_.gainsAt(event, x, y, gains_);
+    panner_.gainsAt(event, gains_);
     if (isCoupled())
         settings_.drives.apply(event.frequencyHz, gains_.data(), drive.inPhase.data(), drive.ahead.data());
     else
@@ -193,8 +194,7 @@ void HapticRenderer::playAll(const Channels& out, int frames, const float* const
                recordingsSound = player_.render(out.data(), position_, frames);
     const bool movingSounds =
         moving_.count() > 0 &&
-        moving_.render(out.data(), position_, frames,
-                       [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
+        moving_.render(out.data(), position_, frames, [this](const CollisionEvent& e) { return driveAt(e); });
     for (int j = 0; added && j < channels_; ++j)
         std::transform(added[j], added[j] + frames, out[static_cast<std::size_t>(j)],
                        out[static_cast<std::size_t>(j)], [](float a, float b) { return a + b; });
@@ -226,6 +226,7 @@ RenderStatus HapticRenderer::status() const noexcept {
             .played = played_,
             .late = late_,
             .rejected = rejected_,
+            .withoutPart = withoutPart_,
             .stolen = bank_.stolenModes(),
             .nonFinite = limiter_.nonFiniteSamples(),
             .untold = playedQueue_.overflows(),

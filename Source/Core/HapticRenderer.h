@@ -93,7 +93,7 @@ private:
     bool isSilenced(const CollisionEvent& event) const noexcept;
     bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
-    MovingTones::Drive driveAt(const CollisionEvent& event, double x, double y) noexcept;
+    MovingTones::Drive driveAt(const CollisionEvent& event) noexcept;
     bool isCoupled() const noexcept {
         return settings_.drives.isOn() &&
                settings_.drives.channels == static_cast<std::size_t>(panner_.channels());
@@ -118,7 +118,7 @@ private:
     bool othersAreModes_ = false; // events without a recording play their mode
     // events before this time are not played; the second: of events that no world produced
     std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, strikesSilentUntilNs_ = INT64_MIN;
-    std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
+    std::uint64_t played_ = 0, late_ = 0, rejected_ = 0, withoutPart_ = 0;
 };
 
 } // namespace physvib

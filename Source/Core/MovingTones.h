@@ -83,7 +83,7 @@ private:
         const CollisionEvent& e = voice.event;
         const double share =
             std::min(1.0, ageFrames(voice, frame) * 1e9 / (static_cast<double>(e.course.travelNs) * rate_));
-        return driveAt(e, e.x + share * (e.course.toX - e.x), e.y + share * (e.course.toY - e.y));
+        return driveAt(movedAlong(e, share));
     }
 
     void add(const Voice& voice, std::int64_t frame, float* const* io, std::int64_t n) const noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds rows, grids and belts among the places of actuators, and the cell that contains an impact.
 #include "Core/NeighbourCells.h"
+#include "Core/ActuatorSort.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -26,15 +27,8 @@ double crossProduct(const Place& a, const Place& b) noexcept {
 
 using Keys = std::array<double, std::tuple_size_v<decltype(Layout{}.places)>>; // of each actuator
 
-// By insertion: a layout has at most 64 actuators, and three sorts of the standard library are a hundredth of
-// the page in a browser.
 void sortBy(const Keys& keys, std::uint8_t* begin, std::uint8_t* end) noexcept {
-    for (std::uint8_t* next = begin; next < end; ++next) {
-        const std::uint8_t moved = *next;
-        std::uint8_t* at = next;
-        for (; at > begin && keys[moved] < keys[*(at - 1)]; --at) *at = *(at - 1);
-        *at = moved;
-    }
+    sortActuators(begin, end, [&keys](std::uint8_t j) { return keys[j]; });
 }
 
 } // namespace

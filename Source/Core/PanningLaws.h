@@ -18,7 +18,10 @@ enum class PanningLaw {
     energy,     ///< sqrt(1 - u): squares sum to one wherever linear gains do
     neighbours, ///< energy, shared by the actuators around the place only: two of a row or belt, four of a
                 ///< grid
-    automatic   ///< what one gets without naming a law; PhantomPanner chooses by the layout's shape
+    automatic,  ///< what one gets without naming a law; PhantomPanner chooses by the layout's shape
+    distance,   ///< energy, shared by all actuators of any layout by their distance in space
+    triangles ///< energy, shared by the corners of the triangle of a layout in space that the place is in the
+              ///< direction of; `neighbours` on a flat layout
 };
 
 /// One panning law.
@@ -36,6 +39,8 @@ inline constexpr auto panningLaws = std::to_array<PanningLawDescription>({
     {PanningLaw::energy, "energy", [](double u) noexcept { return std::sqrt(1.0 - u); }},
     {PanningLaw::neighbours, "neighbours", [](double u) noexcept { return std::sqrt(1.0 - u); }},
     {PanningLaw::automatic, "auto", [](double u) noexcept { return 1.0 - u; }},
+    {PanningLaw::distance, "distance", [](double u) noexcept { return std::sqrt(1.0 - u); }},
+    {PanningLaw::triangles, "triangles", [](double u) noexcept { return std::sqrt(1.0 - u); }},
 });
 
 /// The law's table entry. Any thread.

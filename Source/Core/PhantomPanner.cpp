@@ -1,39 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Gains of a panning law for each arrangement of actuators: single, line, rectangle, triangle, scattered;
-// and of the law `neighbours` for each cell.
+// Gains of a panning law for each arrangement of actuators: single, line, rectangle, triangle, scattered.
+// PanningRule.cpp decides which of them, or which cells, an event uses.
 #include "Core/PhantomPanner.h"
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace physvib {
 
 PhantomPanner::PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent,
-                             double fieldWidthMetres, double fieldHeightMetres) noexcept
+                             double fieldWidthMetres, double fieldHeightMetres, bool seeksTriangles) noexcept
     : layout_{layout}
-    , law_{law}
-    , exponent_{exponent}
+    , isFlat_{isFlat(layout)}
+    , rule_{law, exponent}
     , fieldWidthMetres_{fieldWidthMetres}
     , fieldHeightMetres_{fieldHeightMetres}
     , scaleX_{layout.extentWidthMetres / fieldWidthMetres}
     , scaleY_{layout.extentHeightMetres / fieldHeightMetres}
     , arrangement_{classify()}
-    , cells_{layout, {lineDirection_.x, lineDirection_.y}} {
-    if (law_ == PanningLaw::automatic) resolveAutomatic();
-}
-
-void PhantomPanner::resolveAutomatic() noexcept {
-    law_ = hasCells() && exponent_ == 1.0 ? PanningLaw::neighbours : PanningLaw::linear;
-    if (law_ == PanningLaw::linear && exponent_ == 1.0) grains_ = grainSpread;
+    , cells_{isFlat_ ? NeighbourCells{layout, {lineDirection_.x, lineDirection_.y}} : NeighbourCells{}}
+    , triangles_{seeksTriangles ? TriangleCells{layout} : TriangleCells{}} {
+    if (rule_.law == PanningLaw::automatic) resolveAutomatic();
 }
 
 PhantomPanner::Vector PhantomPanner::place(int enchanter) const noexcept {
     const auto& p = layout_.places[static_cast<std::size_t>(enchanter)];
-    return {p.xMetres, p.yMetres};
+    return {p.xMetres, p.yMetres, isFlat_ ? 0.0 : p.zMetres};
 }
 
 PhantomPanner::Arrangement PhantomPanner::classify() noexcept {
     if (layout_.count == 1) return Arrangement::single;
+    if (!isFlat_) return Arrangement::scattered;
     if (findLine()) return Arrangement::line;
     if (layout_.count == 3) return Arrangement::triangle;
     return isRectangle() ? Arrangement::rectangle : Arrangement::scattered;
@@ -80,50 +76,16 @@ bool PhantomPanner::isRectangle() const noexcept {
     return corners == 15;
 }
 
-double PhantomPanner::factor(double distanceRatio) const noexcept {
+double PhantomPanner::factor(Rule rule, double distanceRatio) noexcept {
     const double u = std::clamp(distanceRatio, 0.0, 1.0);
-    const double value = describe(law_).factor(u);
-    return exponent_ == 1.0 ? value : std::pow(value, exponent_);
-}
-
-void PhantomPanner::gainsAt(double x, double y, Gains& gains) const noexcept {
-    const Vector p{x * scaleX_, y * scaleY_};
-    if (law_ == PanningLaw::neighbours && cells_.areFound()) return cellGains(p, gains);
-    switch (arrangement_) {
-    case Arrangement::single: gains[0] = 1.0; break;
-    case Arrangement::line: lineGains(p, gains); break;
-    case Arrangement::rectangle: rectangleGains(p, gains); break;
-    case Arrangement::triangle: triangleGains(p, gains); break;
-    case Arrangement::scattered: scatteredGains(p, gains); break;
-    }
-}
-
-void PhantomPanner::gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept {
-    if (spread == Spread::layout) return gainsAt(x, y, gains);
-    if (spread == spreadBy(PanningLaw::automatic)) spread = travelSpread();
-    if (spread == Spread::alone) return nearestGains({x * scaleX_, y * scaleY_}, gains);
-    PhantomPanner other = *this;
-    if (spread == Spread::equal) other.law_ = PanningLaw::energy;
-    for (const auto& one : panningLaws)
-        if (spread == spreadBy(one.law)) other.law_ = one.law;
-    other.exponent_ = 1.0;
-    other.gainsAt(x, y, gains);
-    if (spread != Spread::equal) return;
-    const auto end = gains.begin() + layout_.count;
-    const double energy =
-        std::accumulate(gains.begin(), end, 0.0, [](double sum, double g) { return sum + g * g; });
-    if (energy > 0.0)
-        std::for_each(gains.begin(), end, [scale = 1.0 / std::sqrt(energy)](double& g) { g *= scale; });
-}
-
-void PhantomPanner::cellGains(Vector p, Gains& gains) const noexcept {
-    cells_.sharesAt(layout_, p.x, p.y, gains);
-    for (auto gain = gains.begin(); gain != gains.begin() + layout_.count; ++gain)
-        *gain = factor(1.0 - *gain);
+    const double value = describe(rule.law).factor(u);
+    return rule.exponent == 1.0 ? value : std::pow(value, rule.exponent);
 }
 
 void PhantomPanner::nearestGains(Vector p, Gains& gains) const noexcept {
-    const auto distance = [&](int j) { return std::hypot(p.x - place(j).x, p.y - place(j).y); };
+    const auto distance = [&](int j) {
+        return std::hypot(std::hypot(p.x - place(j).x, p.y - place(j).y), p.z - place(j).z);
+    };
     int nearest = 0;
     for (int j = 1; j < layout_.count; ++j)
         if (distance(j) < distance(nearest)) nearest = j;
@@ -131,23 +93,23 @@ void PhantomPanner::nearestGains(Vector p, Gains& gains) const noexcept {
     if (layout_.count > 0) gains[static_cast<std::size_t>(nearest)] = 1.0;
 }
 
-void PhantomPanner::lineGains(Vector p, Gains& gains) const noexcept {
+void PhantomPanner::lineGains(Rule rule, Vector p, Gains& gains) const noexcept {
     for (int j = 0; j < layout_.count; ++j) {
         const Vector d{p.x - place(j).x, p.y - place(j).y};
         const double along = std::abs(d.x * lineDirection_.x + d.y * lineDirection_.y);
-        gains[static_cast<std::size_t>(j)] = lineExtent_ > 0.0 ? factor(along / lineExtent_) : 1.0;
+        gains[static_cast<std::size_t>(j)] = lineExtent_ > 0.0 ? factor(rule, along / lineExtent_) : 1.0;
     }
 }
 
-void PhantomPanner::rectangleGains(Vector p, Gains& gains) const noexcept {
+void PhantomPanner::rectangleGains(Rule rule, Vector p, Gains& gains) const noexcept {
     for (int j = 0; j < 4; ++j) {
         const double u = std::abs(p.x - place(j).x) / layout_.extentWidthMetres;
         const double v = std::abs(p.y - place(j).y) / layout_.extentHeightMetres;
-        gains[static_cast<std::size_t>(j)] = factor(u) * factor(v);
+        gains[static_cast<std::size_t>(j)] = factor(rule, u) * factor(rule, v);
     }
 }
 
-void PhantomPanner::triangleGains(Vector p, Gains& gains) const noexcept {
+void PhantomPanner::triangleGains(Rule rule, Vector p, Gains& gains) const noexcept {
     const Vector a = place(0), b = place(1), c = place(2);
     const auto cross = [](Vector o, Vector s, Vector t) {
         return (s.x - o.x) * (t.y - o.y) - (s.y - o.y) * (t.x - o.x);
@@ -172,29 +134,31 @@ void PhantomPanner::triangleGains(Vector p, Gains& gains) const noexcept {
             weight[next] = share;
         }
     }
-    for (std::size_t k = 0; k < 3; ++k) gains[k] = factor(1.0 - weight[k]);
+    for (std::size_t k = 0; k < 3; ++k) gains[k] = factor(rule, 1.0 - weight[k]);
 }
 
-void PhantomPanner::scatteredGains(Vector p, Gains& gains) const noexcept {
+void PhantomPanner::scatteredGains(Rule rule, Vector p, Gains& gains) const noexcept {
     // Shepard's weights 1/d^2. An impact at an actuator's place drives that actuator alone. Loops without
     // branches are vectorised.
     constexpr double least = 1e-18;                   // a nanometre squared: avoids division by zero
     std::array<double, limits::maxEnchanters> weight; // only `count` entries are used: not worth clearing per
                                                       // event
     const auto count = static_cast<std::size_t>(layout_.count);
+    const double depth = isFlat_ ? 0.0 : 1.0;
     for (std::size_t j = 0; j < count; ++j) {
-        const double dx = p.x - layout_.places[j].xMetres, dy = p.y - layout_.places[j].yMetres;
-        const double square = dx * dx + dy * dy;
+        const double dx = p.x - layout_.places[j].xMetres, dy = p.y - layout_.places[j].yMetres,
+                     dz = p.z - depth * layout_.places[j].zMetres;
+        const double square = dx * dx + dy * dy + dz * dz;
         weight[j] = square < least ? least : square;
     }
     for (std::size_t j = 0; j < count; ++j) weight[j] = 1.0 / weight[j];
     double sum = 0.0;
     for (std::size_t j = 0; j < count; ++j) sum += weight[j];
-    if (isPlain())
+    if (rule.isPlain())
         // rounded as factor() rounds it, within 0 and 1
         for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - (1.0 - weight[j] / sum);
     else
-        for (std::size_t j = 0; j < count; ++j) gains[j] = factor(1.0 - weight[j] / sum);
+        for (std::size_t j = 0; j < count; ++j) gains[j] = factor(rule, 1.0 - weight[j] / sum);
 }
 
 } // namespace physvib

@@ -6,6 +6,7 @@
 #include "Core/NeighbourCells.h"
 #include "Core/PanningLaws.h"
 #include "Core/Spread.h"
+#include "Core/TriangleCells.h"
 #include <array>
 
 namespace physvib {
@@ -18,24 +19,36 @@ public:
     PhantomPanner() = default;
 
     /// `layout` valid; field sizes in metres > 0, mapped onto the layout's extent; exponent > 0 (gamma of
-    /// Eq. 4.2). PanningLaw::automatic becomes `neighbours` on a row of three or more, a grid and a belt.
-    /// Elsewhere, and with an exponent other than 1, it becomes `linear`; grains then go by grainSpread if
-    /// the exponent is 1.
+    /// Eq. 4.2). PanningLaw::automatic becomes `neighbours` on a row of three or more, a grid and a belt; in
+    /// space `triangles` where the actuators close around their centre, else `distance`. Elsewhere, and with
+    /// an exponent other than 1, it becomes `linear`; grains then go by grainSpread if the exponent is 1.
     PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
-                  double fieldHeightMetres) noexcept;
+                  double fieldHeightMetres) noexcept
+        : PhantomPanner{layout, law, exponent, fieldWidthMetres, fieldHeightMetres, true} {}
 
-    /// One gain per channel for an impact at (x, y) metres of the field; the rest of `gains` stays unchanged.
-    /// Any thread.
+    /// One gain per channel for an impact at (x, y) metres of the field, z = 0; the rest of `gains` stays
+    /// unchanged. Any thread.
     void gainsAt(double x, double y, Gains& gains) const noexcept;
 
     /// The same with another spread. Any thread.
     void gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept;
 
-    /// Gains of an event that is now at (x, y), by the event's own spread. Grains without one use grains().
-    /// Any thread.
-    void gainsAt(const CollisionEvent& event, double x, double y, Gains& gains) const noexcept {
+    /// Gains of an event at its place, by its own spread. Grains without one use grains(). If the event is
+    /// bound to a part of the body, actuators of other parts have gain 0; if no actuator has that part
+    /// (lacksPartOf), its place decides alone. Any thread.
+    void gainsAt(const CollisionEvent& event, Gains& gains) const noexcept {
         const bool isGrain = event.source.kind != ContactKind::hit && event.spread == Spread::layout;
-        gainsAt(x, y, isGrain ? grains_ : event.spread, gains);
+        gainsOf(event, isGrain ? grains_ : event.spread, gains);
+    }
+
+    /// The same with another spread. Any thread.
+    void gainsOf(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept {
+        gainsOn(event.source.part, {event.x, event.y, event.z}, spread, gains);
+    }
+
+    /// True if the event is bound to a part of the body that no actuator of the layout has. Any thread.
+    bool lacksPartOf(const CollisionEvent& event) const noexcept {
+        return event.source.part != 0 && actuatorsOn(event.source.part) == 0;
     }
 
     /// Spread of grains, i.e. of roughness elements that a moving contact passes. Another spread than the
@@ -46,6 +59,7 @@ public:
     /// Spread of a tone that travels, if none is named: its energy is constant, and the centroid of its
     /// intensity is at its place. Any thread.
     Spread travelSpread() const noexcept {
+        if (triangles_.areFound()) return spreadBy(PanningLaw::triangles);
         return hasCells() ? spreadBy(PanningLaw::neighbours) : Spread::equal;
     }
 
@@ -53,15 +67,24 @@ public:
 
     /// The constructor's arguments. Any thread.
     const EnchanterLayout& layout() const noexcept { return layout_; }
-    PanningLaw law() const noexcept { return law_; }       ///< Panning law; not PanningLaw::automatic.
-    double exponent() const noexcept { return exponent_; } ///< Exponent of the law.
+    PanningLaw law() const noexcept { return rule_.law; }       ///< Panning law; not PanningLaw::automatic.
+    double exponent() const noexcept { return rule_.exponent; } ///< Exponent of the law.
     double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }   ///< Field along x.
     double fieldHeightMetres() const noexcept { return fieldHeightMetres_; } ///< Field along y.
 
 private:
+    /// Without `seeksTriangles` a layout in space counts as open.
+    PhantomPanner(const ActuatorLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
+                  double fieldHeightMetres, bool seeksTriangles) noexcept;
     enum class Arrangement { single, line, rectangle, triangle, scattered };
     struct Vector {
-        double x = 0.0, y = 0.0;
+        double x = 0.0, y = 0.0, z = 0.0; // z: 0 on a flat layout
+    };
+    struct Rule {
+        PanningLaw law = PanningLaw::linear;
+        double exponent = 1.0;
+        // the usual case
+        bool isPlain() const noexcept { return law == PanningLaw::linear && exponent == 1.0; }
     };
     Arrangement classify() noexcept;
     bool findLine() noexcept;
@@ -74,25 +97,31 @@ private:
         return cells_.areFound() && layout_.count > 2 && arrangement_ != Arrangement::rectangle;
     }
     void resolveAutomatic() noexcept;
-    bool isPlain() const noexcept { return law_ == PanningLaw::linear && exponent_ == 1.0; } // the usual case
-    double factor(double distanceRatio) const noexcept;
-    void lineGains(Vector p, Gains& gains) const noexcept;
-    void rectangleGains(Vector p, Gains& gains) const noexcept;
-    void triangleGains(Vector p, Gains& gains) const noexcept;
-    void scatteredGains(Vector p, Gains& gains) const noexcept;
+    Vector onLayout(Vector field) const noexcept;
+    int actuatorsOn(PartNumber part) const noexcept;
+    PhantomPanner partPanner(PartNumber part) const noexcept;
+    void gainsOn(PartNumber part, Vector field, Spread spread, Gains& gains) const noexcept;
+    void gainsBy(Spread spread, Vector p, Gains& gains) const noexcept;
+    void gainsBy(Rule rule, Vector p, Gains& gains) const noexcept;
+    static double factor(Rule rule, double distanceRatio) noexcept;
+    void lineGains(Rule rule, Vector p, Gains& gains) const noexcept;
+    void rectangleGains(Rule rule, Vector p, Gains& gains) const noexcept;
+    void triangleGains(Rule rule, Vector p, Gains& gains) const noexcept;
+    void scatteredGains(Rule rule, Vector p, Gains& gains) const noexcept;
     void nearestGains(Vector p, Gains& gains) const noexcept;
-    void cellGains(Vector p, Gains& gains) const noexcept;
+    void sharedGains(Rule rule, Gains& shares) const noexcept;
 
     EnchanterLayout layout_;
-    PanningLaw law_ = PanningLaw::linear;
+    bool isFlat_ = true; // all actuators have the same z, and z does not count
+    Rule rule_;
     Spread grains_ = Spread::layout;
-    double exponent_ = 1.0;
     double fieldWidthMetres_ = 0.0, fieldHeightMetres_ = 0.0;
-    double scaleX_ = 1.0, scaleY_ = 1.0; // field metres to layout metres
+    double scaleX_ = 1.0, scaleY_ = 1.0; // field metres to layout metres; z by scaleX_
     Vector lineDirection_;
     double lineExtent_ = 0.0;
     Arrangement arrangement_ = Arrangement::single;
-    NeighbourCells cells_;
+    NeighbourCells cells_;    // of a flat layout
+    TriangleCells triangles_; // of one in space
 };
 
 } // namespace physvib

@@ -56,6 +56,7 @@ struct RenderStatus {
     std::uint64_t played = 0;        ///< events started
     std::uint64_t late = 0;          ///< of these: after their time, started at once
     std::uint64_t rejected = 0;      ///< not playable, above half the sample rate, or without a free gate
+    std::uint64_t withoutPart = 0;   ///< of those played: PhantomPanner::lacksPartOf, felt on all by place
     std::uint64_t stolen = 0;        ///< modes faded out early because all slots were used
     std::uint64_t nonFinite = 0;     ///< samples that were not finite and became 0
     std::uint64_t untold = 0;        ///< played events that the full played queue refused

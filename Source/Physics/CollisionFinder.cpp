@@ -149,11 +149,12 @@ void CollisionFinder::describe(const b2Contact& contact, const b2WorldManifold& 
     if (isFlat && manifold.separations[1] < manifold.separations[0]) deepest = 1;
     const b2Vec2 touch = manifold.points[deepest];
     // A flat impact touches along a line. Its middle is used, because rounding decides which end is deeper.
-    collision.point = toVector(isFlat ? 0.5F * (manifold.points[0] + manifold.points[1]) : touch);
+    const Vector2 point = toVector(isFlat ? 0.5F * (manifold.points[0] + manifold.points[1]) : touch);
+    collision.point = point;
     collision.motionA = motionOf(bodyA(contact));
     collision.motionB = motionOf(bodyB(contact));
-    collision.armA = collision.point - toVector(bodyA(contact).GetWorldCenter());
-    collision.armB = collision.point - toVector(bodyB(contact).GetWorldCenter());
+    collision.armA = point - toVector(bodyA(contact).GetWorldCenter());
+    collision.armB = point - toVector(bodyB(contact).GetWorldCenter());
 
     const double speed = approach(contact, touch, manifold.normal);
     const double depth = std::max(0.0, -static_cast<double>(manifold.separations[deepest]));

@@ -46,8 +46,8 @@ public:
     Vector2 centre(std::uint64_t body) const override {
         return has(body) ? toVector(bodyOf(body).GetWorldCenter()) : Vector2{};
     }
-    Vector2 toWorld(std::uint64_t body, Vector2 ofBody) const override {
-        return has(body) ? toVector(bodyOf(body).GetWorldPoint({ofBody.x, ofBody.y})) : ofBody;
+    Vector3 toWorld(std::uint64_t body, Vector2 ofBody) const override {
+        return has(body) ? Vector3(toVector(bodyOf(body).GetWorldPoint({ofBody.x, ofBody.y}))) : ofBody;
     }
     double inertia(std::uint64_t body) const override {
         if (!has(body)) return 0.0;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Assigns colours to impacts by material or frequency, and names them in the legend.
+// Assigns colours to impacts by material, part of the body or frequency, and names them in the legend.
 #include "Pictures/PictureParts.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <span>
 
 namespace physvib::picture {
 namespace {
@@ -19,14 +20,17 @@ bool sounds(const Material& material, const CollisionEvent& event) {
 } // namespace
 
 HitColours::HitColours(const PictureInput& input) {
-    byMaterial_ = input.scene != nullptr && input.scene->materials.size() <= palette::materialCount;
-    byMaterial_ ? takeMaterials(input) : takeFrequencies(input);
+    if (input.scene != nullptr && input.scene->materials.size() <= palette::materialCount)
+        takeMaterials(input);
+    else if (!takeParts(input))
+        takeFrequencies(input);
     if (!input.events.empty()) classes_.push_back({"strongest", palette::now});
 }
 
 Colour HitColours::of(const CollisionEvent& event) const {
     for (const auto& rule : rules_)
-        if (event.frequencyHz >= rule.lowestHz && event.frequencyHz <= rule.highestHz &&
+        if ((rule.part == 0 || rule.part == event.source.part) && event.frequencyHz >= rule.lowestHz &&
+            event.frequencyHz <= rule.highestHz &&
             (rule.decayPerSecond == anyDecay || rule.decayPerSecond == event.decayPerSecond))
             return rule.colour;
     return palette::other;
@@ -34,6 +38,7 @@ Colour HitColours::of(const CollisionEvent& event) const {
 
 // (f, tau) tells the material, whichever of the two bodies gave its voice to the hit.
 void HitColours::takeMaterials(const PictureInput& input) {
+    meaning_ = "material";
     const auto& materials = input.scene->materials;
     bool unknown = false;
     std::set<std::size_t> used;
@@ -54,6 +59,28 @@ void HitColours::takeMaterials(const PictureInput& input) {
             {m.frequencyHz > 0.0 ? name + " " + shortNumber(m.frequencyHz) + " Hz" : name, colour});
     }
     if (unknown) classes_.push_back({"other", palette::other});
+}
+
+bool HitColours::takeParts(const PictureInput& input) {
+    const std::span places{input.layout.places.data(), static_cast<std::size_t>(input.layout.count)};
+    const auto channelOf = [&](PartNumber part) {
+        return static_cast<int>(std::ranges::find(places, part, &ActuatorPlace::part) - places.begin());
+    };
+    std::set<int> channels; // the first of each part
+    for (const auto& event : input.events) {
+        const int channel = event.source.part == 0 ? input.layout.count : channelOf(event.source.part);
+        if (channel == input.layout.count) return false;
+        channels.insert(channel);
+    }
+    for (const int channel : channels) {
+        const PartNumber part = places[static_cast<std::size_t>(channel)].part;
+        const auto name = builtInPart(part);
+        rules_.push_back({0.0, endless, anyDecay, palette::enchanter(channel), part});
+        classes_.push_back(
+            {name.empty() ? labelOf(input, channel) : std::string{name}, palette::enchanter(channel)});
+    }
+    if (!channels.empty()) meaning_ = "part of the body";
+    return !channels.empty();
 }
 
 void HitColours::takeFrequencies(const PictureInput& input) {

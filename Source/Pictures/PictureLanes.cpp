@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws one lane per channel: waveforms, or strips of brightness if there are many channels.
+#include "Core/BodyLayouts.h"
 #include "Pictures/PictureParts.h"
 #include <algorithm>
 #include <cmath>
@@ -79,7 +80,7 @@ void drawWaves(const Canvas& canvas, const PictureInput& input, const WaveformEn
         canvas.well(lane);
         Axis{axis.from, axis.to, lane}.drawGrid(canvas, grid, palette::line);
         drawWave(canvas, wave, channel, lane);
-        drawBeside(canvas, labelOf(input, channel), palette::enchanter(channel), true, wave.peak(channel),
+        drawBeside(canvas, laneLabelOf(input, channel), palette::enchanter(channel), true, wave.peak(channel),
                    besides(canvas, input, row), lane);
     }
 }
@@ -125,10 +126,21 @@ std::string labelOf(const PictureInput& input, int channel) {
                                     : std::to_string(channel + 1);
 }
 
+std::string_view builtInPart(PartNumber part) noexcept {
+    const auto found = std::ranges::find(bodyParts, part, partNamed);
+    return found == bodyParts.end() ? std::string_view{} : *found;
+}
+
+std::string laneLabelOf(const PictureInput& input, int channel) {
+    const std::string label = labelOf(input, channel);
+    const auto part = builtInPart(input.layout.places[static_cast<std::size_t>(channel)].part);
+    return part.empty() || part == label ? label : label + " " + std::string{part};
+}
+
 Area laneOf(const Canvas& canvas, const PictureInput& input, Area row) {
     int widest = 38;
     for (int c = 0; c < input.layout.count; ++c)
-        widest = std::max(widest, canvas.textWidth(labelOf(input, c), smallText, true));
+        widest = std::max(widest, canvas.textWidth(laneLabelOf(input, c), smallText, true));
     return row.withTrimmedLeft(std::min(widest, 130) + 14).withTrimmedRight(peakWidth);
 }
 

@@ -9,7 +9,8 @@ namespace physvib::picture {
 /// Or a grain that was passed.
 inline bool isHit(const CollisionEvent& event) noexcept { return event.source.kind == ContactKind::hit; }
 
-/// What a colour of a hit means: its material where the scene tells, else its frequency.
+/// What a colour of a hit means: its material where the scene tells, else the part of the body on which every
+/// hit is felt, as that part's first actuator is drawn, else its frequency.
 class HitColours {
 public:
     struct Class {
@@ -19,19 +20,21 @@ public:
     explicit HitColours(const PictureInput& input);
     Colour of(const CollisionEvent& event) const;
     const std::vector<Class>& classes() const noexcept { return classes_; } ///< those that occur
-    const char* meaning() const noexcept { return byMaterial_ ? "material" : "frequency"; }
+    const char* meaning() const noexcept { return meaning_; }
 
 private:
     void takeMaterials(const PictureInput& input);
+    bool takeParts(const PictureInput& input); ///< false, and nothing taken: a hit is felt on no part
     void takeFrequencies(const PictureInput& input);
 
     struct Rule {                                   // first match wins
         double lowestHz, highestHz, decayPerSecond; // decay < 0: any
         Colour colour;
+        PartNumber part = 0; // 0: any
     };
     std::vector<Rule> rules_;
     std::vector<Class> classes_;
-    bool byMaterial_ = false;
+    const char* meaning_ = "frequency";
 };
 
 constexpr int headingHeight = 24;
@@ -40,6 +43,12 @@ constexpr int peakWidth = 92; ///< right of every lane: its peak in dBFS
 
 /// The label of an enchanter: the caller's, else A..Z for up to 26, else its number.
 std::string labelOf(const PictureInput& input, int channel);
+
+/// The built-in name of a part of a body; empty of others.
+std::string_view builtInPart(PartNumber part) noexcept;
+
+/// The label beside a lane: with the built-in part of a body that the actuator is on ("A thumb").
+std::string laneLabelOf(const PictureInput& input, int channel);
 
 /// What is left of `row` for a lane between the labels (as wide as they need, within reason) and the peaks.
 Area laneOf(const Canvas& canvas, const PictureInput& input, Area row);

@@ -18,11 +18,18 @@ FieldMap fitField(const PictureInput& input, Area room) {
     return {room.toFloat().withSizeKeepingCentre(std::max(w, 1.0f), std::max(h, 1.0f)), scale};
 }
 
+Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z) {
+    constexpr double foreshortened = 0.35;
+    const double aside = isFlat(input.layout) ? 0.0 : foreshortened * z;
+    return map.at(x - aside, y - aside);
+}
+
 Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
     const auto& place = input.layout.places[static_cast<std::size_t>(channel)];
     const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.5; };
-    return map.at(share(place.xMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres,
-                  share(place.yMetres, input.layout.extentHeightMetres) * input.fieldHeightMetres);
+    return spotOf(input, map, share(place.xMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres,
+                  share(place.yMetres, input.layout.extentHeightMetres) * input.fieldHeightMetres,
+                  share(place.zMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres);
 }
 
 // ---- bodies
@@ -90,7 +97,7 @@ void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours
     for (const auto& event : input.events) {
         const auto level = static_cast<float>(1.0 + (decibels(event.amplitude) - loudest) / 40.0);
         if (level <= 0.0f) continue;
-        const auto at = map.at(event.x, event.y);
+        const auto at = spotOf(input, map, event.x, event.y, event.z);
         if (isHit(event))
             hits.add(at, 5.0f + 33.0f * level * level, 0.05f + 0.9f * level * level, colours.of(event));
         else
@@ -121,7 +128,7 @@ void drawHalos(const Canvas& canvas, const PictureInput& input, const FieldMap& 
 // Rings where it struck, and a line to each enchanter as wide and bright as what it plays of it.
 void drawStrongest(const Canvas& canvas, const PictureInput& input, const FieldMap& map,
                    const CollisionEvent& hit) {
-    const auto centre = map.at(hit.x, hit.y);
+    const auto centre = spotOf(input, map, hit.x, hit.y, hit.z);
     for (int c = 0; c < input.layout.count; ++c) {
         const float share = shareOf(input, c);
         if (share <= 0.0f) continue;

@@ -99,7 +99,8 @@ struct RenderMovie::Parts {
                 1.0f + static_cast<float>(decibels(event.amplitude) - loudest) / floorDecibels;
             if (level <= 0.0f) continue;
             const auto fade = static_cast<float>(std::exp(-fadePerSecond * age));
-            light.add(map.at(event.x, event.y), (isHit(event) ? 10.0f : 5.0f) + 36.0f * level * level * fade,
+            light.add(spotOf(input, map, event.x, event.y, event.z),
+                      (isHit(event) ? 10.0f : 5.0f) + 36.0f * level * level * fade,
                       1.8f * level * level * fade, colours.of(event));
         }
         light.draw(canvas.graphics);

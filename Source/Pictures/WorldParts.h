@@ -18,6 +18,10 @@ struct FieldMap {
 /// The field to scale, in the middle of `room`.
 FieldMap fitField(const PictureInput& input, Area room);
 
+/// A place of the field. Of a layout in space the view is oblique: what is nearer to the viewer is further
+/// down and to the left.
+Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z);
+
 /// Where actuator `channel` stands, the layout being mapped on the field.
 Spot placeOf(const PictureInput& input, const FieldMap& map, int channel);
 

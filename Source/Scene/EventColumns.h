@@ -43,11 +43,21 @@ struct KindColumn {
 struct MaterialColumn {
     SoundNumber& (*field)(CollisionEvent&);
 };
+
+/// The place across the plane; lists of a plane have no such column.
+struct DepthColumn : NumberColumn {};
+
+/// The name of the part of a body on which it is felt; lists without any have no such column.
+struct PartColumn {
+    PartNumber& (*field)(CollisionEvent&);
+};
 inline constexpr std::array<std::string_view, 3> contactKindNames{"hit", "roll", "slide"};
 
 struct EventColumn {
     std::string_view name;
-    std::variant<SecondsColumn, NumberColumn, WholeColumn, KindColumn, MaterialColumn> cell;
+    std::variant<SecondsColumn, NumberColumn, WholeColumn, KindColumn, MaterialColumn, DepthColumn,
+                 PartColumn>
+        cell;
 };
 
 template <auto Member>
@@ -60,7 +70,7 @@ auto& ofSource(CollisionEvent& event) {
 }
 
 /// In writing order. The bounds are those of isPlayable; a mass is not negative.
-inline constexpr std::array<EventColumn, 13> eventColumns{{
+inline constexpr std::array<EventColumn, 15> eventColumns{{
     {"time_s", SecondsColumn{of<&CollisionEvent::timeNs>}},
     {"frequency_hz", NumberColumn{of<&CollisionEvent::frequencyHz>, 0.0, limits::maxFrequencyHz, true}},
     {"decay_per_s", NumberColumn{of<&CollisionEvent::decayPerSecond>, 0.0, limits::maxDecayPerSecond}},
@@ -74,6 +84,8 @@ inline constexpr std::array<EventColumn, 13> eventColumns{{
     {"mass_kg", NumberColumn{ofSource<&CollisionSource::massKg>, 0.0}},
     {"kind", KindColumn{ofSource<&CollisionSource::kind>}},
     {"material", MaterialColumn{of<&CollisionEvent::sound>}},
+    {"z_m", DepthColumn{{of<&CollisionEvent::z>}}},
+    {"part", PartColumn{ofSource<&CollisionSource::part>}},
 }};
 
 /// Columns up to y_m are required; the others have defaults.
@@ -123,6 +135,11 @@ inline std::string readCell(const MaterialColumn& column, std::string_view cell,
     return {};
 }
 
+inline std::string readCell(const PartColumn& column, std::string_view cell, CollisionEvent& event) {
+    column.field(event) = partOf(cell);
+    return {};
+}
+
 inline void writeCell(const SecondsColumn& column, CollisionEvent& event, const SoundNames&,
                       std::string& out) {
     appendSeconds(out, column.field(event));
@@ -140,6 +157,10 @@ inline void writeCell(const KindColumn& column, CollisionEvent& event, const Sou
 inline void writeCell(const MaterialColumn& column, CollisionEvent& event, const SoundNames& names,
                       std::string& out) {
     out += names.of(column.field(event));
+}
+inline void writeCell(const PartColumn& column, CollisionEvent& event, const SoundNames& names,
+                      std::string& out) {
+    out += names.parts.of(column.field(event));
 }
 
 } // namespace physvib

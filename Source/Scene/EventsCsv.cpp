@@ -19,6 +19,8 @@ bool is(const EventColumn& column) {
 }
 
 bool isIn(OptionalColumns columns, const EventColumn& column) {
+    if (is<DepthColumn>(column)) return columns.depths;
+    if (is<PartColumn>(column)) return columns.parts;
     return is<KindColumn>(column) ? columns.kinds : is<MaterialColumn>(column) ? columns.materials : true;
 }
 
@@ -138,6 +140,7 @@ private:
         const std::string expected =
             std::visit([&](const auto& kind) { return readCell(kind, cell, event); }, column.cell);
         if (is<MaterialColumn>(column) && isKept_ && !list_.names.has(event.sound)) list_.names.add(cell);
+        if (is<PartColumn>(column) && isKept_) list_.names.parts.add(cell);
         return expected.empty() || fail("column " + std::string(column.name) + ": expected " + expected +
                                         ", found " + inQuotes(cell));
     }
@@ -231,7 +234,10 @@ Result<EventList> loadEventsCsv(const std::filesystem::path& path) {
 OptionalColumns columnsOf(std::span<const CollisionEvent> events) {
     const auto hasKind = [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; };
     const auto hasSound = [](const CollisionEvent& e) { return e.sound != 0; };
-    return {std::ranges::any_of(events, hasKind), std::ranges::any_of(events, hasSound)};
+    const auto hasDepth = [](const CollisionEvent& e) { return e.z != 0.0; };
+    const auto hasPart = [](const CollisionEvent& e) { return e.source.part != 0; };
+    return {std::ranges::any_of(events, hasKind), std::ranges::any_of(events, hasSound),
+            std::ranges::any_of(events, hasDepth), std::ranges::any_of(events, hasPart)};
 }
 
 std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumns columns) {

@@ -19,7 +19,7 @@ namespace physvib {
 struct EventList {
     std::vector<CollisionEvent> events;
     FieldSize field;  ///< as stated in the list; unknown otherwise
-    SoundNames names; ///< of the materials in the list
+    SoundNames names; ///< of the materials and parts in the list
     bool operator==(const EventList&) const = default;
 };
 
@@ -39,7 +39,7 @@ Result<EventList> loadEventsCsv(const std::filesystem::path& path);
 
 /// Columns that only some lists need: a list of impacts alone has no kinds.
 struct OptionalColumns {
-    bool kinds = false, materials = false;
+    bool kinds = false, materials = false, depths = false, parts = false;
 };
 
 /// Those that these events need. Any thread.

@@ -4,6 +4,7 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/LayoutJson.h"
+#include "Scene/PartNames.h"
 #include "Scene/SceneFileLimits.h"
 #include <algorithm>
 
@@ -43,6 +44,9 @@ void visitFields(auto& v, FieldsOf<PlacedEnchanter>) {
     v.field("label", in(described, &EnchanterDescription::label), kinds::text, Need::filled);
     v.field("x_m", in(place, &EnchanterPlace::xMetres), kinds::upTo(v.object.extentWidthMetres));
     v.field("y_m", in(place, &EnchanterPlace::yMetres), kinds::upTo(v.object.extentHeightMetres));
+    v.field("z_m", in(place, &EnchanterPlace::zMetres),
+            kinds::within(-limits::mostExtentMetres, limits::mostExtentMetres), Need::optional);
+    v.field("part", in(described, &EnchanterDescription::part), kinds::name, Need::optional);
     v.field("actuator", in(described, &EnchanterDescription::actuator), kinds::text, Need::filled);
     v.field("full_scale_g", in(described, &EnchanterDescription::fullScaleG),
             kinds::within(limits::leastFullScaleG, limits::mostFullScaleG), Need::filled);
@@ -57,6 +61,7 @@ EnchanterDescription readEnchanter(const JsonField& json, const LayoutDescriptio
     if (!label.empty() && isTaken(layout.enchanters, label))
         json["label"].fail("expected a label of its own, found " + inQuotes(label) + " again");
     place = one.place;
+    place.part = partOf(one.described.part);
     return one.described;
 }
 
@@ -113,6 +118,8 @@ OrderedJson writeKind(const Own<LayoutDescription>&, const LayoutDescription& la
 LayoutDescription describeLayout(std::string name, const EnchanterLayout& geometry) {
     LayoutDescription layout{std::move(name), geometry, {}};
     layout.enchanters.resize(static_cast<std::size_t>(geometry.count));
+    for (std::size_t j = 0; j < layout.enchanters.size(); ++j)
+        layout.enchanters[j].part = PartNames{}.of(geometry.places[j].part);
     fillLabels(layout.enchanters);
     return layout;
 }
@@ -121,10 +128,7 @@ LayoutDescription presetLayout(std::string_view name, const std::vector<Enchante
     EnchanterLayout geometry;
     layoutPreset(name, geometry);
     LayoutDescription layout = describeLayout(std::string{name}, geometry);
-    for (std::size_t j = 0; j < std::min(layout.enchanters.size(), before.size()); ++j) {
-        layout.enchanters[j].actuator = before[j].actuator;
-        layout.enchanters[j].fullScaleG = before[j].fullScaleG;
-    }
+    keepActuators(layout, before);
     return layout;
 }
 
@@ -157,6 +161,14 @@ std::string layoutJson(const LayoutDescription& layout) {
         text += "\n  ]";
     }
     return text + "\n}\n";
+}
+
+void keepActuators(LayoutDescription& layout, const std::vector<EnchanterDescription>& before) {
+    const std::size_t kept = std::min(layout.enchanters.size(), before.size());
+    for (std::size_t j = 0; j < kept; ++j) {
+        layout.enchanters[j].actuator = before[j].actuator;
+        layout.enchanters[j].fullScaleG = before[j].fullScaleG;
+    }
 }
 
 } // namespace physvib

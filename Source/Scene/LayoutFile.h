@@ -15,6 +15,7 @@ struct EnchanterDescription {
     std::string label;             ///< unique in its layout, not empty
     std::string actuator = "none"; ///< name of an actuator profile
     double fullScaleG = 1.0;       ///< acceleration, in g, at an amplitude of 1
+    std::string part{};            ///< name of the part of the body that it is on; empty: none
     bool operator==(const EnchanterDescription&) const = default;
 };
 
@@ -25,20 +26,24 @@ struct LayoutDescription {
     std::vector<EnchanterDescription> enchanters;
 };
 
-/// A layout without a file, e.g. a preset: labels A, B, C..., all else default. Any thread.
+/// A layout without a file, e.g. a preset: labels A, B, C..., parts by the numbers of the places, all else
+/// default. Any thread.
 LayoutDescription describeLayout(std::string name, const EnchanterLayout& geometry);
 
 /// The preset of that name, which must exist; its actuators keep profile and full scale of `before`. Any
 /// thread.
 LayoutDescription presetLayout(std::string_view name, const std::vector<EnchanterDescription>& before = {});
 
+/// Actuators of `layout` keep profile and full scale of those of the same number. Any thread.
+void keepActuators(LayoutDescription& layout, const std::vector<EnchanterDescription>& before);
+
 /// A preset by name, else the layout of the file. Message thread (M) only.
 Result<LayoutDescription> findLayout(const std::string& nameOrPath);
 
 /// The layout in `text`; or, for the first error, one line `name: enchanters[3].x_m: expected a number, found
 /// a string`. Required: extent_m (both > 0), enchanters (1 to limits::maxEnchanters), and x_m and y_m of each
-/// within the extent. A missing label becomes the first unused one of A, B, C... Unknown and repeated fields
-/// are errors. Any thread.
+/// within the extent. z_m and part may be missing. A missing label becomes the first unused one of A, B, C...
+/// Unknown and repeated fields are errors. Any thread.
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name);
 
 /// The same for a file. M only.

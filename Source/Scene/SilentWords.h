@@ -17,7 +17,7 @@ inline std::string silentWords(std::span<const CollisionEvent> events, const Pha
         if (e.timeNs >= endNs) continue;
         begins = true;
         strongest = std::max(strongest, std::abs(e.amplitude));
-        panner.gainsAt(e, e.x, e.y, gains);
+        panner.gainsAt(e, gains);
         for (std::size_t j = 0; j < static_cast<std::size_t>(panner.channels()); ++j)
             most = std::max(most, std::abs(e.amplitude * gains[j]));
     }

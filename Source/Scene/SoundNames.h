@@ -3,11 +3,10 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Io/Text/NumberText.h"
-#include <algorithm>
+#include "Scene/PartNames.h"
 #include <cmath>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace physvib {
 
@@ -50,46 +49,27 @@ public:
         for (const auto& material : materials) add(material.name);
     }
 
-    /// A list has no quotes: a material whose name would not be read again as it is stays without one.
+    /// A material whose name would not be read again as it is stays without one.
     void add(std::string_view name) {
-        const SoundNumber sound = soundOfMaterial(name);
-        const auto next = placeOf(sound);
-        if (names_.size() < mostNames && !isAt(next, sound) && soundNamed(name) == sound && isPlain(name))
-            names_.insert(next, {sound, std::string{name}});
+        if (const SoundNumber sound = soundOfMaterial(name); soundNamed(name) == sound)
+            names_.add(sound, name);
     }
-    bool has(SoundNumber sound) const { return isAt(placeOf(sound), sound); }
+    bool has(SoundNumber sound) const { return names_.find(sound) != nullptr; }
 
     /// What a list writes: the material's name or else its number (sound-923368111), clip-1 and so on, or
     /// nothing for 0.
     std::string of(SoundNumber sound) const {
         if (sound == 0) return {};
-        if (const auto known = placeOf(sound); isAt(known, sound)) return known->name;
+        if (const std::string* const known = names_.find(sound)) return *known;
         return std::string{isClip(sound) ? clipNamePrefix : soundNamePrefix} + std::to_string(sound);
     }
+
+    PartNames parts; ///< names of parts of a body: they travel with those of sounds
 
     bool operator==(const SoundNames&) const = default;
 
 private:
-    static bool isPlain(std::string_view name) {
-        const auto breaks = [](char c) {
-            return c == ',' || c == '"' || static_cast<unsigned char>(c) < ' ';
-        };
-        return std::ranges::none_of(name, breaks) && name.front() != ' ' && name.back() != ' ';
-    }
-
-    struct Entry {
-        SoundNumber sound;
-        std::string name;
-        bool operator==(const Entry&) const = default;
-    };
-    using Place = std::vector<Entry>::const_iterator;
-    Place placeOf(SoundNumber sound) const {
-        return std::ranges::lower_bound(names_, sound, {}, &Entry::sound);
-    }
-    bool isAt(Place place, SoundNumber sound) const { return place != names_.end() && place->sound == sound; }
-
-    static constexpr std::size_t mostNames = 4096; // so that an untrusted list is still read quickly
-    std::vector<Entry> names_;                     // sorted by number
+    NumberedNames names_;
 };
 
 } // namespace physvib

@@ -52,7 +52,7 @@ public:
     /// Session time at which the next segment begins.
     std::int64_t nextNs() const noexcept { return moving_.timeNs + nextNs_; }
 
-    /// The next segment; nullopt if the tone is over. `gainsAt(event, x, y)` returns the panner's Gains.
+    /// The next segment; nullopt if the tone is over. `gainsAt(event)` returns the panner's Gains.
     /// isHurried: at least hurriedFrames long, to save line time, even if the line is then less accurate.
     template <class GainsAt>
     std::optional<BoardSegment> next(const BoardTime& time, GainsAt gainsAt,

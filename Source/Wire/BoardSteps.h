@@ -27,13 +27,12 @@ public:
 
     /// The next event, at the place where the tone is in the middle of it. Not if isOver().
     CollisionEvent take() noexcept {
-        CollisionEvent step = moving_;
+        const std::int64_t lengthNs = std::min(stepNs_, endNs_ - doneNs_);
+        const double middle = static_cast<double>(doneNs_) + 0.5 * static_cast<double>(lengthNs);
+        CollisionEvent step =
+            movedAlong(moving_, std::min(1.0, middle / static_cast<double>(moving_.course.travelNs)));
         step.timeNs = nextNs();
-        step.durationNs = std::min(stepNs_, endNs_ - doneNs_);
-        const double middle = static_cast<double>(doneNs_) + 0.5 * static_cast<double>(step.durationNs);
-        const double share = std::min(1.0, middle / static_cast<double>(moving_.course.travelNs));
-        step.x += share * (moving_.course.toX - moving_.x);
-        step.y += share * (moving_.course.toY - moving_.y);
+        step.durationNs = lengthNs;
         step.course = {.sinceNs = moving_.course.sinceNs + doneNs_};
         doneNs_ += step.durationNs;
         return step;

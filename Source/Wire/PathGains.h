@@ -25,7 +25,7 @@ public:
         , onset_{FrameClock{sampleRateHz}.at(moving.timeNs)}
         , endFrame_{FrameClock{sampleRateHz}.at(moving.timeNs + lifeNs).frame - onset_.frame} {}
 
-    /// `seconds` after the onset. `gainsAt(event, x, y)` returns the panner's Gains.
+    /// `seconds` after the onset. `gainsAt(event)` returns the panner's Gains.
     template <class GainsAt>
     Gains at(double seconds, GainsAt& gainsAt) noexcept {
         constexpr std::int64_t tile = limits::tileFrames;
@@ -55,8 +55,7 @@ private:
     Gains gainsThen(std::int64_t frame, GainsAt& gainsAt) const noexcept {
         const double ageNs = (static_cast<double>(frame) + onset_.leadFrames) / rate_ * 1e9;
         const double share = std::min(1.0, ageNs / static_cast<double>(moving_.course.travelNs));
-        return gainsAt(moving_, moving_.x + share * (moving_.course.toX - moving_.x),
-                       moving_.y + share * (moving_.course.toY - moving_.y));
+        return gainsAt(movedAlong(moving_, share));
     }
 
     CollisionEvent moving_;

@@ -219,6 +219,38 @@ TEST(Calls, AnOlderProgramsContactHasNoPointOfItsOwn) {
     physvib_world_free(world);
 }
 
+/// The ball strikes a wall that leans in space, beside its centre.
+TEST(Calls, AnImpactInSpaceFollowsFromTheMotionAndTheInverseInertia) {
+    const physvib_world world = worldOfABall();
+    const double centre[3] = {0.0, 0.0, 0.0}, velocity[3] = {0.0, -1.8, -2.4}, still[3] = {0.0, 0.0, 0.0},
+                 turning[6] = {4.0, 0.0, 0.0, 0.0, 0.0, 0.0}; // 0.25 kg m^2 about x alone
+    physvib_contact contact = touching();
+    contact.x_m = 0.0, contact.y_m = -0.8, contact.z_m = 0.6;
+    contact.normal_y = 0.6, contact.normal_z = 0.8;
+    for (const bool turns : {true, false}) {
+        ASSERT_EQ(physvib_world_begin_step(world, 0.01, 0.0), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_move_in_space(world, 1, centre, velocity, still, turns ? turning : nullptr),
+                  PHYSVIB_OK)
+            << physvib_error();
+        EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
+        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+        physvib_event events[4];
+        ASSERT_EQ(physvib_world_take(world, events, 4, 1), 1);
+        // an arm of 1 m across the normal; without a matrix, inertia_kg_m2 of 0 means through the centre
+        EXPECT_NEAR(events[0].impulse_n_s, 3.0 / (0.5 + (turns ? 4.0 : 0.0)), 1.0e-5);
+        EXPECT_NEAR(events[0].y_m, -0.8, 1.0e-6);
+        ASSERT_EQ(physvib_world_begin_step(world, 0.01, 0.0), PHYSVIB_OK); // it parts
+        ASSERT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    }
+    EXPECT_EQ(physvib_world_move_in_space(world, 1, centre, nullptr, still, nullptr), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_STREQ(physvib_error(), "motion: expected centre, velocity and spin, found NULL");
+    EXPECT_EQ(physvib_world_moved_in_space(world, 1, velocity, nullptr), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_world_moved_in_space(world, 1, velocity, still), PHYSVIB_ERROR_ORDER);
+    const double wrong[6] = {-1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    EXPECT_EQ(physvib_world_move_in_space(world, 1, centre, velocity, still, wrong), PHYSVIB_ERROR_ARGUMENT);
+    physvib_world_free(world);
+}
+
 physvib_world_counts countsOf(physvib_world world) {
     physvib_world_counts counts;
     physvib_world_counts_init(&counts, sizeof counts);
@@ -374,6 +406,8 @@ TEST(Calls, LawsAreThoseOfTheTable) {
     expect(PHYSVIB_LAW_ENERGY, "energy");
     expect(PHYSVIB_LAW_NEIGHBOURS, "neighbours");
     expect(PHYSVIB_LAW_AUTO, "auto");
+    expect(PHYSVIB_LAW_DISTANCE, "distance");
+    expect(PHYSVIB_LAW_TRIANGLES, "triangles");
     int count = 0;
     while (physvib_law_name(count) != nullptr) ++count;
     EXPECT_EQ(count, static_cast<int>(panningLaws.size()));

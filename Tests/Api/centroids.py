@@ -12,7 +12,7 @@ from physvib.layout import LAWS
 MEANT = np.array([0.1, 0.2, 0.3, 0.4, 0.5])  # of the way along x, in the middle of y
 LAYOUTS = {"two": physvib.Layout([(0.0, 0.0), (1.0, 0.0)], (1.0, 1.0)), "four": physvib.Layout([(0.0, 1.0), (1.0, 1.0), (0.0, 0.0), (1.0, 0.0)], (1.0, 1.0))}
 
-SAME = {"neighbours": "energy", "auto": "linear"}  # on two and on four corners
+SAME = {"neighbours": "energy", "auto": "linear", "triangles": "energy"}  # on two and on four corners
 
 
 def peaks(layout: physvib.Layout, law: str) -> np.ndarray:

@@ -6,15 +6,17 @@ love = {physics = {getMeter = function() return metre end}}
 local function fixture(kind, mass, motion)
     local body = {getType = function() return kind end, getMass = function() return mass end, getGravityScale = function() return 1 end,
                   getPosition = function() return 0.3 * metre, -(motion.height or 0) * metre end,
-                  getWorldCenter = function() return 0.3 * metre, -(motion.height or 0) * metre end, getAngularVelocity = function() return 0 end,
+                  getWorldCenter = function() return 0.3 * metre, -(motion.height or 0) * metre end, getAngularVelocity = function() return 0 end, getAngle = function() return 0 end,
+                  getWorldPoint = function() return 0.3 * metre, -(motion.height or 0) * metre end,
                   getLinearVelocity = function() return 0, motion.speed * metre end,
                   getLinearVelocityFromWorldPoint = function() return 0, motion.speed * metre end, isActive = function() return true end, isAwake = function() return true end}
-    return {getBody = function() return body end, isSensor = function() return false end, isDestroyed = function() return false end}
+    local shape = {getType = function() return motion.height and "circle" or "chain" end, getRadius = function() return 0 end, getPoint = function() return 0, 0 end}
+    return {getBody = function() return body end, getShape = function() return shape end, isSensor = function() return false end, isDestroyed = function() return false end}
 end
 local falling = {speed = 0, height = 0.8} -- downwards, as LÖVE counts
 floor, ball = fixture("static", 0, {speed = 0}), fixture("dynamic", 0.2, falling)
 
-local contact = {getPositions = function() return 0.3 * metre, 0 end, getNormal = function() return 0, -1 end} -- from floor to ball
+local contact = {getPositions = function() return 0.3 * metre, -falling.height / 2 * metre end, getNormal = function() return 0, -1 end} -- from floor to ball
 local callbacks, isTouching = {}, false
 function world:getCallbacks() return unpack(callbacks, 1, 4) end
 function world:setCallbacks(...) callbacks = {...} end
@@ -47,9 +49,9 @@ local events = haptics:take({}, true)
 local speed = math.sqrt(2 * 9.81 * 0.8)
 assert(#events > 0, "nothing was felt")
 assert(events[1].fixture == id and theirs > 0, "its callbacks were not called")
-assert(math.abs(tonumber(events[1].time_ns) * 1e-9 - 0.40) < 0.011, "onset " .. tonumber(events[1].time_ns))
+assert(math.abs(tonumber(events[1].time_ns) * 1e-9 - 0.399) < 0.002, "onset " .. tonumber(events[1].time_ns))
 assert(math.abs(events[1].impulse_n_s - 0.2 * 1.7 * speed) < 0.05 * 0.2 * 1.7 * speed, "impulse " .. events[1].impulse_n_s)
-assert(math.abs(events[1].x_m - 0.3) < 1e-6 and math.abs(events[1].y_m - 2) < 1e-6, "place " .. events[1].x_m .. ", " .. events[1].y_m)
+assert(math.abs(events[1].x_m - 0.3) < 1e-6 and math.abs(events[1].y_m - 2) < 0.02, "place " .. events[1].x_m .. ", " .. events[1].y_m)
 
 local later = 0
 world:setCallbacks(nil, nil, nil, function() later = later + 1 end) -- others, while it is attached

@@ -79,6 +79,10 @@ class Package(unittest.TestCase):
         events = many(100)
         events["kind"], events["fixture"], events["impulse_n_s"] = np.arange(100) % 3, np.arange(100), 0.5
         self.assertEqual(physvib.events_of(physvib.frame(events)).tobytes(), events.tobytes())
+        bound = physvib.events([0.0, 0.01], frequency_hz=200.0, decay_per_s=30.0, z_m=[0.0, 0.02], part=["thumb", ""])
+        self.assertEqual(physvib.events_of(physvib.frame(bound)).tobytes(), bound.tobytes())
+        physvib.save_events(self.folder / "bound.csv", bound)
+        self.assertEqual(physvib.events_of(pandas.read_csv(self.folder / "bound.csv", comment="#")).tobytes(), bound.tobytes())
         physvib.save_events(self.folder / "events.csv", physvib.frame(events))
         table = pandas.read_csv(self.folder / "events.csv", comment="#", float_precision="round_trip")
         self.assertEqual(physvib.events_of(table).tobytes(), events.tobytes())
@@ -95,6 +99,14 @@ class Package(unittest.TestCase):
         layout = physvib.Layout([(0.0, 0.0), (0.1, 0.05)], (0.1, 0.05))
         layout.save(self.folder / "mine.json", "mine")
         self.assertEqual(physvib.Layout.load(self.folder / "mine.json"), layout)
+        self.assertEqual(layout.parts, [0, 0])
+        glove = physvib.Layout([(0.0, 0.0, -0.03), (0.1, 0.05)], (0.1, 0.05), ["thumb", "left elbow"])
+        glove.save(self.folder / "glove.json", "glove")
+        self.assertEqual(physvib.Layout.load(self.folder / "glove.json"), glove)
+        self.assertEqual((glove.places_m[1], glove.parts[1]), ((0.1, 0.05, 0.0), physvib.part("left elbow")))
+        bound = physvib.events([0.0, 0.01], frequency_hz=200.0, decay_per_s=30.0, z_m=[0.0, 0.02], part=["thumb", ""])
+        self.assertEqual(bound["part"].tolist(), [physvib.part("thumb"), 0])
+        self.assertTrue((physvib.render(bound[:1], 0.01, layout=glove)[1] == 0.0).all())
         self.assertEqual(physvib.render(many(10), 0.1, layout=str(self.folder / "mine.json")).shape, (2, 4800))
 
     def test_a_strike_is_on_its_frame_however_blocks_fall(self) -> None:
@@ -198,6 +210,19 @@ class Package(unittest.TestCase):
             for x in (-0.5, 0.5):
                 world.touch(0, 1, x_m=x, point_id=physvib.POINT_BY_PLACE, is_soft=True)
         self.assertAlmostEqual(float(world.take(at_once=True)["impulse_n_s"][0]), 1.213, delta=0.01)
+
+    def test_an_impact_in_space_follows_from_the_inverse_inertia(self) -> None:
+        world = physvib.World(normalisation_s_per_m=1.0, hand_mass_kg=0.0)
+        world.set_body(0)
+        world.set_body(1, mass_kg=2.0, is_camera=True, frequency_hz=200.0, decay_per_s=30.0, part=7)
+        world.move_in_space(1, (0.0, 0.0, 0.0), (0.0, -1.8, -2.4), inverse_inertia_per_kg_m2=(4.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+        with world.step(0.01):
+            world.touch(0, 1, y_m=-0.8, z_m=0.6, normal_y=0.6, normal_z=0.8)
+        self.assertAlmostEqual(float(world.take(at_once=True)["impulse_n_s"][0]), 3.0 / 4.5, places=5)
+        with self.assertRaisesRegex(physvib.PhysVibError, "centre_m: expected 3 numbers"):
+            world.move_in_space(1, (0.0, 0.0))
+        with world.step(0.01):
+            world.moved_in_space(1, (0.0, 1.0, 0.0))
 
     def test_layouts_and_lists_are_read_from_text(self) -> None:
         layout = physvib.Layout.parse('{"name": "one", "extent_m": [0.2, 0.1], "enchanters": [{"label": "A", "x_m": 0.1, "y_m": 0}]}')

@@ -8,9 +8,11 @@ local physvib = require("physvib")
 local function fixture(bodies, kind, mass, state)
     local body = {getType = function() return kind end, getMass = function() return state.mass or mass end, getGravityScale = function() return 1 end,
                   getPosition = function() return 0, 0 end, getWorldCenter = function() return 0, 0 end, getAngularVelocity = function() return 0 end,
+                  getAngle = function() return 0 end,
                   getLinearVelocity = function() return 0, state.speed * metre end, getLinearVelocityFromWorldPoint = function() return 0, state.speed * metre end,
                   isActive = function() return state.isActive ~= false end, isAwake = function() return state.isAwake ~= false end}
-    local made = {getBody = function() return body end, isSensor = function() return state.isSensor == true end, isDestroyed = function() return false end,
+    local shape = {getType = function() return "chain" end}
+    local made = {getBody = function() return body end, getShape = function() return shape end, isSensor = function() return state.isSensor == true end, isDestroyed = function() return false end,
                   getFilterData = function() return 1, state.mask or 65535, 0 end}
     body.getFixtures = function() return {made} end
     bodies[#bodies + 1] = body

@@ -32,7 +32,7 @@ TEST(EnchanterLayout, EveryPresetIsValidAndHasTheCountInItsName) {
     for (const std::string_view name : layoutPresetNames) {
         const EnchanterLayout layout = preset(name);
         EXPECT_TRUE(isValid(layout)) << name;
-        EXPECT_EQ(layout.count, name.back() - '0') << name;
+        EXPECT_EQ(std::to_string(layout.count), name.substr(name.find_first_of("0123456789"))) << name;
     }
 }
 
@@ -50,6 +50,35 @@ TEST(EnchanterLayout, FourSitOnTheCornersUpperLeftFirst) {
 
 TEST(EnchanterLayout, ACabinetHasItsFrontBelowAndFirst) {
     expectPlaces("cabinet4", {{0.0, 0.0}, {0.56, 0.0}, {0.0, 1.1}, {0.56, 1.1}});
+}
+
+TEST(EnchanterLayout, APadForAPicoIsReadInLines) {
+    expectPlaces("pico4", {{0.0, 0.08}, {0.24, 0.08}, {0.0, 0.0}, {0.24, 0.0}});
+    expectPlaces("pico8", {{0.0, 0.08},
+                           {0.08, 0.08},
+                           {0.16, 0.08},
+                           {0.24, 0.08},
+                           {0.0, 0.0},
+                           {0.08, 0.0},
+                           {0.16, 0.0},
+                           {0.24, 0.0}});
+}
+
+TEST(EnchanterLayout, PresetsOnABodyAreInSpaceAndNameItsParts) {
+    for (const char* name : {"glove5", "sleeve8", "vest16"}) {
+        const EnchanterLayout layout = preset(name);
+        EXPECT_FALSE(isFlat(layout)) << name;
+        for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j) {
+            const auto& at = layout.places[j];
+            EXPECT_TRUE(at.xMetres >= 0.0 && at.xMetres <= layout.extentWidthMetres) << name << ' ' << j;
+            EXPECT_TRUE(at.yMetres >= 0.0 && at.yMetres <= layout.extentHeightMetres) << name << ' ' << j;
+        }
+    }
+    EXPECT_EQ(preset("glove5").places[1].part, partNamed("index"));
+    EXPECT_EQ(preset("sleeve8").places[7].part, partNamed("forearm"));
+    EXPECT_EQ(preset("vest16").places[7].part, partNamed("chest"));
+    EXPECT_EQ(preset("vest16").places[8].part, partNamed("back"));
+    EXPECT_TRUE(isFlat(preset("cabinet4")));
 }
 
 TEST(EnchanterLayout, OneTwoAndThreeAreCentreSidesAndTriangle) {

@@ -140,8 +140,8 @@ void expectSameGains(const PhantomPanner& a, const PhantomPanner& b, const std::
         event.y = random.uniform(-0.1, 1.1) * a.fieldHeightMetres();
         event.source.kind = i % 2 == 0 ? ContactKind::hit : ContactKind::roll;
         PhantomPanner::Gains one{}, other{};
-        a.gainsAt(event, event.x, event.y, one);
-        b.gainsAt(event, event.x, event.y, other);
+        a.gainsAt(event, one);
+        b.gainsAt(event, other);
         ASSERT_TRUE(one == other) << name;
     }
 }

@@ -138,7 +138,7 @@ TEST(PhantomPanner, EveryLawFallsFromOneToZero) {
 /// Where between the left and the right edge an event is felt: the centroid of intensity.
 double centroidOf(const PhantomPanner& panner, const CollisionEvent& event) {
     PhantomPanner::Gains gains{};
-    panner.gainsAt(event, event.x, event.y, gains);
+    panner.gainsAt(event, gains);
     double sum = 0.0, moment = 0.0;
     for (int j = 0; j < panner.channels(); ++j) {
         const auto i = static_cast<std::size_t>(j);

@@ -31,7 +31,7 @@ struct Body {
 };
 
 struct Motion {
-    double x, y, vx, vy, spin;
+    double x, y, vx, vy, spin, angle;
 };
 
 /// One engine and its adapter. Bodies that a pin joins do not touch each other.

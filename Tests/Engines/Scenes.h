@@ -5,6 +5,7 @@
 #include "Trace.h"
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 #include <vector>
 
 namespace scenes {
@@ -128,6 +129,9 @@ inline bool pole(const char* name, Engine& engine, int rate) {
                 isFine ? "" : ",FAILED");
     return isFine;
 }
+
+/// The first word is --plane: of an engine in space, its adapter for games in the plane.
+inline bool isPlane(int count, char** words) { return count > 1 && std::string_view{words[1]} == "--plane"; }
 
 /// The scenes; or, of a program that is given a world (worlds.py writes it), its trace.
 inline int run(const char* name, Engine& engine, int count, char** words) {

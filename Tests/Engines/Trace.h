@@ -26,20 +26,22 @@ inline physvib_world plainWorld() {
 inline void printMotions(const Engine& engine, const std::map<int, Body>& moving, int step) {
     for (const auto& [id, body] : moving) {
         const Motion now = engine.motion(id);
-        std::printf("m %d %d %.7g %.7g %.7g %.7g %.7g\n", step, id, now.x, now.y, now.vx, now.vy, now.spin);
+        std::printf("m %d %d %.7g %.7g %.7g %.7g %.7g %.7g\n", step, id, now.x, now.y, now.vx, now.vy,
+                    now.spin, now.angle);
     }
 }
 
-/// `m STEP BODY x y vx vy spin` behind each step (step 0: at first), then `e SECONDS BODY OTHER IMPULSE x y
-/// KIND` for each event.
+/// `m STEP BODY x y vx vy spin angle` behind each step (step 0: at first), then `e SECONDS BODY OTHER IMPULSE
+/// x y KIND` for each event.
 inline int trace(Engine& engine, const char* path) {
     std::ifstream file(path);
     std::map<int, Body> moving;
     std::string word;
     int steps = 0;
-    bool isFalling = false, isWeightless = false;
+    bool isWeightless = false;
     double grain = 0.0;
-    double kick = 0.0; // ends of steps lie on the parabola
+    double late = 0.0;                     // s, half a step: ends of steps lie on the exact path
+    double ax = 0.0, ay = 0.0, turn = 0.0; // accelerations at first
     while (file >> word) {
         if (word == "world") {
             double rate = 0, friction = 0, elasticity = 0, seconds = 0;
@@ -47,13 +49,13 @@ inline int trace(Engine& engine, const char* path) {
             steps = static_cast<int>(rate * seconds);
             engine.world = plainWorld();
             engine.begin(1.0 / rate, isWeightless ? 0.0 : gravity, elasticity, friction);
-            kick = (engine.movesFirst ? -0.5 : 0.5) * gravity / rate / engine.subSteps;
+            late = (engine.movesFirst ? -0.5 : 0.5) / rate / engine.subSteps;
         } else if (word == "ball" || word == "box") {
             Body body;
             body.isBox = word == "box";
             file >> body.id >> body.x >> body.y >> body.angle >> body.width >> body.height >> body.massKg >>
                 body.vx >> body.vy >> body.spin >> body.isSource;
-            if (isFalling) body.vy += kick;
+            body.vx -= late * ax, body.vy -= late * ay, body.spin -= late * turn;
             body.grain = grain;
             engine.add(body);
             if (body.massKg > 0) moving.emplace(body.id, body);
@@ -67,7 +69,9 @@ inline int trace(Engine& engine, const char* path) {
             file >> body;
             engine.oneWay(body);
         } else if (word == "falling") { // those that follow
-            isFalling = true;
+            ay = -gravity;
+        } else if (word == "starting") { // the same of others
+            file >> ax >> ay >> turn;
         } else if (word == "weightless") { // before the world
             isWeightless = true;
         } else if (word == "grain") { // of still bodies that follow; what rolls there speaks with their voice
@@ -80,10 +84,11 @@ inline int trace(Engine& engine, const char* path) {
             file >> left >> right >> count;
             engine.tiles(left, right, count);
         } else {
-            return std::fprintf(stderr,
-                                "%s: %s: expected weightless, world, ball, box, pin, oneway, falling, grain, "
-                                "floor or tiles\n",
-                                path, word.c_str()),
+            return std::fprintf(
+                       stderr,
+                       "%s: %s: expected weightless, world, ball, box, pin, oneway, falling, starting, "
+                       "grain, floor or tiles\n",
+                       path, word.c_str()),
                    1;
         }
     }

@@ -102,8 +102,8 @@ struct Box2d final : scenes::Engine, b2ContactListener {
     }
     scenes::Motion motion(int body) const override {
         const b2Body& it = *bodies.at(body);
-        return {it.GetWorldCenter().x, it.GetWorldCenter().y, it.GetLinearVelocity().x,
-                it.GetLinearVelocity().y, it.GetAngularVelocity()};
+        return {it.GetWorldCenter().x,    it.GetWorldCenter().y,   it.GetLinearVelocity().x,
+                it.GetLinearVelocity().y, it.GetAngularVelocity(), it.GetAngle()};
     }
     float dt = 0.0F, elasticity = 0.0F, friction = 0.0F;
     std::unique_ptr<b2World> box2d;

@@ -140,8 +140,12 @@ struct Box2d3 final : scenes::Engine {
         const b2BodyId body = bodies.at(id);
         const auto at = b2Body_GetPosition(body);
         const b2Vec2 v = b2Body_GetLinearVelocity(body);
-        return {static_cast<double>(at.x), static_cast<double>(at.y), v.x, v.y,
-                b2Body_GetAngularVelocity(body)};
+        return {static_cast<double>(at.x),
+                static_cast<double>(at.y),
+                v.x,
+                v.y,
+                b2Body_GetAngularVelocity(body),
+                b2Rot_GetAngle(b2Body_GetRotation(body))};
     }
     double dt = 0;
     float elasticity = 0, friction = 0;

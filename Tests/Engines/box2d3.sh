@@ -30,5 +30,6 @@ for version in "$@"; do
     fi
     ! grep -q FAILED "$folder/log" || failed=1
     python3 "$root/Tests/Engines/worlds.py" "$version=$folder/run" || failed=1
+    python3 "$root/Tests/Engines/acts.py" "Box2D 3, $version=$folder/run" || failed=1
 done
 exit $failed

@@ -12,7 +12,7 @@ struct Bullet final : scenes::Engine {
         dt = stepSeconds, elasticity = e, friction = mu;
         bullet = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &solver, &configuration);
         bullet->setGravity(vector(0, -g));
-        haptics = std::make_unique<PhysVibBullet>(*bullet, world);
+        haptics = std::make_unique<PhysVibBullet>(*bullet, world, contacts);
     }
     // in this order
     void end() {
@@ -75,9 +75,16 @@ struct Bullet final : scenes::Engine {
     void step() override { bullet->stepSimulation(real(dt), 0); }
     scenes::Motion motion(int id) const override {
         const btRigidBody& body = *bodies.at(id);
+        const btMatrix3x3& turned = body.getWorldTransform().getBasis();
         const btVector3 &at = body.getWorldTransform().getOrigin(), &v = body.getLinearVelocity();
-        return {at.x(), at.y(), v.x(), v.y(), body.getAngularVelocity().z()};
+        return {at.x(),
+                at.y(),
+                v.x(),
+                v.y(),
+                body.getAngularVelocity().z(),
+                std::atan2(turned[1][0], turned[0][0])};
     }
+    PhysVibBullet::Contacts contacts = PhysVibBullet::inSpace;
     double dt = 0, elasticity = 0, friction = 0;
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
@@ -93,5 +100,7 @@ struct Bullet final : scenes::Engine {
 
 int main(int count, char** words) {
     Bullet engine;
-    return scenes::run("Bullet", engine, count, words);
+    const int isPlane = scenes::isPlane(count, words) ? 1 : 0;
+    if (isPlane != 0) engine.contacts = PhysVibBullet::inPlane;
+    return scenes::run("Bullet", engine, count - isPlane, words + isPlane);
 }

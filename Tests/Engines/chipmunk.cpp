@@ -79,7 +79,7 @@ struct Chipmunk final : scenes::Engine {
     scenes::Motion motion(int id) const override {
         const cpBody* body = bodies.at(id);
         const cpVect at = cpBodyGetPosition(body), v = cpBodyGetVelocity(body);
-        return {at.x, at.y, v.x, v.y, cpBodyGetAngularVelocity(body)};
+        return {at.x, at.y, v.x, v.y, cpBodyGetAngularVelocity(body), cpBodyGetAngle(body)};
     }
     double dt = 0, elasticity = 0, friction = 0;
     cpSpace* space = nullptr;

@@ -85,8 +85,9 @@ struct Ode final : scenes::Engine {
     }
     scenes::Motion motion(int id) const override {
         const dBodyID body = bodies.at(id);
-        const dReal *at = dBodyGetPosition(body), *v = dBodyGetLinearVel(body);
-        return {at[0], at[1], v[0], v[1], dBodyGetAngularVel(body)[2]};
+        const dReal *at = dBodyGetPosition(body), *v = dBodyGetLinearVel(body),
+                    *turned = dBodyGetRotation(body);
+        return {at[0], at[1], v[0], v[1], dBodyGetAngularVel(body)[2], std::atan2(turned[4], turned[0])};
     }
     double dt = 0, elasticity = 0, friction = 0;
     dWorldID ode = nullptr;
@@ -100,5 +101,6 @@ struct Ode final : scenes::Engine {
 
 int main(int count, char** words) {
     Ode engine;
-    return scenes::run("ODE", engine, count, words);
+    const int isPlane = engine.haptics.is_plane = scenes::isPlane(count, words) ? 1 : 0;
+    return scenes::run("ODE", engine, count - isPlane, words + isPlane);
 }

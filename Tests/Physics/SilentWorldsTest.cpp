@@ -99,6 +99,8 @@ TEST_F(SilentBoxes, NameTheOutput) {
     EXPECT_EQ(attachment.explain(&output).find("Nothing was stepped since"), 0U);
     expect(attachment.explain(&output), "channels that play these places are muted");
     output.mutedChannels = 0;
+    output.withoutPart = 3;
+    expect(attachment.explain(&output), "3 events belong to a part of the body that no actuator is on");
     output.levelGain = 0.0;
     expect(attachment.explain(&output), "level of the output is 0");
 }

@@ -12,8 +12,9 @@ std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexce
     layout.extentHeightMetres = from.extent_height_m;
     layout.count = from.count;
     for (int j = 0; j < from.count; ++j)
-        layout.places[static_cast<std::size_t>(j)] = {from.x_m[j], from.y_m[j]};
-    if (!isValid(layout)) return "layout: expected an extent above 0 m and places that are numbers";
+        layout.places[static_cast<std::size_t>(j)] = {from.x_m[j], from.y_m[j], from.z_m[j], from.part[j]};
+    if (!isValid(layout))
+        return "layout: expected an extent above 0 m, places that are numbers and parts from 0 on";
     to = layout;
     return {};
 }
@@ -26,6 +27,8 @@ physvib_layout layoutOf(const EnchanterLayout& from) noexcept {
     for (int j = 0; j < from.count; ++j) {
         to.x_m[j] = from.places[static_cast<std::size_t>(j)].xMetres;
         to.y_m[j] = from.places[static_cast<std::size_t>(j)].yMetres;
+        to.z_m[j] = from.places[static_cast<std::size_t>(j)].zMetres;
+        to.part[j] = from.places[static_cast<std::size_t>(j)].part;
     }
     return to;
 }
@@ -61,6 +64,9 @@ std::string_view faultOf(std::span<const physvib_event> events) noexcept {
             events, [](int kind) { return kind < PHYSVIB_HIT || kind > PHYSVIB_SLIDE; },
             &physvib_event::kind))
         return "kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE";
+    if (std::ranges::any_of(
+            events, [](int part) { return part < 0; }, &physvib_event::part))
+        return "part: expected 0, or a number of physvib_part()";
     if (!std::ranges::is_sorted(events, {}, &physvib_event::time_ns))
         return "events: expected in the order of their times";
     return {};

@@ -15,9 +15,18 @@ inline CollisionEvent eventOf(const physvib_event& e) noexcept {
     const ContactKind kind = e.kind == PHYSVIB_ROLL    ? ContactKind::roll
                              : e.kind == PHYSVIB_SLIDE ? ContactKind::slide
                                                        : ContactKind::hit;
-    return {e.time_ns, e.frequency_hz, e.decay_per_s, e.amplitude,
-            e.x_m,     e.y_m,          e.duration_ns, {e.fixture, e.other, e.impulse_n_s, e.mass_kg, kind},
-            {},        Spread::layout, e.sound};
+    return {e.time_ns,
+            e.frequency_hz,
+            e.decay_per_s,
+            e.amplitude,
+            e.x_m,
+            e.y_m,
+            e.duration_ns,
+            {e.fixture, e.other, e.impulse_n_s, e.mass_kg, kind, e.part},
+            {},
+            Spread::layout,
+            e.sound,
+            e.z_m};
 }
 static_assert(PHYSVIB_HIT == static_cast<int>(ContactKind::hit) &&
               PHYSVIB_ROLL == static_cast<int>(ContactKind::roll) &&
@@ -36,7 +45,10 @@ inline physvib_event eventOf(const CollisionEvent& e) noexcept {
             e.source.fixture,
             e.source.other,
             static_cast<int>(e.source.kind),
-            e.sound};
+            e.sound,
+            e.z,
+            e.source.part,
+            0};
 }
 
 inline std::optional<double> optional(double value) noexcept {

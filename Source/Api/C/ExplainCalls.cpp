@@ -32,6 +32,7 @@ int explain(physvib_world name, OutputFacts* output, char* text, size_t size) no
             output->late = since(world.late, output->late);
             output->dropped = since(world.dropped, output->dropped);
             output->rejected = since(world.rejected, output->rejected);
+            output->withoutPart = since(world.withoutPart, output->withoutPart);
         }
         const ContactCounts recent = world.feed.takeRecent();
         return write(physvib::explain(recent, world.feed.counts(), output), text, size);
@@ -54,6 +55,7 @@ OutputFacts outputOf(Renderer& renderer, const LastChanges& changes) {
     output.dropped = renderer.source.events.overflows();
     output.rejected = status.rejected;
     output.panner = &changes.panner;
+    output.withoutPart = status.withoutPart;
     return output;
 }
 
@@ -106,7 +108,8 @@ int physvib_world_explain_output(physvib_world world, const physvib_output_facts
                        count(taken.late),
                        count(taken.dropped),
                        count(taken.rejected),
-                       taken.renderer != nullptr ? &renderer.panner : nullptr};
+                       taken.renderer != nullptr ? &renderer.panner : nullptr,
+                       count(taken.without_part)};
     return explain(world, &output, text, size);
 }
 

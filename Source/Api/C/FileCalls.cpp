@@ -9,6 +9,7 @@
 #include "Io/Wav/WavSink.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/LayoutFile.h"
+#include "Scene/PartNames.h"
 #include <memory>
 #include <physvib/Version.h>
 #include <vector>
@@ -119,6 +120,11 @@ int physvib_layout_preset(const char* name, physvib_layout* layout) {
         *layout = layoutOf(preset);
         return PHYSVIB_OK;
     });
+}
+
+int physvib_part(const char* name) {
+    if (name == nullptr || *name == '\0') return nothingThere("part: expected a name");
+    return partOf(name);
 }
 
 int physvib_layout_load(const char* path, physvib_layout* layout) {

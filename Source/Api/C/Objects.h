@@ -43,7 +43,8 @@ struct World {
     // of bodies that are felt elsewhere than on the first device; their last events may come after they are
     // removed
     std::unordered_map<int, int> devices;
-    std::uint64_t late = 0, dropped = 0, rejected = 0; // of the output, at the last explanation
+    std::uint64_t late = 0, dropped = 0, rejected = 0, withoutPart = 0; // of the output, at the last
+                                                                        // explanation
 };
 
 /// Controllers of a program that sends the motor commands itself.

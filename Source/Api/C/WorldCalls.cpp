@@ -53,6 +53,7 @@ HapticFixture fixtureOf(const physvib_body& body) {
     values.surface = body.surface;
     values.gain = body.gain;
     values.handMassKg = optional(body.hand_mass_kg);
+    values.part = body.part;
     values.texture = {body.grain_m, body.roughness,
                       body.is_ridged != 0 ? GrainPattern::regular : GrainPattern::random, body.rolling};
     for (std::size_t i = 0; i < values.overtones.size(); ++i)
@@ -61,15 +62,20 @@ HapticFixture fixtureOf(const physvib_body& body) {
 }
 
 Vector2 vectorOf(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+Vector3 vectorOf(double x, double y, double z) {
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+Vector3 vectorOf(const double* of) { return vectorOf(of[0], of[1], of[2]); }
 
 FedContact contactOf(const physvib_contact& from) {
     FedContact contact;
     contact.a = from.a;
     contact.b = from.b;
-    contact.point = vectorOf(from.x_m, from.y_m);
-    contact.normal = vectorOf(from.normal_x, from.normal_y);
+    contact.point = vectorOf(from.x_m, from.y_m, from.z_m);
+    contact.normal = vectorOf(from.normal_x, from.normal_y, from.normal_z);
     contact.impulseNewtonSeconds = optional(from.impulse_n_s);
     contact.tangentialNewtonSeconds = from.tangential_n_s;
+    contact.frictionNewtonSeconds = vectorOf(from.friction_x_n_s, from.friction_y_n_s, from.friction_z_n_s);
     contact.approachMetresPerSecond = optional(from.approach_m_per_s);
     contact.restitution = from.restitution;
     contact.effectiveMassKg = optional(from.effective_mass_kg);
@@ -177,6 +183,26 @@ int physvib_world_move(physvib_world name, int body, double x, double y, double 
 int physvib_world_moved(physvib_world name, int body, double vx, double vy, double spin) {
     return in(name, [&](World& world) {
         return inOrder(world.feed.moved(body, {vectorOf(vx, vy), static_cast<float>(spin)}));
+    });
+}
+
+int physvib_world_move_in_space(physvib_world name, int body, const double centre[3],
+                                const double velocity[3], const double spin[3], const double inverse[6]) {
+    return in(name, [&](World& world) {
+        if (!centre || !velocity || !spin)
+            return nothingThere("motion: expected centre, velocity and spin, found NULL");
+        std::optional<InverseInertia> turning;
+        if (inverse) turning = {inverse[0], inverse[1], inverse[2], inverse[3], inverse[4], inverse[5]};
+        return resultOf(
+            world.feed.moveInSpace(body, vectorOf(centre), {vectorOf(velocity), vectorOf(spin)}, turning));
+    });
+}
+
+int physvib_world_moved_in_space(physvib_world name, int body, const double velocity[3],
+                                 const double spin[3]) {
+    return in(name, [&](World& world) {
+        if (!velocity || !spin) return nothingThere("motion: expected velocity and spin, found NULL");
+        return inOrder(world.feed.movedInSpace(body, {vectorOf(velocity), vectorOf(spin)}));
     });
 }
 

@@ -89,16 +89,21 @@ typedef struct physvib_event {
     int other;          /**< the body that it collided with; -1: unknown */
     int kind;           /**< PHYSVIB_HIT (0) and so on */
     int sound;          /**< number of its sound's name, 0: none; lists give it the number of a material */
+    double z_m;         /**< place across the plane of x and y, towards the viewer; 0 in a plane */
+    int part;   /**< physvib_part() of the part of the body on whose actuators it is felt; 0: on all */
+    int unused; /**< 0 */
 } physvib_event;
 
 /** Places of the actuators: channel j at x_m[j], y_m[j] from the lower left corner of the extent, onto which
- * the field is mapped. */
+ * the field is mapped. z is scaled as x is. In C, begin with all 0. */
 typedef struct physvib_layout {
     double extent_width_m;              /**< above 0 */
     double extent_height_m;             /**< above 0 */
     double x_m[PHYSVIB_MAX_ENCHANTERS]; /**< of each actuator */
     double y_m[PHYSVIB_MAX_ENCHANTERS]; /**< of each actuator */
     int count;                          /**< 1 to PHYSVIB_MAX_ENCHANTERS */
+    double z_m[PHYSVIB_MAX_ENCHANTERS]; /**< of each actuator: 0 of all in a plane (Docs/space.md) */
+    int part[PHYSVIB_MAX_ENCHANTERS];   /**< of each: physvib_part() of the part of the body it is on, or 0 */
 } physvib_layout;
 
 #define PHYSVIB_LAW_LINEAR 0     /**< of panning: see Docs/panning.md */
@@ -106,7 +111,9 @@ typedef struct physvib_layout {
 #define PHYSVIB_LAW_LOG_OUTER 2  /**< of panning: see Docs/panning.md */
 #define PHYSVIB_LAW_ENERGY 3     /**< of panning: see Docs/panning.md */
 #define PHYSVIB_LAW_NEIGHBOURS 4 /**< of panning: only the actuators around the place */
-#define PHYSVIB_LAW_AUTO 5       /**< NEIGHBOURS on a row of three or more, a grid, a belt; else LINEAR */
+#define PHYSVIB_LAW_AUTO 5       /**< by the layout's shape: NEIGHBOURS, LINEAR, TRIANGLES or DISTANCE */
+#define PHYSVIB_LAW_DISTANCE 6   /**< of panning: all actuators, by their distance in space */
+#define PHYSVIB_LAW_TRIANGLES 7  /**< of panning: three actuators of a layout in space, around the place */
 
 /* Fill a structure that has a `size` with its ..._init(&it, sizeof it), then change what you like. Structures
  * grow at their end only: of a program that was built with a shorter one, only that part is read and written.
@@ -174,19 +181,20 @@ typedef struct physvib_world_settings {
 
 /** A body: its mass, its vibration, whether it is a haptic source; defaults in brackets. */
 typedef struct physvib_body {
-    size_t size;           /**< set by init */
-    int is_camera;         /**< 1: it is a haptic source, its impacts are felt (0) */
-    int voice;             /**< (PHYSVIB_VOICE_OWN) */
-    int surface;           /**< number of its surface, above 0, for physvib_world_pair (0: none) */
-    double mass_kg;        /**< 0: it does not move, as a floor or a wall */
-    double inertia_kg_m2;  /**< about its centre of mass; 0: every impact is taken to go through it */
-    double gravity_scale;  /**< (1) */
-    double frequency_hz;   /**< at which it vibrates; 0: not at all (0) */
-    double decay_per_s;    /**< of its vibration (0) */
-    double static_mass_kg; /**< mass for Eq. 5.4 of a haptic source whose mass_kg is 0 */
-    double gain;           /**< of its events as a haptic source (1) */
-    double hand_mass_kg;   /**< m_h for this haptic source (PHYSVIB_UNKNOWN: the world's) */
-    double overtone_hz[3]; /**< further modes; 0: none (0) */
+    size_t size;                    /**< set by init */
+    int is_camera;                  /**< 1: it is a haptic source, its impacts are felt (0) */
+    int voice;                      /**< (PHYSVIB_VOICE_OWN) */
+    int surface;                    /**< number of its surface, above 0, for physvib_world_pair (0: none) */
+    double mass_kg;                 /**< 0: it does not move, as a floor or a wall */
+    double inertia_kg_m2;           /**< about its centre of mass, in space about every axis (see
+                                       physvib_world_move_in_space); 0: every impact is taken to go through it */
+    double gravity_scale;           /**< (1) */
+    double frequency_hz;            /**< at which it vibrates; 0: not at all (0) */
+    double decay_per_s;             /**< of its vibration (0) */
+    double static_mass_kg;          /**< mass for Eq. 5.4 of a haptic source whose mass_kg is 0 */
+    double gain;                    /**< of its events as a haptic source (1) */
+    double hand_mass_kg;            /**< m_h for this haptic source (PHYSVIB_UNKNOWN: the world's) */
+    double overtone_hz[3];          /**< further modes; 0: none (0) */
     double overtone_decay_per_s[3]; /**< of these (0) */
     double overtone_amplitude[3];   /**< relative to the first mode (1) */
     double grain_m; /**< distance of the grains of its surface, each of which excites it when a body rolls or
@@ -195,6 +203,9 @@ typedef struct physvib_body {
     double rolling;   /**< amplitude of rolling, as a share of that of sliding, 0 to 1 (0.2) */
     int is_ridged;    /**< 1: grains at equal distances, a tone (0) */
     int device; /**< number of the device on which it is felt, see physvib_live_send_each (0: the first) */
+    int part;   /**< number of the part of a body (a palm, a chest) on whose actuators it is felt as a haptic
+                   source; 0: on all, by place (0) */
+    int unused; /**< 0 */
 } physvib_body;
 
 #define PHYSVIB_POINT_NONE (-1) /**< of point_id: the points of a pair are not distinguished */
@@ -212,12 +223,12 @@ typedef struct physvib_contact {
     size_t size;              /**< set by init */
     int a;                    /**< a body */
     int b;                    /**< the other */
-    double x_m;               /**< where, in the plane of the field */
+    double x_m;               /**< where, in the plane of the field; z_m: across it */
     double y_m;               /**< where, in the plane of the field */
-    double normal_x;          /**< of length 1, from a to b (0) */
+    double normal_x;          /**< of length 1, from a to b (0); normal_z: across the plane */
     double normal_y;          /**< of length 1, from a to b (1) */
     double impulse_n_s;       /**< along the normal, in this step (PHYSVIB_UNKNOWN) */
-    double tangential_n_s;    /**< across the normal (0) */
+    double tangential_n_s;    /**< across the normal, to its left, in the plane (0) */
     double approach_m_per_s;  /**< approach speed before the engine's solver (PHYSVIB_UNKNOWN) */
     double restitution;       /**< 0 to 1; used where no impulse is set (0) */
     double effective_mass_kg; /**< used where no impulse is set (PHYSVIB_UNKNOWN: from masses, inertias and
@@ -239,6 +250,11 @@ typedef struct physvib_contact {
                      its pair touches (PHYSVIB_POINT_NONE: the pair is reported as a whole) */
     int is_impulse_of_pair; /**< 1: the impulses are those of the whole pair, repeated with each of its points
                                (0) */
+    double z_m;             /**< where, across the plane of the field (0) */
+    double normal_z;        /**< of length 1 with normal_x and normal_y, from a to b (0) */
+    double friction_x_n_s;  /**< impulse on b across the normal, in space, instead of tangential_n_s (0) */
+    double friction_y_n_s;  /**< the same (0) */
+    double friction_z_n_s;  /**< the same (0) */
 } physvib_contact;
 
 /** What became of the contacts of a world, since it was created. */
@@ -271,6 +287,7 @@ typedef struct physvib_output_facts {
     const char* silent_by;        /**< who holds the silence; NULL: unknown (NULL) */
     const char* trouble;          /**< error of the device, in one line; NULL: none (NULL) */
     const physvib_renderer_settings* renderer; /**< layout and field; NULL: unknown (NULL) */
+    physvib_int64 without_part; /**< events of a part of the body that no actuator is on, so far (0) */
 } physvib_output_facts;
 
 #define PHYSVIB_NOTE_SENSOR 0   /**< of physvib_world_note: it is a sensor, which touches nothing */
@@ -314,6 +331,9 @@ PHYSVIB_API int physvib_layout_load(const char* path, physvib_layout* layout);
 PHYSVIB_API int physvib_layout_parse(const char* text, physvib_layout* layout);
 /** The same; PHYSVIB_ERROR_ARGUMENT if it could not be loaded again. */
 PHYSVIB_API int physvib_layout_save(const char* path, const char* name, const physvib_layout* layout);
+/** The number (physvib_event.part, physvib_layout.part; above 0) of the part of a body of that name, such as
+ * "thumb"; Docs/space.md. Any name has one. Any thread. */
+PHYSVIB_API int physvib_part(const char* name);
 
 /** Event lists (CSV), see Docs/events.md. Returns how many there are; writes the first `capacity` of them to
  * `events`, which may be NULL if `capacity` is 0. */
@@ -446,6 +466,16 @@ PHYSVIB_API int physvib_world_move(physvib_world world, int body, double x_m, do
  * and joints are unknown. */
 PHYSVIB_API int physvib_world_moved(physvib_world world, int body, double vx_m_per_s, double vy_m_per_s,
                                     double spin_rad_per_s);
+/** physvib_world_move in space: the field is the plane of the first two coordinates, the third goes across
+ * it. Spin: about each axis, counter-clockwise seen from its end. `inverse_inertia_per_kg_m2`: the inverse of
+ * its moments of inertia as it is turned now, a symmetric matrix in the world's axes (xx, yy, zz, xy, xz, yz;
+ * 0: it cannot turn), as many engines have it; NULL: inertia_kg_m2 counts about every axis, as of a ball. */
+PHYSVIB_API int physvib_world_move_in_space(physvib_world world, int body, const double centre_m[3],
+                                            const double velocity_m_per_s[3], const double spin_rad_per_s[3],
+                                            const double inverse_inertia_per_kg_m2[6]);
+/** physvib_world_moved in space. */
+PHYSVIB_API int physvib_world_moved_in_space(physvib_world world, int body, const double velocity_m_per_s[3],
+                                             const double spin_rad_per_s[3]);
 /** Sets the vibration of two kinds of surfaces that meet, whatever the haptic source's voice is. */
 PHYSVIB_API int physvib_world_pair(physvib_world world, int surface, int other, double frequency_hz,
                                    double decay_per_s, double gain);

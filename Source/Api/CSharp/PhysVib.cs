@@ -16,6 +16,9 @@ public struct Event {
     public int Fixture, Other;
     public Kind Kind;
     public int Sound;
+    public double Z_m;
+    public int Part;
+    int unused;
 
     /// <summary>One impact at time 0; strength: 0 to 1 of full scale. Of a built-in material, or else of 200 Hz.</summary>
     public static Event Impact(double x_m, double y_m, double strength, string material = null) {
@@ -25,6 +28,8 @@ public struct Event {
     }
     /// <summary>The number that events of a sound of that name have.</summary>
     public static int SoundOf(string name) { return (int)Native.Check(Native.physvib_sound(Native.Utf8(name))); }
+    /// <summary>The number of the part of a body of that name ("thumb"), for Part here and in layouts.</summary>
+    public static int PartOf(string name) { return (int)Native.Check(Native.physvib_part(Native.Utf8(name))); }
 }
 
 /// <summary>Where the enchanters sit; see physvib_layout.</summary>
@@ -34,6 +39,8 @@ public struct Layout {
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] X_m;
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] Y_m;
     public int Count;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] Z_m;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public int[] Part;
 
     /// <summary>By its name, "phone4": they stand in Docs/panning.md.</summary>
     public static Layout Preset(string name) {
@@ -106,7 +113,8 @@ public struct Body {
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneDecayPerS;
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneAmplitude;
     public double Grain_m, Roughness, Rolling;
-    public int IsRidged, Device;
+    public int IsRidged, Device, Part;
+    int unused;
     /// <summary>The names of the built-in materials that vibrate.</summary>
     public static string[] Materials {
         get {
@@ -136,6 +144,8 @@ public struct Contact {
     int unused;
     /// <summary>A number of yours, ByPlace, or -1: the pair is told as a whole.</summary>
     public int PointId, IsImpulseOfPair;
+    /// <summary>In space: across the plane of the field. Friction acts on b, instead of Tangential_Ns.</summary>
+    public double Z_m, NormalZ, FrictionX_Ns, FrictionY_Ns, FrictionZ_Ns;
     public const int ByPlace = -2;
     public static Contact Create(int a, int b) {
         var made = new Contact();
@@ -184,6 +194,16 @@ public sealed class World : IDisposable {
     }
     /// <summary>Behind the engine's solver: impulses that contacts do not tell follow from momentum.</summary>
     public void Moved(int body, double vxMPerS, double vyMPerS, double spinRadPerS) { Native.Check(Native.physvib_world_moved(name, body, vxMPerS, vyMPerS, spinRadPerS)); }
+    /// <summary>Move in space, each of three numbers. The inverse of the moments of inertia is a symmetric matrix in the world's axes (xx, yy, zz, xy, xz, yz);
+    /// null: InertiaKgM2 counts about every axis.</summary>
+    public void MoveInSpace(int body, double[] centre_m, double[] velocityMPerS, double[] spinRadPerS, double[] inverseInertiaPerKgM2 = null) {
+        Native.Numbers(inverseInertiaPerKgM2, 6);
+        Native.Check(Native.physvib_world_move_in_space(name, body, Native.Numbers(centre_m, 3), Native.Numbers(velocityMPerS, 3), Native.Numbers(spinRadPerS, 3), inverseInertiaPerKgM2));
+    }
+    /// <summary>Moved in space.</summary>
+    public void MovedInSpace(int body, double[] velocityMPerS, double[] spinRadPerS) {
+        Native.Check(Native.physvib_world_moved_in_space(name, body, Native.Numbers(velocityMPerS, 3), Native.Numbers(spinRadPerS, 3)));
+    }
     public void Pair(int surface, int other, double frequencyHz, double decayPerS, double gain) {
         Native.Check(Native.physvib_world_pair(name, surface, other, frequencyHz, decayPerS, gain));
     }
@@ -232,6 +252,7 @@ public struct OutputFacts {
     public double Level;
     public long MutedChannels, Late, Dropped, Rejected;
     IntPtr silentBy, trouble, renderer;
+    public long WithoutPart;
     public static OutputFacts Create() {
         var made = new OutputFacts();
         Native.Check(Native.physvib_output_facts_init(ref made, Native.SizeOf(made)));
@@ -442,6 +463,7 @@ static class Native {
     [DllImport(Library)] internal static extern int physvib_material(byte[] name, ref Body body);
     [DllImport(Library)] internal static extern int physvib_material_load(byte[] path, byte[] name, ref Body body);
     [DllImport(Library)] internal static extern int physvib_sound(byte[] name);
+    [DllImport(Library)] internal static extern int physvib_part(byte[] name);
     [DllImport(Library)] internal static extern int physvib_event_of(byte[] material, double x, double y, double strength, out Event made);
     [DllImport(Library)] internal static extern int physvib_renderer_impact(IntPtr renderer, double x, double y, double strength);
     [DllImport(Library)] internal static extern int physvib_renderer_impact_of(IntPtr renderer, byte[] material, double x, double y, double strength);
@@ -461,6 +483,12 @@ static class Native {
     [DllImport(Library)] internal static extern int physvib_world_remove_body(IntPtr world, int body);
     [DllImport(Library)] internal static extern int physvib_world_move(IntPtr world, int body, double x, double y, double vx, double vy, double spin);
     [DllImport(Library)] internal static extern int physvib_world_moved(IntPtr world, int body, double vx, double vy, double spin);
+    [DllImport(Library)] internal static extern int physvib_world_move_in_space(IntPtr world, int body, double[] centre, double[] velocity, double[] spin, double[] inverseInertia);
+    [DllImport(Library)] internal static extern int physvib_world_moved_in_space(IntPtr world, int body, double[] velocity, double[] spin);
+    internal static double[] Numbers(double[] found, int expected) { // an array without them is for the library to refuse
+        if (found != null && found.Length != expected) throw new ArgumentException("expected " + expected + " numbers");
+        return found;
+    }
     [DllImport(Library)] internal static extern int physvib_world_pair(IntPtr world, int surface, int other, double frequencyHz, double decayPerS, double gain);
     [DllImport(Library)] internal static extern int physvib_world_begin_step(IntPtr world, double seconds, double gravity);
     [DllImport(Library)] internal static extern int physvib_world_touch(IntPtr world, ref Contact contact);

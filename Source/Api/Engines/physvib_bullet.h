@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bullet 3: construct PhysVibBullet, number the bodies (setUserIndex, from 0), and call stepSimulation as
-// usual. The field is the x, y plane. C++17 and later.
+// usual. Contacts are those in space; the field is the x, y plane, and z goes across it. C++17 and later.
 #pragma once
 #include <algorithm>
 #include <btBulletDynamicsCommon.h>
@@ -11,9 +11,15 @@
 /// their own call begin() and end() from them.
 class PhysVibBullet {
 public:
+    /// Of a game whose bodies stay in the x, y plane (setLinearFactor, setAngularFactor): all contacts count
+    /// at z = 0. A normal is projected onto the plane, and a contact whose normal is more than 60 degrees out
+    /// of it is left out.
+    enum Contacts { inSpace, inPlane };
+
     /// Both arguments outlive this object; bodies have the same numbers in both.
-    PhysVibBullet(btDynamicsWorld& world, physvib_world name)
-        : name_(name) {
+    PhysVibBullet(btDynamicsWorld& world, physvib_world name, Contacts contacts = inSpace)
+        : name_(name)
+        , isPlane_(contacts == inPlane) {
         world.setInternalTickCallback([](btDynamicsWorld* w, btScalar dt) { self(w).begin(*w, dt); }, this,
                                       true);
         world.setInternalTickCallback([](btDynamicsWorld* w, btScalar) { self(w).end(*w); }, this, false);
@@ -26,11 +32,8 @@ public:
         check(physvib_world_begin_step(name_, dt, world.getGravity().length()));
         for (int i = 0; i < world.getNumCollisionObjects(); ++i)
             if (const btRigidBody* body = btRigidBody::upcast(world.getCollisionObjectArray()[i]);
-                body != nullptr && body->getUserIndex() >= 0) {
-                const btVector3 &at = body->getCenterOfMassPosition(), &v = body->getLinearVelocity();
-                check(physvib_world_move(name_, body->getUserIndex(), at.x(), at.y(), v.x(), v.y(),
-                                         body->getAngularVelocity().z()));
-            }
+                body != nullptr && body->getUserIndex() >= 0)
+                move(*body);
     }
     /// After Bullet's step: reports the contacts.
     void end(btDynamicsWorld& world) {
@@ -48,9 +51,10 @@ public:
                 contact.a = manifold.getBody0()->getUserIndex(),
                 contact.b = manifold.getBody1()->getUserIndex();
                 contact.x_m = point.getPositionWorldOnB().x(), contact.y_m = point.getPositionWorldOnB().y();
-                const btVector3 normal = inPlane(-point.m_normalWorldOnB);
+                const btVector3 normal = isPlane_ ? flat(-point.m_normalWorldOnB) : -point.m_normalWorldOnB;
                 if (normal.isZero()) continue; // the normal is across the field
-                contact.normal_x = normal.x(), contact.normal_y = normal.y();
+                contact.normal_x = normal.x(), contact.normal_y = normal.y(), contact.normal_z = normal.z();
+                contact.z_m = isPlane_ ? 0 : point.getPositionWorldOnB().z();
                 contact.impulse_n_s = point.getAppliedImpulse();
                 contact.restitution = std::clamp(static_cast<double>(point.m_combinedRestitution), 0.0, 1.0);
                 contact.gap_m = point.getDistance();  // at the start of the step
@@ -77,6 +81,18 @@ public:
     }
 
 private:
+    void move(const btRigidBody& body) {
+        const btVector3 &at = body.getCenterOfMassPosition(), &v = body.getLinearVelocity(),
+                        &spin = body.getAngularVelocity(), &free = body.getAngularFactor();
+        const int id = body.getUserIndex();
+        if (isPlane_) return check(physvib_world_move(name_, id, at.x(), at.y(), v.x(), v.y(), spin.z()));
+        const btMatrix3x3& inverse = body.getInvInertiaTensorWorld();
+        const double centre[] = {at.x(), at.y(), at.z()}, velocity[] = {v.x(), v.y(), v.z()},
+                     turns[] = {spin.x(), spin.y(), spin.z()};
+        const auto of = [&](int i, int j) { return double(inverse[i][j] * free[i] * free[j]); };
+        const double turning[] = {of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(0, 2), of(1, 2)};
+        check(physvib_world_move_in_space(name_, id, centre, velocity, turns, turning));
+    }
     // PHYSVIB_NOTE_..., or -1
     static int noteOf(const btDynamicsWorld& world, const btCollisionObject& body) {
         if (body.getActivationState() == DISABLE_SIMULATION) return PHYSVIB_NOTE_DISABLED;
@@ -97,13 +113,14 @@ private:
     static PhysVibBullet& self(btDynamicsWorld* world) {
         return *static_cast<PhysVibBullet*>(world->getWorldUserInfo());
     }
-    static btVector3 inPlane(const btVector3& normal) {
-        const btVector3 flat(normal.x(), normal.y(), 0);
-        return flat.length2() < btScalar(0.25) ? btVector3(0, 0, 0) : flat.normalized();
+    static btVector3 flat(const btVector3& normal) {
+        const btVector3 part(normal.x(), normal.y(), 0);
+        return part.length2() < btScalar(0.25) ? btVector3(0, 0, 0) : part.normalized();
     }
     void check(int code) {
         if (code < 0 && error_.empty()) error_ = physvib_error();
     }
     physvib_world name_;
+    bool isPlane_;
     std::string error_;
 };

@@ -2,7 +2,9 @@
 /* ODE: number the geoms (dGeomSetData, integers from 1); call physvib_ode_touch for each contact joint in the
  * near callback, then physvib_ode_step. A touching geom without a number is an error. Define
  * PHYSVIB_NUMBERS_FROM_0 for numbers from 0, as in earlier versions; a geom without a number is then body 0.
- * C99 and later, C++11 and later. */
+ * Contacts are those in space; the field is the x, y plane, and z goes across it. A game in that plane
+ * (dJointCreatePlane2D) sets `is_plane`: all contacts then count at z = 0, and a normal that is not in the
+ * plane is an error. C99 and later, C++11 and later. */
 #ifndef PHYSVIB_ODE_H
 #define PHYSVIB_ODE_H
 #include <math.h>
@@ -18,10 +20,12 @@ typedef struct physvib_ode {
     int count;           /**< joints in this step; more than PHYSVIB_ODE_MOST are an error */
     dJointFeedback feedback[PHYSVIB_ODE_MOST]; /**< of each joint */
     physvib_contact contact[PHYSVIB_ODE_MOST]; /**< of each joint */
-    double pull_kg[PHYSVIB_ODE_MOST]; /**< mass of a falling body against a fixed one, towards the first geom
-                                         or away from it */
-    int code;                         /**< the first error so far, or PHYSVIB_OK */
-    char error[160];                  /**< text of that error */
+    double pull[PHYSVIB_ODE_MOST]; /**< of a falling body against a fixed one: 1 if it is the second geom's,
+                                      -1 if the first's; else 0 */
+    int code;                      /**< the first error so far, or PHYSVIB_OK */
+    char error[160];               /**< text of that error */
+    dContactGeom geom[PHYSVIB_ODE_MOST]; /**< of each joint */
+    int is_plane;                        /**< 1: contacts in the x, y plane alone (0) */
 } physvib_ode;
 
 PHYSVIB_UNUSED static void physvib_ode_check(physvib_ode* ode, int code, const char* line) {
@@ -42,11 +46,19 @@ PHYSVIB_UNUSED static int physvib_ode_is_numbered(dGeomID geom) {
 PHYSVIB_UNUSED static void physvib_ode_move(physvib_ode* ode, dGeomID geom) {
     dBodyID body = dGeomGetBody(geom);
     const dReal *at = body ? dBodyGetPosition(body) : NULL, *v = body ? dBodyGetLinearVel(body) : NULL;
-    if (body)
-        physvib_ode_check(ode,
-                          physvib_world_move(ode->world, (int)(intptr_t)dGeomGetData(geom), at[0], at[1],
-                                             v[0], v[1], dBodyGetAngularVel(body)[2]),
+    const int id = (int)(intptr_t)dGeomGetData(geom);
+    if (!body) return;
+    if (ode->is_plane) {
+        physvib_ode_check(
+            ode, physvib_world_move(ode->world, id, at[0], at[1], v[0], v[1], dBodyGetAngularVel(body)[2]),
+            physvib_error());
+    } else { /* how easily it turns does not matter, as ODE reports impulses */
+        const dReal* turns = dBodyGetAngularVel(body);
+        const double centre[3] = {at[0], at[1], at[2]}, velocity[3] = {v[0], v[1], v[2]},
+                     spin[3] = {turns[0], turns[1], turns[2]};
+        physvib_ode_check(ode, physvib_world_move_in_space(ode->world, id, centre, velocity, spin, NULL),
                           physvib_error());
+    }
 }
 
 PHYSVIB_UNUSED static double physvib_ode_mass(dGeomID geom) { /* 0: nothing moves it */
@@ -57,11 +69,35 @@ PHYSVIB_UNUSED static double physvib_ode_mass(dGeomID geom) { /* 0: nothing move
     return mass.mass;
 }
 
-PHYSVIB_UNUSED static double physvib_ode_speed(dGeomID geom, const dContactGeom* at) { /* along the normal */
+/* Along the normal. `moved_s`: the length of a step that has moved the body since; its point moved with it.
+ */
+PHYSVIB_UNUSED static double physvib_ode_speed(dGeomID geom, const dContactGeom* at, double moved_s) {
     dBodyID body = dGeomGetBody(geom);
     dVector3 v = {0, 0, 0, 0};
-    if (body) dBodyGetPointVel(body, at->pos[0], at->pos[1], at->pos[2], v);
+    const dReal *by = body ? dBodyGetLinearVel(body) : v, s = (dReal)moved_s;
+    if (body)
+        dBodyGetPointVel(body, at->pos[0] + s * by[0], at->pos[1] + s * by[1], at->pos[2] + s * by[2], v);
     return dCalcVectorDot3(v, at->normal);
+}
+
+/* The part of a contact's impulse that is the impact. Gravity of the step adds a load. ODE's error correction
+ * (dWorldSetERP) moves an overlap apart by a speed that the bodies keep: what should stay leaves up to a
+ * fifth as fast as it came. Surfaces that part no faster than that are taken as not bouncing, so a
+ * restitution below it counts as 0. */
+PHYSVIB_UNUSED static double physvib_ode_share(const physvib_ode* ode, int index, dWorldID world,
+                                               double seconds) {
+    const dContactGeom* geom = &ode->geom[index];
+    const double approach = ode->contact[index].approach_m_per_s,
+                 parts =
+                     physvib_ode_speed(geom->g1, geom, seconds) - physvib_ode_speed(geom->g2, geom, seconds),
+                 most = dWorldGetContactMaxCorrectingVel(world);
+    double corrects = dWorldGetERP(world) * geom->depth / seconds, falls;
+    dVector3 g;
+    dWorldGetGravity(world, g);
+    falls = ode->pull[index] * dCalcVectorDot3(g, geom->normal) * seconds;
+    if (corrects > most) corrects = most;
+    return (approach + (parts > 1.1 * corrects ? parts : 0)) /
+           (approach + (falls > 0 ? falls : 0) + (parts > 0 ? parts : 0));
 }
 
 /* Call in the near callback, after dJointCreateContact(...) and dJointAttach(joint, ...). ODE's normals point
@@ -84,10 +120,12 @@ PHYSVIB_UNUSED static void physvib_ode_touch(physvib_ode* ode, dJointID joint, c
     contact->a = (int)(intptr_t)dGeomGetData(geom->g1), contact->b = (int)(intptr_t)dGeomGetData(geom->g2);
     contact->x_m = geom->pos[0], contact->y_m = geom->pos[1], contact->normal_x = -geom->normal[0],
     contact->normal_y = -geom->normal[1];
-    contact->approach_m_per_s = physvib_ode_speed(geom->g2, geom) - physvib_ode_speed(geom->g1, geom);
+    if (!ode->is_plane) contact->z_m = geom->pos[2], contact->normal_z = -geom->normal[2];
+    contact->approach_m_per_s = physvib_ode_speed(geom->g2, geom, 0) - physvib_ode_speed(geom->g1, geom, 0);
     contact->gap_m = -geom->depth; /* at the start of the step */
     contact->point_id = PHYSVIB_POINT_BY_PLACE;
-    ode->pull_kg[ode->count] = a > 0 && b > 0 ? 0 : b - a;
+    ode->geom[ode->count] = *geom;
+    ode->pull[ode->count] = (b > 0) - (a > 0);
     dJointSetFeedback(joint, &ode->feedback[ode->count++]);
 }
 
@@ -102,11 +140,10 @@ PHYSVIB_UNUSED static int physvib_ode_step(physvib_ode* ode, dWorldID world, dou
     for (i = 0; i < ode->count; ++i) {
         physvib_contact* contact = &ode->contact[i];
         const dReal* f = ode->feedback[i].f1;
-        const double pull = -ode->pull_kg[i] * (g[0] * contact->normal_x + g[1] * contact->normal_y);
-        contact->impulse_n_s =
-            seconds * fabs(f[0] * contact->normal_x + f[1] * contact->normal_y); /* of either of the two */
-        /* Gravity adds a load in this step that is not part of an impact. */
-        if (contact->approach_m_per_s > 0.1 && pull > 0) contact->impulse_n_s -= seconds * pull;
+        contact->impulse_n_s = seconds * fabs(f[0] * contact->normal_x + f[1] * contact->normal_y +
+                                              f[2] * contact->normal_z); /* of either of the two */
+        if (contact->approach_m_per_s > 0.1)
+            contact->impulse_n_s *= physvib_ode_share(ode, i, world, seconds);
         physvib_ode_check(ode, physvib_world_touch(ode->world, contact), physvib_error());
     }
     ode->count = 0;

@@ -40,6 +40,7 @@ int physvib_live_explain(physvib_live name, physvib_world world, char* text, siz
         facts.muted_channels = static_cast<physvib_int64>(live.session().rendered().mutedChannels());
         facts.late = static_cast<physvib_int64>(now.render.late);
         facts.rejected = static_cast<physvib_int64>(now.render.rejected);
+        facts.without_part = static_cast<physvib_int64>(now.render.withoutPart);
         facts.renderer = &settings;
         const int length = physvib_world_explain_output(world, &facts, text, size);
         return length < 0 ? fail(length, physvib_error()) : length;

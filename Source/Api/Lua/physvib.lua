@@ -12,19 +12,20 @@ ffi.cdef [[
 typedef struct physvib_renderer_name *physvib_renderer;
 typedef struct physvib_world_name *physvib_world;
 typedef struct physvib_pads_name *physvib_pads;
-typedef struct { int64_t time_ns, duration_ns; double frequency_hz, decay_per_s, amplitude, x_m, y_m, impulse_n_s, mass_kg; int fixture, other, kind, sound; } physvib_event;
-typedef struct { double extent_width_m, extent_height_m, x_m[64], y_m[64]; int count; } physvib_layout;
+typedef struct { int64_t time_ns, duration_ns; double frequency_hz, decay_per_s, amplitude, x_m, y_m, impulse_n_s, mass_kg; int fixture, other, kind, sound; double z_m; int part, unused; } physvib_event;
+typedef struct { double extent_width_m, extent_height_m, x_m[64], y_m[64]; int count; double z_m[64]; int part[64]; } physvib_layout;
 typedef struct { size_t size; int rate_hz, channels, law, limiter; double exponent, field_width_m, field_height_m; physvib_layout layout; } physvib_renderer_settings;
 typedef struct { size_t size; int live_modes, pending; int64_t frames, played, late, rejected, refused; } physvib_renderer_status;
 typedef struct { size_t size; int is_muted, hits_per_step, at_body, drops_hits_of_removed; double field_width_m, field_x_m, field_y_m, field_radians,
     normalisation_s_per_m, hand_mass_kg, drive_gain, threshold_m_per_s, full_scale_impulse_n_s, settling_s; } physvib_world_settings;
 typedef struct { size_t size; int is_camera, voice, surface; double mass_kg, inertia_kg_m2, gravity_scale, frequency_hz, decay_per_s, static_mass_kg, gain,
-    hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3], grain_m, roughness, rolling; int is_ridged, device; } physvib_body;
+    hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3], grain_m, roughness, rolling; int is_ridged, device, part, unused; } physvib_body;
 typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, impulse_n_s, tangential_n_s, approach_m_per_s, restitution, effective_mass_kg,
-    fraction, gap_m, gap_fraction, along_a_m_per_s, along_b_m_per_s; int is_soft, unused, point_id, is_impulse_of_pair; } physvib_contact;
+    fraction, gap_m, gap_fraction, along_a_m_per_s, along_b_m_per_s; int is_soft, unused, point_id, is_impulse_of_pair;
+    double z_m, normal_z, friction_x_n_s, friction_y_n_s, friction_z_n_s; } physvib_contact;
 typedef struct { size_t size; int64_t contacts, below_threshold, no_source, unplayable, muted, dropped, events; double threshold_m_per_s; } physvib_world_counts;
 typedef struct { size_t size; int is_missing, is_silent, channels, unused; double level; int64_t muted_channels, late, dropped, rejected; const char *silent_by, *trouble;
-    const physvib_renderer_settings *renderer; } physvib_output_facts;
+    const physvib_renderer_settings *renderer; int64_t without_part; } physvib_output_facts;
 const char *physvib_version(void);
 const char *physvib_error(void);
 int physvib_renderer_settings_init(physvib_renderer_settings *, size_t);
@@ -53,6 +54,7 @@ const char *physvib_material_name(int);
 int physvib_material(const char *, physvib_body *);
 int physvib_material_load(const char *, const char *, physvib_body *);
 int physvib_sound(const char *);
+int physvib_part(const char *);
 int physvib_event_of(const char *, double, double, double, physvib_event *);
 int physvib_renderer_impact(physvib_renderer, double, double, double);
 int physvib_renderer_impact_of(physvib_renderer, const char *, double, double, double);
@@ -73,6 +75,8 @@ int physvib_world_set_body(physvib_world, int, const physvib_body *);
 int physvib_world_remove_body(physvib_world, int);
 int physvib_world_move(physvib_world, int, double, double, double, double, double);
 int physvib_world_moved(physvib_world, int, double, double, double);
+int physvib_world_move_in_space(physvib_world, int, const double *, const double *, const double *, const double *);
+int physvib_world_moved_in_space(physvib_world, int, const double *, const double *);
 int physvib_world_pair(physvib_world, int, int, double, double, double);
 int physvib_world_begin_step(physvib_world, double, double);
 int physvib_world_touch(physvib_world, const physvib_contact *);
@@ -202,7 +206,7 @@ Attachment.__index = Attachment
 -- `world`: a love.physics world. Its callbacks go on being called: those that are there, and those set later. `settings` of
 -- physvib_world_settings, and field_height_m: the y (in metres) at which LÖVE's world ends below; without it that of the window.
 function physvib.attach(world, settings)
-    local self = setmetatable({world = world, metre = love.physics.getMeter(), ids = {}, next = 0, touching = {}, starts = {}}, Attachment)
+    local self = setmetatable({world = world, metre = love.physics.getMeter(), ids = {}, next = 0, touching = {}, starts = {}, last_dt = 0}, Attachment)
     local name = ffi.new("physvib_world[1]")
     call("world_create", self:taken(settings), name)
     self.name = ffi.gc(name[0], c.physvib_world_free)
@@ -262,12 +266,15 @@ function Attachment:remove(fixture)
     self.ids[fixture], self.starts[fixture] = nil, nil
 end
 
--- How far a camera has come in this step, pixels along the normal: where Box2D stops what is fast at what it strikes, that tells when.
-function Attachment:way(fixture, nx, ny)
+-- How far a point of a camera has come in this step, pixels along the normal: where Box2D stops what is fast at what it strikes, that tells when.
+function Attachment:way(fixture, px, py, nx, ny)
     local start = self.starts[fixture]
     if not start then return 0 end
-    local x, y = fixture:getBody():getPosition()
-    return (x - start.x) * nx + (y - start.y) * ny
+    local body = fixture:getBody()
+    local x, y = body:getPosition()
+    local turned = body:getAngle() - start.angle
+    local c, s, rx, ry = math.cos(turned), math.sin(turned), px - x, py - y
+    return (px - start.x - c * rx - s * ry) * nx + (py - start.y + s * rx - c * ry) * ny
 end
 
 function Attachment:listen()
@@ -287,6 +294,7 @@ function Attachment:listen()
     self.world:setCallbacks(unpack(self.ours))
 end
 
+local least_speed = 0.02 -- m/s; slower points are no impacts, and nobody asks when they met
 local function pair(a, b) return a < b and a * 1048576 + b or b * 1048576 + a end
 
 function Attachment:begin(a, b, contact)
@@ -308,23 +316,56 @@ function Attachment:finish(a, b)
     if touch.is_told then call("world_end", self.name, self.ids[a], self.ids[b]) end
 end
 
--- Before the solver: how fast the bodies near each other at each of the (one or two) points where they meet.
+-- Where a fixture's surface lies at a point, pixels along the normal; nil for a chain. `side`: 1 if the normal leaves the fixture, -1 if not.
+local function surface(fixture, x, y, nx, ny, side)
+    local shape, body = fixture:getShape(), fixture:getBody()
+    local kind = shape:getType()
+    if kind == "chain" then return nil end
+    if kind == "circle" then
+        local cx, cy = body:getWorldPoint(shape:getPoint())
+        return cx * nx + cy * ny + side * shape:getRadius()
+    end
+    local points, t, best, nearest = {body:getWorldPoints(shape:getPoints())}, x * ny - y * nx, nil, math.huge
+    local px, py = points[#points - 1], points[#points]
+    for i = 1, #points, 2 do -- each side of it, at its place that is nearest to the point along the surface
+        local qx, qy = points[i], points[i + 1]
+        local from, to = px * ny - py * nx, qx * ny - qy * nx
+        local share = from ~= to and math.max(0, math.min(1, (t - from) / (to - from))) or 0
+        local off, height = math.abs(from + share * (to - from) - t), (px + share * (qx - px)) * nx + (py + share * (qy - py)) * ny
+        if off < nearest - 1e-3 or (off < nearest + 1e-3 and side * height > side * best) then best, nearest = height, math.min(off, nearest) end
+        px, py = qx, qy
+    end
+    return best + side * shape:getRadius()
+end
+
+-- How deep the surfaces overlap at a point of a contact, pixels. LÖVE gives the middle between them, and that is half of it.
+local function overlap(a, b, x, y, nx, ny)
+    local ofA, ofB = surface(a, x, y, nx, ny, 1), surface(b, x, y, nx, ny, -1)
+    if ofA and ofB then return ofA - ofB end
+    local middle = x * nx + y * ny
+    return 2 * (ofA and ofA - middle or ofB and middle - ofB or 0)
+end
+
+-- Before the solver: how fast the bodies near each other at each of the (one or two) points where they meet, and when they met there, in steps
+-- from the start of this one. What overlaps at its start met in the step before.
 function Attachment:look(a, b, contact)
     local touch = self.touching[pair(self:id(a), self:id(b))]
     if not (touch and (touch.is_new or self.starts[a] or self.starts[b])) then return end
     local nx, ny = contact:getNormal()
     local xs = {contact:getPositions()}
-    touch.approach, touch.fraction = {}, 0
-    local fastest = 0
+    touch.approach, touch.fraction = {}, {}
     for i = 1, #xs, 2 do
-        local ax, ay = a:getBody():getLinearVelocityFromWorldPoint(xs[i], xs[i + 1])
-        local bx, by = b:getBody():getLinearVelocityFromWorldPoint(xs[i], xs[i + 1])
-        local speed = (ax - bx) * nx + (ay - by) * ny
-        touch.approach[#touch.approach + 1] = speed / self.metre
-        fastest = math.max(fastest, speed)
-    end
-    if fastest > 0 and self.dt > 0 then
-        touch.fraction = math.max(0, math.min(1, (self:way(a, nx, ny) - self:way(b, nx, ny)) / (fastest * self.dt)))
+        local x, y = xs[i], xs[i + 1]
+        local ax, ay = a:getBody():getLinearVelocityFromWorldPoint(x, y)
+        local bx, by = b:getBody():getLinearVelocityFromWorldPoint(x, y)
+        local speed, fraction = (ax - bx) * nx + (ay - by) * ny, 0
+        if speed > least_speed * self.metre and self.dt > 0 then
+            local longest = math.max(self.dt, self.last_dt)
+            local seconds = math.max(0, math.min(self.dt, (self:way(a, x, y, nx, ny) - self:way(b, x, y, nx, ny)) / speed)) -
+                math.max(0, math.min(longest, overlap(a, b, x, y, nx, ny) / speed))
+            fraction = math.max(-1, seconds / (seconds < 0 and self.last_dt > 0 and self.last_dt or self.dt))
+        end
+        touch.approach[#touch.approach + 1], touch.fraction[#touch.fraction + 1] = speed / self.metre, fraction
     end
     self:move(a)
     self:move(b)
@@ -356,10 +397,10 @@ function Attachment:push(a, b, contact, n1, t1, n2, t2)
         told.x_m, told.y_m = self:place(i == 1 and x or x2, i == 1 and y or y2)
         told.impulse_n_s, told.tangential_n_s = (i == 1 and n1 or n2 or 0) / self.metre, -self.up * (i == 1 and t1 or t2 or 0) / self.metre
         told.approach_m_per_s = touch.approach and touch.approach[i] or -1e300
-        told.fraction = touch.approach and touch.fraction or -1e300
+        told.fraction = touch.fraction and touch.fraction[i] or -1e300
         call(touch.is_new and "world_begin" or "world_push", self.name, told)
     end
-    touch.is_new, touch.is_told, touch.approach = false, true, nil
+    touch.is_new, touch.is_told, touch.approach, touch.fraction = false, true, nil, nil
 end
 
 -- What a fixture was is forgotten when it has been destroyed, with its body too: a few are looked at in each step, cameras always.
@@ -376,8 +417,8 @@ function Attachment:sweep()
     end
 end
 
--- world:update(dt), and what is felt of it.
-function Attachment:update(dt)
+-- world:update(dt, ...), with its numbers of iterations if they are given, and what is felt of it.
+function Attachment:update(dt, ...)
     local now = {self.world:getCallbacks()}
     for i = 1, 4 do
         if now[i] ~= self.ours[i] then self:listen() break end -- the game has set others
@@ -385,12 +426,14 @@ function Attachment:update(dt)
     self:sweep()
     for fixture, start in pairs(self.starts) do
         start.x, start.y = fixture:getBody():getPosition()
+        start.angle = fixture:getBody():getAngle()
     end
     self.dt = dt
     local gx, gy = self.world:getGravity()
     call("world_begin_step", self.name, dt, math.sqrt(gx * gx + gy * gy) / self.metre)
-    self.world:update(dt)
+    self.world:update(dt, ...)
     call("world_end_step", self.name)
+    self.last_dt = dt
 end
 
 -- Its settings from the next step on (is_muted, drive_gain...): all of them, those that are not given as at first.

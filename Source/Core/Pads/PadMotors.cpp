@@ -14,9 +14,9 @@ double inHundredths(double command) noexcept {
 constexpr double nearEnough = 0.03; // of full strength: an imperceptible difference that would cost a command
 
 /// 0: all in the left grip, 1: all in the right one.
-double sideOf(const CollisionEvent& event, double x, double y, const PhantomPanner& grips) noexcept {
+double sideOf(const CollisionEvent& event, const PhantomPanner& grips) noexcept {
     PhantomPanner::Gains gains{};
-    grips.gainsAt(event, x, y, gains);
+    grips.gainsAt(event, gains);
     const double left = gains[0] * gains[0], right = gains[1] * gains[1];
     return left + right > 0.0 ? right / (left + right) : 0.5;
 }
@@ -40,9 +40,8 @@ bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& grips) 
     voice.energy = event.amplitude * event.amplitude;
     voice.heavyShare = 1.0 / (1.0 + std::pow(event.frequencyHz / law_.splitHz, 4.0));
     voice.travelNs = event.course.travelNs;
-    voice.fromSide = sideOf(event, event.x, event.y, grips);
-    voice.toSide =
-        voice.travelNs > 0 ? sideOf(event, event.course.toX, event.course.toY, grips) : voice.fromSide;
+    voice.fromSide = sideOf(event, grips);
+    voice.toSide = voice.travelNs > 0 ? sideOf(movedAlong(event, 1.0), grips) : voice.fromSide;
     const Energies energies = shared(voice.energy, voice.heavyShare, voice.fromSide);
     voice.low = energies.low, voice.high = energies.high;
     const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(waits_);

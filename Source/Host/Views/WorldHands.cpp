@@ -45,6 +45,14 @@ std::vector<std::string> WorldView::bodiesAt(juce::Point<float> place) const {
     return names;
 }
 
+WorldView::Target WorldView::targetAt(juce::Point<float> place) const {
+    Target target{enchanterAt(place), {}, map().shareAt(place)};
+    if (target.enchanter >= 0) return target;
+    const auto under = bodiesAt(place);
+    if (!under.empty()) target.body = under.front();
+    return target;
+}
+
 int WorldView::enchanterAt(juce::Point<float> p) const {
     const auto at = map();
     for (int j = layout_.geometry.count - 1; j >= 0; --j)
@@ -62,9 +70,7 @@ void WorldView::mouseDown(const juce::MouseEvent& e) {
     const int body = grip_.enchanter < 0 ? bodyAt(e.position) : -1;
     if (e.mods.isPopupMenu()) {
         grip_ = {};
-        if (onMenu)
-            onMenu(body >= 0 ? cast_[static_cast<std::size_t>(body)].name : std::string{},
-                   map().shareAt(e.position));
+        if (onMenu) onMenu(e.position);
         return;
     }
     if (onPull) grip_.body = body;

@@ -18,7 +18,8 @@ constexpr double hitMs = 450.0;         // how long a hit glows
 constexpr std::size_t mostHits = 48;    // simultaneous; more would only glare
 constexpr std::size_t mostTraces = 400; // for 30 sliding pairs
 constexpr float wallPixels = 11.0f;     // bodies around the field are drawn as a frame of this width
-constexpr float badgePixels = 30.0f;
+constexpr float badgePixels = 30.0f, widestBadgePixels = 96.0f;
+constexpr int fewBadges = 16; // more are drawn smaller
 
 float levelOf(double amplitude) {
     return juce::jlimit(
@@ -140,7 +141,7 @@ juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
 }
 
 juce::Rectangle<float> WorldView::roomOfField() const {
-    return getLocalBounds().withTrimmedBottom(footRoom_).reduced(margin_, std::max(0, margin_ - 6)).toFloat();
+    return room_.subtractedFrom(getLocalBounds()).reduced(margin_, std::max(0, margin_ - 6)).toFloat();
 }
 
 float WorldView::fittingPixelsPerMetre() const {
@@ -239,9 +240,18 @@ Vector WorldView::metresAt(juce::Point<float> place) const {
             static_cast<double>((at.field.getBottom() - place.y) / at.pixelsPerMetre)};
 }
 
+juce::String WorldView::labelOf(int enchanter) const {
+    return juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(enchanter)].label.c_str());
+}
+
+juce::Font WorldView::badgeFont() const {
+    return {layout_.geometry.count > fewBadges ? text::small : text::medium, juce::Font::bold};
+}
+
 juce::Rectangle<float> WorldView::badgeOf(int enchanter, const Map&) const {
-    const float size = layout_.geometry.count > 16 ? 0.7f * badgePixels : badgePixels;
-    return juce::Rectangle<float>{size, size}
+    const float size = layout_.geometry.count > fewBadges ? 0.7f * badgePixels : badgePixels;
+    const auto words = badgeFont().getStringWidthFloat(labelOf(enchanter)) + 10.0f;
+    return juce::Rectangle<float>{juce::jlimit(size, widestBadgePixels, words), size}
         .withCentre(placeOfEnchanter(enchanter))
         .constrainedWithin(getLocalBounds().reduced(4).toFloat());
 }
@@ -378,7 +388,7 @@ void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
     const auto strongest = std::ranges::max_element(hits_, {}, light);
     if (strongest == hits_.end() || panner_.channels() == 0) return;
     PhantomPanner::Gains gains{};
-    panner_.gainsAt(strongest->event.x, strongest->event.y, gains);
+    panner_.gainsOf(strongest->event, Spread::layout, gains);
     const auto from = at.at(strongest->event.x, strongest->event.y);
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const auto gain = static_cast<float>(gains[static_cast<std::size_t>(j)]);
@@ -410,9 +420,8 @@ void WorldView::drawEnchanters(juce::Graphics& g, const Map& at) const {
         g.setColour(colour);
         g.drawRoundedRectangle(badge, 7.0f, 2.0f);
         if (j == selected_) g.drawRoundedRectangle(badge.expanded(4.0f), 9.0f, 1.5f);
-        g.setFont(juce::Font{text::medium, juce::Font::bold});
-        g.drawText(juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(j)].label.c_str()),
-                   badge, juce::Justification::centred, false);
+        g.setFont(badgeFont());
+        g.drawText(labelOf(j), badge.reduced(3.0f, 0.0f), juce::Justification::centred, true);
     }
 }
 
@@ -434,12 +443,8 @@ void WorldView::drawFiles(juce::Graphics& g) const {
         enchanter >= 0 ? badgeOf(enchanter, at).expanded(5.0f)
                        : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(placeOfShare(at.shareAt(*filesAt_)));
     const float corner = enchanter >= 0 ? 10.0f : 13.0f;
-    const auto words = enchanter >= 0
-                           ? "felt on " +
-                                 juce::String::fromUTF8(
-                                     layout_.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()) +
-                                 " alone"
-                           : juce::String{"felt here"};
+    const auto words =
+        enchanter >= 0 ? "felt on " + labelOf(enchanter) + " alone" : juce::String{"felt here"};
     const juce::Font font{text::small};
     const float below = 0.5f * target.getHeight() + 15.0f;
     const auto plate = juce::Rectangle<float>{font.getStringWidthFloat(words) + 14.0f, 20.0f}

@@ -59,8 +59,8 @@ public:
     void showGainsOf(int enchanter);
     /// Width of the display, see screenPixelsPerMetre(). M.
     void setDisplayWidth(double metres) { displayWidthMetres_ = metres; }
-    /// Height kept free below the field, for text over the view. M.
-    void setFootRoom(int pixels) { footRoom_ = pixels; }
+    /// Space kept free around the field, for text and tools over the view. M.
+    void setRoom(juce::BorderSize<int> pixels) { room_ = pixels, gains_ = {}, repaint(); }
     /// Width kept free around the field, for the actuators on its edge. M.
     void setMargin(int pixels) { margin_ = pixels; }
     void select(int enchanter); ///< draws a ring around it; -1: none
@@ -79,8 +79,8 @@ public:
     std::function<void(int enchanter)> onDetach; ///< dropped outside
     std::function<void(FieldShare at)> onAttach;
     std::function<void(int enchanter)> onSelect;
-    std::function<void(const std::string& body, FieldShare at)> onMenu; ///< right click; body may be empty
-    std::function<void(FieldShare at)> onSpot;                          ///< a click without a drag
+    std::function<void(juce::Point<float> place)> onMenu; ///< right click; targetAt() says on what
+    std::function<void(FieldShare at)> onSpot;            ///< a click without a drag
     /// Whether the dragged files may be dropped.
     std::function<bool(const juce::StringArray& files)> takesFiles;
     /// Files dropped on that actuator; -1: in the field.
@@ -115,6 +115,14 @@ public:
     float pixelsPerMetre() const { return map().pixelsPerMetre; }
     std::optional<BodyPose> poseOfBody(const std::string& name) const; ///< as drawn; none: absent
     std::vector<std::string> bodiesAt(juce::Point<float> place) const; ///< of any type, topmost first
+    /// What lies at a place: an actuator, else the topmost body, else nothing.
+    struct Target {
+        int enchanter = -1;
+        std::string body;
+        FieldShare at;
+    };
+    Target targetAt(juce::Point<float> place) const;
+    juce::Rectangle<float> badgeAt(int enchanter) const { return badgeOf(enchanter, map()); }
 
 private:
     struct Snapshot {
@@ -171,6 +179,8 @@ private:
     int bodyAt(juce::Point<float> p) const;
     bool isOn(std::size_t body, juce::Point<float> p) const;
     int enchanterAt(juce::Point<float> p) const;
+    juce::String labelOf(int enchanter) const;
+    juce::Font badgeFont() const;
     juce::Rectangle<float> badgeOf(int enchanter, const Map& at) const;
     void drawGround(juce::Graphics& g, const Map& at);
     void drawBodies(juce::Graphics& g, const Map& at) const;
@@ -200,7 +210,8 @@ private:
     std::array<float, limits::maxEnchanters> peaks_{};
     double displayWidthMetres_ = 0.0, worldScale_ = 0.0;
     std::vector<MaterialPicture> pictures_;
-    int shownGains_ = -1, selected_ = -1, footRoom_ = 0, margin_ = 38;
+    juce::BorderSize<int> room_;
+    int shownGains_ = -1, selected_ = -1, margin_ = 38;
     bool showsMaterials_ = false;
     juce::Image gains_;
     Grip grip_;

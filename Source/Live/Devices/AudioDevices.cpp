@@ -2,6 +2,7 @@
 // Scans drivers for their output devices.
 #include "Live/Devices/AudioDevices.h"
 #include "Io/Text/CleanText.h"
+#include "Live/Devices/PicoDevice.h"
 #include <algorithm>
 
 namespace physvib {
@@ -26,11 +27,12 @@ FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& want
     for (auto& driver : all) {
         if (hasDriver && !isNamed(driver)) continue;
         driver->scan();
-        const std::string name = cleanLine(wanted.substr(hasDriver ? prefix(driver).size() : 0));
+        std::string name = cleanLine(wanted.substr(hasDriver ? prefix(driver).size() : 0));
         const auto has = [&](bool inputs) {
             const auto names = driver->deviceNames(inputs);
             return std::ranges::find(names, name) != names.end();
         };
+        if (!has(false) && name == picoDeviceName) name = picoAmong(driver->deviceNames(false));
         if (!has(false)) continue;
         auto device = driver->create(name, withInputs && has(true));
         if (device) return {std::move(driver), std::move(device)};

@@ -24,8 +24,9 @@ struct FoundDevice {
     std::string fullName() const { return driver->name() + ":" + device->name(); }
 };
 
-/// The device with that name or driver:name; empty if there is none. `withInputs`: opens inputs of the same
-/// name too, if there are any. M; scans drivers only until it finds the device.
+/// The device with that name or driver:name, or the first Pico for `pico`; empty if there is none.
+/// `withInputs`: opens inputs of the same name too, if there are any. M; scans drivers only until it finds
+/// the device.
 FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& name, bool withInputs = false);
 
 } // namespace physvib

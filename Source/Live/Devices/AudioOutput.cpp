@@ -2,8 +2,10 @@
 // Opens, feeds and supervises the audio device that plays a session on the actuators.
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/InputTap.h"
+#include "Live/Devices/PicoDevice.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <thread>
 
 namespace physvib {
@@ -18,6 +20,12 @@ constexpr DeviceKeeper::Limit reopening = 500ms; // a driver that takes longer i
 constexpr DeviceKeeper::Limit ending = 400ms;    // a JACK client aborted here keeps its server busy
 constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // limits of three blocks' time
 constexpr int mostOutputs = 65'536;                                      // of a device
+
+/// What the driver reports, and what it cannot know.
+int latencyFrames(AudioDevice& device) {
+    const double own = isPico(device.name()) ? picoLatencySeconds : 0.0;
+    return device.outputLatencyFrames() + static_cast<int>(std::lround(own * device.sampleRateHz()));
+}
 
 } // namespace
 
@@ -182,7 +190,7 @@ void AudioOutput::aboutToStart(AudioDevice& device) {
     const int rate = device.sampleRateHz();
     const int block = std::min(std::max(device.blockFrames(), largestBlock_.load()), limits::maxBlockFrames);
     if (!isSampleRate(rate) || block < 1) return; // the device plays silence
-    played_.begin(rate, block, device.outputLatencyFrames());
+    played_.begin(rate, block, latencyFrames(device));
     inputTap_ = settings_.tap;
     exposure_.prepare(rate);
     guard_.prepare(rate, played_.own().channels());
@@ -266,7 +274,7 @@ AudioOutputStatus AudioOutput::status() {
 }
 
 int AudioOutput::deviceLatencyFrames() const {
-    return keeper_.device() ? keeper_.device()->outputLatencyFrames() : 0;
+    return keeper_.device() ? latencyFrames(*keeper_.device()) : 0;
 }
 
 int AudioOutput::deviceOutputs() const { return keeper_.device() ? keeper_.device()->outputs() : 0; }

@@ -40,6 +40,9 @@ public:
     /// outputs are open. Returns empty, or one line with the reason, in which case nothing changes. M.
     std::string assign(const std::vector<int>& channelMap, int enchanters);
 
+    /// The device output of each actuator, from 0, as assigned last; -1: none. M.
+    const std::vector<int>& channelMap() const noexcept { return settings_.channelMap; }
+
     /// Changes what plays on the listening outputs, without interruption as in assign(). Returns empty, or
     /// one line with the reason, in which case nothing changes. M.
     std::string hear(const ListeningSettings& listening);

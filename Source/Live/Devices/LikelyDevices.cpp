@@ -2,6 +2,7 @@
 // Scores devices by name and number of outputs, without opening any.
 #include "Live/Devices/LikelyDevices.h"
 #include "Live/Devices/NoDevice.h"
+#include "Live/Devices/PicoDevice.h"
 #include <algorithm>
 #include <string_view>
 
@@ -22,6 +23,7 @@ int likelihood(const AudioDeviceName& device) {
     int points = outputs > 2 ? 50 : 10 * outputs;
     if (device.type == "JACK") points += 10;
     if (says(device, {"DualSense"})) points += 5;
+    if (isPico(device.name)) points += 20; // it has no other use
     if (says(device, {"HDMI", "DisplayPort", "Monitor of"})) points -= 40;
     return points;
 }
@@ -39,7 +41,8 @@ std::vector<AudioDeviceName> byLikelihood(std::vector<AudioDeviceName> devices) 
     return devices;
 }
 
-const char* layoutFor(int outputs) {
+const char* layoutFor(int outputs, std::string_view device) {
+    if (isPico(device) && outputs >= 4) return outputs >= 8 ? "pico8" : "pico4";
     return outputs >= 4 ? "phone4" : outputs == 3 ? "phone3" : outputs == 2 ? "phone2" : "phone1";
 }
 

@@ -27,9 +27,10 @@ void expectFields(const JsonField& json, std::vector<std::string_view> known, st
 
 } // namespace
 
-PhantomPanner readKind(const JsonField& json, const PerChannel<PhantomPanner>& kind) {
+PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescription>& kind) {
     json.expectObject({"layout", "law", "exponent", "field_m", "grain_law"});
-    const auto layout = readKind(json["layout"], Own<LayoutDescription>{}).geometry;
+    kind.described = readKind(json["layout"], Own<LayoutDescription>{});
+    const auto& layout = kind.described.geometry;
     if (layout.count > kind.channels)
         json["layout"].fail("expected at most " + std::to_string(kind.channels) +
                             " actuators, as many as there are channels");
@@ -55,7 +56,8 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
         expectFields(json, {}, otherField);
     else if (one.holds == Holds::panner) {
         expectFields(json, {one.field}, otherField);
-        control.panner = readKind(json[one.field], PerChannel<PhantomPanner>{channels});
+        LayoutDescription unused;
+        control.panner = readKind(json[one.field], DescribedPanner{channels, unused});
     } else {
         expectFields(json, {"channel", one.field}, otherField);
         control.channel = readChannel(json["channel"], channels);
@@ -67,8 +69,10 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
     return control;
 }
 
-OrderedJson writeKind(const PerChannel<PhantomPanner>&, const PhantomPanner& panner) {
-    OrderedJson json{{"layout", writeKind(Own<LayoutDescription>{}, describeLayout("", panner.layout()))},
+OrderedJson writeKind(const DescribedPanner<const LayoutDescription>& kind, const PhantomPanner& panner) {
+    const bool isKnown = !kind.described.enchanters.empty();
+    OrderedJson json{{"layout", writeKind(Own<LayoutDescription>{},
+                                          isKnown ? kind.described : describeLayout("", panner.layout()))},
                      {"law", nameOf(panner.law())},
                      {"exponent", panner.exponent()},
                      {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
@@ -82,7 +86,8 @@ OrderedJson controlJson(const RenderControl& control) {
     const auto one = std::ranges::find(controlTable, control.kind, &ControlDescription::kind);
     OrderedJson json{{"control", one->name}};
     if (one->holds == Holds::panner)
-        json[one->field] = writeKind(PerChannel<PhantomPanner>{}, control.panner);
+        json[one->field] =
+            writeKind(DescribedPanner<const LayoutDescription>{control.channel, {}}, control.panner);
     if (one->holds == Holds::number || one->holds == Holds::truth) json["channel"] = control.channel + 1;
     if (one->holds == Holds::number) json[one->field] = static_cast<double>(control.value);
     if (one->holds == Holds::truth) json[one->field] = control.value != 0.0f;

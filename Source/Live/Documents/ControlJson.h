@@ -7,6 +7,7 @@
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/NameList.h"
+#include "Live/Documents/Mix.h"
 #include <array>
 #include <string_view>
 
@@ -33,13 +34,13 @@ inline constexpr auto controlTable = std::to_array<ControlDescription>({
 });
 inline constexpr auto controlNames = namesOf(controlTable);
 
-/// Reads layout, law, exponent and field, for at most `channels` actuators. Throws JsonError.
-PhantomPanner readKind(const JsonField& json, const PerChannel<PhantomPanner>& kind);
+/// Throws JsonError.
+PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescription>& kind);
+OrderedJson writeKind(const DescribedPanner<const LayoutDescription>& kind, const PhantomPanner& panner);
 
 /// Reads a control without its time; `otherField` may be present too. Throws JsonError.
 RenderControl readControl(const JsonField& json, int channels, std::string_view otherField = {});
 
-OrderedJson writeKind(const PerChannel<PhantomPanner>& kind, const PhantomPanner& panner);
 OrderedJson controlJson(const RenderControl& control); ///< without its time
 
 } // namespace physvib

@@ -45,6 +45,16 @@ struct Mix {
 inline constexpr auto exponentRange = kinds::within(1e-3, 100.0);
 inline constexpr auto masterRangeDb = kinds::within(leastStripDb, 0.0);
 
+/// A kind: layout, law, exponent and field of a panner, for at most `channels` actuators. `described` has
+/// what the panner does not keep of its layout: name, labels, full scales; without actuators: not known.
+template <class Layout>
+struct DescribedPanner {
+    int channels;
+    Layout& described; ///< LayoutDescription, const for writers
+};
+template <class Layout>
+DescribedPanner(int, Layout&) -> DescribedPanner<Layout>; // Clang 14 wants it
+
 /// Scene and seed come from the session's last scene run.
 void visitFields(auto& v, FieldsOf<Mix>) {
     constexpr auto dragRange = kinds::within(leastDrag, mostDrag);
@@ -59,10 +69,10 @@ void visitFields(auto& v, FieldsOf<Mix>) {
     v.field("groups", &Mix::groups, kinds::Objects<StripGroup>{mostGroups, "groups"}, Need::optional.from(8));
 }
 
-/// True if the actuators are at the same places of the same extent. Any thread.
+/// True if the actuators are at the same places of the same extent, on the same parts. Any thread.
 inline bool isSame(const EnchanterLayout& a, const EnchanterLayout& b) noexcept {
     const auto equal = [](const EnchanterPlace& p, const EnchanterPlace& q) {
-        return p.xMetres == q.xMetres && p.yMetres == q.yMetres;
+        return p.xMetres == q.xMetres && p.yMetres == q.yMetres && p.zMetres == q.zMetres && p.part == q.part;
     };
     return a.extentWidthMetres == b.extentWidthMetres && a.extentHeightMetres == b.extentHeightMetres &&
            a.count == b.count &&

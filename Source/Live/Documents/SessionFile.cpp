@@ -244,6 +244,15 @@ std::string sessionJson(const SavedSession& session, const std::filesystem::path
     return jsonLines(root);
 }
 
+// Slow motion delays each step too, but by less. A world that waits for its computer goes on at once.
+bool endsPaused(const SavedSession& session) {
+    constexpr std::int64_t leastNs = 100'000'000;
+    const SceneTake& last = session.log.takes.back();
+    if (last.stalls.empty()) return false;
+    const WorldStall& stall = last.stalls.back();
+    return stall.worldNs >= last.worldEndNs && stall.steps == 1 && stall.lengthNs >= leastNs;
+}
+
 Mix mixOf(const SavedSession& session) {
     if (session.mix) return *session.mix;
     Mix mix;
@@ -251,7 +260,8 @@ Mix mixOf(const SavedSession& session) {
     mix.seed = session.log.takes.back().seed;
     const PhantomPanner& panner =
         session.log.panners.empty() ? session.panner : session.log.panners.back().panner;
-    mix.layout = describeLayout("own", panner.layout());
+    const bool isDescribed = session.log.panners.empty() && !session.layout.enchanters.empty();
+    mix.layout = isDescribed ? session.layout : describeLayout("own", panner.layout());
     mix.law = panner.law();
     mix.exponent = panner.exponent();
     mix.strips.resize(static_cast<std::size_t>(mix.count()));

@@ -42,6 +42,7 @@ struct SavedSession {
     std::optional<Mix> mix{};       ///< the mixer state at the end, if the session was played in the mixer
     EqualisedActuators equalised{}; ///< per channel
     EventShaping shaping{};         ///< for all collisions
+    LayoutDescription layout{};     ///< of `panner`: name, labels, full scales; empty: not known
 };
 
 /// Fields that a session file and the first line of its journal share.
@@ -54,7 +55,7 @@ void visitSetup(auto& v) {
     v.field("location", in(run, &SceneRun::location), kinds::OneOf{locationNames});
     v.field("limiter", &S::limiterEnabled, kinds::truth);
     v.field("channels", &S::channels, kinds::whole(1, limits::maxEnchanters));
-    v.field("panning", &S::panner, PerChannel<PhantomPanner>{v.object.channels});
+    v.field("panning", &S::panner, DescribedPanner{v.object.channels, v.object.layout});
 }
 void visitChannels(auto& v) {
     using S = SavedSession;
@@ -110,6 +111,9 @@ Result<SavedSession> loadSession(const std::filesystem::path& path);
 /// The mixer state that the session ended with: its own, or one made from its last scene, layout, gains and
 /// mutes. Any thread.
 Mix mixOf(const SavedSession& session);
+
+/// Whether the world was paused when the session ended. Any thread.
+bool endsPaused(const SavedSession& session);
 
 /// Writes a session as JSON. A scene run with the same scene as the one before does not repeat it.
 /// readSession restores everything bit for bit, except labels of actuators. Paths of recordings become

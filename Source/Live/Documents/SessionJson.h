@@ -42,10 +42,14 @@ void visitFields(auto& v, FieldsOf<CollisionEvent>) {
     v.field("amplitude", &E::amplitude, kinds::number);
     v.field("x_m", &E::x, kinds::number);
     v.field("y_m", &E::y, kinds::number);
+    v.field("z_m", &E::z, kinds::number, Need::optional);
+    v.field("part", in(&E::source, &CollisionSource::part),
+            kinds::whole(0, std::numeric_limits<PartNumber>::max()), Need::optional);
     v.field("duration_s", &E::durationNs, kinds::Time{}, Need::optional);
     if (v.has("travel_s", travel)) {
         v.field("to_x_m", in(course, &C::toX), kinds::number);
         v.field("to_y_m", in(course, &C::toY), kinds::number);
+        v.field("to_z_m", in(course, &C::toZ), kinds::number, Need::optional);
         v.field("travel_s", travel, kinds::Time{});
     }
     v.field("since_s", in(course, &C::sinceNs), kinds::Time{}, Need::optional.from(5));

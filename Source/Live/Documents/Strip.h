@@ -84,6 +84,26 @@ inline int freeOutput(std::span<const Strip> strips) noexcept {
         if (std::ranges::find(strips, k, &Strip::output) == strips.end()) return k;
 }
 
+/// Gives a strip an output; -1: none. A strip that has this output gets the other's former one. Any thread.
+inline void giveOutput(std::span<Strip> strips, std::size_t strip, int output) noexcept {
+    const auto had = output < 0 ? strips.end() : std::ranges::find(strips, output, &Strip::output);
+    if (had != strips.end()) had->output = strips[strip].output;
+    strips[strip].output = output;
+}
+
+/// Takes the output from each strip that shares it with an earlier one. Returns these strips. Any thread.
+inline std::vector<std::size_t> settleOutputs(std::span<Strip> strips) {
+    std::vector<std::size_t> without;
+    for (std::size_t j = 1; j < strips.size(); ++j) {
+        if (strips[j].output < 0) continue;
+        const auto earlier = strips.first(j);
+        if (std::ranges::find(earlier, strips[j].output, &Strip::output) == earlier.end()) continue;
+        strips[j].output = -1;
+        without.push_back(j);
+    }
+    return without;
+}
+
 /// A strip for one more actuator: on the lowest free output, with the lowest ceiling of the others. Any
 /// thread.
 inline Strip nextStrip(std::span<const Strip> strips) noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Computes the events of the messages strike, pattern, phantom, path and clip.
 #include "Live/Messages/MessageStrikes.h"
+#include "Core/SpaceVectors.h"
 #include "Core/ToneEnd.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/EventColumns.h"
@@ -22,6 +23,7 @@ CollisionEvent toneOf(const MessageValues& values, const EnchanterPlace& at, dou
     tone.amplitude = values.number("level");
     tone.x = at.xMetres;
     tone.y = at.yMetres;
+    tone.z = at.zMetres;
     tone.spread = spread;
     return tone;
 }
@@ -119,13 +121,13 @@ struct Route {
         const auto next = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
             std::ranges::upper_bound(times, time) - times.begin(), 1, std::ssize(times) - 1));
         const double share = std::clamp((time - times[next - 1]) / (times[next] - times[next - 1]), 0.0, 1.0);
-        const EnchanterPlace &a = places[next - 1], &b = places[next];
-        return {a.xMetres + share * (b.xMetres - a.xMetres), a.yMetres + share * (b.yMetres - a.yMetres)};
+        return sumOf(places[next - 1], vectorFrom(places[next - 1], places[next]), share);
     }
 };
 
 double distance(const EnchanterPlace& a, const EnchanterPlace& b) {
-    return std::hypot(b.xMetres - a.xMetres, b.yMetres - a.yMetres);
+    // nested, so that a path in the plane keeps its length to the bit
+    return std::hypot(std::hypot(b.xMetres - a.xMetres, b.yMetres - a.yMetres), b.zMetres - a.zMetres);
 }
 
 /// Constant speed; of consecutive equal places only the first is used.
@@ -176,6 +178,7 @@ std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route&
         if (segment.durationNs == 0) continue; // shorter than a nanosecond
         segment.course.toX = route.places[i + 1].xMetres;
         segment.course.toY = route.places[i + 1].yMetres;
+        segment.course.toZ = route.places[i + 1].zMetres;
         segment.course.travelNs = segment.durationNs;
         segment.course.sinceNs = segment.timeNs - nanoseconds(route.startSeconds());
         segments.push_back(segment);
@@ -225,18 +228,19 @@ namespace {
 EnchanterPlace placeOfChannel(std::size_t j, const MessageValues& values, const LoadedClip& clip,
                               const PhantomPanner& panner) {
     if (values.has("place")) return values.place();
-    const auto onField = [&](double x, double y) {
-        return EnchanterPlace{x * panner.fieldWidthMetres(), y * panner.fieldHeightMetres()};
-    };
-    if (!clip.shares.empty()) return onField(clip.shares[j].xMetres, clip.shares[j].yMetres);
+    if (!clip.shares.empty())
+        return {clip.shares[j].xMetres * panner.fieldWidthMetres(),
+                clip.shares[j].yMetres * panner.fieldHeightMetres()};
     const EnchanterLayout& layout = panner.layout();
     if (clip.channels.size() == 1) return values.place();
     if (static_cast<int>(clip.channels.size()) != layout.count)
         values.fail("file", "expected one channel, places, or as many channels as actuators, " +
                                 std::to_string(layout.count) + ", found " +
                                 std::to_string(clip.channels.size()));
-    return onField(layout.places[j].xMetres / layout.extentWidthMetres,
-                   layout.places[j].yMetres / layout.extentHeightMetres);
+    const EnchanterPlace& at = layout.places[j];
+    const double wide = panner.fieldWidthMetres(), high = panner.fieldHeightMetres();
+    return {at.xMetres / layout.extentWidthMetres * wide, at.yMetres / layout.extentHeightMetres * high,
+            at.zMetres / layout.extentWidthMetres * wide};
 }
 
 } // namespace
@@ -252,6 +256,7 @@ std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const Loade
         strike.amplitude = values.number("level");
         strike.x = at.xMetres;
         strike.y = at.yMetres;
+        strike.z = at.zMetres;
         // so that the last sample is included
         strike.durationNs =
             nanoseconds(static_cast<double>(channel.samples.size()) / channel.sampleRateHz) + 1;

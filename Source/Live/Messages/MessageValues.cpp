@@ -111,7 +111,8 @@ EnchanterPlace MessageValues::enchanter(std::string_view name, char letter) cons
                        inQuotes({&letter, 1}));
     const EnchanterPlace& at = layout.places[static_cast<std::size_t>(j)];
     return {at.xMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres,
-            at.yMetres * panner_.fieldHeightMetres() / layout.extentHeightMetres};
+            at.yMetres * panner_.fieldHeightMetres() / layout.extentHeightMetres,
+            at.zMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres};
 }
 
 EnchanterPlace MessageValues::place() const {
@@ -120,9 +121,10 @@ EnchanterPlace MessageValues::place() const {
     if (const auto* letter = std::get_if<std::string>(value); letter != nullptr && letter->size() == 1)
         return enchanter("place", letter->front());
     const auto* const found = std::get_if<std::vector<double>>(value);
-    if (found == nullptr || found->size() != 2 || !std::ranges::all_of(*found, isOnSomeField))
-        fail("place", "expected x and y in metres, or an actuator's letter");
-    return {(*found)[0], (*found)[1]};
+    const std::size_t count = found == nullptr ? 0 : found->size();
+    if ((count != 2 && count != 3) || !std::ranges::all_of(*found, isOnSomeField))
+        fail("place", "expected x and y, or x, y and z in metres, or an actuator's letter");
+    return {(*found)[0], (*found)[1], count == 3 ? (*found)[2] : 0.0};
 }
 
 std::vector<EnchanterPlace> MessageValues::places() const {

@@ -147,7 +147,7 @@ void BoardOutput::sendSegment(BoardPath& path) {
     const BoardTime time{frameAt(0), frameAt(secondNs) - frameAt(0)};
     const bool isHurried = clock_.steadyAt(path.nextNs()) < link_.segmentReadyNs() + spareNs;
     const auto segment = path.next(
-        time, [this](const auto&... at) { return gainsAt(at...); }, isHurried);
+        time, [this](const CollisionEvent& moved) { return gainsAt(moved); }, isHurried);
     if (!segment) return;
     link_.sendSegment(*segment, path.isCoarse());
     path.take();
@@ -165,7 +165,7 @@ void BoardOutput::setGains() {
 void BoardOutput::strike(const CollisionEvent& event) {
     if (!isPlayable(event)) return; // the renderer counts it
     takeLayouts(event.timeNs);
-    link_.push({clock_.steadyAt(event.timeNs), boardEventOf(event, gainsAt(event, event.x, event.y))});
+    link_.push({clock_.steadyAt(event.timeNs), boardEventOf(event, gainsAt(event))});
 }
 
 void BoardOutput::takeLayouts(std::int64_t timeNs) {
@@ -173,9 +173,9 @@ void BoardOutput::takeLayouts(std::int64_t timeNs) {
         panner_ = layouts_.front().panner;
 }
 
-PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event, double x, double y) const noexcept {
+PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event) const noexcept {
     PhantomPanner::Gains gains{};
-    panner_.gainsAt(event, x, y, gains);
+    panner_.gainsAt(event, gains);
     return {gains[0], gains[1], gains[2], gains[3]};
 }
 

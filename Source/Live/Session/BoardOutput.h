@@ -53,7 +53,7 @@ private:
     void strike(const CollisionEvent& event);
     void move(const CollisionEvent& event);
     void takeLayouts(std::int64_t timeNs);
-    PathGains::Gains gainsAt(const CollisionEvent& event, double x, double y) const noexcept;
+    PathGains::Gains gainsAt(const CollisionEvent& event) const noexcept;
     void takeSteps();
     void takeSegments();
     void sendSegment(BoardPath& path);

@@ -24,7 +24,7 @@ public:
     /// `afterNs` after that frame, which may be past
     bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept;
     bool control(RenderControl control, int frame) noexcept;
-    bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step
+    bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step, if there is one
 
     /// Acts at once, without the output latency: sounding modes fade, and earlier events are no longer
     /// played. R, wait-free.
@@ -41,6 +41,7 @@ private:
     /// `time` outlives it; of `setup` it uses the shaping of events and the groups of actions.
     CallbackInputs(const Timeline& time, const SessionSetup& setup)
         : time_{time}
+        , hasWorld_{setup.hasWorld}
         , shaping_{setup.shaping}
         , groups_{setup.groups} {}
 
@@ -62,6 +63,7 @@ private:
     void addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action);
 
     const Timeline& time_;
+    const bool hasWorld_;
     const EventShaping shaping_;
     const std::vector<std::vector<Action>> groups_;
     EventQueue<CollisionEvent, 1024> strikes_; // written and read by R: room for a dense chord in a block of

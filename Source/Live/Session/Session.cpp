@@ -68,8 +68,8 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
 
 ClockLaw Session::lawAt(int sampleRateHz, int maxBlockFrames) const {
     return {sampleRateHz,
-            maxBlockFrames,
-            setup_.stepsPerSecond,
+            setup_.hasWorld ? maxBlockFrames : 0,
+            setup_.hasWorld ? setup_.stepsPerSecond : 0,
             setup_.longestGapSeconds,
             HapticRenderer::latencyFramesAt(sampleRateHz),
             sinks_.latencySeconds()};
@@ -89,7 +89,7 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
 
 int Session::advance(const StepWatch& goesOn) {
     scheduler_.takeDueStops();
-    const int steps = world_.advance(goesOn);
+    const int steps = setup_.hasWorld ? world_.advance(goesOn) : 0;
     scheduler_.followLanes();
     return steps;
 }
@@ -111,10 +111,13 @@ void Session::wait(int frames) noexcept {
 void Session::wait(float* const* unfelt, int frames) noexcept {
     const std::int64_t start = time_.playOutFrames() - renderer_->latencyFrames(),
                        next = time_.framesRendered() - start;
-    if (next >= 0) { // otherwise the renderer has not started
-        Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, next, time_.nowNs()};
-        renderer_->render(source, unfelt, frames);
-        channels_.render(unfelt, frames);
+    // the renderer may not have started, or start within these frames
+    if (const int rendered = static_cast<int>(std::clamp<std::int64_t>(next + frames, 0, frames));
+        rendered > 0) {
+        Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz},
+                      std::max<std::int64_t>(0, next), time_.nowNs()};
+        renderer_->render(source, unfelt, rendered);
+        channels_.render(unfelt, rendered);
     }
     time_.lengthen(-frames);
 }
@@ -122,6 +125,7 @@ void Session::wait(float* const* unfelt, int frames) noexcept {
 // The renderer's output lags by the limiter's frames, which are part of the output latency, so it starts
 // that much earlier.
 void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
+    if (!setup_.hasWorld) mode = RenderMode::realtime;
     const bool begins = world_.beginBlock(mode);
     const std::int64_t done = begins ? time_.tellFrames(frames) : 0,
                        start = time_.playOutFrames() - renderer_->latencyFrames();

@@ -54,6 +54,7 @@ public:
     /// By how many frames the output latency is too short for the next `frames` to be in time, given how
     /// far the world has been stepped; 0 or less: spare frames. R, wait-free.
     std::int64_t framesMissing(int frames) const noexcept {
+        if (!setup_.hasWorld) return 0;
         return time_.framesMissing(frames, world_.steppedNs_);
     }
 

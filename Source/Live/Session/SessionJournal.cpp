@@ -16,7 +16,15 @@ constexpr std::chrono::milliseconds period{500}; // at most half of what may be 
 
 SavedSession headOf(const SessionSetup& setup) {
     return {setup.run(), setup.panner, setup.channels,  setup.limiterEnabled, setup.ceilings, 0,
-            {},          {},           setup.equalised, setup.shaping};
+            {},          {},           setup.equalised, setup.shaping,        setup.layout};
+}
+
+// The list begins before its events are known. Depths and parts matter to layouts that have them.
+OptionalColumns columnsFor(const SessionSetup& setup) {
+    const ActuatorLayout& layout = setup.panner.layout();
+    const auto end = layout.places.begin() + layout.count;
+    return {isAnyRough(setup.scene.materials), true, !isFlat(layout),
+            std::any_of(layout.places.begin(), end, [](const ActuatorPlace& p) { return p.part != 0; })};
 }
 
 } // namespace
@@ -26,7 +34,7 @@ SessionJournal::SessionJournal(std::filesystem::path path, Session& session, con
     : path_{std::move(path)}
     , eventsPath_{std::filesystem::path{path_}.replace_extension(".events.csv")}
     , session_{session}
-    , columns_{isAnyRough(setup.scene.materials), true}
+    , columns_{columnsFor(setup)}
     , lines_{headOf(setup), std::filesystem::absolute(path_).parent_path()} {
     begin(fieldOf(setup.panner), provenance);
     if (!error_.empty()) return;

@@ -6,6 +6,7 @@
 #include "Core/HapticRenderer.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OnsetMarks.h"
+#include "Scene/LayoutFile.h"
 #include "Scene/World/SceneRun.h"
 #include <array>
 #include <cstdint>
@@ -47,6 +48,9 @@ struct SessionSetup {
     Scene scene;
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
+    /// False: nothing can move in the scene, and all events and samples come in the render call. The world is
+    /// never stepped, and the output latency is longestGapSeconds and the limiter's.
+    bool hasWorld = true;
     ImpactTiming timing = ImpactTiming::onset;
     ImpactLocation location = ImpactLocation::contact;
     int channels = 4;
@@ -68,6 +72,7 @@ struct SessionSetup {
     double longestGapSeconds = messageTimerGapSeconds;
     std::vector<std::vector<Action>> groups; ///< actions of notes; valid inputs of the scene
     LogUse log = LogUse::document;
+    LayoutDescription layout{}; ///< of `panner`, for the log: name, labels, full scales; empty: not known
 
     SceneRun run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
 };

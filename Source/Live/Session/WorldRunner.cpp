@@ -58,7 +58,7 @@ void WorldRunner::prepare() {
     slowness_ = 1;
     stepsWanted_ = 0;
     offline_ = false;
-    isDriven_ = false;
+    isDriven_ = !setup_.hasWorld;
     drops_ = world_.drops();
     showPoses();
 }

@@ -131,6 +131,9 @@ Scene newScene(const Scene& like, SceneGround ground) {
     if (ground == SceneGround::empty || scene.materials.empty()) return scene;
     const double w = scene.fieldWidthMetres, h = scene.fieldHeightMetres,
                  thick = std::max(2.0 * sceneLimits::minSizeMetres, 0.05 * std::min(w, h));
+    const auto felt =
+        std::ranges::find_if(scene.materials, [](const Material& m) { return m.frequencyHz > 0.0; });
+    const bool isFelt = felt != scene.materials.end();
     const auto wall = [&](const char* name, double x, double y, double width, double height) {
         BodyDescription body;
         body.name = name;
@@ -138,6 +141,10 @@ Scene newScene(const Scene& like, SceneGround ground) {
         body.positionMetres = {x, y};
         body.fixtures.resize(1);
         body.fixtures[0].shape = BoxShape{width, height};
+        if (isFelt) {
+            body.fixtures[0].material = static_cast<int>(felt - scene.materials.begin());
+            setSource(scene, body, true);
+        }
         scene.bodies.push_back(std::move(body));
     };
     wall("floor", 0.5 * w, -0.5 * thick, w + 2.0 * thick, thick);

@@ -65,13 +65,28 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
                                    const std::pair<std::string, BodyPlace>& b, const Vector& from,
                                    const Vector& to);
 
+/// The hinge or wheel that drives a body, or that could: the last one that joins it. Null: none. Any thread.
+const JointDescription* motorOf(const Scene& scene, const std::string& body);
+
+/// Speed and torque of a motor.
+struct MotorDrive {
+    double radiansPerSecond = 0.0, maxTorqueNewtonMetres = 0.0;
+    bool operator==(const MotorDrive&) const = default;
+};
+MotorDrive driveOf(const JointDescription& motor); ///< zero for other joints
+
+/// Joins it again with another drive. If its anchor has moved, its bodies start at their present places, at
+/// rest. Any thread.
+Result<std::vector<Action>> driven(const SceneDrawing& drawing, const std::string& joint,
+                                   const MotorDrive& drive, const PoseNow& now);
+
 /// The drawn scene with its bodies at their present places; joints keep their points on them. Any thread.
 Scene sceneNow(const Scene& drawn, const PoseNow& now);
 
 enum class SceneGround { empty, box, floor };
 
-/// A new scene with field, gravity and materials of another. Walls and floor have its first material. Any
-/// thread.
+/// A new scene with field, gravity and materials of another. Walls and floor are haptic sources of its first
+/// material that vibrates; without one, of its first material, and not felt. Any thread.
 Scene newScene(const Scene& like, SceneGround ground);
 
 } // namespace physvib

@@ -78,6 +78,72 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
     return actions;
 }
 
+namespace {
+
+/// Calls `use` with a hinge or a wheel; false for other joints.
+bool withMotor(auto& joint, const auto& use) {
+    return std::visit(
+        [&](auto& kind) {
+            constexpr bool turns = requires { kind.motorRadiansPerSecond; };
+            if constexpr (turns) use(kind);
+            return turns;
+        },
+        joint.joint);
+}
+
+} // namespace
+
+const JointDescription* motorOf(const Scene& scene, const std::string& body) {
+    const auto drives = [&](const JointDescription& joint) {
+        return (joint.bodyA == body || joint.bodyB == body) && withMotor(joint, [](const auto&) {});
+    };
+    const auto found = std::find_if(scene.joints.rbegin(), scene.joints.rend(), drives);
+    return found == scene.joints.rend() ? nullptr : &*found;
+}
+
+MotorDrive driveOf(const JointDescription& motor) {
+    MotorDrive drive;
+    withMotor(motor, [&](const auto& kind) {
+        drive = {kind.motorRadiansPerSecond, kind.maxTorqueNewtonMetres};
+    });
+    return drive;
+}
+
+Result<std::vector<Action>> driven(const SceneDrawing& drawing, const std::string& joint,
+                                   const MotorDrive& drive, const PoseNow& now) {
+    const auto named = [&](const Scene& scene) {
+        const auto found = std::ranges::find(scene.joints, joint, &JointDescription::name);
+        return found == scene.joints.end() ? std::optional<JointDescription>{} : *found;
+    };
+    const auto anchorOf = [](const JointDescription& description) {
+        Vector anchor;
+        withMotor(description, [&](const auto& kind) { anchor = kind.anchorMetres; });
+        return anchor;
+    };
+    const Scene here = sceneNow(drawing.drawn(), now);
+    const auto drawn = named(drawing.drawn());
+    auto next = named(here);
+    if (!drawn || !withMotor(*next, [&](auto& kind) {
+            kind.motorRadiansPerSecond = drive.radiansPerSecond;
+            kind.maxTorqueNewtonMetres = drive.maxTorqueNewtonMetres;
+        }))
+        return Failure{"a motor: expected a pin or a wheel, found " + joint};
+    std::vector<Action> actions{UnjoinAction{joint}};
+    constexpr double near = 1e-6;
+    const Vector before = anchorOf(*drawn), after = anchorOf(*next);
+    if (std::hypot(after.x - before.x, after.y - before.y) > near)
+        for (const BodyDescription& body : here.bodies)
+            if (body.type == BodyType::dynamicBody &&
+                (body.name == next->bodyA || body.name == next->bodyB)) {
+                BodyDescription rested = body;
+                rested.velocityMetresPerSecond = {};
+                rested.spinRadiansPerSecond = 0.0;
+                actions.push_back(ChangeAction{std::move(rested), false});
+            }
+    actions.push_back(JoinAction{std::move(*next)});
+    return actions;
+}
+
 Scene sceneNow(const Scene& drawn, const PoseNow& now) {
     Scene scene = drawn;
     std::map<std::string, Motion> motions;

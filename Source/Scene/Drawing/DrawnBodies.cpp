@@ -114,6 +114,25 @@ Result<BodyDescription> drawnBall(const Vector& centre, const Vector& rim) {
     return bodyOf(CircleShape{radius}, centre, BodyType::dynamicBody);
 }
 
+Result<std::vector<BodyDescription>> drawnRain(const Vector& corner, const Vector& opposite, int count) {
+    constexpr double filled = 0.35; // radius by the distance of two centres
+    const double left = std::min(corner.x, opposite.x), bottom = std::min(corner.y, opposite.y),
+                 width = std::abs(opposite.x - corner.x), height = std::abs(opposite.y - corner.y);
+    const auto columns =
+        std::max(1, static_cast<int>(std::lround(std::sqrt(count * width / std::max(height, smallest)))));
+    const int rows = (count + columns - 1) / columns;
+    const Vector step{width / columns, height / rows};
+    const double radius = filled * std::min(step.x, step.y);
+    std::vector<BodyDescription> balls;
+    for (int k = 0; k < count; ++k) {
+        const Vector centre{left + (k % columns + 0.5) * step.x, bottom + (k / columns + 0.5) * step.y};
+        auto ball = drawnBall(centre, {centre.x + radius, centre.y});
+        if (!ball) return Failure{"a rain: expected a larger place for " + std::to_string(count) + " balls"};
+        balls.push_back(std::move(ball.value));
+    }
+    return balls;
+}
+
 Result<BodyDescription> drawnBox(const Vector& corner, const Vector& opposite) {
     const double width = std::abs(opposite.x - corner.x), height = std::abs(opposite.y - corner.y);
     if (std::min(width, height) < smallest) return tooSmall("box");
@@ -158,13 +177,16 @@ Result<BodyDescription> drawnLine(const std::vector<Vector>& way, double toleran
 
 bool startsAsSource(const Scene& scene, const BodyDescription& body) {
     if (body.type != BodyType::dynamicBody) return false;
-    bool isAny = false;
-    for (const BodyDescription& other : scene.bodies)
+    bool isAny = false, movesAny = false;
+    for (const BodyDescription& other : scene.bodies) {
+        const bool moves = other.type == BodyType::dynamicBody;
+        movesAny = movesAny || moves;
         for (const FixtureDescription& fixture : other.fixtures) {
-            if (fixture.isCamera && other.type == BodyType::dynamicBody) return true;
+            if (fixture.isCamera && moves) return true;
             isAny = isAny || fixture.isCamera;
         }
-    return !isAny;
+    }
+    return !isAny || !movesAny;
 }
 
 Vector snapped(const Vector& place, double gridMetres) {

@@ -12,6 +12,9 @@ namespace physvib {
 Result<BodyDescription> drawnBall(const Vector& centre, const Vector& rim);
 Result<BodyDescription> drawnBox(const Vector& corner, const Vector& opposite);
 
+/// Equal balls in rows that fill the rectangle, without touching.
+Result<std::vector<BodyDescription>> drawnRain(const Vector& corner, const Vector& opposite, int count);
+
 /// The convex hull of the points; of more than eight corners, the most significant.
 Result<BodyDescription> drawnPolygon(const std::vector<Vector>& corners);
 
@@ -21,7 +24,8 @@ Result<BodyDescription> drawnWall(const Vector& from, const Vector& to, double t
 /// A static line along a drawn path that collides on both sides, within `toleranceMetres` of the path.
 Result<BodyDescription> drawnLine(const std::vector<Vector>& way, double toleranceMetres);
 
-/// True if a new body should be a haptic source: other moving bodies are, or the scene has none. Any thread.
+/// True if a new body should be a haptic source: it moves, and other moving bodies are sources, or there are
+/// none, or the scene has no source at all. Any thread.
 bool startsAsSource(const Scene& scene, const BodyDescription& body);
 
 /// The nearest multiple of `gridMetres`; 0: unchanged. Any thread.

@@ -2,7 +2,7 @@
 -- A world that was written as text, through LÖVE: as Trace.h does it for the other engines. love . WORLD, with PHYSVIB_LIBRARY and LUA_PATH.
 local physvib = require("physvib")
 local metre, floor_body = 30, 100
-local world, haptics, kick, bodies, moving, platform, friction, elasticity, dt, steps
+local world, haptics, ax, ay, turn, bodies, moving, platform, friction, elasticity, dt, steps
 
 local function number(fixture, id, is_source)
     fixture:setFriction(friction)
@@ -18,14 +18,15 @@ local function print_motions(step)
         local body = bodies[id]
         local x, y = body:getWorldCenter()
         local vx, vy = body:getLinearVelocity()
-        print(("m %d %d %.7g %.7g %.7g %.7g %.7g"):format(step, id, x / metre, -y / metre, vx / metre, -vy / metre, -body:getAngularVelocity()))
+        print(("m %d %d %.7g %.7g %.7g %.7g %.7g %.7g"):format(step, id, x / metre, -y / metre, vx / metre, -vy / metre, -body:getAngularVelocity(), -body:getAngle()))
     end
 end
 
 -- Lengths of the world's file are metres, upwards.
 local make = {}
 function make.world(rate, restitution, mu, seconds)
-    dt, steps, kick, friction, elasticity = 1 / rate, math.floor(rate * seconds), 0, mu, restitution
+    dt, steps, friction, elasticity = 1 / rate, math.floor(rate * seconds), mu, restitution
+    ax, ay, turn = 0, 0, 0
     world = love.physics.newWorld(0, 9.81 * metre, false)
     bodies, moving, platform = {ids = {}}, {}, nil
     world:setCallbacks(nil, nil, function(a, b, contact)
@@ -46,8 +47,9 @@ function make.body(kind, id, x, y, angle, width, height, mass, vx, vy, spin, sou
     if mass > 0 then
         fixture:setDensity(mass / body:getMass())
         body:resetMassData()
-        body:setLinearVelocity(vx * metre, -(vy + kick) * metre)
-        body:setAngularVelocity(-spin)
+        local late = 0.5 * dt -- ends of steps lie on the exact path
+        body:setLinearVelocity((vx - late * ax) * metre, -(vy - late * ay) * metre)
+        body:setAngularVelocity(late * turn - spin)
         moving[#moving + 1] = id
     end
     bodies[id] = body
@@ -68,7 +70,8 @@ function make.tiles(left, right, count)
     number(love.physics.newFixture(still(), chain), floor_body, false)
 end
 function make.pin(a, b, x, y) love.physics.newRevoluteJoint(bodies[a], b > 0 and bodies[b] or still(), x * metre, -y * metre, false) end
-function make.falling() kick = 0.5 * 9.81 * dt end -- ends of steps lie on the parabola
+function make.falling() ay = -9.81 end -- those that follow
+function make.starting(...) ax, ay, turn = ... end -- the same of others
 function make.oneway(id) platform = bodies[id] end
 
 function love.load(words)
@@ -80,7 +83,7 @@ function love.load(words)
     end
     print_motions(0)
     for step = 1, steps do
-        haptics:update(dt)
+        haptics:update(dt, 30, 3) -- as box2d.cpp
         print_motions(step)
     end
     for _, e in ipairs(haptics:take({}, true)) do

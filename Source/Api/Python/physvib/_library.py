@@ -19,7 +19,8 @@ MAX_ENCHANTERS = 64
 
 #: A collision as it is felt, as numpy has it: fields as in physvib.h, times in whole nanoseconds.
 EVENT = np.dtype([("time_ns", "<i8"), ("duration_ns", "<i8"), ("frequency_hz", "<f8"), ("decay_per_s", "<f8"), ("amplitude", "<f8"),
-                  ("x_m", "<f8"), ("y_m", "<f8"), ("impulse_n_s", "<f8"), ("mass_kg", "<f8"), ("fixture", "<i4"), ("other", "<i4"), ("kind", "<i4"), ("sound", "<i4")])
+                  ("x_m", "<f8"), ("y_m", "<f8"), ("impulse_n_s", "<f8"), ("mass_kg", "<f8"), ("fixture", "<i4"), ("other", "<i4"), ("kind", "<i4"), ("sound", "<i4"),
+                  ("z_m", "<f8"), ("part", "<i4"), ("unused", "<i4")])
 
 #: What an event came of, as its field `kind` says it.
 HIT, ROLL, SLIDE = 0, 1, 2
@@ -35,7 +36,7 @@ class PhysVibError(ValueError):
 
 class CLayout(Structure):
     _fields_ = [("extent_width_m", c_double), ("extent_height_m", c_double), ("x_m", c_double * MAX_ENCHANTERS),
-                ("y_m", c_double * MAX_ENCHANTERS), ("count", c_int)]
+                ("y_m", c_double * MAX_ENCHANTERS), ("count", c_int), ("z_m", c_double * MAX_ENCHANTERS), ("part", c_int * MAX_ENCHANTERS)]
 
 
 class CRendererSettings(Structure):
@@ -59,7 +60,7 @@ class CBody(Structure):
                 *[(name, c_double) for name in ("mass_kg", "inertia_kg_m2", "gravity_scale", "frequency_hz", "decay_per_s", "static_mass_kg",
                                                 "gain", "hand_mass_kg")],
                 *[(name, c_double * 3) for name in ("overtone_hz", "overtone_decay_per_s", "overtone_amplitude")],
-                *[(name, c_double) for name in ("grain_m", "roughness", "rolling")], ("is_ridged", c_int), ("device", c_int)]
+                *[(name, c_double) for name in ("grain_m", "roughness", "rolling")], ("is_ridged", c_int), ("device", c_int), ("part", c_int), ("unused", c_int)]
 
 
 class CContact(Structure):
@@ -67,7 +68,8 @@ class CContact(Structure):
                 *[(name, c_double) for name in ("x_m", "y_m", "normal_x", "normal_y", "impulse_n_s", "tangential_n_s", "approach_m_per_s",
                                                 "restitution", "effective_mass_kg", "fraction", "gap_m", "gap_fraction", "along_a_m_per_s",
                                                 "along_b_m_per_s")],
-                ("is_soft", c_int), ("unused", c_int), ("point_id", c_int), ("is_impulse_of_pair", c_int)]
+                ("is_soft", c_int), ("unused", c_int), ("point_id", c_int), ("is_impulse_of_pair", c_int),
+                *[(name, c_double) for name in ("z_m", "normal_z", "friction_x_n_s", "friction_y_n_s", "friction_z_n_s")]]
 
 
 class CWorldCounts(Structure):
@@ -78,7 +80,7 @@ class CWorldCounts(Structure):
 class COutputFacts(Structure):
     _fields_ = [("size", c_size_t), ("is_missing", c_int), ("is_silent", c_int), ("channels", c_int), ("unused", c_int), ("level", c_double),
                 *[(name, c_int64) for name in ("muted_channels", "late", "dropped", "rejected")], ("silent_by", c_char_p), ("trouble", c_char_p),
-                ("renderer", POINTER(CRendererSettings))]
+                ("renderer", POINTER(CRendererSettings)), ("without_part", c_int64)]
 
 
 class CMotors(Structure):
@@ -125,7 +127,7 @@ _signatures = {
     "render": (c_int, POINTER(CRendererSettings), _events, c_int64, c_int64, _samples),
     "renderer_create": (c_int, POINTER(CRendererSettings), POINTER(_handle)), "renderer_free": (c_int, _handle),
     "renderer_strike": (c_int, _handle, _events),
-    "material_name": (c_char_p, c_int), "material": (c_int, c_char_p, POINTER(CBody)), "material_load": (c_int, c_char_p, c_char_p, POINTER(CBody)), "sound": (c_int, c_char_p),
+    "material_name": (c_char_p, c_int), "material": (c_int, c_char_p, POINTER(CBody)), "material_load": (c_int, c_char_p, c_char_p, POINTER(CBody)), "sound": (c_int, c_char_p), "part": (c_int, c_char_p),
     "event_of": (c_int, c_char_p, *[c_double] * 3, _events), "renderer_impact": (c_int, _handle, *[c_double] * 3), "renderer_impact_of": (c_int, _handle, c_char_p, *[c_double] * 3),
     "renderer_pull": (c_int, _handle, POINTER(POINTER(c_float)), c_int, c_int),
     "renderer_set_gain": (c_int, _handle, _time, c_int, c_double), "renderer_set_mute": (c_int, _handle, _time, c_int, c_int),
@@ -135,7 +137,9 @@ _signatures = {
     "world_create": (c_int, POINTER(CWorldSettings), POINTER(_handle)), "world_free": (c_int, _handle),
     "world_configure": (c_int, _handle, POINTER(CWorldSettings)),
     "world_set_body": (c_int, _handle, c_int, POINTER(CBody)), "world_remove_body": (c_int, _handle, c_int),
-    "world_move": (c_int, _handle, c_int, *[c_double] * 5), "world_moved": (c_int, _handle, c_int, *[c_double] * 3), "world_pair": (c_int, _handle, c_int, c_int, *[c_double] * 3),
+    "world_move": (c_int, _handle, c_int, *[c_double] * 5), "world_moved": (c_int, _handle, c_int, *[c_double] * 3),
+    "world_move_in_space": (c_int, _handle, c_int, *[POINTER(c_double)] * 4), "world_moved_in_space": (c_int, _handle, c_int, *[POINTER(c_double)] * 2),
+    "world_pair": (c_int, _handle, c_int, c_int, *[c_double] * 3),
     "world_begin_step": (c_int, _handle, c_double, c_double), "world_end_step": (c_int, _handle),
     "world_touch": (c_int, _handle, POINTER(CContact)), "world_begin": (c_int, _handle, POINTER(CContact)),
     "world_push": (c_int, _handle, POINTER(CContact)), "world_end": (c_int, _handle, c_int, c_int),

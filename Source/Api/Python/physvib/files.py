@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._library import EVENT, HIT, PhysVibError, call, encoded
 from .layout import Layout, settings
+from .material_table import part
 
 
 class EventList(np.ndarray):
@@ -36,23 +37,34 @@ def field_of(list_of: Any) -> tuple[float, float] | None:
 
 
 def events(time_s: ArrayLike, *, frequency_hz: ArrayLike, decay_per_s: ArrayLike, amplitude: ArrayLike = 1.0, x_m: ArrayLike = 0.0, y_m: ArrayLike = 0.0,
-           duration_s: ArrayLike = 0.0, kind: ArrayLike = HIT) -> NDArray[np.void]:
+           duration_s: ArrayLike = 0.0, kind: ArrayLike = HIT, z_m: ArrayLike = 0.0, part: ArrayLike = 0) -> NDArray[np.void]:
     """Events of dtype EVENT, shape (n,), sorted by time; each argument one number, or n of them. Times are rounded to nanoseconds.
-    `kind`: HIT, or ROLL or SLIDE of a grain."""
+    `kind`: HIT, or ROLL or SLIDE of a grain. `part`: the name or number of the part of a body on whose actuators they are felt; 0: on all."""
     seconds, durations = np.asarray(time_s, dtype=np.float64), np.asarray(duration_s, dtype=np.float64)
     if not (np.isfinite(seconds).all() and np.isfinite(durations).all()) or np.abs(seconds).max(initial=0.0) > 1e8 or np.abs(durations).max(initial=0.0) > 1e8:
         raise PhysVibError("time: expected 0 to 10^8 s", -2)
-    made = np.zeros(np.broadcast(seconds, frequency_hz, decay_per_s, amplitude, x_m, y_m, durations, kind).shape or (1,), dtype=EVENT)
+    made = np.zeros(np.broadcast(seconds, frequency_hz, decay_per_s, amplitude, x_m, y_m, durations, kind, z_m, part).shape or (1,), dtype=EVENT)
     made["time_ns"], made["duration_ns"] = np.rint(seconds * 1e9), np.rint(durations * 1e9)
-    for name, values in (("frequency_hz", frequency_hz), ("decay_per_s", decay_per_s), ("amplitude", amplitude), ("x_m", x_m), ("y_m", y_m), ("kind", kind)):
+    for name, values in (("frequency_hz", frequency_hz), ("decay_per_s", decay_per_s), ("amplitude", amplitude), ("x_m", x_m), ("y_m", y_m), ("kind", kind), ("z_m", z_m), ("part", _parts(part))):
         made[name] = values
     made["fixture"] = made["other"] = -1
     return made[np.argsort(made["time_ns"], kind="stable")]
 
 
+def _parts(names: ArrayLike) -> NDArray[np.int32]:
+    """Numbers of parts; of names too, where "" and a missing value are none."""
+    array = np.asarray(names)
+    if array.dtype.kind in "iu":
+        return array.astype(np.int32)
+    numbers = [part(one) if isinstance(one, str) and one else int(one) if one and one == one else 0 for one in array.reshape(-1).tolist()]
+    return np.array(numbers, dtype=np.int32).reshape(array.shape)
+
+
 #: Columns of an event list, as files have them (Docs/events.md), and the fields they are. `impulse_ns` is N s.
 COLUMNS = {"time_s": "time_ns", "frequency_hz": "frequency_hz", "decay_per_s": "decay_per_s", "amplitude": "amplitude", "x_m": "x_m", "y_m": "y_m",
-           "duration_s": "duration_ns", "fixture": "fixture", "other": "other", "impulse_ns": "impulse_n_s", "mass_kg": "mass_kg", "kind": "kind"}
+           "duration_s": "duration_ns", "fixture": "fixture", "other": "other", "impulse_ns": "impulse_n_s", "mass_kg": "mass_kg", "kind": "kind", "z_m": "z_m", "part": "part"}
+#: Those that only lists have which need them.
+SPACE = ("z_m", "part")
 KINDS = ("hit", "roll", "slide")
 
 
@@ -61,7 +73,8 @@ def frame(list_of: NDArray[np.void]) -> Any:
     import pandas
 
     array = checked(list_of)
-    columns = {column: array[field] * 1e-9 if field.endswith("_ns") else array[field] for column, field in COLUMNS.items()}
+    columns = {column: array[field] * 1e-9 if field.endswith("_ns") else array[field] for column, field in COLUMNS.items()
+               if column not in SPACE or array[field].any()}
     columns["kind"] = np.array(KINDS)[array["kind"]]
     table = pandas.DataFrame(columns)
     if field_of(list_of):
@@ -83,7 +96,7 @@ def events_of(table: Any) -> NDArray[np.void]:
     if not np.isin(kind, KINDS).all():
         raise PhysVibError(f"kind: expected one of {', '.join(KINDS)}", -2)
     made = events(column["time_s"], duration_s=column.get("duration_s", 0.0), kind=np.array([KINDS.index(word) for word in kind], dtype=np.int32),
-                  **{name: column[name] for name in ("frequency_hz", "decay_per_s", "amplitude", "x_m", "y_m")})
+                  **{name: column[name] for name in ("frequency_hz", "decay_per_s", "amplitude", "x_m", "y_m", *SPACE) if name in column})
     order = np.argsort(np.rint(np.asarray(column["time_s"], dtype=np.float64) * 1e9), kind="stable")
     for name in ("fixture", "other", "impulse_ns", "mass_kg"):
         if name in column:

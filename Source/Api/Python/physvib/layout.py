@@ -8,17 +8,23 @@ import os
 from typing import Sequence
 
 from ._library import MAX_ENCHANTERS, CLayout, CRendererSettings, PhysVibError, call, encoded, filled, library
+from .material_table import part
 
 LAWS = tuple(name.decode() for name in itertools.takewhile(bool, map(library.physvib_law_name, itertools.count())))
 
 
 class Layout:
-    """Places of 1 to 64 enchanters in metres, from the lower left corner of the extent; channel j is places_m[j]."""
+    """Places of 1 to 64 enchanters in metres, from the lower left corner of the extent; channel j is places_m[j]: (x, y), or in space (x, y, z).
+    `parts`: of each, the name or number of the part of the body it is on ("thumb"; 0: none)."""
 
-    def __init__(self, places_m: Sequence[tuple[float, float]], extent_m: tuple[float, float]) -> None:
+    def __init__(self, places_m: Sequence[Sequence[float]], extent_m: tuple[float, float], parts: Sequence[str | int] = ()) -> None:
         if not 1 <= len(places_m) <= MAX_ENCHANTERS:
             raise PhysVibError("layout: expected 1 to 64 enchanters", -2)
-        self.places_m = [(float(x), float(y)) for x, y in places_m]
+        if any(len(place) not in (2, 3) for place in places_m) or len(parts) not in (0, len(places_m)):
+            raise PhysVibError("layout: expected places (x, y) or (x, y, z), and as many parts or none", -2)
+        is_flat = all(len(place) == 2 or place[2] == 0.0 for place in places_m)
+        self.places_m = [tuple(map(float, place[:2] if is_flat else (*place, 0.0)[:3])) for place in places_m]
+        self.parts = [part(one) if isinstance(one, str) and one else int(one or 0) for one in parts or [0] * len(places_m)]
         self.extent_m = (float(extent_m[0]), float(extent_m[1]))
 
     @classmethod
@@ -43,7 +49,8 @@ class Layout:
         return cls._of(c)
 
     def __repr__(self) -> str:
-        return f"Layout({self.places_m}, extent_m={self.extent_m})"
+        parts = f", parts={self.parts}" if any(self.parts) else ""
+        return f"Layout({self.places_m}, extent_m={self.extent_m}{parts})"
 
     def save(self, path: str | os.PathLike[str], name: str) -> None:
         """A layout file (JSON) of that name."""
@@ -53,16 +60,18 @@ class Layout:
         return len(self.places_m)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Layout) and (self.places_m, self.extent_m) == (other.places_m, other.extent_m)
+        return isinstance(other, Layout) and (self.places_m, self.extent_m, self.parts) == (other.places_m, other.extent_m, other.parts)
 
     @classmethod
     def _of(cls, c: CLayout) -> Layout:
-        return cls(list(zip(c.x_m[:c.count], c.y_m[:c.count])), (c.extent_width_m, c.extent_height_m))
+        places = list(zip(c.x_m[:c.count], c.y_m[:c.count], c.z_m[:c.count]))
+        return cls(places, (c.extent_width_m, c.extent_height_m), c.part[:c.count])
 
     def _c(self) -> CLayout:
         c = CLayout(extent_width_m=self.extent_m[0], extent_height_m=self.extent_m[1], count=len(self))
-        for j, (x, y) in enumerate(self.places_m):
-            c.x_m[j], c.y_m[j] = x, y
+        for j, (place, part_of_it) in enumerate(zip(self.places_m, self.parts)):
+            c.x_m[j], c.y_m[j], c.z_m[j] = (*place, 0.0)[:3]
+            c.part[j] = part_of_it
         return c
 
 

@@ -46,6 +46,11 @@ def sound(name: str) -> int:
     return call("sound", name.encode())
 
 
+def part(name: str) -> int:
+    """The number of the part of a body of that name, such as "thumb": of events' field `part`, and of layouts."""
+    return call("part", name.encode())
+
+
 def impact(x_m: float, y_m: float, strength: float, *, material: str | None = None) -> NDArray[np.void]:
     """One impact at time 0, dtype EVENT, shape (1,): 0 to 1 of full scale; of a built-in material, else of 200 Hz."""
     made = np.zeros(1, dtype=EVENT)

@@ -36,6 +36,12 @@ class Counts(NamedTuple):
     threshold_m_per_s: float  #: in effect
 
 
+def _numbers(name: str, found: Sequence[float], count: int) -> ctypes.Array[ctypes.c_double]:
+    if len(found) != count:
+        raise PhysVibError(f"{name}: expected {count} numbers", -2)
+    return (ctypes.c_double * count)(*found)
+
+
 class World(Owned):
     """Tell which bodies there are and, in each step, which of them touch. Bodies are numbers of yours, from 0 on, and stand in the
     events. None: as physvib.h says under the same name."""
@@ -70,16 +76,17 @@ class World(Owned):
     def set_body(self, body: int, *, mass_kg: float = 0.0, is_camera: bool = False, frequency_hz: float = 0.0, decay_per_s: float = 0.0, voice: str = "own",
                  surface: int = 0, inertia_kg_m2: float = 0.0, gravity_scale: float = 1.0, static_mass_kg: float = 0.0, gain: float = 1.0,
                  hand_mass_kg: float | None = None, grain_m: float = 0.0, roughness: float = 1.0, rolling: float = 0.2, is_ridged: bool = False,
-                 overtones: Sequence[tuple[float, float, float]] = (), device: int = 0) -> None:
+                 overtones: Sequence[tuple[float, float, float]] = (), device: int = 0, part: int = 0) -> None:
         """A body, at first or again; a mass of 0 is a floor or a wall: what strikes it does not move it. Grains: see `touch`. `overtones`: at most three
-        of (frequency_hz, decay_per_s, amplitude relative to the first mode). `device`: the device on which it is felt, see `follow_each`."""
+        of (frequency_hz, decay_per_s, amplitude relative to the first mode). `device`: the device on which it is felt, see `follow_each`. `part`: number of the
+        part of a body on whose actuators it is felt; 0: on all, by place."""
         if len(overtones) > 3:
             raise PhysVibError("overtones: expected at most 3", -2)
         if voice not in VOICES:
             raise PhysVibError(f"voice: expected one of {', '.join(VOICES)}", -2)
         values = filled(CBody, "body_init", mass_kg=mass_kg, is_camera=int(is_camera), frequency_hz=frequency_hz, decay_per_s=decay_per_s,
                         voice=VOICES.index(voice), surface=surface, inertia_kg_m2=inertia_kg_m2, gravity_scale=gravity_scale,
-                        static_mass_kg=static_mass_kg, gain=gain, hand_mass_kg=hand_mass_kg, grain_m=grain_m, roughness=roughness, rolling=rolling, is_ridged=int(is_ridged), device=device)
+                        static_mass_kg=static_mass_kg, gain=gain, hand_mass_kg=hand_mass_kg, grain_m=grain_m, roughness=roughness, rolling=rolling, is_ridged=int(is_ridged), device=device, part=part)
         for i, (overtone_hz, overtone_decay, amplitude) in enumerate(overtones):
             values.overtone_hz[i], values.overtone_decay_per_s[i], values.overtone_amplitude[i] = overtone_hz, overtone_decay, amplitude
         call("world_set_body", self._handle, body, ctypes.byref(values))
@@ -101,6 +108,18 @@ class World(Owned):
         velocity without contacts then, so with what gravity adds in the step."""
         call("world_moved", self._handle, body, vx_m_per_s, vy_m_per_s, spin_rad_per_s)
 
+    def move_in_space(self, body: int, centre_m: Sequence[float], velocity_m_per_s: Sequence[float] = (0.0, 0.0, 0.0),
+                      spin_rad_per_s: Sequence[float] = (0.0, 0.0, 0.0), inverse_inertia_per_kg_m2: Sequence[float] | None = None) -> None:
+        """`move` in space: x, y and z, the field being the plane of x and y. The inverse of the moments of inertia is a symmetric matrix in the world's axes
+        (xx, yy, zz, xy, xz, yz); without it, inertia_kg_m2 counts about every axis, as of a ball."""
+        turning = None if inverse_inertia_per_kg_m2 is None else _numbers("inverse_inertia_per_kg_m2", inverse_inertia_per_kg_m2, 6)
+        call("world_move_in_space", self._handle, body, _numbers("centre_m", centre_m, 3), _numbers("velocity_m_per_s", velocity_m_per_s, 3),
+             _numbers("spin_rad_per_s", spin_rad_per_s, 3), turning)
+
+    def moved_in_space(self, body: int, velocity_m_per_s: Sequence[float], spin_rad_per_s: Sequence[float] = (0.0, 0.0, 0.0)) -> None:
+        """`moved` in space."""
+        call("world_moved_in_space", self._handle, body, _numbers("velocity_m_per_s", velocity_m_per_s, 3), _numbers("spin_rad_per_s", spin_rad_per_s, 3))
+
     def pair(self, surface: int, other: int, *, frequency_hz: float, decay_per_s: float, gain: float = 1.0) -> None:
         """How two kinds of surfaces sound together, whatever the camera's voice is."""
         call("world_pair", self._handle, surface, other, frequency_hz, decay_per_s, gain)
@@ -117,7 +136,7 @@ class World(Owned):
     def touch(self, a: int, b: int, x_m: float = 0.0, y_m: float = 0.0, **more: float) -> None:
         """Two bodies touch in this step. A pair that did not in the step before begins; one that is not named again has ended.
 
-        `more`: normal_x, normal_y (from a to b), impulse_n_s, tangential_n_s, or approach_m_per_s with restitution and effective_mass_kg;
+        `more`: normal_x, normal_y (from a to b), in space also z_m, normal_z and friction_x_n_s, friction_y_n_s, friction_z_n_s; impulse_n_s, tangential_n_s, or approach_m_per_s with restitution and effective_mass_kg;
         fraction, or gap_m with gap_fraction; is_soft; point_id (a number, or POINT_BY_PLACE) of points that are told apart, with is_impulse_of_pair; along_a_m_per_s and along_b_m_per_s of what rolls or slides over grains: see physvib.h."""
         self._tell("world_touch", a, b, x_m, y_m, more)
 
@@ -167,7 +186,7 @@ class World(Owned):
     def explain(self, renderer: Renderer | None = None, **output: float | str) -> str:
         """Why nothing, or not everything, is felt of what happened since the last call: the most likely reason, one sentence. `renderer`: the one that
         plays the events, or `output`: what is known of another output (is_missing, is_silent, silent_by, trouble, channels, level, muted_channels, late,
-        dropped, rejected: see physvib_output_facts)."""
+        dropped, rejected, without_part: see physvib_output_facts)."""
         if renderer is not None:
             return explained(partial(call, "renderer_explain"), renderer._handle, self._handle)
         if output:
