@@ -11,11 +11,19 @@ physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgt
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool clang clang-format-14 libclang-rt-14-dev \
     liblo-tools python3-numpy python3-pandas luajit doxygen cmark-gfm \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
+# Of .ci/pico-sources.sh alone, and of Tests/Firmware/pico.sh.
+physvib_pico_packages="cmake ninja-build gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib python3"
+physvib_pico_test_packages="nodejs npm" # where they are not there from elsewhere
+# Of Tests/Firmware/pico-linux.sh alone; and what its machine in QEMU has, beside a kernel.
+physvib_pico_linux_packages="qemu-system-x86 cpio kmod g++ python3"
+physvib_pico_linux_guest="busybox-static kmod usbip alsa-utils usbutils usb.ids libc6 libudev1 libusb-1.0-0 libasound2 libasound2-data libzstd1 liblzma5 libssl3"
 # Of tests with the label engines alone: physics engines and languages of others (Tests/Engines/passed.sh says when).
 physvib_engine_packages="love mono-mcs libchipmunk-dev libbullet-dev libode-dev libmujoco-dev"
 # Of Standalone/Web/build-web.sh, Source/Api/JavaScript/build-package.sh, Tests/web.sh and Tests/javascript.sh alone.
 physvib_web_packages="binaryen clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
 physvib_web_test_packages="$physvib_web_packages chromium python3 zbar-tools"
+# Of Tests/JavaScript/bundlers.sh alone; WebKitGTK brings its MiniBrowser.
+physvib_browser_packages="chromium firefox-esr libwebkit2gtk-4.1-0 gstreamer1.0-plugins-good xvfb xauth"
 # Of Standalone/Packaging/release.sh, and of Tests/Release.
 physvib_release_packages="$physvib_build_packages libgtest-dev g++ git debhelper dh-python python3 dpkg-dev"
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
@@ -87,7 +95,7 @@ ensure_packages() {
 }
 
 # from_debian FOLDER source|download PACKAGE...: apt checks them against Debian's signatures. The lists, for the processor that
-# PHYSVIB_ARCHITECTURE names or this one, are its own: the machine's stay as they are.
+# PHYSVIB_ARCHITECTURE names or this one, of bookworm or the suite that PHYSVIB_SUITE names, are its own: the machine's stay as they are.
 from_debian() (
     into=$1
     shift
@@ -95,7 +103,7 @@ from_debian() (
     trap 'rm -rf "$fetched"' EXIT
     mkdir -p "$fetched/lists/partial"
     [ "$1" = source ] && kind=deb-src || kind=deb
-    echo "$kind [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" >"$fetched/sources.list"
+    echo "$kind [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian ${PHYSVIB_SUITE:-bookworm} main" >"$fetched/sources.list"
     architecture=${PHYSVIB_ARCHITECTURE:-$(dpkg --print-architecture)}
     from="-q -q -o Dir::Etc::sourcelist=$fetched/sources.list -o Dir::Etc::sourceparts=/dev/null -o Dir::State::lists=$fetched/lists
         -o Dir::Cache=$fetched -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= -o APT::Sandbox::User=
@@ -118,6 +126,17 @@ unpack_juce() {
     rm "$unpacked"/*.deb
     find "$unpacked/usr/lib" -name '*.cmake' -exec sed -i "s|\"/usr/|\"$juce_folder/usr/|" {} + || return 1
     rm -rf "$juce_folder" && mv "$unpacked" "$juce_folder"
+}
+
+# unpack_pico: puts the Pico's SDK and TinyUSB in build/pico, where Firmware/CMakeLists.txt finds them. Debian has them from trixie on; they are
+# sources alone, which bookworm's compiler takes.
+unpack_pico() {
+    unpacked=$PWD/build/pico.new
+    rm -rf "$unpacked" && mkdir -p "$unpacked" || return 1
+    PHYSVIB_SUITE=trixie from_debian "$unpacked" download pico-sdk-source tinyusb-source || return 1
+    for archive in "$unpacked"/*.deb; do dpkg-deb -x "$archive" "$unpacked" || return 1; done
+    rm "$unpacked"/*.deb
+    rm -rf build/pico && mv "$unpacked" build/pico
 }
 
 # with_juce_unpacked NAME...: the packages that are then to be installed.

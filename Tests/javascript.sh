@@ -17,11 +17,14 @@ echo '{ "private": true }' >package.json
 npm install --silent --no-audit --no-fund "$package"
 cd "$OLDPWD"
 for test in package pads audio silent; do node "Tests/JavaScript/$test.mjs" "$work" "$physvib"; done
-for test in insecure link; do node "Tests/JavaScript/$test.mjs"; done
+for test in insecure link clock; do node "Tests/JavaScript/$test.mjs"; done
 say "taking the engines from npm"
-(cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 box2d3-wasm@5.2 phaser@4 jspsych@8 typescript@5)
+(cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 @dimforge/rapier3d-compat@0.21 box2d3-wasm@5.2 phaser@4 jspsych@8 typescript@5)
 node Tests/JavaScript/jspsych.mjs "$work"
 node Tests/JavaScript/bodies.mjs "$work"
+node Tests/JavaScript/lives.mjs "$work"
+node Tests/JavaScript/cost.mjs "$work" 100
+node Tests/JavaScript/space.mjs "$work"
 native=$(dirname "$physvib")/physvib-engine-box2d
 cmake --build "$(dirname "$physvib")/.." --target physvib-engine-box2d >/dev/null
 node Tests/JavaScript/worlds.mjs "$work" "$native"

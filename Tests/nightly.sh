@@ -15,7 +15,7 @@ engines() {
     # shellcheck disable=SC2086 # a list of words
     ensure_packages $physvib_engine_packages && build release all &&
         ctest --preset release -L engines --no-tests=error --output-junit "$PWD/build/tests-engines.xml" --test-output-size-passed 1000000 &&
-        Tests/House/skipped.py --quiet build/release build/tests-engines.xml && Tests/Engines/passed.sh --keep
+        Tests/House/skipped.py --quiet --at-night PHYSVIB_PICO_SDK build/release build/tests-engines.xml && Tests/Engines/passed.sh --keep
 }
 step() {
     case $1 in
@@ -41,6 +41,7 @@ step() {
         tidy) Tests/House/tidy.sh ;;
         abi) Tests/Release/abi.sh ;;
         sweep) Tests/Sweep/speed.sh $bin && Tests/Sweep/cluster.sh $bin ;;
+        godot) Tests/godot.sh build/release build/nightly/godot ;;
         web) Tests/web.sh $bin/physvib ;;
         javascript) Tests/javascript.sh $bin/physvib ;;
         site) Tests/site.sh ;;
@@ -51,6 +52,7 @@ step() {
         fresh) Tests/fresh-machine.sh ;;
         no-lab) Tests/House/no-lab.sh build/no-lab ;;
         pages) Tests/fresh-machine.sh --pages ;;
+        pico) .ci/pico-sources.sh && build release physvib-pico && Tests/Firmware/pico.sh ;;
         pads) /usr/bin/python3 Tests/Pads/judge.py $bin/physvib build/release/Tests/Pads/libphysvib-plug-in.so 600 ;;
         packages) Tests/Release/bare-debian.sh ;;
         reproducible) Tests/Release/reproducible.sh ;;

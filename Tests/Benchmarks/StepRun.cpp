@@ -2,7 +2,7 @@
 // What instructions.sh counts of physics, for so many STEPS:
 //   box BODIES CAMERAS STEPS  a shaken box; cameras: 0: none, 4: the walls, more: all bodies as well,
 //                             below 0: Box2D alone
-//   balls COUNT GRAIN_MM STEPS
+//   balls COUNT GRAIN_MM STEPS  balls roll; grains of 0: a smooth floor, below 0: Box2D alone
 #include "Worlds.h"
 #include <cstdio>
 #include <cstdlib>

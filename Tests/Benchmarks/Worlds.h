@@ -81,14 +81,19 @@ private:
 
 /// Balls that roll to and fro on a floor with grains that are so far apart (0: smooth), at up to 1.3 m/s.
 struct RollingBalls {
-    RollingBalls(int count, double grainMetres) {
+    /// `grainMetres`: 0: a smooth floor, below 0: Box2D alone.
+    RollingBalls(int count, double grainMetres)
+        : isAlone{grainMetres < 0.0} {
         const b2BodyDef def;
         b2EdgeShape edge;
         edge.SetTwoSided({-1.0e4F, 0.0F}, {1.0e4F + 2.0F * static_cast<float>(count), 0.0F});
         b2Fixture& floor = *world.CreateBody(&def)->CreateFixture(&edge, 0.0F);
         HapticFixture rough{250.0, 60.0, true, 340.0, Voice::own};
         rough.texture.grainMetres = grainMetres;
-        (void)attachment.set(floor, rough);
+        if (isAlone)
+            attachment.detach();
+        else
+            (void)attachment.set(floor, rough);
         for (int i = 0; i < count; ++i) {
             b2BodyDef ball;
             ball.type = b2_dynamicBody;
@@ -102,9 +107,11 @@ struct RollingBalls {
     void step(int n) {
         world.SetGravity({n / 100 % 2 == 0 ? 2.0F : -2.0F, -9.8F});
         events.clear();
+        if (isAlone) return world.Step(stepSeconds, 8, 3);
         attachment.step(stepSeconds);
         attachment.take(events);
     }
+    bool isAlone;
     b2World world{{0.0F, -9.8F}};
     Attachment attachment{world};
     std::vector<CollisionEvent> events;

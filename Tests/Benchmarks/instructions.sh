@@ -12,7 +12,7 @@ program=build/instruction-run
 g++ -std=c++20 -O2 -ffp-contract=off -ISource -ITests/Benchmarks Tests/Benchmarks/InstructionRun.cpp build/library/lib/libphysvib-core.a -lhwy -o $program
 steps=build/step-run
 g++ -std=c++20 -O2 -ffp-contract=off -ISource -ITests/Benchmarks Tests/Benchmarks/StepRun.cpp build/library/lib/libphysvib-physics.a \
-    build/library/lib/libphysvib-contacts.a -lbox2d -o $steps
+    build/library/lib/libphysvib-contacts.a build/library/lib/libphysvib-core.a -lhwy -lbox2d -o $steps
 
 counted() { # PROGRAM ARGUMENTS...: instructions
     valgrind --tool=callgrind --callgrind-out-file=/dev/null "$@" 2>&1 | awk '/Collected/ { print $4 }'
@@ -53,9 +53,11 @@ for bodies in 10 100 1000; do
         echo "| the same attached, $who | $felt ($(more "$alone" "$felt")) |"
     done
 done
+alone=$(per_step balls 100 -1)
+echo "| 100 balls roll, Box2D alone | $alone |"
 smooth=$(per_step balls 100 0)
-echo "| 100 balls roll, smooth | $smooth |"
+echo "| the same attached, a smooth floor | $smooth ($(more "$alone" "$smooth")) |"
 for mm in 20 5 2; do
     rough=$(per_step balls 100 $mm)
-    echo "| the same over grains of $mm mm | $rough ($(more "$smooth" "$rough")) |"
+    echo "| the same attached, grains of $mm mm | $rough ($(more "$alone" "$rough"); over the smooth floor $(more "$smooth" "$rough")) |"
 done

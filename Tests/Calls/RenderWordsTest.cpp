@@ -74,8 +74,8 @@ TEST(RenderWords, WrongTextIsRefusedWithItsOption) {
     EXPECT_EQ(jobOf("drop --field 1,nan").error,
               "--field: expected W,H in metres (0.001 to 1e6), found \"1,nan\"");
     EXPECT_EQ(jobOf("drop --set =3").error, "--set: expected NAME=VALUE");
-    EXPECT_EQ(jobOf("drop --law loud").error,
-              "--law: expected linear, log, log-outer, energy, neighbours or auto, found \"loud\"");
+    EXPECT_EQ(jobOf("drop --law loud").error, "--law: expected linear, log, log-outer, energy, neighbours, "
+                                              "auto, distance or triangles, found \"loud\"");
     EXPECT_EQ(jobOf("drop --method AX-FV-DRV").error,
               "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"AX-FV-DRV\"");
     for (const char* word : {"0=a.wav", "oak", "oak=", "=a.wav"})

@@ -35,6 +35,7 @@ std::set<std::string> allFields() {
     listFields<CallSet>("calls", names);
     listFields<WorldSet>("world", names);
     listFields<StudyFactor>("factor", names);
+    listFields<StudyVariable>("variable", names);
     listFields<StudySoundFile>("sound", names);
     listFields<MaterialPictureFile>("picture", names);
     listFields<SessionPlan>("session", names);
@@ -59,6 +60,7 @@ const std::map<std::string, std::string> wordless{
     {"calls.call", "the report prints the calls of the rows"},
     {"world.call", "the report prints the calls of the rows"},
     {"world.factors", "as those of calls"},
+    {"world.variables", "as those of calls"},
 };
 
 using Edit = std::function<void(Protocol&)>;
@@ -104,6 +106,9 @@ std::vector<PlantedField> plantedFields() {
     };
     const auto staircase = [&](std::function<void(StaircasePlan&)> edit) {
         return part<StaircasePlan>(&SessionPlan::staircase, std::move(edit));
+    };
+    const auto variables = [](std::vector<StudyVariable> all) {
+        return stimuli<CallSet>([all](CallSet& c) { c.variables = all; });
     };
     const auto quest = [&](std::function<void(QuestMethod&)> edit) {
         return part<QuestMethod>(&SessionPlan::quest, std::move(edit));
@@ -219,6 +224,15 @@ std::vector<PlantedField> plantedFields() {
          scaled},
         {"session.adjustment", adjusts, " is set from -40 to 40 dB in steps of 1 dB, starting at 0 dB"},
         {"session.staircase", stairs, "; staircase on "},
+        {"session.instruction", session([](SessionPlan& s) { s.instruction = "Feel both."; }),
+         "after the page \u201cFeel both.\u201d"},
+        {"session.feedback", session([](SessionPlan& s) { s.givesFeedback = true; }),
+         "each answer is followed by whether it was right"},
+        {"session.interval_s", session([](SessionPlan& s) { s.intervalSeconds = 0.7; }),
+         "one after the other, 0.7 s apart", two},
+        {"calls.variables", variables({{"hz", 200.0}}), "; hz is 200 at a level of 0 dB", variables({})},
+        {"variable.name", variables({{"decay", 200.0}}), "; decay is", variables({{"hz", 200.0}})},
+        {"variable.at_0_db", variables({{"hz", 123.0}}), "is 123 at", variables({{"hz", 200.0}})},
         {"session.quest", quests, "; QUEST+ on "},
         {"session.levels_from", session([](SessionPlan& s) { s.levelsFrom = "matching"; }),
          "levels from the session matching"},
@@ -249,6 +263,8 @@ std::vector<PlantedField> plantedFields() {
          "down to 0.7 dB", stairs},
         {"staircase.least_db", staircase([](StaircasePlan& s) { s.leastDb = 1; }), "from 1 to", stairs},
         {"staircase.most_db", staircase([](StaircasePlan& s) { s.mostDb = 12; }), "to 12 dB", stairs},
+        {"staircase.up_ratio", staircase([](StaircasePlan& s) { s.upRatio = 3; }),
+         "steps up 3 times as large", stairs},
         {"staircase.down", staircase([](StaircasePlan& s) { s.down = 3; }), "3 down, 1 up", stairs},
         {"staircase.reversals", staircase([](StaircasePlan& s) { s.reversals = 13; }), "until 13 reversals",
          stairs},

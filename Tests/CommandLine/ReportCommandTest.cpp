@@ -161,6 +161,64 @@ TEST_F(Report, PeopleOfWhomNothingIsKnownCount) {
     EXPECT_FALSE(has(page(), "Trainings"));
 }
 
+TEST_F(Report, WhoStoppedBeforeTheEndIsNamed) {
+    for (const std::string name : {"level-steps", "level-quest", "magnitudes"}) {
+        simulate(name, 3);
+        std::string text = read(name + "-P02.csv");
+        for (int line = 0; line < 4; ++line) text.erase(text.rfind('\n', text.size() - 2) + 1);
+        write(name + "-P02.csv", text);
+        ASSERT_EQ(call("report " + name + "-P*.csv --out " + name).exitCode, 0) << name;
+        const std::string html = page(name);
+        EXPECT_EQ(count(html, " did not finish "), 1u) << name;
+        EXPECT_TRUE(has(html, "participant P02 did not finish ")) << name;
+        EXPECT_FALSE(has(html, "Nobody and no main trial is left out.")) << name;
+        EXPECT_EQ(has(html, "the threshold is not one of the method"), name != "magnitudes") << name;
+    }
+}
+
+TEST_F(Report, LevelsThatAnswersChoseTellNoSlope) {
+    simulate("level-quest", 3);
+    ASSERT_EQ(call("report level-quest-P*.csv --out out").exitCode, 0);
+    EXPECT_TRUE(
+        has(page(), "the functions are weibull, with a guess rate of 50 % and lapse rates of up to 2 %."));
+    EXPECT_TRUE(has(page(), "no JND (answers chose the levels"));
+    EXPECT_TRUE(has(read("out/psychometric.csv"), ",,,0.5,")) << "neither width nor JND";
+    for (const char* slope : {", JND ", "thin lines", "mean of the participants"})
+        EXPECT_FALSE(has(page(), slope)) << slope;
+    write("f.csv", fasterTable(1.0));
+    const auto told = call("analyse psychometric f.csv --guess 0 --columns "
+                           "participant=who,condition=masker,level_db=speed,correct=faster");
+    EXPECT_TRUE(has(told.out, ", JND ")) << "levels that the experimenter chose: " << told.out << told.err;
+}
+
+TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
+    const std::string kept = "Protocol, number of participants and tests are as planned.";
+    for (const std::string name : {"phantom-grids", "eight-methods", "magnitudes"}) {
+        ASSERT_EQ(call("study plan " + name + " --participants 4 --out plan.txt").exitCode, 0) << name;
+        simulate(name, 4);
+        const std::string files = "report " + name + "-P*.csv --plan plan.txt --out ";
+        ASSERT_EQ(call(files + name).exitCode, 0) << name;
+        EXPECT_TRUE(has(page(name), kept))
+            << name << page(name).substr(page(name).find("Planned and done"), 400);
+    }
+    ASSERT_EQ(
+        call("report magnitudes-P01.csv magnitudes-P02.csv magnitudes-P03.csv --plan plan.txt --out fewer")
+            .exitCode,
+        0);
+    EXPECT_TRUE(has(page("fewer"), "Planned were 4 participants, 3 took part."));
+    EXPECT_FALSE(has(page("fewer"), kept));
+    std::string plan = read("plan.txt");
+    const auto test = plan.find("- physvib analyse ");
+    ASSERT_NE(test, std::string::npos) << plan;
+    plan.replace(test, 18, "- physvib analyse other ");
+    write("plan.txt", plan);
+    ASSERT_EQ(call("report magnitudes-P*.csv --plan plan.txt --out other").exitCode, 0);
+    EXPECT_TRUE(has(page("other"), "Planned, not done: physvib analyse other ")) << plan;
+    EXPECT_TRUE(has(page("other"), "Not planned: physvib analyse "));
+    refuses("report magnitudes-P01.csv --plan magnitudes-P01.csv --out none", 1,
+            "expected a plan of `physvib study plan`", 18);
+}
+
 TEST_F(Report, PeopleInTwoTablesAreNamed) {
     const auto table = [&](const char* name, int first, int last) {
         std::string text = "participant,stimulus,response\n";
@@ -220,6 +278,10 @@ TEST_F(Report, OneParticipantIsToldAndNotTested) {
     EXPECT_TRUE(has(page(), "one participant: intervals and tests over participants are not possible"));
     EXPECT_TRUE(has(page(), "not tested: "));
     EXPECT_TRUE(has(outcome.out, " 0 tests")) << outcome.out;
+    for (const char* untrue :
+         {"intervals over participants:", "intervals over participants.", "over 1 participant"})
+        EXPECT_FALSE(has(page(), untrue)) << untrue;
+    EXPECT_TRUE(has(page(), "(95 % interval over trials "));
 }
 
 TEST_F(Report, UnknownTrialsHaveTheirTableAndAreTold) {

@@ -101,8 +101,39 @@ TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
     EXPECT_TRUE(has(whole, "Assumptions: by Shapiro and Wilk&#39;s test") ||
                 has(whole, "Assumptions: by Shapiro and Wilk's test"));
     EXPECT_TRUE(has(whole, "Power of the design as it was run"));
-    EXPECT_TRUE(has(whole, "with Bonferroni&#39;s correction for 15 pairs of conditions") ||
-                has(whole, "with Bonferroni's correction for 15 pairs of conditions"));
+    EXPECT_TRUE(has(whole, " pairs as tested here, d = "));
+}
+
+TEST_F(ReportFields, LevelsStandByStimulusAndPartAndAreToldAsAssumed) {
+    ASSERT_EQ(call("study run model-or-sound --observer simulated").exitCode, 0);
+    std::istringstream lines{read("model-or-sound-P01.csv")};
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        // peak_g, rms_g, a8_m_per_s2
+        if (line.ends_with(",,,,,,,,"))
+            line.replace(line.size() - 8, 3,
+                         line.find("height=3") < line.size() ? ",0.5|0.3,0.2|0.1," : ",0.4|0.3,0.2|0.1,");
+        text += line + "\n";
+    }
+    write("model-or-sound-P01.csv", text);
+    const std::string whole = page("report model-or-sound-P01.csv --out out"),
+                      table = read("out/levels-by-stimulus.csv");
+    EXPECT_TRUE(has(table, "drop,main,pair=wood-wood size=small height=3,AV-FV-DRV,peak_g,4,0.3,")) << table;
+    EXPECT_TRUE(has(table, "drop,main,pair=wood-wood size=small height=1,SV,peak_g,4,0.3,"));
+    EXPECT_TRUE(has(whole, "This is assumed: no row says that an accelerometer measured it"));
+    EXPECT_FALSE(has(whole, "the peak of what was felt"));
+}
+
+TEST_F(ReportFields, PeopleOfOneNumberAreNamed) {
+    for (const char* code : {"A", "B"})
+        ASSERT_EQ(
+            call(std::string{"study run magnitudes --observer simulated --number 1 --participant "} + code)
+                .exitCode,
+            0);
+    ASSERT_EQ(call("study run magnitudes --observer simulated --number 2 --participant C").exitCode, 0);
+    EXPECT_TRUE(has(page("report magnitudes-A.csv magnitudes-B.csv --out out"),
+                    "participants A, B have the same number, 1"));
+    EXPECT_FALSE(has(page("report magnitudes-A.csv magnitudes-C.csv --out out"), "have the same number"));
 }
 
 /// Methods as rows and facts can tell them; the protocol's own sentences come on top.
@@ -122,6 +153,7 @@ const char* const rowSentences[] = {
     R"(Device, master level in dB, root mean square of the pink noise in dB of full scale \(off: there was none\), version of the program, and by how much the limiter lowered what was felt\.)",
     R"(\d+ trials were felt through the device JACK:system at a master level of -3 dB, with pink noise of -30 dB of full scale \(root mean square\); the limiter lowered none of them\.)",
     R"(Each of these calls of physvib renders a stimulus again; one of each condition and session, all \d+ in stimuli\.csv:)",
+    R"(\d+ participants? without a file of times: nothing is known of dates, breaks and outputs)",
     R"(Every trial had the level of its call; nobody measured what was felt\.)",
 };
 

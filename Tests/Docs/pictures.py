@@ -8,7 +8,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-root, physvib = Path(sys.argv[1]), sys.argv[2]
+root, physvib = Path(sys.argv[1]), str(Path(sys.argv[2]).resolve())
 old, count = [], 0
 for line in (root / "Docs/pictures.txt").read_text().split("\n"):
     if not line or line.startswith("#"):
@@ -17,7 +17,7 @@ for line in (root / "Docs/pictures.txt").read_text().split("\n"):
     count += 1
     with tempfile.TemporaryDirectory() as folder:
         events = Path(folder) / "events.csv"
-        subprocess.run([physvib, *call, "--events", str(events)], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([physvib, *call, "--events", str(events)], check=True, cwd=root, stdout=subprocess.DEVNULL)
         rows = b"".join(row for row in events.read_bytes().splitlines(keepends=True) if not row.startswith(b"#"))
     if not (root / picture).exists():
         old.append(f"{picture}: there is no such file")

@@ -30,7 +30,7 @@ for script, names in pages.items():
 cell = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # the formatter may have cut a text in two
 source = (root / "Source/Lab/Study/ThesisDeviations.h").read_text()
 page = (root / "Docs/studies-thesis.md").read_text()
-deviations = re.findall(r"ThesisDeviation\{" + r",\s*".join([cell] * 5) + r"(?:,\s*ThesisEdit::\w+)?\}", source)
+deviations = re.findall(r"ThesisDeviation\{\s*" + r",\s*".join([cell] * 5) + r"(?:,\s*ThesisEdit::\w+)?\}", source)
 lines = {f"| `{protocol}` {section} | {thesis} | {here} | {change or '-'} |" for protocol, section, thesis, here, change in ([re.sub(r'"\s*"', "", text.strip())[1:-1] for text in one] for one in deviations)}
 for line in sorted(lines):
     if line not in page.split("\n"):

@@ -35,6 +35,27 @@ TEST(SessionFile, AStrikeThatWouldHoldACoilAtDirectCurrentIsNamed) {
               "found 2 Hz");
 }
 
+TEST(SessionFile, StrikesKeepDepthAndPartWhereTheyHaveThem) {
+    const auto with = [](const std::string& place) {
+        return sessionWith("\"channels\": 2,",
+                           "\"channels\": 2, \"strikes\": [{\"time_s\": 0.01, \"frequency_hz\": 200, "
+                           "\"decay_per_s\": 30, \"amplitude\": 1, \"x_m\": 0, \"y_m\": 0" +
+                               place + "}],");
+    };
+    const auto session = readSession(with(", \"z_m\": -0.25, \"part\": 12"), "s.json");
+    ASSERT_EQ(session.error, "");
+    const auto& strikes = session.value.log.strikes;
+    ASSERT_EQ(strikes.size(), 1U);
+    EXPECT_EQ(strikes[0].z, -0.25);
+    EXPECT_EQ(strikes[0].source.part, 12);
+    EXPECT_EQ(readSession(sessionJson(session.value), "s.json").value.log.strikes, strikes);
+    const std::string flat = sessionJson(readSession(with(""), "s.json").value);
+    EXPECT_EQ(flat.find("z_m"), std::string::npos) << "as it was";
+    EXPECT_EQ(flat.find("\"part\""), std::string::npos);
+    EXPECT_EQ(readSession(with(", \"part\": -1"), "s.json").error,
+              "s.json: strikes[0].part: expected 0 to 2147483647, found -1");
+}
+
 TEST(SessionFile, ClipsOfOlderSessionsAreKnownByTheirFrequency) {
     const auto old = readFile(PHYSVIB_SOURCE_DIR "/Tests/Fuzz/corpus/session/clips.json", 100'000).value;
     const auto session = readSession(old, "s.json");

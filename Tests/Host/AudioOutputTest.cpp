@@ -89,6 +89,19 @@ TEST(AudioOutput, OpensTheDeviceThatIsNamedAndNoOther) {
     EXPECT_EQ(rig.speakers.timesOpened, 0);
 }
 
+TEST(AudioOutput, APicoIsFoundByItsShortNameAndItsOwnLatencyIsTold) {
+    Rig rig;
+    EXPECT_EQ(rig.output.open({"pico"}).substr(0, 20), "pico: no such device");
+    rig.speakers.name = "PhysVib pico8, USB Audio; Rear output / input";
+    rig.interface.name = "PhysVib pico8, USB Audio; Direct hardware device without any conversions";
+    EXPECT_EQ(rig.output.open({"pico"}), "");
+    EXPECT_EQ(rig.interface.timesOpened, 1) << "the card itself, not a part of it";
+    EXPECT_EQ(rig.output.deviceLatencyFrames(), rig.interface.block + 134) << "2.8 ms at 48 kHz";
+    rig.speakers.name = "pico";
+    EXPECT_EQ(rig.output.open({"pico"}), "");
+    EXPECT_EQ(rig.speakers.timesOpened, 1) << "a device that has the name goes first";
+}
+
 TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt) {
     Rig rig;
     const auto setup = shakeTheBoxSetup(0.02); // of fewer channels

@@ -312,10 +312,10 @@ try_dialogs() {
     osc say /physvib/gain sisf channel 1 value 0.9 >/dev/null # an edit: closing asks
     stop_in "nothing open" true
     stop_in "main menu" x key F10
-    stop_in "list of scenes" at 205 26
+    stop_in "list of scenes" at 316 26
     stop_in "list of outputs" output_list
     stop_in "list of protocols" protocol_list
-    stop_in "text field" at 524 26
+    stop_in "text field" at 640 26
     stop_in "Open (Save the session?)" x key ctrl+o
     stop_in "Open" open_chooser
     stop_in "Render" x key ctrl+e
@@ -350,10 +350,11 @@ stop_in() {
 }
 # stays DOOR: no pause of a loaded machine, but silence.
 stays() { sleep 0.5; quiet || row "$1" "$state: silent for half a second" sounds 0; }
-# again: whatever is open closes, and the tone comes back.
+# again: whatever is open closes, and the button brings the tone back.
 again() {
     for _ in 1 2 3 4; do
-        x key Escape
+        x key Escape sleep 0.3
+        at 1353 26
         ! until_true 1500 sounds || return 0
     done
     row "sounds again" "$state" never 0

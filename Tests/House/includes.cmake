@@ -12,6 +12,7 @@ set(Formats_may "Formats/|Io/|Core/|nlohmann/")
 set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Io/(Result|Text/NumberText)\\.h|Contacts/(Grains|Texture)\\.h|Core/") # one line of words for what a recording lacks
 set(Api_may "Api/C/|Scene/|Io/|Contacts/|Core/")
 set(Api/Live_may "Api/|Live/|Scene/|Io/|Contacts/|Core/")
+set(Api/Godot_may "Api/Godot/") # and the public headers
 set(Api/JavaScript_may "Api/(C|JavaScript)/|Members\\.inc|Formats/|Scene/|Io/|Core/")
 set(Live/Documents_may "Live/Documents/|Scene/|Io/|Core/|nlohmann/")
 set(Live/Session_may "Live/(Documents|Messages|Session)/|Stimuli/|Scene/|Io/|Physics/|Contacts/|Wire/|Core/")
@@ -33,11 +34,11 @@ set(Standalone/Mixer/Desk_may "Mixer/(Desk|Strips)/|Host/|Live/|Stimuli/|Scene/|
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Io Contacts Physics Scene Stimuli Formats Measure Pictures Lab Api Api/JavaScript Api/Live Live/Documents Live/Messages Live/Session Live/Pads Live/Devices Live/Recordings Live/Rig Host Host/Osc Plugin
+foreach(room Core Wire Io Contacts Physics Scene Stimuli Formats Measure Pictures Lab Api Api/Godot Api/JavaScript Api/Live Live/Documents Live/Messages Live/Session Live/Pads Live/Devices Live/Recordings Live/Rig Host Host/Osc Plugin
              Standalone/Mixer/Desk Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # Live: a room of its own, under another licence; JavaScript: with Formats; Engines: headers for engines of the user
-        list(FILTER files EXCLUDE REGEX "/Api/(Live|JavaScript|Engines)/")
+        list(FILTER files EXCLUDE REGEX "/Api/(Godot|Live|JavaScript|Engines)/")
     elseif(room STREQUAL "Host") # so is this, and without JUCE
         list(FILTER files EXCLUDE REGEX "/Host/Osc/")
     endif()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What a landing did not run: skipped.py [--quiet] [--kept FILE] [--at-night NAME] BUILD_FOLDER JUNIT.xml...
+"""What a landing did not run: skipped.py [--quiet] [--kept FILE] [--at-night NAME]... BUILD_FOLDER JUNIT.xml...
 
 Lists every test that was skipped or is disabled, whole or in part, with the reason and the script that runs it instead, of Tests/House/skips.txt.
 Exit code 1 for one that is not kept there, and for tests that were left out because a program they need was not found. `--quiet`: only what is wrong.
@@ -15,7 +15,7 @@ root = Path(__file__).resolve().parents[2]
 words = argparse.ArgumentParser()
 words.add_argument("--quiet", action="store_true")
 words.add_argument("--kept", type=Path, default=root / "Tests/House/skips.txt")
-words.add_argument("--at-night", default="")
+words.add_argument("--at-night", action="append", default=[])
 words.add_argument("build", type=Path)
 words.add_argument("reports", nargs="+")
 given = words.parse_args()
@@ -57,12 +57,15 @@ for name, word in (pair for report in given.reports for pair in skips(report)):
     elif not given.quiet and name not in told:
         print(f"not run here: {name} ({word}): {reasons[entry][0]}; {reasons[entry][1]} does")
     told.add(name)
-if given.at_night and given.at_night not in reasons:
-    faults.append(f"{given.at_night}: Tests/House/skips.txt has no reason for it")
-elif given.at_night and not given.quiet:
-    print(f"not run here: {given.at_night}: {reasons[given.at_night][0]}; {reasons[given.at_night][1]} does")
+for name in filter(None, given.at_night):
+    if name not in reasons:
+        faults.append(f"{name}: Tests/House/skips.txt has no reason for it")
+    elif not given.quiet:
+        print(f"not run here: {name}: {reasons[name][0]}; {reasons[name][1]} does")
 for line in (given.build / "CMakeCache.txt").read_text().splitlines():
-    if re.match(r"PHYSVIB_\w+:\w+=.*-NOTFOUND$|(UNICORN|CAPSTONE)_FOUND:INTERNAL=$", line) and not fnmatchcase(line.split(":")[0], given.at_night):
+    if re.match(r"PHYSVIB_\w+:\w+=.*-NOTFOUND$|(UNICORN|CAPSTONE)_FOUND:INTERNAL=$", line) and not any(
+        fnmatchcase(line.split(":")[0], name) for name in given.at_night
+    ):
         faults.append(f"tests are left out: {line}")
 print("\n".join(faults), end="\n" if faults else "", file=sys.stderr)
 sys.exit(1 if faults else 0)

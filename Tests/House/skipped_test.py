@@ -12,10 +12,10 @@ WAYS = {"ran": "echo done", "said-nothing-of-it": "echo '12 blocks skipped, 0 sk
 QUIET = {"ran", "said-nothing-of-it", "odd"}
 
 
-def looked(kept: str, cache: str = "", quiet: bool = False, at_night: str = "") -> "subprocess.CompletedProcess[str]":
+def looked(kept: str, cache: str = "", quiet: bool = False, at_night: "tuple[str, ...]" = ()) -> "subprocess.CompletedProcess[str]":
     (folder / "kept.txt").write_text("# a comment\n" + kept)
     (folder / "CMakeCache.txt").write_text(cache)
-    words = ["--quiet"] * quiet + ["--at-night", at_night, "--kept", folder / "kept.txt", folder, folder / "report.xml"]
+    words = ["--quiet"] * quiet + [word for name in at_night for word in ("--at-night", name)] + ["--kept", folder / "kept.txt", folder, folder / "report.xml"]
     return subprocess.run([root / "Tests/House/skipped.py", *words], capture_output=True, text=True)
 
 
@@ -41,8 +41,12 @@ with tempfile.TemporaryDirectory() as name:
     # What is left to the night by its name may be absent, and is named; by itself it may not.
     absent, night = "PHYSVIB_ENGINE_LOVE:FILEPATH=PHYSVIB_ENGINE_LOVE-NOTFOUND\n", why + "PHYSVIB_ENGINE_* | a reason | Tests/nightly.sh hours\n"
     assert looked(night, absent).stderr == "tests are left out: " + absent
-    left = looked(night, absent, at_night="PHYSVIB_ENGINE_*")
+    left = looked(night, absent, at_night=("PHYSVIB_ENGINE_*",))
     assert left.returncode == 0 and "not run here: PHYSVIB_ENGINE_*: a reason; Tests/nightly.sh hours does\n" in left.stdout, left
-    assert looked(night, absent.replace("ENGINE_", ""), at_night="PHYSVIB_ENGINE_*").returncode == 1
-    assert looked(why, at_night="PHYSVIB_ENGINE_*").stderr == "PHYSVIB_ENGINE_*: Tests/House/skips.txt has no reason for it\n"
+    assert looked(night, absent.replace("ENGINE_", ""), at_night=("PHYSVIB_ENGINE_*",)).returncode == 1
+    two = absent + "PHYSVIB_PICO_SDK:PATH=PHYSVIB_PICO_SDK-NOTFOUND\n"
+    night += "PHYSVIB_PICO_SDK | a reason | Tests/nightly.sh pico\n"
+    assert looked(night, two, at_night=("PHYSVIB_ENGINE_*",)).stderr == "tests are left out: PHYSVIB_PICO_SDK:PATH=PHYSVIB_PICO_SDK-NOTFOUND\n"
+    assert looked(night, two, at_night=("", "PHYSVIB_ENGINE_*", "PHYSVIB_PICO_SDK")).returncode == 0
+    assert looked(why, at_night=("PHYSVIB_ENGINE_*",)).stderr == "PHYSVIB_ENGINE_*: Tests/House/skips.txt has no reason for it\n"
     print(f"{len(WAYS) - len(QUIET)} ways to leave a test out are seen")

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "Core/BodyLayouts.h"
 #include "Pictures/PictureParts.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace physvib::picture {
@@ -51,6 +53,24 @@ TEST(HitColours, MaterialsThatDoNotOccurAreNotExplained) {
     PictureInput input;
     input.scene = &scene;
     ASSERT_EQ(HitColours(input).classes().size(), 1u); // the floor's
+}
+
+TEST(HitColours, OfAGloveTellTheFinger) {
+    std::vector<CollisionEvent> events{sounding(205.0), sounding(205.0)};
+    events[0].source.part = partNamed("middle"), events[1].source.part = partNamed("thumb");
+    PictureInput input;
+    input.layout.count = static_cast<int>(gloveTips.size());
+    std::ranges::copy(gloveTips, input.layout.places.begin());
+    input.events = events;
+    const HitColours colours(input);
+    EXPECT_EQ(colours.of(events[0]), palette::enchanter(2));
+    EXPECT_EQ(colours.of(events[1]), palette::enchanter(0));
+    EXPECT_EQ(colours.classes()[0].name, "thumb");
+    EXPECT_EQ(colours.classes()[1].name, "middle");
+    EXPECT_STREQ(colours.meaning(), "part of the body");
+    EXPECT_EQ(laneLabelOf(input, 2), "C middle");
+    events[1].source.part = 0; // felt on all
+    EXPECT_STREQ(HitColours(input).meaning(), "frequency");
 }
 
 TEST(HitColours, WithoutASceneFewFrequenciesAreNamed) {

@@ -112,6 +112,31 @@ TEST(EventsCsv, MaterialsAreNamedWhereTheyAreKnown) {
     EXPECT_EQ(eventsCsv(events, field, provenance, names).find("material"), std::string::npos);
 }
 
+TEST(EventsCsv, DepthsAndPartsAreWrittenWhereThereAreAny) {
+    Events events = randomEvents(4, 3);
+    const std::string flat = eventsCsv(events, {}, provenance);
+    EXPECT_NE(flat.find("\n" + allColumns), std::string::npos) << "a list in a plane is as it was";
+    events[1].z = -0.125;
+    EXPECT_NE(eventsCsv(events, {}, provenance).find("mass_kg,z_m\n"), std::string::npos);
+    events[2].source.part = partNamed("left elbow");
+    events[0].source.part = partNamed("thumb");
+    SoundNames names;
+    names.parts.add("left elbow");
+    const std::string text = eventsCsv(events, {}, provenance, names);
+    EXPECT_NE(text.find("mass_kg,z_m,part\n"), std::string::npos) << text;
+    EXPECT_NE(text.find(",0,thumb\n"), std::string::npos) << text;
+    EXPECT_NE(text.find(",-0.125,\n"), std::string::npos) << text;
+    EXPECT_NE(text.find(",0,left elbow\n"), std::string::npos) << text;
+    EXPECT_EQ(readGood(text), events);
+    const auto again = readEventsCsv(text, "again");
+    EXPECT_EQ(eventsCsv(again.value.events, {}, provenance, again.value.names), text) << "names are kept";
+    const std::string unnamed = eventsCsv(events, {}, provenance);
+    EXPECT_NE(unnamed.find(",part-" + std::to_string(partNamed("left elbow")) + "\n"), std::string::npos);
+    EXPECT_EQ(readGood(unnamed), events);
+    EXPECT_EQ(errorOf("time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m,z_m\n0,100,1,1,0,0,up\n"),
+              "hits.csv:2: column z_m: expected a number, found \"up\"");
+}
+
 TEST(EventsCsv, OlderListsNameClipsByTheirFrequency) {
     const auto of = [](const std::string& header, const std::string& row) {
         return readGood(header + row).front();

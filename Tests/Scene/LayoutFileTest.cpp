@@ -74,6 +74,8 @@ void expectSame(const LayoutDescription& a, const LayoutDescription& b) {
     for (std::size_t j = 0; j < a.geometry.places.size(); ++j) {
         EXPECT_EQ(a.geometry.places[j].xMetres, b.geometry.places[j].xMetres) << j;
         EXPECT_EQ(a.geometry.places[j].yMetres, b.geometry.places[j].yMetres) << j;
+        EXPECT_EQ(a.geometry.places[j].zMetres, b.geometry.places[j].zMetres) << j;
+        EXPECT_EQ(a.geometry.places[j].part, b.geometry.places[j].part) << j;
     }
 }
 
@@ -130,6 +132,28 @@ TEST(LayoutFile, EveryPresetSurvives) {
     }
 }
 
+TEST(LayoutFile, DepthAndPartAreWrittenWhereThereAreAny) {
+    const LayoutDescription layout = readGood(layoutWith(
+        R"({"x_m": 0, "y_m": 0, "z_m": -0.25, "part": "left elbow"}, {"x_m": 0.1, "y_m": 0, "part": "palm"})"));
+    EXPECT_EQ(layout.geometry.places[0].zMetres, -0.25);
+    EXPECT_EQ(layout.geometry.places[0].part, partNamed("left elbow"));
+    EXPECT_EQ(layout.enchanters[1].part, "palm");
+    EXPECT_FALSE(isFlat(layout.geometry));
+    const std::string text = layoutJson(layout);
+    EXPECT_NE(text.find(R"("z_m": -0.25, "part": "left elbow", "actuator")"), std::string::npos) << text;
+    EXPECT_NE(text.find(R"("y_m": 0, "part": "palm", "actuator")"), std::string::npos) << text;
+    EXPECT_EQ(layoutJson(readGood(text)), text);
+    // who knows the places alone knows the built-in names, and else the number
+    const LayoutDescription again = describeLayout("again", layout.geometry);
+    EXPECT_EQ(again.enchanters[0].part, "part-" + std::to_string(partNamed("left elbow")));
+    EXPECT_EQ(again.enchanters[1].part, "palm");
+    EXPECT_EQ(readGood(layoutJson(again)).geometry.places[0].part, partNamed("left elbow"));
+    EXPECT_EQ(errorOfEnchanter(R"("x_m": 0, "y_m": 0, "part": "")"),
+              "my.json: enchanters[1].part: expected a name, found an empty string");
+    EXPECT_EQ(errorOfEnchanter(R"("x_m": 0, "y_m": 0, "z_m": "up")"),
+              "my.json: enchanters[1].z_m: expected a number, found a string");
+}
+
 TEST(LayoutFile, MissingFieldsHaveDefaults) {
     const LayoutDescription layout =
         readGood(R"({"extent_m": [1, 1], "enchanters": [{"x_m": 1, "y_m": 0}]})");
@@ -168,7 +192,7 @@ TEST(LayoutFile, NamesTheFieldOfAnEnchanter) {
         {R"("x_m": 0)", ": field \"y_m\" is missing"},
         {R"("x_m": 0.13, "y_m": 0)", ".x_m: expected a number from 0 to 0.12, found 0.13"},
         {R"("x_m": 0, "y_m": -0.01)", ".y_m: expected a number from 0 to 0.06, found -0.01"},
-        {place + R"("z_m": 0)", ": unknown field \"z_m\""},
+        {place + R"("w_m": 0)", ": unknown field \"w_m\""},
         {place + R"("label": 1)", ".label: expected a string, found a number"},
         {place + R"("label": "")", ".label: expected a label, found an empty string"},
         {place + R"("label": "a\nb")", R"(.label: expected text without control characters, found "a\x0ab")"},

@@ -88,6 +88,35 @@ TEST(Messages, APathOverARowIsSharedByNeighboursUnlessALawIsNamed) {
               std::string::npos);
 }
 
+TEST(Messages, ActuatorsInSpaceAreFoundByTheirLetters) {
+    for (const char* const name : {"glove5", "sleeve8", "vest16"}) {
+        ActuatorLayout layout;
+        ASSERT_TRUE(layoutPreset(name, layout));
+        auto setup = quietSetup();
+        setup.panner = {layout, PanningLaw::automatic, 1.0, 2.0 * layout.extentWidthMetres,
+                        2.0 * layout.extentHeightMetres};
+        std::string letters;
+        for (int j = 0; j < layout.count; ++j) letters += static_cast<char>('A' + j);
+        const auto expectAlone = [&](const CollisionEvent& event, int j) {
+            PhantomPanner::Gains gains{};
+            setup.panner.gainsAt(event, gains);
+            for (int k = 0; k < layout.count; ++k)
+                EXPECT_NEAR(gains[static_cast<std::size_t>(k)], k == j, 1e-9) << name << ' ' << j << ' ' << k;
+        };
+        const auto pulses = strikesOfLine(
+            R"({"message": "pattern", "pulse_s": 0.1, "enchanters": ")" + letters + "\"}", setup);
+        const auto path =
+            strikesOfLine(R"({"message": "path", "law": "alone", "places": ")" + letters + "\"}", setup);
+        ASSERT_EQ(std::ssize(pulses), layout.count);
+        ASSERT_EQ(std::ssize(path), layout.count - 1);
+        for (int j = 0; j < layout.count; ++j) expectAlone(pulses[static_cast<std::size_t>(j)], j);
+        for (int j = 1; j < layout.count; ++j)
+            expectAlone(movedAlong(path[static_cast<std::size_t>(j - 1)], 1.0), j);
+    }
+    const auto event = strikesOfLine(R"({"message": "phantom", "place": [1, 2, 3]})")[0];
+    EXPECT_EQ(std::tuple(event.x, event.y, event.z), std::tuple(1.0, 2.0, 3.0));
+}
+
 TEST(Messages, AStrikeIsOfAMaterialOrOfNumbers) {
     const auto ofMaterial =
         strikesOfLine(R"({"message": "strike", "material": "bell", "place": "A", "level": 0.25})");
@@ -237,8 +266,10 @@ TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
         {R"({"message": "phantom", "levle": 3})", "phantom: has no \"levle\""},
         {R"({"message": "phantom", "place": "Q"})",
          "phantom: place: expected letters from A to D, found \"Q\""},
-        {R"({"message": "phantom", "place": [1, 2, 3]})",
-         "phantom: place: expected x and y in metres, or an actuator's letter"},
+        {R"({"message": "phantom", "place": [1]})",
+         "phantom: place: expected x and y, or x, y and z in metres, or an actuator's letter"},
+        {R"({"message": "phantom", "place": [1, 2, 3, 4]})",
+         "phantom: place: expected x and y, or x, y and z in metres, or an actuator's letter"},
         {R"({"message": "phantom", "law": "flat"})",
          "phantom: law: expected one of " + listed(spreadNames) + ", found \"flat\""},
         {R"({"message": "pattern", "pattern": "AB"})", "pattern: pattern: expected one like ABA-250 (one to "

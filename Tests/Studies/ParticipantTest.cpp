@@ -169,6 +169,65 @@ TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) 
     analyse("confusion");
 }
 
+TEST_F(ByAParticipant, AClosedWindowPausesSaysSoAndThenLeaves) {
+    EXPECT_FALSE(pauseStudy(p->view)) << "no study: the mixer asks as ever";
+    begin(R"({"name": "main", "task": "identify", "repetitions": 2})",
+          R"("layout": "phone2", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
+    passPage();
+    p->feel();
+    EXPECT_TRUE(pauseStudy(p->view));
+    p->pump();
+    ASSERT_EQ(p->screen()->page(), StudyScreen::Page::paused);
+    EXPECT_TRUE(p->screen()->getDescription().contains("The study is paused."));
+    EXPECT_FALSE(p->screen()->isFeeling());
+    p->click("Next");
+    passPage();
+    EXPECT_EQ(p->experiment().trialsTaken(), 0) << "what was not answered begins anew";
+    p->feel();
+    EXPECT_TRUE(pauseStudy(p->view));
+    EXPECT_TRUE(pauseStudy(p->view)) << "again";
+    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    const auto times = folder.getChildFile("short-P01.times.txt").loadFileAsString();
+    juce::StringArray events;
+    for (const auto& line : juce::StringArray::fromLines(times.trim()))
+        events.add(line.fromFirstOccurrenceOf(",", false, false).upToFirstOccurrenceOf(",", false, false));
+    EXPECT_EQ(events.joinIntoString(" "), "event start pause go-on pause leave") << times;
+}
+
+TEST_F(ByAParticipant, FeelsAPairByOnePressAndIsToldWhatWasRight) {
+    begin(
+        R"({"name": "main", "task": "choose", "interval_s": 0.2, "feedback": true, "instruction": "Two vibrations follow one another.", "alternatives": [{"name": "a"}, {"name": "b"}],
+            "staircase": {"alternative": "b", "most_db": 10, "most_trials": 2}})",
+        R"("layout": "phone2", "level_g": 0.2, "stimuli": "grid", "columns": 1, "rows": 1, "seconds": 0.05)");
+    EXPECT_TRUE(p->screen()->getDescription().contains("Two vibrations follow one another."));
+    passPage();
+    p->space();
+    ASSERT_TRUE(test::runUntil([&] {
+        return p->pump(), p->screen()->plays() == 2 && !p->screen()->isFeeling();
+    })) << "one press plays both";
+    const bool isRight = p->experiment().trial().parts[0] == "b";
+    p->click("Answer: number 1");
+    p->click("Next");
+    p->pump();
+    EXPECT_TRUE(p->screen()->getDescription().contains(isRight ? "That was right." : "That was wrong."))
+        << p->screen()->getDescription();
+    EXPECT_EQ(column("correct", "choose"), Texts{isRight ? "1" : "0"});
+}
+
+TEST_F(ByAParticipant, FindingsOfTheCheckStandBesideTheProtocol) {
+    ASSERT_EQ(p->tab().chooseProtocol("model-or-sound"), "");
+    EXPECT_FALSE(p->tab().check()) << "it is made beside the window";
+    ASSERT_TRUE(test::runUntil([&] { return p->pump(), p->tab().check().has_value(); }));
+    const auto count = p->tab().check()->warnings.size();
+    EXPECT_GT(count, 10u);
+    p->click("Findings of the check");
+    ASSERT_NE(p->tab().analysis(), nullptr);
+    EXPECT_EQ(p->tab().analysis()->report().warnings.size(), count);
+    EXPECT_TRUE(p->tab().advice().joinIntoString("\n").contains("threshold of detection"));
+    p->enter();
+    ASSERT_TRUE(test::runUntil([&] { return p->tab().analysis() == nullptr; }));
+}
+
 TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
     begin(
         R"({"name": "training", "training": true, "task": "explore", "fewest_touches": 3}, {"name": "main", "task": "locate", "repetitions": 4})",

@@ -97,6 +97,15 @@ protected:
         EXPECT_TRUE(wav) << wav.error;
         return wav.value.channels.empty() ? std::vector<float>{} : wav.value.channels[0];
     }
+    /// The peak in g that rendering a call prints, "(1.50 g)".
+    double printedG(const std::string& call) const {
+        const auto text = folder.getChildFile("printed.txt");
+        const auto run = "cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " +
+                         call + " --out again.wav > printed.txt";
+        EXPECT_EQ(std::system(run.c_str()), 0) << run;
+        const auto words = text.loadFileAsString().fromFirstOccurrenceOf("peak ", false, false);
+        return words.fromFirstOccurrenceOf("(", false, false).getDoubleValue();
+    }
     /// How far the two agree where they agree longest.
     static std::string agreement(std::span<const float> samples, std::span<const float> felt) {
         std::size_t most = 0, at = 0;
@@ -257,6 +266,10 @@ TEST_F(AWorldInAStudy, IsDraggedTiltedAndRatedAndEveryLogRendersWhatWasFelt) {
     expectFelt(all);
     for (const double peak : levels(1, "peak_g"))
         EXPECT_NEAR(peak, 1.5, 0.015) << "a fixed level, whatever hit what";
+    for (std::size_t part = 0; part < 3; ++part)
+        EXPECT_NEAR(printedG(all[3 + part]), levels(1, "peak_g")[part], 0.006) << "printed as in the row";
+    EXPECT_NE(folder.getChildFile("short-P01.felt/trial-0001-1.json").loadFileAsString().indexOf("study1"),
+              -1);
     for (const double rms : levels(1, "rms_g")) EXPECT_GT(rms, 0.0);
     for (const double peak : levels(0, "peak_g")) EXPECT_GT(peak, 0.0);
 }

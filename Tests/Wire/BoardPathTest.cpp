@@ -29,9 +29,9 @@ CollisionEvent diagonal(Spread spread, double amplitude) {
 }
 
 auto gainsOf(const PhantomPanner& panner) {
-    return [&panner](const CollisionEvent& e, double x, double y) {
+    return [&panner](const CollisionEvent& e) {
         PhantomPanner::Gains gains{};
-        panner.gainsAt(x, y, e.spread, gains);
+        panner.gainsAt(e.x, e.y, e.spread, gains);
         return PathGains::Gains{gains[0], gains[1], gains[2], gains[3]};
     };
 }

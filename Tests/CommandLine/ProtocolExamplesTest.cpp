@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every protocol of Docs/protocol-examples from its check to its report by simulated participants; and a
+// report with the times of a person's study.
+#include "Calls.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+class ProtocolExamples : public test::CommandLine {
+protected:
+    void SetUp() override {
+        test::CommandLine::SetUp();
+        for (const auto& entry :
+             std::filesystem::directory_iterator{PHYSVIB_SOURCE_DIR "/Docs/protocol-examples"}) {
+            std::filesystem::copy(entry, folder_ / entry.path().filename());
+            if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+        }
+    }
+    std::vector<std::string> names;
+};
+
+TEST_F(ProtocolExamples, AreCheckedRunAndReported) {
+    ASSERT_GE(names.size(), 10u);
+    for (const std::string& name : names) {
+        const auto checked = call("study check " + name + ".json");
+        EXPECT_EQ(checked.exitCode, 0) << name << ": " << checked.out << checked.err;
+        EXPECT_EQ(checked.out.find("error: "), std::string::npos) << name;
+        const auto ran =
+            call("study run " + name + ".json --observer simulated --participants 3 --out " + name);
+        ASSERT_EQ(ran.exitCode, 0) << name << ": " << ran.err;
+        const auto reported =
+            call("report " + name + "/*.csv --protocol " + name + ".json --out " + name + "-report");
+        ASSERT_EQ(reported.exitCode, 0) << name << ": " << reported.err;
+        const std::string page = read(name + "-report/index.html");
+        EXPECT_EQ(page.find("no analysis is known"), std::string::npos) << name;
+    }
+}
+
+TEST_F(ProtocolExamples, TheReportSaysWhatAVariableIsAtALevel) {
+    ASSERT_EQ(call("study run decay-steps.json --observer simulated --participants 2 --out t").exitCode, 0);
+    ASSERT_EQ(call("report t/*.csv --protocol decay-steps.json --out r").exitCode, 0);
+    const std::string page = read("r/index.html");
+    EXPECT_NE(page.find("decay_per_s is 10 at a level of 0 dB, and 10 times as large at 20 dB"),
+              std::string::npos);
+    EXPECT_NE(page.find("parts are played one after the other, 0.6 s apart"), std::string::npos);
+    EXPECT_NE(page.find("each answer is followed by whether it was right"), std::string::npos);
+    EXPECT_NE(read("t/decay-steps-P01.csv").find("--decay 31.622777 --level-of energy"), std::string::npos);
+}
+
+TEST_F(ProtocolExamples, TimesOfAPersonAreTold) {
+    ASSERT_EQ(call("study run strength-numbers.json --observer simulated --participant P01 --out t").exitCode,
+              0);
+    std::string rows = read("t/strength-numbers-P01.csv");
+    for (std::size_t at = 0; (at = rows.find("simulated", at)) != std::string::npos;)
+        rows.replace(at, 9, "person");
+    write("t/strength-numbers-P01.csv", rows);
+    const std::string head = "time_utc,event,trials,language,outputs,noise_outputs\n";
+    const std::string all = "2026-11-24T14:00:00Z,start,0,ko,1 2,5 6\n2026-11-24T14:10:00Z,break,9,,,\n"
+                            "2026-11-24T14:13:00Z,go-on,9,,,\n2026-11-24T15:00:00Z,resume,9,ko,1 2,5 6\n"
+                            "2026-11-24T15:20:00Z,end,18,,,\n";
+    write("t/strength-numbers-P01.times.txt", head + all);
+    const std::string report = "report t/*.csv --protocol strength-numbers.json --out ";
+    ASSERT_EQ(call(report + "r").exitCode, 0);
+    EXPECT_NE(
+        read("r/index.html")
+            .find("P01 began at 2026-11-24T14:00:00Z and ended at 2026-11-24T15:20:00Z: 2 sittings with 47.0 "
+                  "min between their entries, 1 of them cut off, 1 break of 3.0 min in all; language ko; "
+                  "outputs 1 2; noise on outputs 5 6."),
+        std::string::npos)
+        << read("r/index.html");
+    // rows of which it must not be true
+    write("t/strength-numbers-P01.times.txt", head + "2026-11-24T14:00:00Z,start,0,,1 2,\n");
+    ASSERT_EQ(call(report + "r2").exitCode, 0);
+    const std::string page = read("r2/index.html");
+    EXPECT_NE(page.find("has not ended; the last entry is of 2026-11-24T14:00:00Z: 1 sitting, 0 breaks"),
+              std::string::npos);
+    for (const char* words : {"cut off", "between their entries", "by closing the window"})
+        EXPECT_EQ(page.find(words), std::string::npos) << words;
+    write("t/strength-numbers-P01.times.txt", head + "yesterday,start,0,,1 2,\n");
+    const auto wrong = call(report + "r3");
+    EXPECT_EQ(wrong.exitCode, 1);
+    EXPECT_NE(wrong.err.find("t/strength-numbers-P01.times.txt:2: column time_utc: expected a time like"),
+              std::string::npos)
+        << wrong.err;
+    std::filesystem::remove(folder_ / "t/strength-numbers-P01.times.txt");
+    ASSERT_EQ(call(report + "r4").exitCode, 0);
+    EXPECT_NE(read("r4/index.html").find("nothing is known of dates, breaks and outputs"), std::string::npos);
+}
+
+} // namespace
+} // namespace physvib
