@@ -57,6 +57,12 @@ local later = 0
 world:setCallbacks(nil, nil, nil, function() later = later + 1 end) -- others, while it is attached
 for _ = 1, 100 do haptics:update(0.01) end
 assert(later > 0 and #haptics:take({}, true) > 0, "callbacks that were set later")
+-- what a callback is about may be gone: a fixture, a body, or both
+local lost = fixture("dynamic", 1, {speed = 0})
+lost.getBody = function() return nil end
+for _, pair in ipairs {{nil, ball}, {floor, nil}, {lost, ball}, {floor, lost}} do
+    for i = 1, 4 do callbacks[i](pair[1], pair[2], contact, 1, 0) end
+end
 assert(not pcall(physvib.call, "world_end_step", haptics.name), "an error is one of Lua")
 assert(haptics:counts().events >= #events and haptics:drops() == 0, "counts")
 assert(haptics:explain():find("event"), haptics:explain())

@@ -236,7 +236,7 @@ end
 function Attachment:set(fixture, values)
     local id = self:id(fixture)
     self:tell(fixture, id, values)
-    self.starts[fixture] = values.is_camera and {} or nil
+    self.starts[fixture] = values.is_camera and (self.starts[fixture] or {}) or nil -- in a callback: where its step began
     return id
 end
 
@@ -260,8 +260,9 @@ function Attachment:tell(fixture, id, values)
     call("world_set_body", self.name, id, known)
 end
 
--- A fixture that is to be felt no more, not within update. One that is destroyed, alone or with its body, need not be named.
+-- A fixture that is to be felt no more; in a callback: from the end of the step on. One that is destroyed, alone or with its body, need not be named.
 function Attachment:remove(fixture)
+    if self.leaving then self.leaving[#self.leaving + 1] = fixture return end
     if self.ids[fixture] then call("world_remove_body", self.name, self.ids[fixture]) end
     self.ids[fixture], self.starts[fixture] = nil, nil
 end
@@ -269,7 +270,7 @@ end
 -- How far a point of a camera has come in this step, pixels along the normal: where Box2D stops what is fast at what it strikes, that tells when.
 function Attachment:way(fixture, px, py, nx, ny)
     local start = self.starts[fixture]
-    if not start then return 0 end
+    if not (start and start.x) then return 0 end -- made a camera in this step
     local body = fixture:getBody()
     local x, y = body:getPosition()
     local turned = body:getAngle() - start.angle
@@ -295,10 +296,15 @@ function Attachment:listen()
 end
 
 local least_speed = 0.02 -- m/s; slower points are no impacts, and nobody asks when they met
+-- A callback may be about what another one destroyed: its fixture or its body is nil then, or may not be asked.
+local function are_there(a, b)
+    if not (a and b) or a.isDestroyed and (a:isDestroyed() or b:isDestroyed()) then return false end
+    return a:getBody() and b:getBody() and true or false
+end
 local function pair(a, b) return a < b and a * 1048576 + b or b * 1048576 + a end
 
 function Attachment:begin(a, b, contact)
-    if a:isSensor() or b:isSensor() then return end
+    if not are_there(a, b) or a:isSensor() or b:isSensor() then return end
     local key = pair(self:id(a), self:id(b))
     local touch = self.touching[key] or {count = 0}
     touch.count, touch.is_new = touch.count + 1, true
@@ -349,6 +355,7 @@ end
 -- Before the solver: how fast the bodies near each other at each of the (one or two) points where they meet, and when they met there, in steps
 -- from the start of this one. What overlaps at its start met in the step before.
 function Attachment:look(a, b, contact)
+    if not are_there(a, b) then return end
     local touch = self.touching[pair(self:id(a), self:id(b))]
     if not (touch and (touch.is_new or self.starts[a] or self.starts[b])) then return end
     local nx, ny = contact:getNormal()
@@ -383,6 +390,7 @@ end
 -- LÖVE tells impulses in kg pixels/s: one or two points, normal and tangential. A point that was not there in the step before is a blow if it
 -- nears fast, also of bodies that touch already (a pole that topples).
 function Attachment:push(a, b, contact, n1, t1, n2, t2)
+    if not are_there(a, b) then return end
     local ia, ib = self:id(a), self:id(b)
     local touch = self.touching[pair(ia, ib)]
     local x, y, x2, y2 = contact:getPositions()
@@ -425,15 +433,21 @@ function Attachment:update(dt, ...)
     end
     self:sweep()
     for fixture, start in pairs(self.starts) do
-        start.x, start.y = fixture:getBody():getPosition()
-        start.angle = fixture:getBody():getAngle()
+        local body = fixture:getBody()
+        if body then
+            start.x, start.y = body:getPosition()
+            start.angle = body:getAngle()
+        end
     end
     self.dt = dt
     local gx, gy = self.world:getGravity()
     call("world_begin_step", self.name, dt, math.sqrt(gx * gx + gy * gy) / self.metre)
+    self.leaving = {}
     self.world:update(dt, ...)
     call("world_end_step", self.name)
-    self.last_dt = dt
+    local leaving = self.leaving
+    self.leaving, self.last_dt = nil, dt
+    for _, fixture in ipairs(leaving) do self:remove(fixture) end
 end
 
 -- Its settings from the next step on (is_muted, drive_gain...): all of them, those that are not given as at first.

@@ -103,6 +103,38 @@ function silent(state, hinder)
     if not why:find("body 0 is " .. state, 1, true) then fail("expected %s, found %s", state, why) end
 end
 
+-- Twenty worlds of a game that destroys bodies and fixtures, and sets and removes sources, between steps and within its callbacks.
+function meddle(seed)
+    math.randomseed(seed)
+    local made, gone = room(), {}
+    local haptics
+    local function within(a, b)
+        local fixture = math.random() < 0.5 and a or b
+        local body, chance = fixture:getBody(), math.random()
+        if body:getType() == "static" or gone[body] or gone[fixture] then return end
+        if chance < 0.02 then gone[body] = true body:destroy()
+        elseif chance < 0.03 then gone[fixture] = true fixture:destroy()
+        elseif chance < 0.2 then haptics:set(fixture, {frequency_hz = 100, decay_per_s = 30, is_camera = chance < 0.15})
+        elseif chance < 0.3 then haptics:remove(fixture) end
+    end
+    made.world:setCallbacks(within, nil, within, within)
+    haptics = physvib.attach(made.world, {field_width_m = 20, field_height_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
+    local events = 0
+    for _ = 1, 300 do
+        haptics:update(dt)
+        events = events + #haptics:take({})
+        local body = love.physics.newBody(made.world, math.random(30, 570), math.random(100, 400), "dynamic")
+        for i = 1, math.random(2) do
+            local fixture = love.physics.newFixture(body, i == 1 and love.physics.newCircleShape(8) or love.physics.newRectangleShape(20, 10))
+            haptics:set(fixture, {frequency_hz = 200, decay_per_s = 30, is_camera = math.random() < 0.5})
+        end
+        local all = made.world:getBodies()
+        local one = all[math.random(#all)]
+        if #all > 20 and one:getType() ~= "static" then gone[one] = true one:destroy() end
+    end
+    return events + #haptics:take({}, true)
+end
+
 function love.load()
     love.physics.setMeter(metre)
     local plain, felt = room(), room()
@@ -143,6 +175,10 @@ function love.load()
     silent("filtered", function(ball) ball:setFilterData(1, 0, 0) end)
     silent("disabled", function(ball) ball:getBody():setActive(false) end)
     silent("asleep", function(ball) ball:getBody():setAwake(false) end)
+    for seed = 1, 20 do
+        local is_fine, found = pcall(meddle, seed)
+        if not is_fine or found == 0 then fail("game %d that meddles: %s", seed, tostring(found)) end
+    end
     local worst = onset()
     print(("onset %.3f ms from the pencil's"):format(1000 * worst))
     if worst > 0.0002 then fail("expected 0.2 ms") end
