@@ -80,6 +80,11 @@ bool isFlat(const ActuatorLayout& layout) noexcept {
     return true;
 }
 
+bool hasParts(const ActuatorLayout& layout) noexcept {
+    return std::any_of(layout.places.begin(), layout.places.begin() + layout.count,
+                       [](const ActuatorPlace& place) { return place.part != 0; });
+}
+
 bool layoutPreset(std::string_view name, ActuatorLayout& layout) noexcept {
     for (const Preset& preset : presets) {
         if (preset.name != name) continue;

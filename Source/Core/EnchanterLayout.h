@@ -33,6 +33,9 @@ using EnchanterLayout = ActuatorLayout; ///< Likewise.
 /// True if all actuators have the same z, so that x and y alone decide. Any thread.
 bool isFlat(const ActuatorLayout& layout) noexcept;
 
+/// True if an actuator is on a part of the body. Any thread.
+bool hasParts(const ActuatorLayout& layout) noexcept;
+
 /// True if the layout can be panned over: count in range, extent positive, everything finite. Any thread.
 bool isValid(const ActuatorLayout& layout) noexcept;
 

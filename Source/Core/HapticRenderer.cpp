@@ -26,7 +26,7 @@ bool HapticRenderer::prepare(const RendererSettings& settings) noexcept {
     if (!isPrepared_) return false;
     settings_ = settings;
     clock_ = FrameClock{settings.sampleRateHz};
-    panner_ = settings.panner;
+    panners_ = settings.panner;
     gains_.fill(0.0);
     player_.prepare(settings.sampleRateHz, channels_);
     moving_.prepare(settings.sampleRateHz, channels_);
@@ -83,7 +83,7 @@ void HapticRenderer::actOnDue() noexcept {
 void HapticRenderer::apply(const RenderControl& control) noexcept {
     using Kind = RenderControl::Kind;
     const bool isChannel = control.channel >= 0 && control.channel < channels_;
-    if (control.kind == Kind::panner && control.panner.channels() <= channels_) panner_ = control.panner;
+    if (control.kind == Kind::panner && control.panner.channels() <= channels_) panners_ = control.panner;
     if (control.kind == Kind::gain && isChannel) actuators_.setGain(control.channel, control.value);
     if (control.kind == Kind::level) actuators_.setLevel(control.value);
     if (control.kind == Kind::mute && isChannel) actuators_.setMuted(control.channel, control.value != 0.0f);
@@ -130,14 +130,14 @@ bool HapticRenderer::strike(const CollisionEvent& event, FramePosition onset) no
     played_ += taken ? 1 : 0;
     late_ += taken && delay > 0 ? 1 : 0;
     rejected_ += taken ? 0 : 1;
-    withoutPart_ += taken && panner_.lacksPartOf(event) ? 1 : 0;
+    withoutPart_ += taken && panners_.whole().lacksPartOf(event) ? 1 : 0;
     return taken;
 }
 
 bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onset,
                                  std::int64_t closeFrame) noexcept {
-    panner_.gainsAt(event, gains_);
-    std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
+    panners_.gainsAt(event, gains_);
+    std::fill(gains_.begin() + panners_.whole().channels(), gains_.begin() + channels_, 0.0);
     Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, closeFrame};
     if (event.course.sinceNs > 0) {
         const double seconds = static_cast<double>(event.course.sinceNs) * 1e-9;
@@ -152,11 +152,11 @@ bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onse
 
 MovingTones::Drive HapticRenderer::driveAt(const CollisionEvent& event) noexcept {
     MovingTones::Drive drive;
-    panner_.gainsAt(event, gains_);
+    panners_.gainsAt(event, gains_);
     if (isCoupled())
         settings_.drives.apply(event.frequencyHz, gains_.data(), drive.inPhase.data(), drive.ahead.data());
     else
-        std::copy_n(gains_.begin(), panner_.channels(), drive.inPhase.begin());
+        std::copy_n(gains_.begin(), panners_.whole().channels(), drive.inPhase.begin());
     return drive;
 }
 

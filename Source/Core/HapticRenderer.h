@@ -17,7 +17,7 @@
 #include "Core/Modes/ModeBank.h"
 #include "Core/MovingTones.h"
 #include "Core/Nonblocking.h"
-#include "Core/PhantomPanner.h"
+#include "Core/PartPanners.h"
 #include "Core/RenderControl.h"
 #include "Core/RendererSettings.h"
 #include "Core/SamplePlayer.h"
@@ -96,12 +96,12 @@ private:
     MovingTones::Drive driveAt(const CollisionEvent& event) noexcept;
     bool isCoupled() const noexcept {
         return settings_.drives.isOn() &&
-               settings_.drives.channels == static_cast<std::size_t>(panner_.channels());
+               settings_.drives.channels == static_cast<std::size_t>(panners_.whole().channels());
     }
     std::int64_t nextChange(int most) const noexcept;
 
     FrameClock clock_;
-    PhantomPanner panner_;
+    PartPanners panners_;
     PhantomPanner::Gains gains_{};
     ModeBank bank_;
     SamplePlayer player_;

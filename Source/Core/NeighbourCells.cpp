@@ -13,10 +13,6 @@ namespace {
 using Layout = NeighbourCells::Layout;
 using Place = NeighbourCells::Place;
 
-double shapeTolerance(const Layout& layout) noexcept {
-    return 1e-3 * (layout.extentWidthMetres + layout.extentHeightMetres);
-}
-
 Place difference(const Place& a, const Place& b) noexcept {
     return {a.xMetres - b.xMetres, a.yMetres - b.yMetres};
 }
@@ -33,8 +29,12 @@ void sortBy(const Keys& keys, std::uint8_t* begin, std::uint8_t* end) noexcept {
 
 } // namespace
 
-const NeighbourCells::Place& NeighbourCells::place(const Layout& layout, int k) const noexcept {
-    return layout.places[order_[static_cast<std::size_t>(k)]];
+NeighbourCells::Place NeighbourCells::place(const Layout& layout, int k) const noexcept {
+    return onPlane(layout.places[order_[static_cast<std::size_t>(k)]]);
+}
+
+double NeighbourCells::tolerance(const Layout& layout) const noexcept {
+    return 1e-3 * (isTilted_ ? spanMetres_ : layout.extentWidthMetres + layout.extentHeightMetres);
 }
 
 NeighbourCells::NeighbourCells(const Layout& layout, Axis line) noexcept {
@@ -51,30 +51,31 @@ bool NeighbourCells::findGrid(const Layout& layout, Axis axis) noexcept {
     axis_ = axis;
     Keys acrosses{}, alongs{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j) {
-        acrosses[j] = across(layout.places[j]);
-        alongs[j] = along(layout.places[j]);
+        acrosses[j] = across(onPlane(layout.places[j]));
+        alongs[j] = along(onPlane(layout.places[j]));
     }
     const auto begin = order_.begin(), end = begin + layout.count;
     sortBy(acrosses, order_.data(), order_.data() + layout.count);
-    const double tolerance = shapeTolerance(layout), lowest = across(place(layout, 0));
-    columns_ = static_cast<int>(std::count_if(
-        begin, end, [&](std::uint8_t j) { return across(layout.places[j]) - lowest <= tolerance; }));
+    const double near = tolerance(layout), lowest = across(place(layout, 0));
+    columns_ = static_cast<int>(
+        std::count_if(begin, end, [&](std::uint8_t j) { return acrosses[j] - lowest <= near; }));
     if (columns_ < 2 || layout.count % columns_ != 0) return false;
     rows_ = layout.count / columns_;
     for (int row = 0; row < layout.count; row += columns_)
         sortBy(alongs, order_.data() + row, order_.data() + row + columns_);
-    return isGrid(layout, tolerance);
+    return isGrid(layout);
 }
 
-bool NeighbourCells::isGrid(const Layout& layout, double tolerance) const noexcept {
+bool NeighbourCells::isGrid(const Layout& layout) const noexcept {
+    const double near = tolerance(layout);
     for (int k = 0; k < layout.count; ++k) {
         const int row = k / columns_, column = k % columns_;
-        const Place &p = place(layout, k), &inRow = place(layout, row * columns_),
-                    &inColumn = place(layout, column);
-        if (std::abs(across(p) - across(inRow)) > tolerance) return false;
-        if (std::abs(along(p) - along(inColumn)) > tolerance) return false;
-        if (column > 0 && along(p) - along(place(layout, k - 1)) <= tolerance) return false;
-        if (row > 0 && across(p) - across(place(layout, k - columns_)) <= tolerance) return false;
+        const Place p = place(layout, k), inRow = place(layout, row * columns_),
+                    inColumn = place(layout, column);
+        if (std::abs(across(p) - across(inRow)) > near) return false;
+        if (std::abs(along(p) - along(inColumn)) > near) return false;
+        if (column > 0 && along(p) - along(place(layout, k - 1)) <= near) return false;
+        if (row > 0 && across(p) - across(place(layout, k - columns_)) <= near) return false;
     }
     return true;
 }
@@ -90,27 +91,26 @@ bool NeighbourCells::findRing(const Layout& layout) noexcept {
     }
     Keys angles{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j) {
-        const Place d = difference(layout.places[j], centre_);
+        const Place d = difference(onPlane(layout.places[j]), centre_);
         angles[j] = std::atan2(d.yMetres, d.xMetres);
     }
     sortBy(angles, order_.data(), order_.data() + n);
-    const double tolerance = shapeTolerance(layout);
+    const double near = tolerance(layout);
     for (int k = 0; k < n; ++k) {
-        const Place &a = place(layout, k), &b = place(layout, (k + 1) % n), &c = place(layout, (k + 2) % n);
+        const Place a = place(layout, k), b = place(layout, (k + 1) % n), c = place(layout, (k + 2) % n);
         const Place chord = difference(c, a);
         const double inwards = crossProduct(chord, difference(b, a)); // times the chord's length
-        if (inwards > tolerance * std::hypot(chord.xMetres, chord.yMetres)) return false;
-        if (crossProduct(difference(a, centre_), difference(b, centre_)) <= tolerance * tolerance)
-            return false;
+        if (inwards > near * std::hypot(chord.xMetres, chord.yMetres)) return false;
+        if (crossProduct(difference(a, centre_), difference(b, centre_)) <= near * near) return false;
     }
     return true;
 }
 
-void NeighbourCells::sharesAt(const Layout& layout, double x, double y, Shares& shares) const noexcept {
+void NeighbourCells::sharesAt(const Layout& layout, const Place& place, Shares& shares) const noexcept {
     if (shape_ == Shape::ring)
-        ringShares(layout, {x, y}, shares);
+        ringShares(layout, onPlane(place), shares);
     else
-        gridShares(layout, {x, y}, shares);
+        gridShares(layout, onPlane(place), shares);
 }
 
 void NeighbourCells::gridShares(const Layout& layout, const Place& p, Shares& shares) const noexcept {

@@ -10,10 +10,12 @@ namespace physvib {
 void PhantomPanner::resolveAutomatic() noexcept {
     rule_.law = PanningLaw::linear;
     if (rule_.exponent != 1.0) return;
-    if (!isFlat_)
-        rule_.law = triangles_.areFound() ? PanningLaw::triangles : PanningLaw::distance;
+    if (triangles_.areFound())
+        rule_.law = PanningLaw::triangles;
     else if (hasCells())
         rule_.law = PanningLaw::neighbours;
+    else if (!isFlat_)
+        rule_.law = PanningLaw::distance;
     else
         grains_ = grainSpread;
 }
@@ -36,20 +38,38 @@ int PhantomPanner::actuatorsOn(PartNumber part) const noexcept {
                                           [part](const ActuatorPlace& p) { return p.part == part; }));
 }
 
-void PhantomPanner::gainsOn(PartNumber part, Vector field, Spread spread, Gains& gains) const noexcept {
+bool PhantomPanner::divides(PartNumber part) const noexcept {
     const int bound = part == 0 ? 0 : actuatorsOn(part);
-    if (bound == 0 || bound == layout_.count) return gainsBy(spread, onLayout(field), gains);
+    return bound > 0 && bound < layout_.count;
+}
+
+void PhantomPanner::gainsAt(const CollisionEvent& event, Gains& gains) const noexcept {
+    if (divides(event.source.part)) return gainsAt(event, onPart(event.source.part), gains);
+    gainsHere(event, spreadOf(event), gains);
+}
+
+void PhantomPanner::gainsOf(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept {
+    if (!divides(event.source.part)) return gainsHere(event, spread, gains);
     Gains own;
-    const PhantomPanner panner = partPanner(part);
-    panner.gainsBy(spread, panner.onLayout(field), own);
+    onPart(event.source.part).gainsHere(event, spread, own);
+    spreadPart(event.source.part, own, gains);
+}
+
+void PhantomPanner::gainsAt(const CollisionEvent& event, const PhantomPanner& onPart,
+                            Gains& gains) const noexcept {
+    Gains own;
+    onPart.gainsHere(event, onPart.spreadOf(event), own);
+    spreadPart(event.source.part, own, gains);
+}
+
+void PhantomPanner::spreadPart(PartNumber part, const Gains& own, Gains& gains) const noexcept {
     std::size_t next = 0;
     for (std::size_t j = 0; j < static_cast<std::size_t>(layout_.count); ++j)
         gains[j] = layout_.places[j].part == part ? own[next++] : 0.0;
 }
 
-// The actuators of the part are a layout of their own, whose extent they span. Places stay where they are.
-// This is called when an event begins: the triangles of 16 take 10 us to find, those of 63 would take 2 ms.
-PhantomPanner PhantomPanner::partPanner(PartNumber part) const noexcept {
+// Places stay where they are. The triangles of 16 take 10 us to find, those of 63 would take 2 ms.
+PhantomPanner PhantomPanner::onPart(PartNumber part) const noexcept {
     constexpr int mostWithTriangles = 16;
     ActuatorLayout own = layout_;
     const auto end =
@@ -65,12 +85,14 @@ PhantomPanner PhantomPanner::partPanner(PartNumber part) const noexcept {
     };
     own.extentWidthMetres = span(&ActuatorPlace::xMetres, layout_.extentWidthMetres);
     own.extentHeightMetres = span(&ActuatorPlace::yMetres, layout_.extentHeightMetres);
-    return {own,
-            rule_.law,
-            rule_.exponent,
-            own.extentWidthMetres / scaleX_,
-            own.extentHeightMetres / scaleY_,
-            own.count <= mostWithTriangles};
+    PhantomPanner made{own,
+                       partLaw_,
+                       rule_.exponent,
+                       own.extentWidthMetres / scaleX_,
+                       own.extentHeightMetres / scaleY_,
+                       own.count <= mostWithTriangles};
+    if (partLaw_ != PanningLaw::automatic) made.grains_ = grains_;
+    return made;
 }
 
 void PhantomPanner::gainsBy(Spread spread, Vector p, Gains& gains) const noexcept {
@@ -90,13 +112,13 @@ void PhantomPanner::gainsBy(Spread spread, Vector p, Gains& gains) const noexcep
         std::for_each(gains.begin(), end, [scale = 1.0 / std::sqrt(energy)](double& g) { g *= scale; });
 }
 
-// On a flat layout the triangles are the cells of a row, grid or belt.
+// In one plane the triangles are the cells of a row, grid or belt.
 void PhantomPanner::gainsBy(Rule rule, Vector p, Gains& gains) const noexcept {
     const bool hasTriangles = rule.law == PanningLaw::triangles && triangles_.areFound(),
                hasOwnCells = (rule.law == PanningLaw::triangles || rule.law == PanningLaw::neighbours) &&
                              cells_.areFound();
     if (hasTriangles) triangles_.sharesAt(layout_, {p.x, p.y, p.z}, gains);
-    if (hasOwnCells) cells_.sharesAt(layout_, p.x, p.y, gains);
+    if (hasOwnCells) cells_.sharesAt(layout_, {p.x, p.y, p.z}, gains);
     if (hasTriangles || hasOwnCells) return sharedGains(rule, gains);
     const bool isByDistance = rule.law == PanningLaw::distance && arrangement_ != Arrangement::single;
     switch (isByDistance ? Arrangement::scattered : arrangement_) {

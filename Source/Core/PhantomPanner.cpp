@@ -12,12 +12,13 @@ PhantomPanner::PhantomPanner(const EnchanterLayout& layout, PanningLaw law, doub
     : layout_{layout}
     , isFlat_{isFlat(layout)}
     , rule_{law, exponent}
+    , partLaw_{law}
     , fieldWidthMetres_{fieldWidthMetres}
     , fieldHeightMetres_{fieldHeightMetres}
     , scaleX_{layout.extentWidthMetres / fieldWidthMetres}
     , scaleY_{layout.extentHeightMetres / fieldHeightMetres}
     , arrangement_{classify()}
-    , cells_{isFlat_ ? NeighbourCells{layout, {lineDirection_.x, lineDirection_.y}} : NeighbourCells{}}
+    , cells_{isFlat_ ? NeighbourCells{layout, {lineDirection_.x, lineDirection_.y}} : NeighbourCells{layout}}
     , triangles_{seeksTriangles ? TriangleCells{layout} : TriangleCells{}} {
     if (rule_.law == PanningLaw::automatic) resolveAutomatic();
 }

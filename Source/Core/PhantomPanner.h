@@ -20,8 +20,10 @@ public:
 
     /// `layout` valid; field sizes in metres > 0, mapped onto the layout's extent; exponent > 0 (gamma of
     /// Eq. 4.2). PanningLaw::automatic becomes `neighbours` on a row of three or more, a grid and a belt; in
-    /// space `triangles` where the actuators close around their centre, else `distance`. Elsewhere, and with
-    /// an exponent other than 1, it becomes `linear`; grains then go by grainSpread if the exponent is 1.
+    /// space `triangles` where the actuators close around their centre, `neighbours` where they are a row, a
+    /// grid or a belt in some plane, else `distance`. Elsewhere, and with an exponent other than 1, it
+    /// becomes `linear`; grains then go by grainSpread if the exponent is 1. Each part of the body chooses
+    /// for itself.
     PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
                   double fieldHeightMetres) noexcept
         : PhantomPanner{layout, law, exponent, fieldWidthMetres, fieldHeightMetres, true} {}
@@ -35,16 +37,22 @@ public:
 
     /// Gains of an event at its place, by its own spread. Grains without one use grains(). If the event is
     /// bound to a part of the body, actuators of other parts have gain 0; if no actuator has that part
-    /// (lacksPartOf), its place decides alone. Any thread.
-    void gainsAt(const CollisionEvent& event, Gains& gains) const noexcept {
-        const bool isGrain = event.source.kind != ContactKind::hit && event.spread == Spread::layout;
-        gainsOf(event, isGrain ? grains_ : event.spread, gains);
-    }
+    /// (lacksPartOf), its place decides alone. Finds the part's panner each time: PartPanners keeps them. Any
+    /// thread.
+    void gainsAt(const CollisionEvent& event, Gains& gains) const noexcept;
 
     /// The same with another spread. Any thread.
-    void gainsOf(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept {
-        gainsOn(event.source.part, {event.x, event.y, event.z}, spread, gains);
-    }
+    void gainsOf(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept;
+
+    /// True if events of this part need a panner of their own: it has actuators, but not all. Any thread.
+    bool divides(PartNumber part) const noexcept;
+
+    /// Panner of a part that divides: its actuators are a layout of their own, whose extent they span. Needs
+    /// up to 10 us. Any thread.
+    PhantomPanner onPart(PartNumber part) const noexcept;
+
+    /// Gains of an event that is bound to a part, given this panner's onPart of it. Any thread.
+    void gainsAt(const CollisionEvent& event, const PhantomPanner& onPart, Gains& gains) const noexcept;
 
     /// True if the event is bound to a part of the body that no actuator of the layout has. Any thread.
     bool lacksPartOf(const CollisionEvent& event) const noexcept {
@@ -67,13 +75,17 @@ public:
 
     /// The constructor's arguments. Any thread.
     const EnchanterLayout& layout() const noexcept { return layout_; }
-    PanningLaw law() const noexcept { return rule_.law; }       ///< Panning law; not PanningLaw::automatic.
-    double exponent() const noexcept { return rule_.exponent; } ///< Exponent of the law.
+    PanningLaw law() const noexcept { return rule_.law; } ///< Panning law; not PanningLaw::automatic.
+    /// The law that was named, PanningLaw::automatic among them: each part of the body resolves it for its
+    /// own actuators. Any thread.
+    PanningLaw partLaw() const noexcept { return partLaw_; }
+    void setPartLaw(PanningLaw law) noexcept { partLaw_ = law; }             ///< As a saved session names it.
+    double exponent() const noexcept { return rule_.exponent; }              ///< Exponent of the law.
     double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }   ///< Field along x.
     double fieldHeightMetres() const noexcept { return fieldHeightMetres_; } ///< Field along y.
 
 private:
-    /// Without `seeksTriangles` a layout in space counts as open.
+    /// Without `seeksTriangles` a layout in space does not close around a place.
     PhantomPanner(const ActuatorLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
                   double fieldHeightMetres, bool seeksTriangles) noexcept;
     enum class Arrangement { single, line, rectangle, triangle, scattered };
@@ -91,16 +103,23 @@ private:
     bool isRectangle() const noexcept;
     Vector place(int enchanter) const noexcept;
     double placeTolerance() const noexcept; // rounding in a layout file must not make a line a triangle
-    /// True where PanningLaw::automatic is `neighbours`. Two actuators and the corners of a rectangle keep
-    /// the thesis' law.
+    /// True where PanningLaw::automatic is `neighbours`. In the plane of x and y two actuators and the
+    /// corners of a rectangle keep the thesis' law.
     bool hasCells() const noexcept {
-        return cells_.areFound() && layout_.count > 2 && arrangement_ != Arrangement::rectangle;
+        return cells_.areFound() &&
+               (!isFlat_ || (layout_.count > 2 && arrangement_ != Arrangement::rectangle));
     }
     void resolveAutomatic() noexcept;
     Vector onLayout(Vector field) const noexcept;
     int actuatorsOn(PartNumber part) const noexcept;
-    PhantomPanner partPanner(PartNumber part) const noexcept;
-    void gainsOn(PartNumber part, Vector field, Spread spread, Gains& gains) const noexcept;
+    Spread spreadOf(const CollisionEvent& event) const noexcept {
+        const bool isGrain = event.source.kind != ContactKind::hit && event.spread == Spread::layout;
+        return isGrain ? grains_ : event.spread;
+    }
+    void gainsHere(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept {
+        gainsBy(spread, onLayout({event.x, event.y, event.z}), gains);
+    }
+    void spreadPart(PartNumber part, const Gains& own, Gains& gains) const noexcept;
     void gainsBy(Spread spread, Vector p, Gains& gains) const noexcept;
     void gainsBy(Rule rule, Vector p, Gains& gains) const noexcept;
     static double factor(Rule rule, double distanceRatio) noexcept;
@@ -114,14 +133,15 @@ private:
     EnchanterLayout layout_;
     bool isFlat_ = true; // all actuators have the same z, and z does not count
     Rule rule_;
+    PanningLaw partLaw_ = PanningLaw::linear; // may be automatic
     Spread grains_ = Spread::layout;
     double fieldWidthMetres_ = 0.0, fieldHeightMetres_ = 0.0;
     double scaleX_ = 1.0, scaleY_ = 1.0; // field metres to layout metres; z by scaleX_
     Vector lineDirection_;
     double lineExtent_ = 0.0;
     Arrangement arrangement_ = Arrangement::single;
-    NeighbourCells cells_;    // of a flat layout
-    TriangleCells triangles_; // of one in space
+    NeighbourCells cells_;    // of a layout in one plane
+    TriangleCells triangles_; // of one that closes around a place
 };
 
 } // namespace physvib

@@ -16,7 +16,7 @@ const char* holderOf(const SilenceHolders& silence) noexcept {
 physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
     physvib_renderer_settings settings;
     physvib_renderer_settings_init(&settings, sizeof settings);
-    settings.law = static_cast<int>(panner.law());
+    settings.law = static_cast<int>(panner.partLaw());
     settings.exponent = panner.exponent();
     settings.field_width_m = panner.fieldWidthMetres();
     settings.field_height_m = panner.fieldHeightMetres();

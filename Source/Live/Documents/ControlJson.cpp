@@ -28,7 +28,7 @@ void expectFields(const JsonField& json, std::vector<std::string_view> known, st
 } // namespace
 
 PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescription>& kind) {
-    json.expectObject({"layout", "law", "exponent", "field_m", "grain_law"});
+    json.expectObject({"layout", "law", "exponent", "field_m", "grain_law", "part_law"});
     kind.described = readKind(json["layout"], Own<LayoutDescription>{});
     const auto& layout = kind.described.geometry;
     if (layout.count > kind.channels)
@@ -43,6 +43,9 @@ PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescri
     // without this field, grains are panned like impacts
     if (json.has("grain_law"))
         panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
+    // without this field parts are panned by `law`
+    const char* const partLaw = json.has("part_law") ? "part_law" : "law";
+    panner.setPartLaw(panningLaws[json[partLaw].oneOf(panningLawNames)].law);
     return panner;
 }
 
@@ -77,6 +80,8 @@ OrderedJson writeKind(const DescribedPanner<const LayoutDescription>& kind, cons
                      {"exponent", panner.exponent()},
                      {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
     if (panner.grains() != Spread::layout) json["grain_law"] = nameOf(panner.grains());
+    if (panner.partLaw() != panner.law() && hasParts(panner.layout()))
+        json["part_law"] = nameOf(panner.partLaw());
     return json;
 }
 

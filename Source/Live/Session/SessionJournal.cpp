@@ -22,9 +22,7 @@ SavedSession headOf(const SessionSetup& setup) {
 // The list begins before its events are known. Depths and parts matter to layouts that have them.
 OptionalColumns columnsFor(const SessionSetup& setup) {
     const ActuatorLayout& layout = setup.panner.layout();
-    const auto end = layout.places.begin() + layout.count;
-    return {isAnyRough(setup.scene.materials), true, !isFlat(layout),
-            std::any_of(layout.places.begin(), end, [](const ActuatorPlace& p) { return p.part != 0; })};
+    return {isAnyRough(setup.scene.materials), true, !isFlat(layout), hasParts(layout)};
 }
 
 } // namespace
