@@ -28,6 +28,7 @@ step() {
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;
         skipped) Tests/Plugin/skipped.sh $bin ;;
         engines) engines ;;
+        box2d3) Tests/Engines/box2d3.sh build/release ;;
         pymunk) Tests/Api/pymunk.sh $PWD/build/release/lib/libphysvib.so.0 ;;
         quick) Tests/quick.py build/release ;;
         osc) Tests/Osc/run.sh $bin ;;

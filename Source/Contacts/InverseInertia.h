@@ -34,7 +34,9 @@ struct InverseInertia {
                (product(one.y, other.z) + product(one.z, other.y)) * yz;
     }
 
-    /// Numbers, none of them below 0 about an axis. False of NaN.
+    /// Numbers that some body has: 0 or more about every axis, also about those between x, y and z. A matrix
+    /// that turns about one or two axes only (singular) is valid; false of NaN. Else an impulse could push a
+    /// body towards what struck it.
     bool isValid() const noexcept {
         constexpr double most = 1.0e18;
         for (const double about : {xx, yy, zz})
@@ -43,7 +45,16 @@ struct InverseInertia {
         const auto isWithin = [](double product, double one, double other) {
             return std::abs(product) <= 1.0001 * std::sqrt(one * other);
         };
-        return isWithin(xy, xx, yy) && isWithin(xz, xx, zz) && isWithin(yz, yy, zz);
+        return isWithin(xy, xx, yy) && isWithin(xz, xx, zz) && isWithin(yz, yy, zz) && isAboveZero();
+    }
+
+private:
+    /// The last pivot of Cholesky's factors, where each axis has a moment: with those of the pairs above, it
+    /// tells a positive semi-definite matrix. In parts of the moments, since a rod's differ a lot.
+    bool isAboveZero() const noexcept {
+        if (!(xx > 0.0 && yy > 0.0 && zz > 0.0)) return true; // the pairs are all there is
+        const double a = xy / std::sqrt(xx * yy), b = xz / std::sqrt(xx * zz), c = yz / std::sqrt(yy * zz);
+        return 1.0 + 2.0 * a * b * c - a * a - b * b - c * c >= -1e-3;
     }
 };
 

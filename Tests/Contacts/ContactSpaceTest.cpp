@@ -279,8 +279,14 @@ TEST_F(ContactSpace, WhatIsNoMotionInSpaceIsNamed) {
     const std::string_view fault =
         "inverse inertia: expected that of a body (xx, yy, zz, xy, xz, yz; 0 where it cannot turn)";
     for (const InverseInertia& wrong : {InverseInertia{-1.0}, InverseInertia{.xx = static_cast<double>(nan)},
-                                        InverseInertia{.xx = 1.0, .yy = 1.0, .xy = 1.1}})
+                                        InverseInertia{.xx = 1.0, .yy = 1.0, .xy = 1.1},
+                                        InverseInertia{1.0, 1.0, 1.0, -0.9, -0.9, -0.9}, // of no two axes
+                                        InverseInertia{.xx = 1.0, .zz = 1.0, .yz = 0.1}})
         EXPECT_EQ(feed.moveInSpace(1, {}, {}, wrong), fault);
+    // turns about one axis alone, and a thin rod, whose moments differ by a million
+    for (const InverseInertia& right : {InverseInertia{1.0, 4.0, 9.0, 2.0, 3.0, 6.0},
+                                        InverseInertia{1e6, 1e6, 1e6, 1e6 - 1.0, 1e6 - 1.0, 1e6 - 1.0}})
+        EXPECT_EQ(feed.moveInSpace(1, {}, {}, right), "");
     EXPECT_EQ(feed.movedInSpace(1, {}), "step: expected to be within one");
     EXPECT_EQ(feed.beginStep(stepNs, 0.0), "");
     EXPECT_EQ(feed.touch(at({}, {0.0F, 1.0F, 0.5F})), "normal: expected a length of 1");

@@ -113,7 +113,14 @@ TEST(Messages, ActuatorsInSpaceAreFoundByTheirLetters) {
         for (int j = 1; j < layout.count; ++j)
             expectAlone(movedAlong(path[static_cast<std::size_t>(j - 1)], 1.0), j);
     }
+    for (const char* line : {R"({"message": "phantom", "part": "thumb"})",
+                             R"({"message": "path", "places": "AB", "part": "thumb"})",
+                             R"({"message": "strike", "frequency_hz": 180, "seconds": 1, "part": "thumb"})"})
+        for (const CollisionEvent& each : strikesOfLine(line))
+            EXPECT_EQ(each.source.part, partNamed("thumb")) << line;
+    EXPECT_EQ(strikesOfLine(R"({"message": "phantom", "part": "part-7"})")[0].source.part, 7);
     const auto event = strikesOfLine(R"({"message": "phantom", "place": [1, 2, 3]})")[0];
+    EXPECT_EQ(event.source.part, 0);
     EXPECT_EQ(std::tuple(event.x, event.y, event.z), std::tuple(1.0, 2.0, 3.0));
 }
 

@@ -34,6 +34,9 @@ for scene in $("$physvib" scenes | cut -d' ' -f1); do
     for layout in phone1 phone2 phone3 phone4 ring1 ring2 ring3 ring4; do
         for law in linear log log-outer energy; do rendered "$scene $layout $law" "$scene" --layout $layout --law $law; done
     done
+    for layout in phone2 ring4 cabinet4 pico8 glove5 sleeve8 vest16; do
+        for law in auto neighbours distance triangles; do rendered "$scene $layout $law" "$scene" --layout $layout --law $law; done
+    done
     for option in '--timing release' '--location fixture' '--method AF-FV-DRF' '--method AV-FF-DRV' '--steps-per-second 1000' \
         '--limiter off' "--actuator $measured" "--actuator $measured --remap on" '--perceived-level on' '--seed 7 --rate 44100 --block 77'; do
         # shellcheck disable=SC2086 # an option and its value

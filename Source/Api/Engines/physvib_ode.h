@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* ODE: number the geoms (dGeomSetData, integers from 1); call physvib_ode_touch for each contact joint in the
- * near callback, then physvib_ode_step. A touching geom without a number is an error. Define
- * PHYSVIB_NUMBERS_FROM_0 for numbers from 0, as in earlier versions; a geom without a number is then body 0.
- * Contacts are those in space; the field is the x, y plane, and z goes across it. A game in that plane
- * (dJointCreatePlane2D) sets `is_plane`: all contacts then count at z = 0, and a normal that is not in the
- * plane is an error. C99 and later, C++11 and later. */
+/* ODE: number the geoms (dGeomSetData, integers from 1); call physvib_ode_touch_contact for each contact
+ * joint in the near callback, then physvib_ode_step. Bodies and geoms may be destroyed between the two,
+ * joints may not. A touching geom without a number is an error. Define PHYSVIB_NUMBERS_FROM_0 for numbers
+ * from 0, as in earlier versions; a geom without a number is then body 0. Contacts are those in space; the
+ * field is the x, y plane, and z goes across it. A game in that plane (dJointCreatePlane2D) sets `is_plane`:
+ * all contacts then count at z = 0, and a normal that is not in the plane is an error. C99 and later, C++11
+ * and later. */
 #ifndef PHYSVIB_ODE_H
 #define PHYSVIB_ODE_H
 #include <math.h>
@@ -26,6 +27,8 @@ typedef struct physvib_ode {
     char error[160];               /**< text of that error */
     dContactGeom geom[PHYSVIB_ODE_MOST]; /**< of each joint */
     int is_plane;                        /**< 1: contacts in the x, y plane alone (0) */
+    dJointID joint[PHYSVIB_ODE_MOST];    /**< each joint */
+    dBodyID body[PHYSVIB_ODE_MOST][2];   /**< bodies of each joint's first and second geom, or NULL */
 } physvib_ode;
 
 PHYSVIB_UNUSED static void physvib_ode_check(physvib_ode* ode, int code, const char* line) {
@@ -71,8 +74,7 @@ PHYSVIB_UNUSED static double physvib_ode_mass(dGeomID geom) { /* 0: nothing move
 
 /* Along the normal. `moved_s`: the length of a step that has moved the body since; its point moved with it.
  */
-PHYSVIB_UNUSED static double physvib_ode_speed(dGeomID geom, const dContactGeom* at, double moved_s) {
-    dBodyID body = dGeomGetBody(geom);
+PHYSVIB_UNUSED static double physvib_ode_speed(dBodyID body, const dContactGeom* at, double moved_s) {
     dVector3 v = {0, 0, 0, 0};
     const dReal *by = body ? dBodyGetLinearVel(body) : v, s = (dReal)moved_s;
     if (body)
@@ -88,8 +90,8 @@ PHYSVIB_UNUSED static double physvib_ode_share(const physvib_ode* ode, int index
                                                double seconds) {
     const dContactGeom* geom = &ode->geom[index];
     const double approach = ode->contact[index].approach_m_per_s,
-                 parts =
-                     physvib_ode_speed(geom->g1, geom, seconds) - physvib_ode_speed(geom->g2, geom, seconds),
+                 parts = physvib_ode_speed(ode->body[index][0], geom, seconds) -
+                         physvib_ode_speed(ode->body[index][1], geom, seconds),
                  most = dWorldGetContactMaxCorrectingVel(world);
     double corrects = dWorldGetERP(world) * geom->depth / seconds, falls;
     dVector3 g;
@@ -100,8 +102,8 @@ PHYSVIB_UNUSED static double physvib_ode_share(const physvib_ode* ode, int index
            (approach + (falls > 0 ? falls : 0) + (parts > 0 ? parts : 0));
 }
 
-/* Call in the near callback, after dJointCreateContact(...) and dJointAttach(joint, ...). ODE's normals point
- * into the first geom. */
+/* Call in the near callback, after dJointCreateContact(...) and dJointAttach(joint, ...), for contacts that
+ * are not soft. ODE's normals point into the first geom. */
 PHYSVIB_UNUSED static void physvib_ode_touch(physvib_ode* ode, dJointID joint, const dContactGeom* geom) {
     physvib_contact* contact = &ode->contact[ode->count < PHYSVIB_ODE_MOST ? ode->count : 0];
     const double a = physvib_ode_mass(geom->g1), b = physvib_ode_mass(geom->g2);
@@ -121,18 +123,94 @@ PHYSVIB_UNUSED static void physvib_ode_touch(physvib_ode* ode, dJointID joint, c
     contact->x_m = geom->pos[0], contact->y_m = geom->pos[1], contact->normal_x = -geom->normal[0],
     contact->normal_y = -geom->normal[1];
     if (!ode->is_plane) contact->z_m = geom->pos[2], contact->normal_z = -geom->normal[2];
-    contact->approach_m_per_s = physvib_ode_speed(geom->g2, geom, 0) - physvib_ode_speed(geom->g1, geom, 0);
+    contact->approach_m_per_s = physvib_ode_speed(dGeomGetBody(geom->g2), geom, 0) -
+                                physvib_ode_speed(dGeomGetBody(geom->g1), geom, 0);
     contact->gap_m = -geom->depth; /* at the start of the step */
     contact->point_id = PHYSVIB_POINT_BY_PLACE;
     ode->geom[ode->count] = *geom;
     ode->pull[ode->count] = (b > 0) - (a > 0);
+    ode->joint[ode->count] = joint;
+    ode->body[ode->count][0] = dGeomGetBody(geom->g1), ode->body[ode->count][1] = dGeomGetBody(geom->g2);
+    /* ODE writes none for bodies that sleep */
+    memset(&ode->feedback[ode->count], 0, sizeof ode->feedback[ode->count]);
     dJointSetFeedback(joint, &ode->feedback[ode->count++]);
+}
+
+/* The inverse of a body's moments of inertia, xx, yy, zz, xy, xz, yz in the world's axes, by Cholesky's
+ * factors. All 0, i.e. nothing turns it, if its moments are those of no body (one is 0, below 0 or NaN). */
+PHYSVIB_UNUSED static void physvib_ode_turning(dBodyID body, double to[6]) {
+    const dReal* turned = dBodyGetRotation(body);
+    double factor[3][3], solved[3][3];
+    dMass mass;
+    int i, j, k;
+    for (i = 0; i < 6; ++i) to[i] = 0;
+    dBodyGetMass(body, &mass);
+    for (i = 0; i < 3; ++i)
+        for (j = 0; j <= i; ++j) {
+            double left = mass.I[4 * i + j];
+            for (k = 0; k < j; ++k) left -= factor[i][k] * factor[j][k];
+            if (i == j && !(left > 0)) return;
+            factor[i][j] = i == j ? sqrt(left) : left / factor[j][j];
+        }
+    for (i = 0; i < 3; ++i) /* each of the world's axes, in the body's */
+        for (j = 0; j < 3; ++j) {
+            solved[i][j] = turned[4 * i + j];
+            for (k = 0; k < j; ++k) solved[i][j] -= factor[j][k] * solved[i][k];
+            solved[i][j] /= factor[j][j];
+        }
+    for (k = 0; k < 3; ++k) {
+        for (i = 0; i < 3; ++i) to[i] += solved[i][k] * solved[i][k];
+        to[3] += solved[0][k] * solved[1][k], to[4] += solved[0][k] * solved[2][k];
+        to[5] += solved[1][k] * solved[2][k];
+    }
+}
+
+PHYSVIB_UNUSED static void physvib_ode_soften(physvib_ode* ode, dBodyID body, int id) {
+    const dReal *at, *v, *turns;
+    double turning[6];
+    if (!body || ode->is_plane) return;
+    at = dBodyGetPosition(body), v = dBodyGetLinearVel(body), turns = dBodyGetAngularVel(body);
+    physvib_ode_turning(body, turning);
+    {
+        const double centre[3] = {at[0], at[1], at[2]}, velocity[3] = {v[0], v[1], v[2]},
+                     spin[3] = {turns[0], turns[1], turns[2]};
+        physvib_ode_check(ode, physvib_world_move_in_space(ode->world, id, centre, velocity, spin, turning),
+                          physvib_error());
+    }
+}
+
+/* The same, with what the surfaces are made of. The impulse of a soft contact (dContactSoftERP or
+ * dContactSoftCFM in `mode`) is that of a spring over many steps, or pushes an overlap apart: no measure of
+ * an impact. It follows from speed, masses and `bounce` instead. In a plane that needs inertia_kg_m2 of the
+ * bodies. */
+PHYSVIB_UNUSED static void physvib_ode_touch_contact(physvib_ode* ode, dJointID joint, const dContact* from) {
+    const int mode = from->surface.mode, before = ode->count;
+    physvib_contact* contact;
+    physvib_ode_touch(ode, joint, &from->geom);
+    if (ode->count == before || !(mode & (dContactSoftERP | dContactSoftCFM))) return;
+    contact = &ode->contact[before];
+    contact->is_soft = PHYSVIB_SOFT;
+    if ((mode & dContactBounce) && contact->approach_m_per_s > from->surface.bounce_vel)
+        contact->restitution = from->surface.bounce < 1 ? from->surface.bounce : 1;
+    physvib_ode_soften(ode, ode->body[before][0], contact->a);
+    physvib_ode_soften(ode, ode->body[before][1], contact->b);
+}
+
+/* Whether the joint still holds the bodies that touched: a body that is destroyed leaves its joints. */
+PHYSVIB_UNUSED static int physvib_ode_is_there(const physvib_ode* ode, int index) {
+    dBodyID first = dJointGetBody(ode->joint[index], 0), second = dJointGetBody(ode->joint[index], 1);
+    int i;
+    for (i = 0; i < 2; ++i)
+        if (ode->body[index][i] && ode->body[index][i] != first && ode->body[index][i] != second) return 0;
+    return 1;
 }
 
 /* Call instead of dWorldStep. Returns PHYSVIB_OK, or the first error so far, with its text in ode->error. */
 PHYSVIB_UNUSED static int physvib_ode_step(physvib_ode* ode, dWorldID world, double seconds) {
     dVector3 g;
     int i;
+    for (i = 0; i < ode->count; ++i)
+        if (!physvib_ode_is_there(ode, i)) ode->joint[i] = NULL;
     dWorldGetGravity(world, g);
     physvib_ode_check(ode, physvib_world_begin_step(ode->world, seconds, dCalcVectorLength3(g)),
                       physvib_error());
@@ -140,9 +218,10 @@ PHYSVIB_UNUSED static int physvib_ode_step(physvib_ode* ode, dWorldID world, dou
     for (i = 0; i < ode->count; ++i) {
         physvib_contact* contact = &ode->contact[i];
         const dReal* f = ode->feedback[i].f1;
+        if (!ode->joint[i]) continue;
         contact->impulse_n_s = seconds * fabs(f[0] * contact->normal_x + f[1] * contact->normal_y +
                                               f[2] * contact->normal_z); /* of either of the two */
-        if (contact->approach_m_per_s > 0.1)
+        if (contact->approach_m_per_s > 0.1 && !contact->is_soft)
             contact->impulse_n_s *= physvib_ode_share(ode, i, world, seconds);
         physvib_ode_check(ode, physvib_world_touch(ode->world, contact), physvib_error());
     }

@@ -5,6 +5,7 @@
 #include "Core/ToneEnd.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/EventColumns.h"
+#include "Scene/PartNames.h"
 #include "Stimuli/PulsePattern.h"
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,7 @@ CollisionEvent toneOf(const MessageValues& values, const EnchanterPlace& at, dou
     tone.y = at.yMetres;
     tone.z = at.zMetres;
     tone.spread = spread;
+    if (values.has("part")) tone.source.part = partOf(values.word("part"));
     return tone;
 }
 

@@ -72,6 +72,11 @@ inline constexpr MessageArgument law{
     0.0,      0.0,
     "layout", "how it is spread: `layout` (as hits are), by a [law](panning.md#laws), `equal`, `alone`"};
 
+inline constexpr MessageArgument part{
+    "part", Type::word,
+    0.0,    0.0,
+    "",     "of the body ([names](space.md#parts)), on whose actuators alone it is felt; left out: all"};
+
 inline constexpr std::array when{
     MessageArgument{"at", Type::number, 0.0, limits::maxTimeNs * 1e-9, "now",
                     "session time in s, or `now`; felt the output latency later"},
@@ -86,7 +91,8 @@ inline constexpr std::array strike{
     level,
     MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0",
                     "after which it is cut, at a zero crossing; 0: when it has decayed"},
-    law};
+    law,
+    part};
 inline constexpr std::array pattern{
     MessageArgument{"pattern", Type::word, 0.0, 0.0, "",
                     "one to three actuators and a pulse's ms: `ABA-250`"},
@@ -97,8 +103,8 @@ inline constexpr std::array pattern{
     frequency,
     level};
 inline constexpr std::array phantom{
-    place, MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "length"}, law, frequency,
-    level};
+    place, MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "length"}, law, frequency, level,
+    part};
 inline constexpr std::array path{
     MessageArgument{"places", Type::places, 0.0, 0.0, "",
                     "2 to 64 of them, joined by straight lines: `AD`, `[[0, 0], [1, 0.5]]`"},
@@ -113,7 +119,8 @@ inline constexpr std::array path{
                     "`neighbours` on a row, grid or belt of three or more, else `equal`; `linear`, `log` and "
                     "`log-outer` lag behind (linear: 0.16 where 0.3 is meant)"},
     frequency,
-    level};
+    level,
+    part};
 
 inline constexpr std::array clip{
     MessageArgument{"file", Type::word, 0.0, 0.0, "",
