@@ -134,19 +134,25 @@ void corner(int rate) {
            "a soft corner is felt as its share");
 }
 
-/// The ball is destroyed where it has just touched.
+/// The ball bounces, and is destroyed where it has just touched again.
 void destroyed(bool isBodyToo) {
     Fall fall{1.0 / 240};
+    fall.like.surface.mode = dContactBounce, fall.like.surface.bounce = 0.5;
     fall.addBall();
+    int landings = 0;
+    bool touched = false;
     fall.between = [&] {
-        if (fall.haptics->count == 0 || fall.geom == nullptr) return;
+        const bool touches = fall.haptics->count > 0;
+        landings += touches && !touched ? 1 : 0;
+        touched = touches;
+        if (landings < 2 || fall.geom == nullptr) return;
         dGeomDestroy(fall.geom);
         if (isBodyToo) dBodyDestroy(fall.body);
         fall.geom = nullptr;
     };
-    const auto impulses = fall.felt(0.5);
-    expect(fall.geom == nullptr, "the ball has landed");
-    expect(impulses.size() == (isBodyToo ? 0U : 1U), "what is gone is not felt, and a shape alone is");
+    const auto impulses = fall.felt(0.9);
+    expect(fall.geom == nullptr, "the ball has landed twice");
+    expect(impulses.size() == (isBodyToo ? 1U : 2U), "what is gone is not felt, and a shape alone is");
 }
 
 void turning() {
