@@ -24,8 +24,8 @@ g++ -std=c++20 -O2 -ISource -IFirmware/Pico $here/expected.cpp -o "$folder/expec
 /usr/bin/python3 $here/signals.py "$folder" "$seconds"
 for channels in 4 8; do
     image=$images/physvib-pico$channels.bin
-    node $here/frames.mjs "$image" $channels "$folder/expected" open "$folder/scene$channels.raw" scene
-    node $here/frames.mjs "$image" $channels "$folder/expected" open "$folder/slow$channels.raw" "slow and loud (the guard acts)"
+    node $here/frames.mjs "$image" $channels "$folder/expected" full "$folder/scene$channels.raw" scene
+    node $here/frames.mjs "$image" $channels "$folder/expected" full "$folder/slow$channels.raw" "slow and loud (the guard acts)"
     node $here/frames.mjs "$image" $channels "$folder/expected" low "$folder/slow$channels.raw" "slow and loud, low ceiling"
     node $here/faults.mjs "$image" $channels
 done

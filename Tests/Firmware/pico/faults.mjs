@@ -73,6 +73,7 @@ function silence(board, since, what, mayJump = false) {
     let sent = 0;
     for (let k = 0; k < 1500; ++k) {
         const next = board.now + 1e6, kind = random(40);
+        board.sof();
         board.run(kind < 20 ? random(900) / 1e3 : 0);
         const size = kind === 39 ? random(49 * 2 * channels) : 48 * 2 * channels;
         const bytes = board.pack(Array.from({ length: 49 }, loud)).subarray(0, size);
@@ -83,10 +84,71 @@ function silence(board, since, what, mayJump = false) {
     for (const { frame } of board.frames)
         check(frame.every((v) => v >= 0 && v <= level && v === frame[0]), `torn: ${frame}`);
     const c = counters(board);
-    check(c.wrong_sizes > 0 && c.restarts === 0, 'wrong sizes are not counted');
+    check(c.wrong_sizes > 0 && c.missing_packets > 0 && c.restarts === 0, 'wrong sizes or missing packets are not counted');
     board.run(20);
     playing(board);
-    say(`late, missing, doubled and odd packets: no torn frame; underruns ${c.underruns}, overruns ${c.overruns}, wrong sizes ${c.wrong_sizes}; plays again`);
+    say(`late, missing, doubled and odd packets: no torn frame; underruns ${c.underruns}, overruns ${c.overruns}, missing packets ${c.missing_packets}, wrong sizes ${c.wrong_sizes}; plays again`);
+}
+{
+    // The stream turns its sign exactly where packets are missing: a step of 1600 would be the click.
+    const board = fresh();
+    board.select(1);
+    playing(board);
+    board.sof();
+    board.run(1);
+    board.stream(20, () => new Array(channels).fill(-level));
+    let before = board.frames[0].frame[0], most = 0;
+    for (const { frame } of board.frames) most = Math.max(most, Math.abs(frame[0] - before)), (before = frame[0]);
+    check(before === -level && most <= (2 * level) / 48 + 1, `a missing packet: a step of ${most}`);
+    const c = counters(board);
+    check(c.missing_packets === 1 && c.underruns === 0, `a missing packet: ${JSON.stringify(c)}`);
+    say(`a missing packet fades: no step above ${most}, counted`);
+}
+{
+    const board = fresh();
+    board.select(1);
+    const most = () => Math.max(...board.frames.flatMap(({ frame }) => frame).map(Math.abs));
+    const square = (n) => new Array(channels).fill(n % 48 < 24 ? 20000 : -20000);
+    board.stream(150, square);
+    board.frames = [];
+    board.stream(5, square);
+    check(most() === 20000, `full scale with GP9 tied: ${most()}`);
+    board.tieCeiling(false);
+    board.stream(2, square); // a tile, and what the pins hold
+    board.frames = [];
+    board.stream(20, square);
+    check(most() === 5000, `GP9's wire falls out: ${most()} after 2 ms`);
+    board.tieCeiling(true);
+    board.frames = [];
+    board.stream(95, square);
+    check(most() === 5000, `GP9 is tied again: ${most()} within 95 ms`);
+    board.stream(150, square);
+    board.frames = [];
+    board.stream(2, square);
+    check(most() === 20000, `GP9 is tied again: ${most()}`);
+    say("GP9's wire falls out: a quarter of it within 2 ms; tied again: as before, not sooner than 95 ms");
+}
+// Waits that never come true: the chip restarts, and plays then.
+for (const [what, isNewChip, spoil, wait] of [
+    ["the output's queue never fills", false, (board) => Object.defineProperty(board.pio.machines[0], 'fifoStat', { get: () => 0 }), () => {}],
+    ['an endpoint is never aborted', true, (board) => {
+        const write = board.usb.writeUint32.bind(board.usb);
+        board.usb.writeUint32 = (offset, value) => { if (offset !== 0x60) write(offset, value); };
+    }, (board) => { board.enumerate(); board.select(1); playing(board); board.select(0); }],
+]) {
+    const board = new Board(image, channels, { isNewChip });
+    spoil(board);
+    wait(board);
+    check(board.until(() => board.restarts > 0, 100), `${what}: it waits for ever`);
+    check(!board.amplifierIsOn, `${what}: the amplifiers are on`);
+    board.enumerate();
+    board.frames = [];
+    board.select(1);
+    playing(board);
+    check(board.select(0) && board.select(1), 'alternate settings');
+    playing(board);
+    check(counters(board).restarts === 1, `${what}: the restart is not counted`);
+    say(`${what}: restarts, counts it, plays`);
 }
 {
     const board = fresh();

@@ -68,6 +68,7 @@ const take = (request, packet) => {
 let clock = 0; // of the bus, ns; control transfers hold it up
 function millisecond() {
     clock = Math.max(clock, board.now) + 1e6;
+    board.sof();
     const out = outs[0];
     const isDone = take(out, (at, offset, length) => {
         const bytes = out.data.subarray(offset, offset + length);
@@ -121,7 +122,7 @@ function receive(head, data, descriptors) {
 function report() {
     const all = Buffer.concat(sent);
     const tile = 16 * frameBytes, whole = all.subarray(0, all.length - (all.length % tile));
-    const expected = execFileSync(program, [channelText, 'open'], { input: whole, maxBuffer: 1 << 30 });
+    const expected = execFileSync(program, [channelText, 'full'], { input: whole, maxBuffer: 1 << 30 });
     const value = (n, j) => expected.readInt16LE(n * frameBytes + 2 * j), total = expected.length / frameBytes;
     const isSilent = (n) => Array.from({ length: channels }, (_, j) => value(n, j)).every((v) => v === 0);
     let first = 0, last = total - 1;
