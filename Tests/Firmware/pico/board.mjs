@@ -182,7 +182,11 @@ export class Board {
         this.stalled = false;
         this.usb.epStallArm = 0;
         this.usb.sendSetupPacket(packet);
-        const wait = (isTrue) => this.until(() => this.stalled || isTrue(), 20) && !this.stalled;
+        const wait = (isTrue) => {
+            const isAnswered = this.until(() => this.stalled || isTrue(), 20);
+            if (this.stalled) this.run(0.05); // the chip refuses both directions, one after the other
+            return isAnswered && !this.stalled;
+        };
         if (isIn) {
             const got = [];
             for (;;) {

@@ -163,18 +163,33 @@ for (const [what, isNewChip, spoil, wait] of [
 }
 {
     const board = fresh();
+    const descriptors = (b) => [[0x0100, 18], [0x0200, 320], [0x0301, 64], [0x0302, 64]].map(([value, n]) => b.control(setup(0x80, 6, value, 0, n))).join(' ');
+    const before = descriptors(board);
     const types = [0x00, 0x80, 0x01, 0x81, 0x02, 0x82, 0x21, 0xa1, 0x22, 0xa2, 0x40, 0xc0];
+    // Half are any bytes; half are what a host may ask, with one field altered in every second one.
+    const known = [[0x80, 6, 0x0100, 0, 18], [0x80, 6, 0x0200, 0, 320], [0x80, 6, 0x0302, 0x0409, 64], [0x80, 0, 0, 0, 2], [0x82, 0, 0, 1, 2], [0x80, 8, 0, 0, 1],
+        [0x81, 10, 0, 1, 1], [0, 9, 1, 0, 0], [0, 9, 0, 0, 0], [1, 11, 0, 1, 0], [1, 11, 1, 1, 0], [2, 1, 0, 1, 0], [2, 3, 0, 0x81, 0], [0xa1, 1, 0x0100, 0x0400, 4],
+        [0xa1, 2, 0x0100, 0x0400, 14], [0xa1, 1, 0x0200, 0x0400, 1], [0x21, 1, 0x0100, 0x0400, 4], [0xa1, 2, 0x0201, 0x0200, 8], [0xa1, 1, 0x0102, 0x0200, 1],
+        [0x21, 1, 0x0203, 0x0200, 2], [0x21, 1, 0x0100, 0x0200, 1], [0xa1, 0x21, 0, 2, 7], [0x21, 0x20, 0, 2, 7], [0x21, 0x22, 3, 2, 0]];
+    const any = (few) => (random(2) ? random(few) : random(256));
+    const request = () => {
+        if (random(2))
+            return [random(8) ? types[random(types.length)] : random(256), any(14), any(16) | (any(6) << 8), any(5) | (any(5) << 8), random(3) ? random(20) : random(300)];
+        const words = [...known[random(known.length)]];
+        if (random(2)) words[random(5)] ^= 1 << random(10);
+        return words.map((word, k) => (k < 2 ? word & 255 : word));
+    };
     let refused = 0, above = 0;
     for (let k = 0; k < +requests; ++k) {
-        const any = (few) => (random(2) ? random(few) : random(256));
-        const length = random(3) ? random(20) : random(300);
-        const packet = setup(random(8) ? types[random(types.length)] : random(256), any(14), any(16) | (any(6) << 8), any(5) | (any(5) << 8), length);
-        if (board.control(packet, Uint8Array.from({ length }, () => random(256))) === null) ++refused;
+        const words = request(), length = words[4];
+        if (board.control(setup(...words), Uint8Array.from({ length }, () => random(256))) === null) ++refused;
+        if (k % 10 === 0) board.control(setup(0, 9, 1, 0, 0)); // one of them may have left it without a configuration
         if (k % 100 === 0) board.select(1), board.stream(2, loud);
         for (const { frame } of board.frames) if (!frame.every((v) => v >= 0 && v <= level)) ++above;
         board.frames = [];
     }
     check(above === 0, `${above} frames above what was sent`);
+    check(refused > requests / 5 && refused < (4 * requests) / 5, `${refused} of ${requests} requests are refused`);
     board.run(10);
     board.resetBus();
     board.enumerate();
@@ -186,7 +201,8 @@ for (const [what, isNewChip, spoil, wait] of [
     board.select(1);
     playing(board);
     check(counters(board).restarts === 0, 'the watchdog restarted it');
-    say(`${requests} random control requests: ${refused} refused, none hangs, no sample above; plays again`);
+    check(descriptors(board) === before, 'a request has changed a descriptor');
+    say(`${requests} random control requests: ${refused} refused, ${requests - refused} answered, none hangs, no sample above; plays again`);
 }
 {
     const board = fresh();
