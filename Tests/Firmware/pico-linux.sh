@@ -57,7 +57,18 @@ for channels in 4 8; do
     wait $guest || :
     tee -a "$log" <"$folder/result"
     [ $is_equal = 1 ] || { say "$log: not all frames are equal at the pins"; exit 1; }
-    grep -q 'aplay: 0' "$log" || { say "$log: aplay did not play to the end"; exit 1; }
-    grep -q "Channels: $channels" "$log" || { say "$log: Linux does not list $channels channels"; exit 1; }
+    # What has to stand in the log, and what is wrong if it does not.
+    while IFS='|' read -r line wrong; do
+        grep -q -E "$line" "$log" || { say "$log: $wrong"; exit 1; }
+    done <<END
+aplay: 0|aplay did not play to the end
+Channels: $channels|Linux does not list $channels channels
+iProduct .*PhysVib pico$channels|lsusb does not read the product's name
+bInterfaceProtocol +32|lsusb does not find an Audio Class 2 interface
+Synch Type +Asynchronous|lsusb does not find the asynchronous endpoint
+Usage Type +Feedback|lsusb does not find the feedback endpoint
+amixer: set|amixer does not set a volume for each channel
+volumes set: 1 -9.5 dB.* $channels -$(awk "BEGIN { print (20 - $channels) / 2 }") dB|the board was not told each channel's volume
+END
 done
 say "pico-linux.sh: all of it held"
