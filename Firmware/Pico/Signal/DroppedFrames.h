@@ -11,7 +11,8 @@ namespace physvib::pico {
 template <int channels>
 class DroppedFrames {
 public:
-    static constexpr std::int32_t fadeFrames = 3 * tileFrames; // 1 ms
+    static constexpr std::int32_t fadeFrames = 4 * tileFrames; // 1.3 ms; a power of two, for a chip that
+                                                               // divides slowly
 
     /// Frames are missing behind the last one that joined.
     void miss() noexcept {
@@ -21,6 +22,9 @@ public:
     /// Nothing is to be joined: the output is silent.
     void forget() noexcept { left_ = 0; }
 
+    bool isJoining() const noexcept { return left_ > 0; }
+    /// In the place of join() while nothing is to be joined.
+    void keep(const Frame<channels>& frame) noexcept { last_ = frame; }
     void join(Frame<channels>& frame) noexcept {
         if (left_ > 0) {
             for (std::size_t j = 0; j < frame.size(); ++j) {

@@ -42,11 +42,18 @@ public:
     int read(Tile<channels>& tile, DroppedFrames<channels>& dropped) noexcept {
         const auto at = read_.load(std::memory_order_relaxed);
         const auto count = std::min<std::uint32_t>(level(), tileFrames);
+        bool isWhole = !dropped.isJoining();
         for (std::uint32_t k = 0; k < count; ++k) {
             tile[k] = frames_[(at + k) % capacityFrames];
-            if (isBehindGap_[(at + k) % capacityFrames]) dropped.miss();
-            dropped.join(tile[k]);
+            isWhole = isWhole && !isBehindGap_[(at + k) % capacityFrames];
         }
+        if (isWhole && count > 0) // as most of the time
+            dropped.keep(tile[count - 1]);
+        else
+            for (std::uint32_t k = 0; k < count; ++k) {
+                if (isBehindGap_[(at + k) % capacityFrames]) dropped.miss();
+                dropped.join(tile[k]);
+            }
         read_.store(at + count, std::memory_order_release);
         return static_cast<int>(count);
     }

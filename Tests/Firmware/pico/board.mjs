@@ -41,6 +41,10 @@ export class Board {
         };
         this.pio = mcu.pio[0];
         this.pio.run = () => {}; // stepped here, by its clock divider
+        this.pio.step = () => { // the emulator's steps machines that are not enabled yet, too
+            for (const machine of this.pio.machines) if (machine.enabled) machine.step();
+            this.pio.checkChangedPins();
+        };
         this.tieCeiling(!this.lowCeiling);
         if (this.isNewChip) mcu.peripherals[0x40000].readUint32 = (offset) => (offset === 0 ? 0x20002927 : 2); // B2, whose endpoints can be aborted
         this.poweredAt = this.now;
