@@ -53,7 +53,7 @@ step() {
         fresh) Tests/fresh-machine.sh ;;
         no-lab) Tests/House/no-lab.sh build/no-lab ;;
         pages) Tests/fresh-machine.sh --pages ;;
-        pico) .ci/pico-sources.sh && build release physvib-pico && Tests/Firmware/pico.sh ;;
+        pico) .ci/pico-sources.sh && build release physvib-pico physvib-render && Tests/Firmware/pico.sh ;;
         pads) /usr/bin/python3 Tests/Pads/judge.py $bin/physvib build/release/Tests/Pads/libphysvib-plug-in.so 600 ;;
         packages) Tests/Release/bare-debian.sh ;;
         reproducible) Tests/Release/reproducible.sh ;;

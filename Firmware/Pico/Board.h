@@ -11,7 +11,7 @@ constexpr int boardLines = boardChannels / 2; // an I2S line carries two channel
 constexpr unsigned firstDataPin = 2; // GP2 (and 3; with eight channels 4 and 5): data of the lines
 constexpr unsigned bitClockPin = 6;  // GP6: bit clock, GP7: word clock, of all lines
 constexpr unsigned amplifierPin = 8; // GP8: high while something may be felt
-constexpr unsigned ceilingPin = 9;   // GP9: tied to ground, the ceiling is a quarter of full scale
+constexpr unsigned ceilingPin = 9;   // GP9: open, the ceiling is a quarter; tied to ground, full scale
 constexpr unsigned ledPin = 25;
 
 // 25 cycles per step of the I2S program, without a remainder, so that bit clocks do not jitter; 76.8 MHz

@@ -16,7 +16,8 @@ public:
         const char* serialNumber;
         bool isPlaying;
         std::int32_t ceiling;
-        std::uint32_t underruns, overruns, wrongSizes, restarts, limitedTiles, levelFrames, worstTileCycles;
+        std::uint32_t underruns, overruns, missingPackets, wrongSizes, restarts, limitedTiles, levelFrames,
+            worstTileCycles;
     };
 
     /// True: a command is complete and answer is due.
@@ -61,6 +62,7 @@ private:
         add(silenced_ ? "silenced" : f.isPlaying ? "playing" : "waiting");
         value(" underruns ", f.underruns);
         value(" overruns ", f.overruns);
+        value(" missing_packets ", f.missingPackets);
         value(" wrong_sizes ", f.wrongSizes);
         value(" restarts ", f.restarts);
         value(" limited_tiles ", f.limitedTiles);
@@ -81,7 +83,7 @@ private:
     }
 
     std::array<char, 24> line_{};
-    std::array<char, 256> text_{};
+    std::array<char, 288> text_{};
     std::size_t count_ = 0, length_ = 0;
     bool silenced_ = false;
 };

@@ -2,6 +2,7 @@
 // Two tiles per line: while DMA sends one, the interrupt renders the other. The channels of DMA start each
 // other and wrap within their tile, so the processor only writes samples.
 #include "I2sOutput.h"
+#include "BoundedWait.h"
 #include "hardware/clocks.h"
 #include "hardware/dma.h"
 #include "hardware/gpio.h"
@@ -126,8 +127,7 @@ void startOutput(Player<boardChannels>& player) noexcept {
     dma_start_channel_mask(first);
     // A line that starts without data would wait a step, and stay behind the clocks for good.
     for (unsigned line = 0; line < boardLines; ++line)
-        while (!pio_sm_is_tx_fifo_full(pio0, line)) {
-        }
+        waitOrRestart([line] { return pio_sm_is_tx_fifo_full(pio0, line); });
     pio_enable_sm_mask_in_sync(pio0, (1u << boardLines) - 1);
     watchdog_enable(watchdogMs, true);
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // TinyUSB's callbacks. It calls all of them from pollUsb, so from the main loop.
 #include "Usb.h"
+#include "BoundedWait.h"
 #include "Console.h"
 #include "I2sOutput.h"
 #include "Signal/Descriptors.h"
+#include "Signal/MissingPackets.h"
 #include "hardware/structs/usb.h"
 #include "pico/platform.h"
 #include "pico/unique_id.h"
@@ -20,6 +22,7 @@ static_assert(packetBytes(boardChannels) == CFG_TUD_AUDIO_FUNC_1_EP_OUT_SZ_MAX);
 Player<boardChannels>* player = nullptr;
 AudioControls<boardChannels> controls;
 Feedback feedback;
+MissingPackets missing;
 Console console;
 std::uint32_t wrongSizes = 0, restarts = 0;
 bool isStreaming = false; // alternate setting 1 is selected
@@ -37,8 +40,7 @@ void disarmStream() noexcept {
     const bool canAbort = rp2040_chip_version() >= 2; // erratum E2: the first chips cannot
     if (canAbort) {
         hw_set_bits(&usb_hw->abort, both);
-        while ((usb_hw->abort_done & both) != both) {
-        }
+        waitOrRestart([] { return (usb_hw->abort_done & both) == both; });
     }
     usb_dpram->ep_buf_ctrl[1].in = 0;
     usb_dpram->ep_buf_ctrl[1].out = 0;
@@ -57,6 +59,7 @@ void answerConsole() noexcept {
                                    player->ceiling(),
                                    player->underruns(),
                                    player->buffer.overruns(),
+                                   missing.count(),
                                    wrongSizes,
                                    restarts,
                                    player->limitedTiles(),
@@ -89,7 +92,7 @@ void pollUsb() noexcept {
 }
 
 std::uint32_t faults() noexcept {
-    return player->underruns() + player->buffer.overruns() + wrongSizes + restarts;
+    return player->underruns() + player->buffer.overruns() + missing.count() + wrongSizes + restarts;
 }
 
 } // namespace physvib::pico
@@ -158,8 +161,9 @@ bool tud_audio_rx_done_post_read_cb(std::uint8_t, std::uint16_t bytes, std::uint
     // All of it is taken out: part of a frame would shift the channels of every later one.
     const auto taken = std::min<std::uint16_t>(tud_audio_read(frames, sizeof frames), bytes);
     if (tud_audio_available() > 0) tud_audio_clear_ep_out_ff();
-    if (taken % frameBytes != 0) ++wrongSizes;
+    if (missing.see(usb_hw->sof_rd, player->isPlaying())) player->buffer.miss();
     player->buffer.write(frames, taken / frameBytes);
+    if (taken % frameBytes != 0) ++wrongSizes, player->buffer.miss();
     tud_audio_n_fb_set(0, feedback.next(player->buffer.level(), FrameBuffer<boardChannels>::targetFrames,
                                         player->isPlaying()));
     return true;

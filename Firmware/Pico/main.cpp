@@ -6,6 +6,7 @@
 // the watchdog restarts the chip within 4 ms: its pins become inputs, and the amplifiers' shut-down line
 // falls.
 #include "I2sOutput.h"
+#include "Signal/CeilingJumper.h"
 #include "Signal/Indicator.h"
 #include "Usb.h"
 #include "hardware/clocks.h"
@@ -18,6 +19,7 @@ namespace {
 
 Player<boardChannels> player;
 Indicator indicator;
+CeilingJumper ceiling;
 
 void startPins() noexcept {
     for (const unsigned pin : {ledPin, amplifierPin}) {
@@ -39,12 +41,12 @@ std::uint32_t countRestarts() noexcept {
 [[noreturn]] void run() noexcept {
     startPins();
     set_sys_clock_pll(768'000'000, 5, 2);
-    player.setLowCeiling(!gpio_get(ceilingPin));
     startUsb(player, countRestarts());
     startOutput(player);
     for (;;) {
         pollUsb();
         const auto tiles = player.tiles();
+        player.setLowCeiling(!ceiling.see(tiles, !gpio_get(ceilingPin)));
         const auto light = indicator.see(tiles, player.isPlaying(), player.limitedTiles(), faults());
         gpio_put(ledPin, Indicator::isOn(light, tiles));
         __wfi(); // until the next tile or packet

@@ -48,6 +48,18 @@ TEST_F(PlayCommand, CeilingsAreOneForAllOrOneForEach) {
         refuses(std::string{"play drop --device Nowhere --ceiling "} + ceilings, 1, "no such device");
 }
 
+// The number of ceilings tells the layout before any device is opened.
+TEST_F(PlayCommand, ANamedPicoBringsItsLayoutUnlessOneIsGiven) {
+    const auto play = [&](const char* device, const char* layout, const char* actuators) {
+        refuses("play drop --device '" + std::string{device} + "'" + layout + " --ceiling=-1,-2,-3", 2,
+                std::string{"one per actuator ("} + actuators + ")");
+    };
+    play("ALSA:PhysVib pico8, USB Audio; Direct hardware device", "", "8");
+    play("PhysVib pico4", "", "4");
+    play("PhysVib pico8", " --layout phone2", "2");
+    play("speakers", "", "4");
+}
+
 TEST_F(PlayCommand, AMapNamesEachOutputOnce) {
     for (const char* map : {"0,1", "1,2,", "1:2", "a"})
         refuses(std::string{"play drop --device Nowhere --map "} + map, 2,

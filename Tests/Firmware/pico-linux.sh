@@ -1,16 +1,19 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Linux' own sound driver judges the Pico: Debian's kernel in QEMU uses the emulated board by USB/IP: pico-linux.sh [SECONDS (10)].
-# It lists the card and its volume controls, `aplay` plays a file to its end, and every frame at the pins is compared with what was sent.
-# Needs what pico.sh needs. The log is left in build/pico-linux-CHANNELS.log.
+# It lists the card with its volume controls, which `amixer` sets; `lsusb` reads the descriptors; `aplay` plays the scene shake-the-box to its end,
+# and every frame at the pins is compared with what was sent. Needs what pico.sh needs. All of it is kept: build/pico-linux-CHANNELS.log.
 set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
 seconds=${1:-10}
-images=$PWD/build/release/firmware here=Tests/Firmware/pico port=3240
+images=$PWD/build/firmware/pico here=Tests/Firmware/pico port=3240
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_pico_linux_packages
 { command -v node && command -v npm; } >/dev/null || ensure_packages nodejs npm
+Firmware/Pico/build.sh pico >/dev/null
+render=${RENDER:-$PWD/build/release/bin/physvib-render}
+[ -x "$render" ] || { say "no $render: cmake --preset release, then its target physvib-render; or say where it is: RENDER=PATH"; exit 1; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 if [ -z "${RP2040JS:-}" ]; then
@@ -19,7 +22,7 @@ if [ -z "${RP2040JS:-}" ]; then
 fi
 export RP2040JS
 g++ -std=c++20 -O2 -ISource -IFirmware/Pico $here/expected.cpp -o "$folder/expected"
-/usr/bin/python3 $here/signals.py "$folder" "$seconds"
+/usr/bin/python3 $here/signals.py "$folder" "$seconds" "$render"
 
 # A system in memory: the kernel, its modules for USB/IP and sound, and the programs that ask.
 root=$folder/root
@@ -41,7 +44,6 @@ rm -rf "$root/boot" "$root/usr/share/doc"
 install -m 755 $here/guest.sh "$root/init"
 for channels in 4 8; do
     image=$images/physvib-pico$channels.bin
-    [ -e "$image" ] || { say "no $image: .ci/pico-sources.sh, then target physvib-pico"; exit 1; }
     /usr/bin/python3 $here/wav.py "$folder/scene$channels.raw" $channels "$root/play.wav"
     (cd "$root" && find . | cpio -o -H newc --quiet | gzip -1) >"$folder/initrd"
     log=build/pico-linux-$channels.log
@@ -55,7 +57,18 @@ for channels in 4 8; do
     wait $guest || :
     tee -a "$log" <"$folder/result"
     [ $is_equal = 1 ] || { say "$log: not all frames are equal at the pins"; exit 1; }
-    grep -q 'aplay: 0' "$log" || { say "$log: aplay did not play to the end"; exit 1; }
-    grep -q "Channels: $channels" "$log" || { say "$log: Linux does not list $channels channels"; exit 1; }
+    # What has to stand in the log, and what is wrong if it does not.
+    while IFS='|' read -r line wrong; do
+        grep -q -E "$line" "$log" || { say "$log: $wrong"; exit 1; }
+    done <<END
+aplay: 0|aplay did not play to the end
+Channels: $channels|Linux does not list $channels channels
+iProduct .*PhysVib pico$channels|lsusb does not read the product's name
+bInterfaceProtocol +32|lsusb does not find an Audio Class 2 interface
+Synch Type +Asynchronous|lsusb does not find the asynchronous endpoint
+Usage Type +Feedback|lsusb does not find the feedback endpoint
+amixer: set|amixer does not set a volume for each channel
+volumes set: 1 -9.5 dB.* $channels -$(awk "BEGIN { print (20 - $channels) / 2 }") dB|the board was not told each channel's volume
+END
 done
 say "pico-linux.sh: all of it held"

@@ -97,6 +97,10 @@ TEST(AudioOutput, APicoIsFoundByItsShortNameAndItsOwnLatencyIsTold) {
     EXPECT_EQ(rig.output.open({"pico"}), "");
     EXPECT_EQ(rig.interface.timesOpened, 1) << "the card itself, not a part of it";
     EXPECT_EQ(rig.output.deviceLatencyFrames(), rig.interface.block + 134) << "2.8 ms at 48 kHz";
+    const auto drivers = fakeDrivers({&rig.interface, &rig.speakers});
+    EXPECT_EQ(picoLayout(drivers, "pico"), "pico8");
+    EXPECT_EQ(picoLayout(drivers, "ALSA:PhysVib pico4, USB Audio; Direct hardware device"), "pico4");
+    EXPECT_EQ(picoLayout(drivers, "hands"), "") << "a device that is none keeps its layout";
     rig.speakers.name = "pico";
     EXPECT_EQ(rig.output.open({"pico"}), "");
     EXPECT_EQ(rig.speakers.timesOpened, 1) << "a device that has the name goes first";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The Pico's signal path: what passes unchanged, and how it starts, stops and misses packets.
+#include "Signal/CeilingJumper.h"
 #include "Streams.h"
 #include <gtest/gtest.h>
 
@@ -136,6 +137,42 @@ TEST(PicoPlayer, HasACeiling) {
     most = 0;
     for (const auto& frame : low.out) most = std::max(most, std::abs(static_cast<int>(frame[0])));
     EXPECT_EQ(most, 8191);
+}
+
+TEST(PicoPlayer, BeginsWithTheLowCeiling) { EXPECT_EQ(pico::Player<4>().ceiling(), 8191); }
+
+// A wire that falls out is felt no longer than a tile; one that is put in is felt softly.
+TEST(PicoPlayer, LowersItsCeilingAtOnceAndRaisesItSoftly) {
+    Stream<4> stream;
+    const auto constant = [](auto n, int) -> std::int16_t { return n / 24 % 2 == 0 ? 20000 : -20000; };
+    stream.play(constant, 300);
+    stream.player->setLowCeiling(true);
+    const auto fell = stream.out.size();
+    stream.play(constant, 20);
+    for (std::size_t n = fell + tileFrames - 1; n < stream.out.size(); ++n)
+        ASSERT_LE(std::abs(stream.out[n][0]), 5000) << n - fell;
+    EXPECT_EQ(stream.player->ceiling(), 8191);
+    stream.player->setLowCeiling(false);
+    const auto rose = stream.out.size();
+    stream.play(constant, 200);
+    for (std::size_t n = rose; n < stream.out.size(); ++n)
+        ASSERT_LE(std::abs(stream.out[n][0]), 5000 + 20000 * static_cast<int>(n - rose + 32) / 4760) << n;
+    EXPECT_EQ(std::abs(stream.out.back()[0]), 20000);
+    EXPECT_EQ(stream.player->ceiling(), 32767);
+}
+
+TEST(PicoCeilingJumper, CountsWhenItHasLainStill) {
+    pico::CeilingJumper jumper;
+    constexpr auto still = pico::CeilingJumper::stillTiles;
+    std::uint32_t t = 1;
+    for (; t < 10 * still; ++t) // a contact that never lies still
+        ASSERT_FALSE(jumper.see(t, t % still != 0)) << t;
+    EXPECT_FALSE(jumper.see(t++, false));
+    const auto tied = t;
+    for (; t < tied + still; ++t) ASSERT_FALSE(jumper.see(t, true)) << t;
+    EXPECT_TRUE(jumper.see(t++, true));
+    EXPECT_FALSE(jumper.see(t++, false)) << "at once";
+    EXPECT_FALSE(jumper.see(t++, true));
 }
 
 TEST(PicoPlayer, FollowsVolumesWithoutAStep) {

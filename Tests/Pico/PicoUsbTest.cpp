@@ -109,7 +109,7 @@ TEST(PicoFeedback, KeepsTheBufferWhereverTheHostsClockGoes) {
 
 TEST(PicoConsole, AnswersAndSilences) {
     pico::Console console;
-    const pico::Console::Facts facts{8, "E661", true, 32767, 1, 2, 3, 4, 5, 6, 7};
+    const pico::Console::Facts facts{8, "E661", true, 32767, 1, 2, 8, 3, 4, 5, 6, 7};
     const auto ask = [&](const std::string& line) {
         bool isDue = false;
         for (const char c : line) EXPECT_FALSE(console.take(c));
@@ -118,9 +118,9 @@ TEST(PicoConsole, AnswersAndSilences) {
     };
     EXPECT_EQ(ask("info").substr(0, 22), "physvib pico8 version ");
     EXPECT_NE(ask("info").find(" serial E661\r\n"), std::string::npos);
-    EXPECT_EQ(ask("counters"),
-              "playing underruns 1 overruns 2 wrong_sizes 3 restarts 4 limited_tiles 5 level_frames 6 "
-              "ceiling 32767 worst_tile_cycles 7\r\n");
+    EXPECT_EQ(ask("counters"), "playing underruns 1 overruns 2 missing_packets 8 wrong_sizes 3 restarts 4 "
+                               "limited_tiles 5 level_frames 6 "
+                               "ceiling 32767 worst_tile_cycles 7\r\n");
     for (const char* line :
          {"silence on", "silence", "silence maybe", "silence off and a long text behind it"}) {
         EXPECT_EQ(ask(line), "silence on\r\n") << line;

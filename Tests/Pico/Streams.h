@@ -19,7 +19,7 @@ public:
         : player(std::make_unique<pico::Player<channels>>()) {
         player->setLowCeiling(isCeilingLow);
         for (int j = 0; j < channels; ++j) player->setVolume(j, pico::unity);
-        tiles(40); // volumes have ramped up
+        tiles(300); // volumes and ceiling have ramped up
         out.clear();
     }
 

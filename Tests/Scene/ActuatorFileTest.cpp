@@ -4,6 +4,7 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Support/FileTesting.h"
+#include "TestPlaces.h"
 #include <algorithm>
 
 namespace physvib {
@@ -53,6 +54,13 @@ TEST(ActuatorFile, TheBuiltInProfilesHaveTheFiguresOfTheThesisAndNoOthers) {
         EXPECT_FALSE(p.q) << p.name; // nobody printed one
         EXPECT_FALSE(p.source.empty()) << p.name;
     }
+}
+
+TEST(ActuatorFile, TheExampleForAnAmplifierIsOneToFillIn) {
+    const auto read = loadActuator(PHYSVIB_SOURCE_DIR "/Standalone/Examples/max98357a.json");
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(read.value.driveLimitVolts, 2.5);
+    EXPECT_FALSE(read.value.resonanceHz) << "which is the actuator's";
 }
 
 TEST(ActuatorFile, SaysWhatKeepsAnActuatorFromBeingEqualised) {

@@ -91,8 +91,8 @@ def pico():
             x, colour, _ = BUSES[bus]
             yield wire(f"M190 {y} L{x} {y}", colour, more=DASHES if bus in "34" else "") + dot(x, y, colour)
     nine = FIRST + STEP * 8
-    yield wire(f"M190 {nine} h20 v{STEP} h-20", LINE)
-    yield text(216, nine + 10, "wire: low", 11) + text(216, nine + 24, "ceiling", 11)
+    yield wire(f"M190 {nine} h20 v{STEP} h-20", LINE, more=' stroke-dasharray="2 4"')
+    yield text(214, nine + 4, "leave open;", 11) + text(214, nine + 18, "wire: full", 11) + text(214, nine + 32, "scale", 11)
     for row, words in enumerate(("Pins 1 to 20 are the left edge,", "seen from above with the USB socket", "up, and count from the socket.")):
         yield text(40, TOP + 370 + 14 * row, words, 11)
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Frames between USB and the output. One writer (main loop) and one reader (interrupt of the output); neither
-// waits. What does not fit is dropped and counted. Its level also says how fast the host should send.
+// waits. What does not fit is dropped and counted; what is missing is marked, and fades (DroppedFrames.h).
+// Its level also says how fast the host should send.
 #pragma once
-#include "Fixed.h"
+#include "DroppedFrames.h"
 #include <algorithm>
 #include <atomic>
 
@@ -23,17 +24,36 @@ public:
         const auto at = written_.load(std::memory_order_relaxed);
         if (at - read_.load(std::memory_order_acquire) + count > maxFrames) {
             overruns_.store(overruns_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+            miss();
             return;
         }
-        for (std::uint32_t k = 0; k < count; ++k) frames_[(at + k) % capacityFrames] = frames[k];
+        for (std::uint32_t k = 0; k < count; ++k) {
+            frames_[(at + k) % capacityFrames] = frames[k];
+            isBehindGap_[(at + k) % capacityFrames] = isMissing_;
+            isMissing_ = false;
+        }
         written_.store(at + count, std::memory_order_release);
     }
 
-    /// Number of frames read, at most a tile. Interrupt.
-    int read(Tile<channels>& tile) noexcept {
+    /// Frames are missing before those of the next write. Main loop.
+    void miss() noexcept { isMissing_ = true; }
+
+    /// Number of frames read, at most a tile; they have joined what was before them. Interrupt.
+    int read(Tile<channels>& tile, DroppedFrames<channels>& dropped) noexcept {
         const auto at = read_.load(std::memory_order_relaxed);
         const auto count = std::min<std::uint32_t>(level(), tileFrames);
-        for (std::uint32_t k = 0; k < count; ++k) tile[k] = frames_[(at + k) % capacityFrames];
+        bool isWhole = !dropped.isJoining();
+        for (std::uint32_t k = 0; k < count; ++k) {
+            tile[k] = frames_[(at + k) % capacityFrames];
+            isWhole = isWhole && !isBehindGap_[(at + k) % capacityFrames];
+        }
+        if (isWhole && count > 0) // as most of the time
+            dropped.keep(tile[count - 1]);
+        else
+            for (std::uint32_t k = 0; k < count; ++k) {
+                if (isBehindGap_[(at + k) % capacityFrames]) dropped.miss();
+                dropped.join(tile[k]);
+            }
         read_.store(at + count, std::memory_order_release);
         return static_cast<int>(count);
     }
@@ -55,6 +75,8 @@ public:
 
 private:
     std::array<Frame<channels>, capacityFrames> frames_{};
+    std::array<bool, capacityFrames> isBehindGap_{};
+    bool isMissing_ = false; // the writer's
     std::atomic<std::uint32_t> written_{0}, read_{0}, overruns_{0};
 };
 

@@ -29,10 +29,10 @@ public:
         allowed_.store(isAllowed, std::memory_order_relaxed);
         bump(renewals_);
     }
-    /// Scales everything down to a quarter, which is then the ceiling. Before start.
+    /// Low: everything is scaled down to a quarter, which is then the ceiling; as it is until this is called.
+    /// It falls within a tile, and rises as softly as playing starts. Main loop.
     void setLowCeiling(bool isLow) noexcept {
-        scale_ = isLow ? lowCeiling : unity;
-        ceiling_ = isLow ? fullScale / 4 : fullScale;
+        wantedScale_.store(isLow ? lowCeiling : unity, std::memory_order_relaxed);
     }
     /// Gain from 0 to unity. Main loop.
     void setVolume(int channel, std::int32_t gain) noexcept {
@@ -42,6 +42,7 @@ public:
     /// The next tile. Interrupt of the output.
     void render(Tile<channels>& tile) noexcept {
         step();
+        moveCeiling();
         if (state_ == State::waiting) {
             tile = {};
         } else {
@@ -60,6 +61,7 @@ public:
         if (state_ == State::stopping && gate_ == 0) {
             state_ = State::waiting;
             buffer.clear();
+            dropped_.forget();
         }
         amplifier_ = state_ != State::waiting ? amplifierTiles : std::max(0, amplifier_ - 1);
         isPlaying_.store(state_ == State::playing, std::memory_order_relaxed);
@@ -79,7 +81,8 @@ public:
     std::uint32_t limitedTiles() const noexcept {
         return limited_.load(std::memory_order_relaxed);
     } ///< tiles in which guard or ceiling acted; any thread
-    std::int16_t ceiling() const noexcept { return ceiling_; } ///< any thread
+    /// Any thread.
+    std::int32_t ceiling() const noexcept { return ceiling_.load(std::memory_order_relaxed); }
 
 private:
     enum class State { waiting, playing, stopping };
@@ -106,13 +109,19 @@ private:
 
     // Frames that are missing repeat the last one, which the gate then ramps to zero: no step, no click.
     void fill(Tile<channels>& tile) noexcept {
-        const int count = buffer.read(tile);
-        for (int k = count; k < tileFrames; ++k)
-            tile[static_cast<std::size_t>(k)] = k > 0 ? tile[static_cast<std::size_t>(k - 1)] : last_;
-        last_ = tile[tileFrames - 1];
-        if (count == tileFrames || state_ != State::playing) return;
+        const int count = buffer.read(tile, dropped_);
+        if (count == tileFrames) return;
+        for (int k = count; k < tileFrames; ++k) tile[static_cast<std::size_t>(k)] = dropped_.last();
+        dropped_.miss(); // packets may come again before the gate is closed
+        if (state_ != State::playing) return;
         bump(underruns_);
         state_ = State::stopping;
+    }
+
+    void moveCeiling() noexcept {
+        const auto before = scale_, wanted = wantedScale_.load(std::memory_order_relaxed);
+        scale_ = std::min(wanted, scale_ + unity / startTiles + 1);
+        ceiling_.store(times(fullScale, std::max(before, scale_)), std::memory_order_relaxed);
     }
 
     void moveGate() noexcept {
@@ -123,16 +132,17 @@ private:
     }
 
     std::int32_t gainAtEnd(std::size_t j) noexcept {
-        const std::int32_t wanted = times(volume_[j].load(std::memory_order_relaxed), scale_);
+        const std::int32_t wanted = volume_[j].load(std::memory_order_relaxed);
         level_[j] += std::clamp(wanted - level_[j], -volumeStep, volumeStep);
-        return times(times(level_[j], gate_), guard_.to(j));
+        return times(times(times(level_[j], scale_), gate_), guard_.to(j));
     }
 
     // Returns the sum of what leaves.
     std::int32_t apply(Tile<channels>& tile, std::size_t j, std::int32_t from, std::int32_t end,
                        bool& clipped) noexcept {
         std::int32_t sum = 0;
-        if (from == unity && end == unity && ceiling_ == fullScale) { // as most of the time: samples stay
+        const std::int32_t most = ceiling();
+        if (from == unity && end == unity && most == fullScale) { // as most of the time: samples stay
             for (auto& frame : tile) {
                 clipped = clipped || frame[j] < -fullScale;
                 frame[j] = std::max<std::int16_t>(frame[j], -fullScale);
@@ -145,7 +155,7 @@ private:
             gain += static_cast<std::uint32_t>(end - from);
             // Rounded towards zero, so that a faint signal ends in zeros.
             const std::int32_t y = frame[j] * static_cast<std::int32_t>(gain / tileFrames) / unity;
-            const std::int32_t held = std::clamp<std::int32_t>(y, -ceiling_, ceiling_);
+            const std::int32_t held = std::clamp<std::int32_t>(y, -most, most);
             clipped = clipped || held != y;
             frame[j] = static_cast<std::int16_t>(held);
             sum += held;
@@ -153,14 +163,14 @@ private:
         return sum;
     }
     FixedGuard<channels> guard_;
-    Frame<channels> last_{};
+    DroppedFrames<channels> dropped_;
     std::array<std::int32_t, static_cast<std::size_t>(channels)> level_{}, from_{};
     std::array<std::atomic<std::int32_t>, static_cast<std::size_t>(channels)> volume_{};
     State state_ = State::waiting;
-    std::int32_t gate_ = 0, scale_ = unity;
-    std::int16_t ceiling_ = fullScale;
+    std::int32_t gate_ = 0, scale_ = lowCeiling;
     int quiet_ = 0, amplifier_ = 0;
     std::uint32_t lastWritten_ = 0, lastRenewals_ = 0, unattended_ = 0;
+    std::atomic<std::int32_t> wantedScale_{lowCeiling}, ceiling_{times(fullScale, lowCeiling)};
     std::atomic<bool> allowed_{false}, isPlaying_{false}, isAmplifierOn_{false};
     std::atomic<std::uint32_t> tiles_{0}, underruns_{0}, limited_{0}, renewals_{0};
 };

@@ -95,11 +95,12 @@ PHYSVIB_API int physvib_live_status_init(physvib_live_status* status, size_t siz
 PHYSVIB_API int physvib_live_devices(physvib_device* devices, int capacity, size_t size);
 
 /** Opens "JACK:system", for instance: that device and no other (`physvib devices` lists them); actuator j is
- * its output j. Or a four-channel board, "BOARD:auto" or "BOARD:/dev/ttyACM0"; or both, felt at the same
- * moment: "JACK:system+BOARD:auto". "None:no device" plays in time without a device. Of `renderer` the
- * layout, channels, law, exponent, field and limiter are taken; it and `settings` may be NULL: the defaults.
- * Several may be open, each with a layout, level, silence, status and time of its own; also on one device, on
- * other outputs. "PAD:auto" and "BOARD:auto" take one that is free. A device or board that is disconnected is
+ * its output j. "pico" is the first Raspberry Pi Pico with PhysVib's firmware (layout pico4 or pico8). Or a
+ * four-channel board, "BOARD:auto" or "BOARD:/dev/ttyACM0"; or both, felt at the same moment:
+ * "JACK:system+BOARD:auto". "None:no device" plays in time without a device. Of `renderer` the layout,
+ * channels, law, exponent, field and limiter are taken; it and `settings` may be NULL: the defaults. Several
+ * may be open, each with a layout, level, silence, status and time of its own; also on one device, on other
+ * outputs. "PAD:auto" and "BOARD:auto" take one that is free. A device or board that is disconnected is
  * opened again when it returns. An error leaves `*live` as it was. PHYSVIB_ERROR_DEVICE; PHYSVIB_ERROR_FULL:
  * these outputs are open, or 256 devices. Any thread, one after the other; waits for the device, and for a
  * board that starts. */

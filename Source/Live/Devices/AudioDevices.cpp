@@ -40,4 +40,10 @@ FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& want
     return {};
 }
 
+std::string picoLayout(const AudioDrivers& drivers, const std::string& name) {
+    if (name != picoDeviceName) return picoLayoutOf(name);
+    const auto found = findAudioDevice(drivers, name);
+    return found.device ? picoLayoutOf(found.device->name()) : std::string{};
+}
+
 } // namespace physvib

@@ -29,4 +29,8 @@ struct FoundDevice {
 /// the device.
 FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& name, bool withInputs = false);
 
+/// The layout preset of the Pico with that name, or of the one that `pico` finds: "pico4", "pico8"; empty:
+/// that is no Pico. M; scans drivers for `pico` alone.
+std::string picoLayout(const AudioDrivers& drivers, const std::string& name);
+
 } // namespace physvib

@@ -33,4 +33,12 @@ inline std::string picoAmong(const std::vector<std::string>& devices) {
     return found;
 }
 
+/// The layout preset for the Pico with that name: "pico4", "pico8"; empty: the name does not say. Any thread.
+inline std::string picoLayoutOf(std::string_view device) {
+    const auto at = device.find(picoProduct);
+    if (at == std::string_view::npos) return {};
+    const std::string preset{device.substr(at + picoProduct.size() - picoDeviceName.size(), 5)};
+    return preset == "pico4" || preset == "pico8" ? preset : std::string{};
+}
+
 } // namespace physvib

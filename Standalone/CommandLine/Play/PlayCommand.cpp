@@ -107,7 +107,7 @@ int takeDualSense(AudioOutputSettings& settings, int channels) {
 
 void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     declareSceneOptions(command, o.scene);
-    command.add("--device", o.device, "output device (see physvib devices)");
+    command.add("--device", o.device, "output device (see physvib devices), or pico: the first Pico");
     command
         .add("--board", o.board, "four-channel board: serial port, or auto; alone, or together with a device")
         .as("PORT");
@@ -191,6 +191,12 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
         .as("HOST:PORT");
 }
 
+bool isGiven(const OptionTable& command, std::string_view name) {
+    return std::ranges::any_of(command.options, [&](const Option& option) {
+        return option.spellings.front() == name && !option.said.empty();
+    });
+}
+
 /// Without a device: lists the available ones, and prints a complete example call.
 int leaveWithoutDevice(const std::string& scene) {
     const auto devices = devicesOfThisMachine();
@@ -220,6 +226,9 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
                                 "--actuator; render --events, then board PORT play, has them");
     if (o.isDirect && hasBoard)
         return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
+    if (const auto preset = picoLayout(systemAudioDrivers, o.device);
+        !preset.empty() && !isGiven(command, "--layout"))
+        o.scene.layout = preset;
     LoadedRender job{o.scene, {}, {}, {}, {}};
     std::optional<LoadedClip> sound;
     if (namesSound(o.scene.scene)) {

@@ -13,8 +13,8 @@ export const setup = (type, request, value, index, length) =>
     Uint8Array.from([type, request, value & 255, value >> 8, index & 255, index >> 8, length & 255, length >> 8]);
 
 export class Board {
-    constructor(image, channels, { lowCeiling = false } = {}) {
-        Object.assign(this, { channels, lines: channels / 2, image: readFileSync(image), lowCeiling });
+    constructor(image, channels, { lowCeiling = false, isNewChip = false } = {}) {
+        Object.assign(this, { channels, lines: channels / 2, image: readFileSync(image), lowCeiling, isNewChip });
         this.frames = []; // what the amplifiers have read: { at (ns), frame }
         this.worst = { dma: 0, usb: 0 };
         this.busy = 0;
@@ -41,7 +41,13 @@ export class Board {
         };
         this.pio = mcu.pio[0];
         this.pio.run = () => {}; // stepped here, by its clock divider
-        mcu.gpio[pins.ceiling].setInputValue(!this.lowCeiling);
+        this.pio.step = () => { // the emulator's steps machines that are not enabled yet, too
+            for (const machine of this.pio.machines) if (machine.enabled) machine.step();
+            this.pio.checkChangedPins();
+        };
+        this.tieCeiling(!this.lowCeiling);
+        if (this.isNewChip) mcu.peripherals[0x40000].readUint32 = (offset) => (offset === 0 ? 0x20002927 : 2); // B2, whose endpoints can be aborted
+        this.poweredAt = this.now;
         this.stepCycles = 0;
         this.host();
         this.amplifiers();
@@ -55,6 +61,8 @@ export class Board {
         [0x4800, 0x4770, 0x0049, 0x0000, 0x4770].forEach((code, k) => rom.setUint16(0x40 + 2 * k, code, true)); // ldr r0, =0x49; bx lr; bx lr
     }
 
+    // The wire from GP9 to ground.
+    tieCeiling(isTied) { this.mcu.gpio[pins.ceiling].setInputValue(!isTied); }
     get now() { return this.past + this.mcu.clock.nanos; } // ns since power-on
     pin(number) { return this.mcu.gpio[number].value; }
     get amplifierIsOn() { return this.pin(pins.amplifier) === 1; }
@@ -74,7 +82,7 @@ export class Board {
         if (!this.isRestarting) return;
         this.isRestarting = false;
         ++this.restarts;
-        this.past += this.now;
+        this.past = this.now;
         this.powerOn(mcu.peripherals[0x40058].scratchData);
     }
     count(exception, cycles) {
@@ -123,7 +131,7 @@ export class Board {
     host() {
         const usb = this.mcu.usbCtrl;
         this.usb = usb;
-        Object.assign(this, { armed: {}, inPackets: {}, stalled: false, wasReset: false, feedback: null });
+        Object.assign(this, { armed: {}, inPackets: { 0: [] }, stalled: false, wasReset: false, feedback: null });
         usb.onUSBEnabled = () => usb.resetDevice();
         usb.onResetReceived = () => { this.wasReset = true; };
         usb.onEndpointRead = (endpoint, length) => { this.armed[endpoint] = length; };
@@ -178,7 +186,11 @@ export class Board {
         this.stalled = false;
         this.usb.epStallArm = 0;
         this.usb.sendSetupPacket(packet);
-        const wait = (isTrue) => this.until(() => this.stalled || isTrue(), 20) && !this.stalled;
+        const wait = (isTrue) => {
+            const isAnswered = this.until(() => this.stalled || isTrue(), 20);
+            if (this.stalled) this.run(0.05); // the chip refuses both directions, one after the other
+            return isAnswered && !this.stalled;
+        };
         if (isIn) {
             const got = [];
             for (;;) {
@@ -209,6 +221,8 @@ export class Board {
         const head = need('configuration', this.control(setup(0x80, 6, 0x0200, 0, 9)));
         const configuration = need('configuration', this.control(setup(0x80, 6, 0x0200, 0, head[2] | (head[3] << 8))));
         need('set configuration', this.control(setup(0, 9, 1, 0, 0)));
+        const settled = this.poweredAt + 250e6; // by then the ceiling has risen
+        if (this.now < settled) this.run((settled - this.now) / 1e6);
         return { device, configuration };
     }
     // A reset of the bus: from here on no packet reaches what was armed.
@@ -221,6 +235,8 @@ export class Board {
     resume() { this.signal(1 << 11); }
     signal(bit) { this.usb.sieStatus |= bit; this.usb.sieStatusUpdated(); }
     select(alternate) { return this.control(setup(1, 11, alternate, 1, 0)) !== null; }
+    // A millisecond of the bus begins; they are numbered.
+    sof() { this.usb.sofFrameNumber = (this.usb.sofFrameNumber + 1) & 0x7ff; }
     // One packet, if the board waits for one. Frames: arrays of samples.
     packet(bytes) {
         if (this.armed[1] === undefined) return false;
@@ -238,6 +254,7 @@ export class Board {
         for (let k = 0; k < ms; ++k) {
             const frames = Array.from({ length: 48 }, (_, n) => source(first + 48 * k + n));
             const next = this.now + 1e6;
+            this.sof();
             if (!this.packet(this.pack(frames))) this.notTaken = (this.notTaken ?? 0) + 1;
             this.run((next - this.now) / 1e6);
         }

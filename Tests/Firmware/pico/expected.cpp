@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What has to leave the Pico's pins, made on this computer: expected CHANNELS open|low <SENT >EXPECTED,
+// What has to leave the Pico's pins, made on this computer: expected CHANNELS full|low <SENT >EXPECTED,
 // frames of 16-bit samples. Playing starts with the first frame; nothing is missing.
 #include "Signal/Player.h"
 #include <cstdio>
@@ -15,7 +15,7 @@ int play(bool isCeilingLow) {
     player->setLowCeiling(isCeilingLow);
     for (int j = 0; j < channels; ++j) player->setVolume(j, unity);
     Tile<channels> tile;
-    for (int k = 0; k < 100; ++k) player->render(tile); // volumes have ramped up
+    for (int k = 0; k < 300; ++k) player->render(tile); // volumes and ceiling have ramped up
     Frame<channels> frames[tileFrames];
     bool starts = false;
     while (std::fread(frames, sizeof frames, 1, stdin) == 1) {
@@ -33,8 +33,8 @@ int play(bool isCeilingLow) {
 
 int main(int count, char** words) {
     const std::string channels = count == 3 ? words[1] : "", ceiling = count == 3 ? words[2] : "";
-    if ((channels != "4" && channels != "8") || (ceiling != "open" && ceiling != "low")) {
-        std::fputs("expected: expected 4|8 open|low <SENT >EXPECTED\n", stderr);
+    if ((channels != "4" && channels != "8") || (ceiling != "full" && ceiling != "low")) {
+        std::fputs("expected: expected 4|8 full|low <SENT >EXPECTED\n", stderr);
         return 2;
     }
     return channels == "4" ? play<4>(ceiling == "low") : play<8>(ceiling == "low");

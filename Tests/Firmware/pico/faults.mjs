@@ -73,6 +73,7 @@ function silence(board, since, what, mayJump = false) {
     let sent = 0;
     for (let k = 0; k < 1500; ++k) {
         const next = board.now + 1e6, kind = random(40);
+        board.sof();
         board.run(kind < 20 ? random(900) / 1e3 : 0);
         const size = kind === 39 ? random(49 * 2 * channels) : 48 * 2 * channels;
         const bytes = board.pack(Array.from({ length: 49 }, loud)).subarray(0, size);
@@ -83,10 +84,73 @@ function silence(board, since, what, mayJump = false) {
     for (const { frame } of board.frames)
         check(frame.every((v) => v >= 0 && v <= level && v === frame[0]), `torn: ${frame}`);
     const c = counters(board);
-    check(c.wrong_sizes > 0 && c.restarts === 0, 'wrong sizes are not counted');
+    check(c.wrong_sizes > 0 && c.missing_packets > 0 && c.restarts === 0, 'wrong sizes or missing packets are not counted');
     board.run(20);
     playing(board);
-    say(`late, missing, doubled and odd packets: no torn frame; underruns ${c.underruns}, overruns ${c.overruns}, wrong sizes ${c.wrong_sizes}; plays again`);
+    say(`late, missing, doubled and odd packets: no torn frame; underruns ${c.underruns}, overruns ${c.overruns}, missing packets ${c.missing_packets}, wrong sizes ${c.wrong_sizes}; plays again`);
+}
+{
+    // The stream turns its sign exactly where packets are missing: a step of 1600 would be the click.
+    const board = fresh();
+    board.select(1);
+    playing(board);
+    board.sof();
+    board.run(1);
+    board.stream(20, () => new Array(channels).fill(-level));
+    let before = board.frames[0].frame[0], most = 0;
+    for (const { frame } of board.frames) most = Math.max(most, Math.abs(frame[0] - before)), (before = frame[0]);
+    check(before === -level && most <= (2 * level) / 64 + 1, `a missing packet: a step of ${most}`);
+    const c = counters(board);
+    check(c.missing_packets === 1 && c.underruns === 0, `a missing packet: ${JSON.stringify(c)}`);
+    say(`a missing packet fades: no step above ${most}, counted`);
+}
+{
+    const board = fresh();
+    board.select(1);
+    const most = () => Math.max(...board.frames.flatMap(({ frame }) => frame).map(Math.abs));
+    const square = (n) => new Array(channels).fill(n % 48 < 24 ? 20000 : -20000);
+    board.stream(150, square);
+    board.frames = [];
+    board.stream(5, square);
+    check(most() === 20000, `full scale with GP9 tied: ${most()}`);
+    board.tieCeiling(false);
+    board.stream(2, square); // a tile, and what the pins hold
+    board.frames = [];
+    board.stream(20, square);
+    check(most() === 5000, `GP9's wire falls out: ${most()} after 2 ms`);
+    board.tieCeiling(true);
+    board.frames = [];
+    board.stream(95, square);
+    check(most() === 5000, `GP9 is tied again: ${most()} within 95 ms`);
+    board.stream(150, square);
+    board.frames = [];
+    board.stream(2, square);
+    check(most() === 20000, `GP9 is tied again: ${most()}`);
+    say("GP9's wire falls out: a quarter of it within 2 ms; tied again: as before, not sooner than 95 ms");
+}
+// Waits that never come true: the chip restarts, and plays then.
+for (const [what, isNewChip, spoil, wait] of [
+    ["the output's queue never fills", false, (board) => Object.defineProperty(board.pio.machines[0], 'fifoStat', { get: () => 0 }), () => {}],
+    ['an endpoint is never aborted', true, (board) => {
+        const write = board.usb.writeUint32.bind(board.usb);
+        board.usb.writeUint32 = (offset, value) => { if (offset !== 0x60) write(offset, value); };
+    }, (board) => { board.enumerate(); board.select(1); playing(board); board.select(0); }],
+]) {
+    const board = new Board(image, channels, { isNewChip });
+    spoil(board);
+    wait(board);
+    check(board.until(() => board.restarts > 0, 100), `${what}: it waits for ever`);
+    check(!board.amplifierIsOn, `${what}: the amplifiers are on`);
+    board.enumerate();
+    board.frames = [];
+    board.select(1);
+    playing(board);
+    check(board.select(0), 'alternate setting 0');
+    board.run(8);
+    check(board.select(1), 'alternate setting 1');
+    playing(board);
+    check(counters(board).restarts === 1, `${what}: the restart is not counted`);
+    say(`${what}: restarts, counts it, plays`);
 }
 {
     const board = fresh();
@@ -101,18 +165,33 @@ function silence(board, since, what, mayJump = false) {
 }
 {
     const board = fresh();
+    const descriptors = (b) => [[0x0100, 18], [0x0200, 320], [0x0301, 64], [0x0302, 64]].map(([value, n]) => b.control(setup(0x80, 6, value, 0, n))).join(' ');
+    const before = descriptors(board);
     const types = [0x00, 0x80, 0x01, 0x81, 0x02, 0x82, 0x21, 0xa1, 0x22, 0xa2, 0x40, 0xc0];
+    // Half are any bytes; half are what a host may ask, with one field altered in every second one.
+    const known = [[0x80, 6, 0x0100, 0, 18], [0x80, 6, 0x0200, 0, 320], [0x80, 6, 0x0302, 0x0409, 64], [0x80, 0, 0, 0, 2], [0x82, 0, 0, 1, 2], [0x80, 8, 0, 0, 1],
+        [0x81, 10, 0, 1, 1], [0, 9, 1, 0, 0], [0, 9, 0, 0, 0], [1, 11, 0, 1, 0], [1, 11, 1, 1, 0], [2, 1, 0, 1, 0], [2, 3, 0, 0x81, 0], [0xa1, 1, 0x0100, 0x0400, 4],
+        [0xa1, 2, 0x0100, 0x0400, 14], [0xa1, 1, 0x0200, 0x0400, 1], [0x21, 1, 0x0100, 0x0400, 4], [0xa1, 2, 0x0201, 0x0200, 8], [0xa1, 1, 0x0102, 0x0200, 1],
+        [0x21, 1, 0x0203, 0x0200, 2], [0x21, 1, 0x0100, 0x0200, 1], [0xa1, 0x21, 0, 2, 7], [0x21, 0x20, 0, 2, 7], [0x21, 0x22, 3, 2, 0]];
+    const any = (few) => (random(2) ? random(few) : random(256));
+    const request = () => {
+        if (random(2))
+            return [random(8) ? types[random(types.length)] : random(256), any(14), any(16) | (any(6) << 8), any(5) | (any(5) << 8), random(3) ? random(20) : random(300)];
+        const words = [...known[random(known.length)]];
+        if (random(2)) words[random(5)] ^= 1 << random(10);
+        return words.map((word, k) => (k < 2 ? word & 255 : word));
+    };
     let refused = 0, above = 0;
     for (let k = 0; k < +requests; ++k) {
-        const any = (few) => (random(2) ? random(few) : random(256));
-        const length = random(3) ? random(20) : random(300);
-        const packet = setup(random(8) ? types[random(types.length)] : random(256), any(14), any(16) | (any(6) << 8), any(5) | (any(5) << 8), length);
-        if (board.control(packet, Uint8Array.from({ length }, () => random(256))) === null) ++refused;
+        const words = request(), length = words[4];
+        if (board.control(setup(...words), Uint8Array.from({ length }, () => random(256))) === null) ++refused;
+        if (k % 10 === 0) board.control(setup(0, 9, 1, 0, 0)); // one of them may have left it without a configuration
         if (k % 100 === 0) board.select(1), board.stream(2, loud);
         for (const { frame } of board.frames) if (!frame.every((v) => v >= 0 && v <= level)) ++above;
         board.frames = [];
     }
     check(above === 0, `${above} frames above what was sent`);
+    check(refused > requests / 5 && refused < (4 * requests) / 5, `${refused} of ${requests} requests are refused`);
     board.run(10);
     board.resetBus();
     board.enumerate();
@@ -124,7 +203,8 @@ function silence(board, since, what, mayJump = false) {
     board.select(1);
     playing(board);
     check(counters(board).restarts === 0, 'the watchdog restarted it');
-    say(`${requests} random control requests: ${refused} refused, none hangs, no sample above; plays again`);
+    check(descriptors(board) === before, 'a request has changed a descriptor');
+    say(`${requests} random control requests: ${refused} refused, ${requests - refused} answered, none hangs, no sample above; plays again`);
 }
 {
     const board = fresh();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every frame at the pins of the emulated Pico is the frame that this computer's compiler makes of what was sent:
-// frames.mjs IMAGE CHANNELS EXPECTED_PROGRAM open|low FRAMES.raw [NAME]. The file holds 16-bit samples, all channels of a
+// frames.mjs IMAGE CHANNELS EXPECTED_PROGRAM full|low FRAMES.raw [NAME]. The file holds 16-bit samples, all channels of a
 // frame beside each other.
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
@@ -20,6 +20,7 @@ const start = board.now;
 let notTaken = 0;
 for (let k = 0; k < packets; ++k) {
     const next = start + (k + 1) * 1e6;
+    board.sof();
     if (!board.packet(sent.subarray(k * packetBytes, (k + 1) * packetBytes))) ++notTaken;
     board.run((next - board.now) / 1e6);
 }
@@ -43,5 +44,5 @@ console.log(`${name ?? 'frames'}: ${channels} channels, ${packets} packets, ${eq
     `longest interrupts: output ${board.worst.dma}, USB ${board.worst.usb} of 76800 cycles; feedback ${(board.feedback / 65536).toFixed(3)}; ` +
     `${((Date.now() - began) / 1e3).toFixed(0)} s`);
 console.log(`  ${counters}`);
-if (equal !== compared || compared < 4000 || notTaken > 0 || silentAfter > 5e6 || !counters.startsWith('playing underruns 0 overruns 0 wrong_sizes 0'))
+if (equal !== compared || compared < 4000 || notTaken > 0 || silentAfter > 5e6 || !counters.startsWith('playing underruns 0 overruns 0 missing_packets 0 wrong_sizes 0'))
     throw new Error(`not all frames are equal, or a packet was not taken (${notTaken}), or silence came late`);

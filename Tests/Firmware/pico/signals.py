@@ -1,26 +1,33 @@
 # SPDX-License-Identifier: MIT
-"""What pico.sh plays, as 16-bit frames: signals.py FOLDER SECONDS. Impacts that decay, and what only warms coils."""
+"""What pico.sh plays, as 16-bit frames: signals.py FOLDER SECONDS RENDER. The scene shake-the-box as PhysVib renders it for four and for eight
+actuators, and what only warms coils."""
 import array
-import math
-import random
+import struct
+import subprocess
 import sys
 
 RATE = 48000
 
 
-def impacts(seconds, channels):
-    """Decaying sinusoids at random times, as a scene renders them: 60 to 400 Hz, below full scale."""
-    chance = random.Random(1)
-    out = [0.0] * (channels * RATE * seconds)
-    for _ in range(12 * seconds):
-        at, hz, tau = chance.randrange(RATE * seconds), chance.uniform(60, 400), chance.uniform(15, 60)
-        gains = [chance.random() ** 2 for _ in range(channels)]
-        for n in range(at, min(at + int(RATE * 5 / tau), RATE * seconds)):
-            t = (n - at) / RATE
-            x = 9000 * math.sin(2 * math.pi * hz * t) * math.exp(-tau * t)
-            for j in range(channels):
-                out[n * channels + j] += gains[j] * x
-    return out
+def chunks(data):
+    at = 12
+    while at + 8 <= len(data):
+        name, size = struct.unpack_from("<4sI", data, at)
+        yield name, data[at + 8 : at + 8 + size]
+        at += 8 + size + size % 2
+
+
+def scene(folder, seconds, channels, render):
+    """As a sound card gets it: 32-bit floats, rounded to 16 bits."""
+    file = f"{folder}/scene{channels}.wav"
+    subprocess.run([render, "shake-the-box", "--layout", f"pico{channels}", "--seconds", str(seconds), "--rate", str(RATE), "--out", file], check=True, stdout=subprocess.DEVNULL)
+    with open(file, "rb") as wav:
+        parts = dict(chunks(wav.read()))
+    _, found, rate, _, _, bits = struct.unpack_from("<HHIIHH", parts[b"fmt "])
+    assert (found, rate, bits) == (channels, RATE, 32), (found, rate, bits)
+    samples = array.array("f", parts[b"data"])
+    assert len(samples) >= seconds * RATE * channels and max(map(abs, samples)) > 0.1, "the scene is silent or too short"
+    return (32767 * x for x in samples[: seconds * RATE * channels])
 
 
 def slow(seconds, channels):
@@ -30,12 +37,12 @@ def slow(seconds, channels):
     ]
 
 
-def main(folder, seconds):
+def main(folder, seconds, render):
     for channels in (4, 8):
-        for name, samples in (("scene", impacts(seconds, channels)), ("slow", slow(2, channels))):
+        for name, samples in (("scene", scene(folder, seconds, channels, render)), ("slow", slow(2, channels))):
             clipped = (max(-32768, min(32767, round(x))) for x in samples)
             with open(f"{folder}/{name}{channels}.raw", "wb") as file:
                 array.array("h", clipped).tofile(file)
 
 
-main(sys.argv[1], int(sys.argv[2]))
+main(sys.argv[1], int(sys.argv[2]), sys.argv[3])

@@ -17,6 +17,7 @@ const board = new Board(image, channels);
 const { device } = board.enumerate();
 board.control(setup(0, 9, 0, 0, 0)); // Linux configures it again
 const sent = [];
+const volumes = new Map(); // lowest that Linux has set, by channel; 256ths of a decibel
 let outs = [], ins = [], connection = null, packets = 0, started = 0;
 
 const qmp = net.connect(qmpPath);
@@ -54,6 +55,9 @@ function control(request) {
     const { setup: words, isIn, data } = request;
     if (words[0] === 0 && words[1] === 5) return answer(request, 0, Buffer.alloc(0), 0); // it has its address
     const got = board.control(Uint8Array.from(words), Uint8Array.from(data));
+    const [type, request, channel, selector, , unit] = words;
+    if (got !== null && type === 0x21 && request === 1 && selector === 2 && unit === 2)
+        volumes.set(channel, Math.min(volumes.get(channel) ?? 0, data.readInt16LE(0)));
     if (got === null) return answer(request, pipe, Buffer.alloc(0), 0);
     answer(request, 0, isIn ? Buffer.from(got) : Buffer.alloc(0), isIn ? got.length : data.length);
 }
@@ -68,6 +72,7 @@ const take = (request, packet) => {
 let clock = 0; // of the bus, ns; control transfers hold it up
 function millisecond() {
     clock = Math.max(clock, board.now) + 1e6;
+    board.sof();
     const out = outs[0];
     const isDone = take(out, (at, offset, length) => {
         const bytes = out.data.subarray(offset, offset + length);
@@ -121,7 +126,7 @@ function receive(head, data, descriptors) {
 function report() {
     const all = Buffer.concat(sent);
     const tile = 16 * frameBytes, whole = all.subarray(0, all.length - (all.length % tile));
-    const expected = execFileSync(program, [channelText, 'open'], { input: whole, maxBuffer: 1 << 30 });
+    const expected = execFileSync(program, [channelText, 'full'], { input: whole, maxBuffer: 1 << 30 });
     const value = (n, j) => expected.readInt16LE(n * frameBytes + 2 * j), total = expected.length / frameBytes;
     const isSilent = (n) => Array.from({ length: channels }, (_, j) => value(n, j)).every((v) => v === 0);
     let first = 0, last = total - 1;
@@ -133,6 +138,7 @@ function report() {
         if (pins[firstAtPins - first + n]?.every((v, j) => v === value(n, j))) ++equal;
     console.log(`${channels} channels: ${packets} packets, ${all.length / frameBytes} frames from Linux, ${last - first + 1} from the first to the last that is not silent: ${equal} equal at the pins`);
     console.log(`  ${board.ask('counters')}`);
+    console.log(`volumes set: ${[...volumes].filter(([channel]) => channel > 0).sort().map(([channel, v]) => `${channel} ${v / 256} dB`).join(', ')}`);
     process.exit(last > first && equal === last - first + 1 ? 0 : 1);
 }
 
