@@ -90,8 +90,9 @@ void HapticWorld::touch(const Watched& each, int i) {
     const Watched* met = other(each, i, there);
     if (met == nullptr) return;
     const Vector own = velocityAt(each, at), its = velocityAt(*met, at);
-    const Meeting meeting =
-        meetingOf(dot(minus(own, its), normal), gap, dot(minus(each.pull, met->pull), normal), seconds);
+    const double closing = dot(minus(own, its), normal);
+    if (gap > 0.0 && gap > seconds * closing) return; // pushed by something else, it does not get there yet
+    const Meeting meeting = meetingOf(closing, gap, dot(minus(each.pull, met->pull), normal), seconds);
     const double bounce = bounceOf(each.rid) + bounceOf(state.contactBody(i));
     physvib_contact contact = contactOf(each, *met, at, normal);
     contact.restitution = std::clamp(bounce, 0.0, 1.0);
