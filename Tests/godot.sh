@@ -1,32 +1,43 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The addon in Godot itself, headless: a bouncing ball in three engines at four tick rates, what games do to a
-# world, and the demos. Debian 12 has no Godot 4: a tree of Debian's unstable is made in FOLDER, or used if it is
-# there (1.4 GB). Needs root, debootstrap and a network.
+# The addon in Godot itself, headless: a bouncing ball in three engines at four tick rates, the ten acts of
+# Tests/Engines, what games do to a world, what each tick costs, the demos, one of them exported, and the editor.
+# Debian 12 has no Godot 4: a tree of Debian's unstable is made in FOLDER, or used if it is there (1.9 GB). Needs root,
+# debootstrap and a network. Pictures of the editor, to be looked at, are left in FOLDER/editor.
 # Usage: Tests/godot.sh BUILD FOLDER
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "$1" && pwd)
 mkdir -p "$2"
 tree=$(cd "$2" && pwd)
-if [ ! -x "$tree/usr/bin/godot" ]; then
-    debootstrap --variant=minbase sid "$tree" >"$tree.log"
-    chroot "$tree" apt-get install -y --no-install-recommends godot >>"$tree.log"
+if [ ! -x "$tree/usr/bin/godot-template-release" ]; then
+    [ -x "$tree/usr/bin/apt-get" ] || debootstrap --variant=minbase sid "$tree" >"$tree.log"
+    chroot "$tree" apt-get install -y --no-install-recommends godot godot-template-release xvfb xauth libgl1-mesa-dri >>"$tree.log"
 fi
 project=$tree/physvib
-rm -rf "$project"
-mkdir -p "$project/libraries"
-godot() { chroot "$tree" env HOME=/physvib LD_LIBRARY_PATH=/physvib/libraries sh -c 'cd /physvib && exec timeout 120 godot --headless "$@"' sh "$@"; }
+rm -rf "$project" "$tree/editor"
+mkdir -p "$project/libraries" "$tree/editor"
+# within FOLDER COMMAND...: in a folder of the tree, which has a /proc meanwhile.
+within() {
+    # shellcheck disable=SC2016 # for the inner shells
+    unshare -m sh -c 'mount -t proc proc "$1/proc" && shift 1 && exec chroot "$@"' sh "$tree" "$tree" env HOME="/$1" LD_LIBRARY_PATH="/$1/libraries" \
+        sh -c 'cd "$HOME" && shift && exec timeout 600 "$@"' sh "$@"
+}
+godot() { within physvib godot --headless "$@"; }
 
 godot --dump-gdextension-interface >"$project/log"
+trap 'cmake -UPHYSVIB_GODOT_HEADER "$build" >/dev/null' EXIT # who builds next wants no header of this tree
 cmake -DPHYSVIB_GODOT_HEADER="$project" "$build" >>"$project/log"
 cmake --build "$build" --target physvib-godot >>"$project/log" || { cat "$project/log" && exit 1; }
 cp -r "$build/godot/addons" "$root"/Tests/Godot/. "$project"
+rm -r "$project/Editor"
 # What this Debian has in other versions than the tree: beside it, as a game would bring it.
 ldd "$build"/godot/addons/physvib/bin/*.so* | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | sort -u | while read -r library; do
     [ -e "$tree/usr/lib/x86_64-linux-gnu/${library##*/}" ] || cp -L "$library" "$project/libraries"
 done
 rm -f "$project"/libraries/libphysvib* "$project"/libraries/libhwy.so*
+cp -r "$project/addons" "$project/libraries" "$root"/Tests/Godot/Editor/. "$tree/editor"
+rm -r "$tree/editor/addons/physvib/demos"
 godot --import --frame-delay 1000 >>"$project/log" 2>&1 # without a delay Godot crashes (godot 111048)
 
 failed=0
@@ -35,6 +46,8 @@ echo "| --- | --- | --- | --- | --- | --- |"
 for engine in GodotPhysics3D "Jolt Physics"; do
     cp "$root/Tests/Godot/project.godot" "$project"
     echo "3d/physics_engine=\"$engine\"" >>"$project/project.godot"
+    godot -s floors.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
+    grep -E '^(right|WRONG)' "$project/out" || { cat "$project/out" && failed=1; }
     for space in 2 3; do
         [ "$engine$space" != "Jolt Physics2" ] || continue # the plane has one engine
         for shape in ball box; do
@@ -59,15 +72,47 @@ for engine in GodotPhysics3D "Jolt Physics"; do
         done
     done
 done
-godot -s outputs.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
-grep -E '^(WRONG|[0-9]+ wrong)' "$project/out" || failed=1
-godot -s life.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
-grep -E '^(right|WRONG|[0-9]+ wrong)' "$project/out" || failed=1
-grep -q '^0 wrong' "$project/out" || failed=1
-for demo in "$project"/addons/physvib/demos/*.gd; do
+for script in outputs life nodes; do
+    godot -s $script.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
+    grep -E '^(right|WRONG|[0-9]+ wrong)' "$project/out" || failed=1
+    grep -q '^0 wrong' "$project/out" || failed=1
+done
+godot -s orders.gd --fixed-fps 60 -- changes=2000 >"$project/out" 2>&1 || failed=1
+grep -E '^[0-9]+ (orders|scenes)' "$project/out" || failed=1
+for demo in "$project"/addons/physvib/demos/*.tscn; do
     name=${demo##*/}
     godot -s "demos.gd" --fixed-fps 60 -- "demo=res://addons/physvib/demos/$name" >"$project/out" 2>&1 || failed=1
     grep "^$name: [1-9][0-9]* hits" "$project/out" || { cat "$project/out" && failed=1; }
     ! grep -q "SCRIPT ERROR" "$project/out" || { cat "$project/out" && failed=1; }
 done
+
+# A release of the shaken box, elsewhere.
+cp "$root/Tests/Godot/project.godot" "$project"
+rm -rf "$tree/released"
+mkdir "$tree/released" "$project/released"
+godot --export-release Linux released/box.x86_64 >"$project/out" 2>&1 || { cat "$project/out" && failed=1; }
+cp -r "$project"/released/* "$project/libraries" "$tree/released"
+within released ./box.x86_64 --headless --fixed-fps 60 --quit-after 300 >"$project/out" 2>&1 || failed=1
+echo "a release of shaken_box.tscn: $(grep -c ' N s at ' "$project/out") hits in 5 s"
+grep -q ' N s at ' "$project/out" || { cat "$project/out" && failed=1; }
+
+echo "ms per tick without / with the addon, of boxes on a floor:"
+echo "| engine | 10 | 100 | 1,000 |"
+echo "| --- | --- | --- | --- |"
+godot -s cost.gd --fixed-fps 60 -- space=2 2>&1 | grep '^|' || failed=1
+for engine in GodotPhysics3D "Jolt Physics"; do
+    cp "$root/Tests/Godot/project.godot" "$project"
+    echo "3d/physics_engine=\"$engine\"" >>"$project/project.godot"
+    godot -s cost.gd --fixed-fps 60 -- space=3 2>&1 | grep '^|' || failed=1
+done
+cp "$root/Tests/Godot/project.godot" "$project"
+run=$tree/run.sh
+# shellcheck disable=SC2016 # for the script
+printf '#!/bin/sh\nexec unshare -m sh -c '\''mount -t proc proc "$0/proc" && exec chroot "$0" env HOME=/physvib LD_LIBRARY_PATH=/physvib/libraries sh -c "cd /physvib && exec timeout 300 godot --headless \"\$@\"" sh "$@"'\'' "%s" "$@"\n' "$tree" >"$run"
+python3 "$root/Tests/Godot/acts.py" "$project" sh "$run" || failed=1
+
+within editor godot --headless --import --frame-delay 1000 >"$tree/editor/log" 2>&1
+within editor xvfb-run -a -s "-screen 0 1500x900x24" godot --editor --path /editor --rendering-driver opengl3 --resolution 1500x900 --audio-driver Dummy >>"$tree/editor/log" 2>&1 ||
+    within editor xvfb-run -a -s "-screen 0 1500x900x24" godot --editor --path /editor --rendering-driver opengl3 --resolution 1500x900 --audio-driver Dummy >>"$tree/editor/log" 2>&1 || failed=1
+grep "^dragged: \[(60.0, 40.0)" "$tree/editor/log" || failed=1
 exit $failed

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Plays a demo for five seconds and counts what was felt.
-#   godot --headless -s demos.gd -- demo=res://addons/physvib/demos/shaken_box.gd
+#   godot --headless -s demos.gd -- demo=res://addons/physvib/demos/shaken_box.tscn
 extends SceneTree
 
 
@@ -8,9 +8,8 @@ func _initialize():
 	var path := ""
 	for argument in OS.get_cmdline_user_args():
 		if argument.begins_with("demo="): path = argument.substr(5)
-	var demo = load(path).new()
+	var demo = load(path).instantiate()
 	root.add_child(demo)
-	await physics_frame # it is ready now
 	var hits := [0]
 	for world in demo.get_children().filter(func(node): return node.has_signal("felt")):
 		world.felt.connect(func(_hit): hits[0] += 1)

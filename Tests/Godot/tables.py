@@ -9,7 +9,7 @@ import sys
 import xml.etree.ElementTree as xml
 
 root = pathlib.Path(sys.argv[1]) / "Source/Api/Godot"
-types = {"real": "float", "boolean": "bool", "text": "String", "vector2": "Vector2", "texts": "PackedStringArray", "places": "PackedVector2Array", "GDEXTENSION_VARIANT_TYPE_VECTOR3": "Vector3",
+types = {"real": "float", "boolean": "bool", "text": "String", "vector2": "Vector2", "texts": "PackedStringArray", "places": "PackedVector2Array", "dictionary": "Dictionary", "GDEXTENSION_VARIANT_TYPE_VECTOR3": "Vector3",
          "GDEXTENSION_VARIANT_TYPE_BOOL": "bool", "GDEXTENSION_VARIANT_TYPE_INT": "int", "GDEXTENSION_VARIANT_TYPE_STRING": "String", "GDEXTENSION_VARIANT_TYPE_OBJECT": "HapticMaterial",
          "GDEXTENSION_VARIANT_TYPE_NIL": "void"}
 bodies, worlds = (root / name for name in ("Bodies.cpp", "WorldClasses.cpp"))

@@ -2,6 +2,7 @@
 #include "Api/Godot/Binding.h"
 
 #include <map>
+#include <set>
 
 namespace physvib::godot {
 
@@ -106,6 +107,13 @@ GDExtensionObjectPtr Value::object() const {
     return typed;
 }
 
+std::uint64_t Value::rid() const {
+    std::uint64_t typed = 0;
+    if (type() == GDEXTENSION_VARIANT_TYPE_RID)
+        api.toType(GDEXTENSION_VARIANT_TYPE_RID)(&typed, const_cast<void*>(raw()));
+    return typed;
+}
+
 std::string Text::utf8() const {
     std::string result(static_cast<std::size_t>(api.toUtf8(&data, nullptr, 0)), '\0');
     api.toUtf8(&data, result.data(), static_cast<GDExtensionInt>(result.size()));
@@ -148,6 +156,18 @@ Value singleton(const char* name) { return Value(api.singleton(nameOf(name).get(
 
 bool isInEditor() { return singleton("Engine").call("is_editor_hint").isTrue(); }
 
-void report(const std::string& line) { api.printError(line.c_str(), line.c_str(), "", "physvib", 0, 1); }
+bool Direct::find(const char* className, const char* method, std::int64_t hash) {
+    bind = api.methodBind(nameOf(className).get(), nameOf(method).get(), hash);
+    return bind != nullptr;
+}
+
+// What is wrong in one tick is wrong in the next one too, and a script may set a wrong value in every frame.
+void report(const std::string& line) {
+    constexpr std::size_t most = 100, longest = 300; // a value may be a list of thousands
+    static std::set<std::string> printed;
+    const std::string text = line.substr(0, longest);
+    if (printed.size() < most && printed.insert(text).second)
+        api.printWarning(text.c_str(), text.c_str(), "", "physvib", 0, 1);
+}
 
 } // namespace physvib::godot

@@ -7,23 +7,23 @@ namespace physvib::godot {
 
 namespace {
 std::vector<HapticBody*> bodiesInTree;
-constexpr int reported = 16; // contacts of a body that Godot keeps per tick, unless the game wants more
-
-enum BodyProperty { material, isFelt, gain, staticMass, part, controller };
+enum BodyProperty { material, felt, gain, staticMass, part, controller };
 enum MaterialProperty { preset, frequency, decay, grain, roughness };
 
 constexpr auto real = GDEXTENSION_VARIANT_TYPE_FLOAT;
-constexpr int hintEnumSuggestion = 3, hintResource = 17;
+constexpr int hintRange = 1, hintEnumSuggestion = 3, hintResource = 17; // Godot's PropertyHint
 
 const std::vector<Property>& bodyProperties() {
     static const std::vector<Property> all{
         {"material", GDEXTENSION_VARIANT_TYPE_OBJECT, [] { return Value(); }, 0, 0, "", hintResource,
          "HapticMaterial"},
         {"felt", GDEXTENSION_VARIANT_TYPE_BOOL, [] { return Value(true); }, 0, 0, ""},
-        {"gain", real, [] { return Value(1.0); }, 0, 10'000, ""},
-        {"static_mass_kg", real, [] { return Value(1.0); }, 1e-6, 1e6, "Static bodies"},
+        {"gain", real, [] { return Value(1.0); }, 0, 10'000, "", hintRange, "0,10,0.01,or_greater"},
+        {"static_mass_kg", real, [] { return Value(1.0); }, 1e-6, 1e6, "Without Mass", hintRange,
+         "0.001,100,0.001,or_greater,exp,suffix:kg"},
         {"part", GDEXTENSION_VARIANT_TYPE_STRING, [] { return Value(""); }, 0, 0, "Player"},
-        {"controller", GDEXTENSION_VARIANT_TYPE_INT, [] { return Value(-1); }, -1, 7, "Player"}};
+        {"controller", GDEXTENSION_VARIANT_TYPE_INT, [] { return Value(-1); }, -1, 7, "Player", hintRange,
+         "-1,7,1"}};
     return all;
 }
 
@@ -43,18 +43,19 @@ const std::vector<Property>& materialProperties() {
     static const std::vector<Property> all{
         {"preset", GDEXTENSION_VARIANT_TYPE_STRING, [] { return Value(""); }, 0, 0, "", hintEnumSuggestion,
          presets()},
-        {"frequency_hz", real, [] { return Value(200.0); }, 1.0, 20'000, "Without preset"},
-        {"decay_per_s", real, [] { return Value(30.0); }, 0.1, 2'000, "Without preset"},
-        {"grain_m", real, [] { return Value(0.0); }, 0.0, 1.0, "Without preset"},
-        {"roughness", real, [] { return Value(1.0); }, 0.0, 1'000, "Without preset"}};
+        {"frequency_hz", real, [] { return Value(200.0); }, 1.0, 20'000, "Without Preset", hintRange,
+         "1,1000,0.1,or_greater,exp,suffix:Hz"},
+        {"decay_per_s", real, [] { return Value(30.0); }, 0.1, 2'000, "Without Preset", hintRange,
+         "0.1,2000,0.1,exp,suffix:1/s"},
+        {"grain_m", real, [] { return Value(0.0); }, 0.0, 1.0, "Without Preset", hintRange,
+         "0,1,0.0001,suffix:m"},
+        {"roughness", real, [] { return Value(1.0); }, 0.0, 1'000, "Without Preset", hintRange,
+         "0,10,0.01,or_greater"}};
     return all;
 }
 
 bool isPhysicsBody(const Value& node) {
     return node.call("is_class", "PhysicsBody2D").isTrue() || node.call("is_class", "PhysicsBody3D").isTrue();
-}
-bool isRigid(const Value& node) {
-    return node.call("is_class", "RigidBody2D").isTrue() || node.call("is_class", "RigidBody3D").isTrue();
 }
 } // namespace
 
@@ -73,12 +74,16 @@ void HapticBody::notified(int what) {
     const Value parent = self().call("get_parent");
     if (!isPhysicsBody(parent)) return report("HapticBody: expected a physics body as parent");
     parentId = api.instanceId(parent.object());
+    space = spaceOf(parent, parent.call("is_class", "PhysicsBody3D").isTrue());
     bodiesInTree.push_back(this);
-    if (!isRigid(parent)) return;
-    parent.call("set_contact_monitor", true); // Godot lists contacts only of bodies that ask; motion stays
-    if (parent.call("get_max_contacts_reported").whole() < reported)
-        parent.call("set_max_contacts_reported", reported);
 }
+
+std::uint64_t spaceOf(const Value& node, bool isSpace) {
+    const Value world = node.call(isSpace ? "get_world_3d" : "get_world_2d");
+    return world.object() == nullptr ? 0 : world.call("get_space").rid();
+}
+
+bool HapticBody::isFelt() const { return get(felt).isTrue(); }
 
 std::vector<std::string> HapticBody::warnings() const {
     const Value parent = self().call("get_parent");
@@ -89,21 +94,24 @@ std::vector<std::string> HapticBody::warnings() const {
     return {};
 }
 
-bool HapticBody::describe(physvib_body& body) const {
-    body.is_camera = get(isFelt).isTrue() ? 1 : 0;
+bool HapticBody::describe(physvib_body& body, const Value& standard) const {
+    body.is_camera = isFelt() ? 1 : 0;
     body.gain = get(gain).real();
     body.static_mass_kg = get(staticMass).real();
     body.device = static_cast<int>(get(controller).whole()) + 1; // 0: all
     const std::string itsPart = get(part).text();
     body.part = itsPart.empty() ? 0 : std::max(0, physvib_part(itsPart.c_str()));
     body.frequency_hz = 200.0, body.decay_per_s = 30.0;
-    const Value its = get(material);
-    if (its.object() == nullptr) return true;
-    const std::string name = its.call("get_preset").text();
-    body.frequency_hz = its.call("get_frequency_hz").real();
-    body.decay_per_s = its.call("get_decay_per_s").real();
-    body.grain_m = its.call("get_grain_m").real();
-    body.roughness = its.call("get_roughness").real();
+    return describeMaterial(body, get(material).object() != nullptr ? get(material) : standard);
+}
+
+bool describeMaterial(physvib_body& body, const Value& material) {
+    if (material.object() == nullptr) return true;
+    const std::string name = material.call("get_preset").text();
+    body.frequency_hz = material.call("get_frequency_hz").real();
+    body.decay_per_s = material.call("get_decay_per_s").real();
+    body.grain_m = material.call("get_grain_m").real();
+    body.roughness = material.call("get_roughness").real();
     if (name.empty() || physvib_material(name.c_str(), &body) == PHYSVIB_OK) return true;
     report(std::string("HapticMaterial: ") + physvib_error());
     return false;

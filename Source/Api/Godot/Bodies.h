@@ -10,7 +10,7 @@
 
 namespace physvib::godot {
 
-/// A child of a physics body: that body is felt, or is told of at least.
+/// A child of a physics body: that body is felt, or at least observed.
 class HapticBody final : public Instance {
 public:
     explicit HapticBody(GDExtensionObjectPtr object);
@@ -20,12 +20,21 @@ public:
 
     /// Of Godot's physics body; 0: there is none.
     std::uint64_t bodyId() const { return parentId; }
-    /// Sets vibration, gain and part, not the mass. False: its material has errors, which were reported.
-    bool describe(physvib_body& body) const;
+    /// Of the physics server, in which the body is.
+    std::uint64_t spaceId() const { return space; }
+    bool isFelt() const;
+    /// Sets vibration, gain and part, not the mass. `standard`: the HapticMaterial if it has none of its own;
+    /// nil: the built-in one. False: the material has errors, which were reported.
+    bool describe(physvib_body& body, const Value& standard) const;
 
 private:
-    std::uint64_t parentId = 0;
+    std::uint64_t parentId = 0, space = 0;
 };
+
+/// Sets vibration and grains by a HapticMaterial; nil: none. False: it has errors, which were reported.
+bool describeMaterial(physvib_body& body, const Value& material);
+/// RID of the space of a node of the plane or of space that is in a scene tree.
+std::uint64_t spaceOf(const Value& node, bool isSpace);
 
 /// Those that are in a scene tree now.
 const std::vector<HapticBody*>& hapticBodies();

@@ -49,20 +49,40 @@ void callGet(void* data, GDExtensionClassInstancePtr instance, const GDExtension
     const Accessor& at = accessorAt(data);
     const Value& value = instanceAt(instance).get(at.index);
     if (at.property->type == GDEXTENSION_VARIANT_TYPE_OBJECT) return value.copyTo(result);
-    value.as(at.property->type).copyTo(result); // arrays are shared unless copied
+    const bool isShared = at.property->type == GDEXTENSION_VARIANT_TYPE_DICTIONARY;
+    (isShared ? value.call("duplicate") : value.as(at.property->type)).copyTo(result); // its own, as arrays
+                                                                                       // are
 }
 void pointerGet(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr*,
                 GDExtensionTypePtr result) {
-    Value value = instanceAt(instance).get(accessorAt(data).index);
-    if (value.type() == accessorAt(data).property->type) api.toType(value.type())(result, value.raw());
+    const Accessor& at = accessorAt(data);
+    const Value& its = instanceAt(instance).get(at.index);
+    if (at.property->type == GDEXTENSION_VARIANT_TYPE_OBJECT) { // a reference, which counts
+        if (its.object() != nullptr) api.setReference(result, its.object());
+        return;
+    }
+    const bool isShared = at.property->type == GDEXTENSION_VARIANT_TYPE_DICTIONARY;
+    Value value = isShared ? its.call("duplicate") : its.as(at.property->type);
+    if (value.type() == at.property->type) api.toType(value.type())(result, value.raw());
 }
-void callMethod(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstVariantPtr*,
-                GDExtensionInt, GDExtensionVariantPtr result, GDExtensionCallError*) {
-    static_cast<Method*>(data)->call(instanceAt(instance)).copyTo(result);
+void callMethod(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstVariantPtr* arguments,
+                GDExtensionInt count, GDExtensionVariantPtr result, GDExtensionCallError* error) {
+    const Method& method = *static_cast<Method*>(data);
+    const GDExtensionInt expected = method.argumentClass != nullptr ? 1 : 0;
+    if (count == expected)
+        return method.call(instanceAt(instance), count > 0 ? Value::copyOf(arguments[0]) : Value())
+            .copyTo(result);
+    *error = {count < expected ? GDEXTENSION_CALL_ERROR_TOO_FEW_ARGUMENTS
+                               : GDEXTENSION_CALL_ERROR_TOO_MANY_ARGUMENTS,
+              0, static_cast<std::int32_t>(expected)};
 }
-void pointerMethod(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr*,
+void pointerMethod(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr* arguments,
                    GDExtensionTypePtr result) {
-    Value value = static_cast<Method*>(data)->call(instanceAt(instance));
+    const Method& method = *static_cast<Method*>(data);
+    Value value = method.call(instanceAt(instance),
+                              method.argumentClass == nullptr
+                                  ? Value()
+                                  : Value(GDEXTENSION_VARIANT_TYPE_OBJECT, const_cast<void*>(arguments[0])));
     if (value.type() != GDEXTENSION_VARIANT_TYPE_NIL) api.toType(value.type())(result, value.raw());
 }
 
@@ -98,10 +118,16 @@ void addGroup(const Class& type, const char* name) {
     api.registerGroup(api.library, Name(type.name).get(), group.get(), prefix.get());
 }
 
-GDExtensionObjectPtr create(void* data, GDExtensionBool) {
+// Godot's own part of an object begins with a notification, which is left to whoever creates it. By pointer:
+// a Value of a new resource would be the first to hold it, and free it.
+GDExtensionObjectPtr create(void* data, GDExtensionBool isToNotify) {
     const Class& type = *static_cast<Class*>(data);
     GDExtensionObjectPtr object = api.constructObject(Name(type.parent).get());
     api.setInstance(object, Name(type.name).get(), type.create(object));
+    static Direct notification;
+    static const bool isThere = notification.find("Object", "notification", 4'023'243'586);
+    if (isToNotify != 0 && isThere)
+        notification.call<std::int64_t>(object, std::int64_t{notifiedCreated}, static_cast<unsigned char>(0));
     return object;
 }
 void destroy(void*, GDExtensionClassInstancePtr instance) { delete static_cast<Instance*>(instance); }
@@ -135,8 +161,11 @@ void registerClass(const Class& type) {
     }
     for (const Method& method : type.methods) {
         Described result(method.result, "");
+        Described argument(GDEXTENSION_VARIANT_TYPE_OBJECT, "object", 0,
+                           method.argumentClass != nullptr ? method.argumentClass : "");
         addMethod(type, method.name, const_cast<Method*>(&method), callMethod, pointerMethod,
-                  method.result == GDEXTENSION_VARIANT_TYPE_NIL ? nullptr : &result, nullptr);
+                  method.result == GDEXTENSION_VARIANT_TYPE_NIL ? nullptr : &result,
+                  method.argumentClass != nullptr ? &argument : nullptr);
     }
     if (type.signal == nullptr) return;
     Name signal(type.signal);

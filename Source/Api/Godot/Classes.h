@@ -15,7 +15,7 @@ struct Property {
     const char* name;
     GDExtensionVariantType type;
     Value (*standard)();      ///< its default
-    double smallest, largest; ///< of a number; both 0: any that is finite
+    double smallest, largest; ///< of a number, or each part of a vector; both 0: any that is finite
     const char* group;        ///< of the inspector; "": none
     int hint = 0;             ///< Godot's PropertyHint
     const char* hintText = "";
@@ -37,6 +37,8 @@ public:
     void set(std::size_t property, const Value& value);
     const Value& get(std::size_t property) const { return values[property]; }
     Value self() const { return Value(object); }
+    /// Rises with each new value of any property of any instance.
+    static std::uint64_t revision();
 
 protected:
     GDExtensionObjectPtr object;
@@ -49,7 +51,8 @@ private:
 struct Method {
     const char* name;
     GDExtensionVariantType result; ///< NIL: none
-    Value (*call)(Instance&);      ///< no arguments
+    Value (*call)(Instance&, const Value& argument);
+    const char* argumentClass = nullptr; ///< of the one argument, an object; null: there is none
 };
 
 struct Class {
@@ -64,7 +67,7 @@ struct Class {
 /// `type` has to live as long as the extension.
 void registerClass(const Class& type);
 
-constexpr int notifiedEnterTree = 10, notifiedExitTree = 11, notifiedPhysicsProcess = 16,
-              notifiedProcess = 17, notifiedReady = 13; ///< Node.NOTIFICATION_...
+constexpr int notifiedCreated = 0, notifiedEnterTree = 10, notifiedExitTree = 11, notifiedPaused = 14,
+              notifiedPhysicsProcess = 16, notifiedProcess = 17; ///< Node.NOTIFICATION_...
 
 } // namespace physvib::godot

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Contacts of a tick, as Godot's state of a body lists them after the solver.
 #include "Api/Godot/Meeting.h"
+#include "Api/Godot/Touching.h"
 #include "Api/Godot/Vectors.h"
 #include "Api/Godot/Worlds.h"
 
@@ -24,44 +25,45 @@ bool goesThroughCentre(const Watched& body, const Vector& at, const Vector& norm
     const Vector arm = minus(at, body.centre), beside = across(arm, normal);
     return body.isRigid && dot(beside, beside) < 4e-4 * dot(arm, arm);
 }
-physvib_contact contactOf(const Watched& a, const Watched& b, const Vector& at, const Vector& normal) {
-    physvib_contact contact;
-    physvib_contact_init(&contact, sizeof contact);
-    contact.a = a.number, contact.b = b.number;
-    contact.x_m = at[0], contact.y_m = at[1], contact.z_m = at[2];
-    contact.normal_x = normal[0], contact.normal_y = normal[1], contact.normal_z = normal[2];
-    contact.point_id = PHYSVIB_POINT_BY_PLACE;
-    return contact;
-}
 } // namespace
 
-double HapticWorld::bounceOf(const Value& rid) const {
+double HapticWorld::bounceOf(std::uint64_t rid) {
+    const auto [found, isNew] = bounces.try_emplace(rid, 0.0);
     constexpr int bounce = 0; // PhysicsServer's BODY_PARAM_BOUNCE
-    return server().call("body_get_param", rid, bounce).real();
+    if (isNew)
+        found->second =
+            server().call("body_get_param", Value(GDEXTENSION_VARIANT_TYPE_RID, &rid), bounce).real();
+    return found->second;
 }
 
 void HapticWorld::touchAll(const Watched& each) {
-    if (each.state.object() == nullptr) return;
-    const int count = static_cast<int>(each.state.call("get_contact_count").whole());
-    for (int i = 0; i < count; ++i) touch(each, i);
+    const int count = each.state.contacts();
+    for (int i = 0; i < count; ++i)
+        if (isOfInterest(each, i)) touch(each, i);
+}
+
+// What strikes felt bodies only, strikes thousands of others too.
+bool HapticWorld::isOfInterest(const Watched& each, int i) const {
+    if (each.values != nullptr) return true;
+    const auto known = watched.find(each.state.contactObject(i));
+    return known != watched.end() && known->second.values != nullptr;
 }
 
 // A body without velocities of its own, or that is met for the first time, moves as Godot says of the point.
+// Null: that body lists this pair too.
 Watched* HapticWorld::other(const Watched& each, int i, const Vector& place) {
-    const auto id = static_cast<std::uint64_t>(each.state.call("get_contact_collider_id", i).whole());
-    if (api.instanceFromId(id) == nullptr) return nullptr;
+    const std::uint64_t id = each.state.contactObject(i);
     const auto known = watched.find(id);
-    const bool isNew = known == watched.end();
-    if (!isNew && known->second.state.object() != nullptr && id < each.id &&
-        known->second.state.call("get_contact_count").isTrue())
-        return nullptr; // that body lists this pair too
-    return moving(id, direction(each.state.call("get_contact_collider_velocity_at_position", i).vector()),
-                  place);
+    if (known != watched.end() && known->second.state && id < each.id && known->second.state.contacts() > 0)
+        return nullptr;
+    return moving(id, each.state.contactBody(i), direction(each.state.contactOtherVelocity(i)), place);
 }
 
-Watched* HapticWorld::moving(std::uint64_t id, const Vector& velocity, const Vector& place) {
-    const bool isNew = !watched.contains(id);
-    Watched* found = watch(id, nullptr);
+Watched* HapticWorld::moving(std::uint64_t id, std::uint64_t rid, const Vector& velocity,
+                             const Vector& place) {
+    const std::size_t before = watched.size();
+    Watched* found = watch(id, rid, nullptr);
+    const bool isNew = watched.size() != before;
     if (found == nullptr || (!isNew && found->isRigid)) return found;
     const Vector none{};
     found->before = velocity;
@@ -76,10 +78,9 @@ Watched* HapticWorld::moving(std::uint64_t id, const Vector& velocity, const Vec
 }
 
 void HapticWorld::touch(const Watched& each, int i) {
-    const Value& state = each.state;
-    const Vector at = place(state.call("get_contact_local_position", i).vector());
-    const Vector there = place(state.call("get_contact_collider_position", i).vector());
-    Vector normal = direction(state.call("get_contact_local_normal", i).vector()); // away from the other
+    const BodyState& state = each.state;
+    const Vector at = place(state.contactPlace(i)), there = place(state.contactOtherPlace(i));
+    Vector normal = direction(state.contactNormal(i)); // away from the other
     const double length = std::sqrt(dot(normal, normal));
     if (!(length > 0.0)) return;
     for (double& part : normal) part /= -length;
@@ -89,10 +90,10 @@ void HapticWorld::touch(const Watched& each, int i) {
     const Watched* met = other(each, i, there);
     if (met == nullptr) return;
     const Vector own = velocityAt(each, at), its = velocityAt(*met, at);
-    const Meeting meeting =
-        meetingOf(dot(minus(own, its), normal), gap, dot(minus(each.pull, met->pull), normal), seconds);
-    const double bounce =
-        bounceOf(each.body.call("get_rid")) + bounceOf(state.call("get_contact_collider", i));
+    const double closing = dot(minus(own, its), normal);
+    if (gap > 0.0 && gap > seconds * closing) return; // pushed by something else, it does not get there yet
+    const Meeting meeting = meetingOf(closing, gap, dot(minus(each.pull, met->pull), normal), seconds);
+    const double bounce = bounceOf(each.rid) + bounceOf(state.contactBody(i));
     physvib_contact contact = contactOf(each, *met, at, normal);
     contact.restitution = std::clamp(bounce, 0.0, 1.0);
     contact.approach_m_per_s = meeting.approachMetresPerSecond, contact.fraction = meeting.fraction;
@@ -106,50 +107,9 @@ void HapticWorld::touch(const Watched& each, int i) {
     const double speed = std::max(1e-9, std::sqrt(dot(way, way)));
     contact.along_a_m_per_s = dot(overOwn, way) / speed, contact.along_b_m_per_s = dot(overIts, way) / speed;
     contact.is_soft = PHYSVIB_SOFT; // an impact is as hard as its speed; what the solver pushed is a load
-    if (met->slides) contact.effective_mass_kg = each.told.mass_kg; // which Godot does not push
+    if (met->slides) contact.effective_mass_kg = each.described.mass_kg; // which Godot does not push
     contact.point_id = isRound || isOtherRound ? 0 : PHYSVIB_POINT_BY_PLACE;
     checkWorld(physvib_world_touch(world, &contact));
-}
-
-// What a CharacterBody struck in its last move_and_slide(): straight on within the tick, as its script wants.
-void HapticWorld::slideAll(Watched& each) {
-    const int count = static_cast<int>(each.body.call("get_slide_collision_count").whole());
-    double moved = 0.0; // of the tick
-    const Vector now = place(each.body.call("get_global_position").vector()), step = minus(now, each.at);
-    for (int i = 0; i < count; ++i) {
-        const Value hit = each.body.call("get_slide_collision", i);
-        const Vector travel = direction(hit.call("get_travel").vector());
-        const Vector rest = direction(hit.call("get_remainder").vector());
-        const double gone = std::sqrt(dot(travel, travel)), left = std::sqrt(dot(rest, rest));
-        moved += (1.0 - moved) * (gone > 0.0 ? gone / (gone + left) : 0.0);
-        if (i == 0)
-            for (std::size_t k = 0; k < 3; ++k) each.before[k] = (travel[k] + rest[k]) / seconds;
-        const Vector at = place(hit.call("get_position").vector());
-        const Vector along = direction(hit.call("get_normal").vector()); // towards the character
-        const double length = std::sqrt(dot(along, along));
-        const auto id = static_cast<std::uint64_t>(hit.call("get_collider_id").whole());
-        Watched* met = length > 0.0 && api.instanceFromId(id) != nullptr
-                           ? moving(id, direction(hit.call("get_collider_velocity").vector()), at)
-                           : nullptr;
-        if (met == nullptr) continue;
-        const Vector normal{-along[0] / length, -along[1] / length, -along[2] / length}, none{};
-        checkWorld(physvib_world_move_in_space(world, each.number, at.data(), each.before.data(), none.data(),
-                                               nullptr));
-        physvib_contact contact = contactOf(each, *met, at, normal);
-        const double approach = dot(minus(each.before, met->before), normal);
-        const double came =
-            dot(step, normal) + dot(each.step, normal) - 2.0 * seconds * dot(met->before, normal);
-        // What only presses came no nearer in two ticks, whatever velocity its script sets.
-        contact.approach_m_per_s = came > 0.25 * seconds * approach ? approach : 0.0;
-        contact.fraction = moved, contact.point_id = PHYSVIB_POINT_NONE;
-        contact.is_soft = PHYSVIB_SOFT;
-        contact.effective_mass_kg =
-            met->isRigid && met->told.mass_kg > 0.0 ? met->told.mass_kg : each.told.mass_kg;
-        checkWorld(physvib_world_touch(world, &contact));
-        for (std::size_t k = 0; k < 3; ++k) // it slides on
-            each.before[k] -= std::max(0.0, approach) * normal[k];
-    }
-    each.at = now, each.step = step;
 }
 
 } // namespace physvib::godot

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What Godot calls when it loads and unloads the extension.
+#include "Api/Godot/State.h"
 #include "Api/Godot/Worlds.h"
 
 #include <cstdio>
@@ -27,9 +28,13 @@ void loadHelp() {
     }
 }
 
+constexpr const char* tooOld = "PhysVib: expected Godot 4.4 or newer\n";
+
 void start(void*, GDExtensionInitializationLevel level) {
-    if (level == GDEXTENSION_INITIALIZATION_SCENE)
+    if (level == GDEXTENSION_INITIALIZATION_SCENE) {
+        if (!findStateMethods()) std::fputs(tooOld, stderr);
         for (const Class* type : classes) registerClass(*type);
+    }
     if (level == GDEXTENSION_INITIALIZATION_EDITOR) loadHelp();
 }
 
@@ -45,7 +50,7 @@ extern "C" __attribute__((visibility("default"))) GDExtensionBool
 physvib_godot_init(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr library,
                    GDExtensionInitialization* initialization) {
     if (!physvib::godot::lookUp(get, library)) {
-        std::fputs("PhysVib: expected Godot 4.4 or newer\n", stderr);
+        std::fputs(physvib::godot::tooOld, stderr);
         return 0;
     }
     initialization->minimum_initialization_level = GDEXTENSION_INITIALIZATION_SCENE;

@@ -43,7 +43,10 @@ bool lookUp(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr l
     find(get, "classdb_register_extension_class_signal", api.registerSignal, all);
     find(get, "classdb_unregister_extension_class", api.unregisterClass, all);
     find(get, "get_library_path", api.libraryPath, all);
-    find(get, "print_error_with_message", api.printError, all);
+    find(get, "print_warning_with_message", api.printWarning, all);
+    find(get, "classdb_get_method_bind", api.methodBind, all);
+    find(get, "object_method_bind_ptrcall", api.pointerCall, all);
+    find(get, "ref_set_object", api.setReference, all);
     find(get, "editor_help_load_xml_from_utf8_chars", api.loadHelp, ignored); // the editor's alone
     GDExtensionInterfaceVariantGetPtrDestructor destructor = nullptr;
     find(get, "variant_get_ptr_destructor", destructor, all);

@@ -19,6 +19,7 @@ public:
     /// Returns the error; empty: it is open. Waits for the device.
     std::string open(const std::string& device, const physvib_layout& layout, double levelDb,
                      double fieldWidthMetres, double fieldHeightMetres);
+    void setLevel(double levelDb);
     void play(physvib_world world, const physvib_event& event);
 
 private:

@@ -11,6 +11,7 @@ struct Library {
     decltype(&physvib_live_close) close = nullptr;
     decltype(&physvib_live_align) align = nullptr;
     decltype(&physvib_live_strike) strike = nullptr;
+    decltype(&physvib_live_set_level) setLevel = nullptr;
     decltype(&physvib_live_settings_init) initialise = nullptr;
     decltype(&physvib_live_error) error = nullptr;
     std::string missing; ///< why it could not be loaded
@@ -24,6 +25,7 @@ struct Library {
         }
         find(handle, "physvib_live_open", open), find(handle, "physvib_live_close", close);
         find(handle, "physvib_live_align", align), find(handle, "physvib_live_strike", strike);
+        find(handle, "physvib_live_set_level", setLevel);
         find(handle, "physvib_live_settings_init", initialise), find(handle, "physvib_live_error", error);
     }
     template <class Function>
@@ -53,6 +55,10 @@ std::string Live::open(const std::string& device, const physvib_layout& layout, 
     library().initialise(&settings, sizeof settings);
     settings.level_db = levelDb;
     return library().open(device.c_str(), &renderer, &settings, &live) == PHYSVIB_OK ? "" : library().error();
+}
+
+void Live::setLevel(double levelDb) {
+    if (live != nullptr) library().setLevel(live, levelDb);
 }
 
 void Live::play(physvib_world world, const physvib_event& event) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <string_view>
 
 namespace physvib::godot {
@@ -18,10 +19,19 @@ Outputs::Outputs() = default;
 Outputs::~Outputs() { close(); }
 
 void Outputs::configure(const OutputSettings& wanted) {
-    close();
+    const auto differs = [&](auto OutputSettings::*member) { return settings.*member != wanted.*member; };
+    const bool isOther = !isOpen || differs(&OutputSettings::names) ||
+                         differs(&OutputSettings::fieldWidthMetres) ||
+                         differs(&OutputSettings::fieldHeightMetres) ||
+                         std::memcmp(&settings.layout, &wanted.layout, sizeof wanted.layout) != 0;
     settings = wanted;
-    for (const Value& name : settings.names) {
-        const std::string error = open(name.text());
+    if (settings.isSilent) rest();
+    for (const auto& device : devices) device->setLevel(settings.levelDb);
+    if (!isOther) return;
+    close();
+    isOpen = true;
+    for (const std::string& name : settings.names) {
+        const std::string error = open(name);
         if (!error.empty()) report("HapticWorld: " + error);
     }
 }
@@ -53,32 +63,44 @@ void Outputs::play(physvib_world world, const physvib_event& event) {
     if (settings.isSilent) return;
     for (const auto& device : devices) device->play(world, event);
     for (const Osc& receiver : receivers) receiver.play(event);
-    const Value input = singleton("Input");
-    if (pads != nullptr) {
-        const int only = physvib_world_device(world, event.fixture); // a HapticBody's controller + 1; 0: all
-        const Value connected = input.call("get_connected_joypads");
-        for (int pad = 0; pad < maxPads; ++pad)
-            if ((only <= 0 || only == pad + 1) && connected.call("has", pad).isTrue())
-                physvib_pads_strike(pads, pad, &event);
-    }
+    if (pads != nullptr) strikePads(world, event);
     if (!hasPhone || event.kind != PHYSVIB_HIT) return;
     constexpr double toATenth = 2.3, longestMs = 500.0; // ln 10: a phone's motor has no decay of its own
     const double milliseconds = std::min(longestMs, 1000.0 * toATenth / std::max(event.decay_per_s, 1.0));
-    input.call("vibrate_handheld", static_cast<int>(std::lround(milliseconds)),
-               std::min(1.0, event.amplitude));
+    singleton("Input").call("vibrate_handheld", static_cast<int>(std::lround(milliseconds)),
+                            std::min(1.0, event.amplitude));
 }
 
-void Outputs::update(physvib_world world) {
-    if (pads == nullptr || world == nullptr) return;
+// As long ago for the player as it is in the world. Who names a controller knows that it is there.
+void Outputs::strikePads(physvib_world world, const physvib_event& event) {
+    const int only = physvib_world_device(world, event.fixture); // a HapticBody's controller + 1; 0: all
+    const auto ago = static_cast<double>(physvib_world_time_ns(world) - event.time_ns);
+    physvib_event now = event;
+    now.time_ns = std::llround(1e9 * clockSeconds - ago / std::max(timeScale, 1e-3));
+    if (only > 0) {
+        physvib_pads_strike(pads, only - 1, &now);
+        return;
+    }
+    for (const Value& pad : singleton("Input").call("get_connected_joypads").elements())
+        if (pad.whole() < maxPads) physvib_pads_strike(pads, static_cast<int>(pad.whole()), &now);
+}
+
+// Godot's delta is of the game: stretched in slow motion, and nothing at a time scale of 0.
+void Outputs::update(double gameSeconds) {
+    const std::int64_t now = singleton("Time").call("get_ticks_usec").whole();
+    timeScale = singleton("Engine").call("get_time_scale").real();
+    clockSeconds += timeScale > 0.0 ? gameSeconds / timeScale : 1e-6 * static_cast<double>(now - lastUpdate);
+    lastUpdate = now;
+    if (pads == nullptr) return;
     std::array<physvib_motors, maxPads> motors{};
-    if (physvib_pads_pull(pads, physvib_world_time_ns(world), motors.data(), maxPads) < 0) return;
+    if (physvib_pads_pull(pads, std::llround(1e9 * clockSeconds), motors.data(), maxPads) < 0) return;
+    if (settings.isSilent) return;
     const Value input = singleton("Input");
     for (int pad = 0; pad < maxPads; ++pad) {
         const auto [low, high] = motors[static_cast<std::size_t>(pad)];
         const unsigned bit = 1U << static_cast<unsigned>(pad);
-        if (low > 0.0 || high > 0.0) {
-            input.call("start_joy_vibration", pad, high, low, commandSeconds); // Godot's weak motor is the
-                                                                               // light one
+        if (low > 0.0 || high > 0.0) { // Godot's weak motor is the light one
+            input.call("start_joy_vibration", pad, high, low, commandSeconds);
             rumbling |= bit;
         } else if ((rumbling & bit) != 0) {
             input.call("stop_joy_vibration", pad);
@@ -87,14 +109,19 @@ void Outputs::update(physvib_world world) {
     }
 }
 
-void Outputs::close() {
-    devices.clear();
-    receivers.clear();
-    hasPhone = false;
+void Outputs::rest() {
     for (int pad = 0; pad < maxPads; ++pad)
         if ((rumbling >> static_cast<unsigned>(pad) & 1U) != 0)
             singleton("Input").call("stop_joy_vibration", pad);
     rumbling = 0;
+}
+
+void Outputs::close() {
+    rest();
+    isOpen = false;
+    devices.clear();
+    receivers.clear();
+    hasPhone = false;
     if (pads != nullptr) physvib_pads_free(pads);
     pads = nullptr;
 }

@@ -16,7 +16,7 @@ namespace physvib::godot {
 class Live;
 
 struct OutputSettings {
-    std::vector<Value> names; ///< controllers, phone, osc:HOST:PORT, or a device of libphysvib-live
+    std::vector<std::string> names; ///< controllers, phone, osc:HOST:PORT, or a device of libphysvib-live
     bool isSilent;
     physvib_layout layout;
     double levelDb, fieldWidthMetres, fieldHeightMetres;
@@ -29,20 +29,26 @@ public:
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
 
+    /// Opens outputs anew only if others are wanted, or elsewhere in the field.
     void configure(const OutputSettings& settings);
     void play(physvib_world world, const physvib_event& event);
-    void update(physvib_world world); ///< once a frame: commands of the motors
-    void close();                     ///< all motors stop, the device is closed
+    /// Once a frame: commands of the motors. `gameSeconds`: of the frame, as the game has them.
+    void update(double gameSeconds);
+    void rest();  ///< the motors stop until the next update
+    void close(); ///< all motors stop, the devices are closed
 
 private:
     std::string open(const std::string& name); ///< returns the error
+    void strikePads(physvib_world world, const physvib_event& event);
 
     OutputSettings settings{};
     physvib_pads pads = nullptr;
-    bool hasPhone = false;
+    bool isOpen = false, hasPhone = false;
     std::vector<std::unique_ptr<Live>> devices;
     std::vector<Osc> receivers;
-    unsigned rumbling = 0; ///< bit j: the motors of controller j have a command
+    unsigned rumbling = 0;                      ///< bit j: the motors of controller j have a command
+    double clockSeconds = 1.0, timeScale = 1.0; ///< of the player, whose motors know no slow motion
+    std::int64_t lastUpdate = 0;                ///< us of the system
 };
 
 } // namespace physvib::godot

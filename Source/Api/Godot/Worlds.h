@@ -4,24 +4,35 @@
 
 #include "Api/Godot/Bodies.h"
 #include "Api/Godot/Outputs.h"
+#include "Api/Godot/State.h"
 
 #include <map>
+#include <set>
+#include <unordered_map>
 
 namespace physvib::godot {
 
-/// One physics body that is told of.
+/// One thing with collision shapes that the world observes.
 struct Watched {
-    std::uint64_t id;              ///< of Godot's object
-    int number;                    ///< of physvib's body
-    const HapticBody* values;      ///< null: it only touches what is felt
-    bool isRigid, slides;          ///< it has contacts and velocities of its own; is a CharacterBody
-    Value body = {}, state = {};   ///< Godot's; of this tick
-    physvib_body told = {};        ///< last told
+    std::uint64_t id;                   ///< of Godot's object, or made of a RID that has none
+    int number;                         ///< of physvib's body
+    Value body = {};                    ///< Godot's object; nil: it has none
+    std::uint64_t rid = 0;              ///< of a CollisionObject; 0: of several, such as a TileMapLayer's
+    const HapticBody* values = nullptr; ///< null: it only touches what is felt
+    bool isNode = false;
+    bool isRigid = false, slides = false; ///< it has velocities of its own; is a CharacterBody
+    bool isMet = false;                   ///< touched in the last tick: what is no node lives as long as that
+    BodyState state = {};                 ///< of this tick
+    physvib_body described = {};          ///< as physvib has it
+    std::uint64_t revision = 0;           ///< of properties when it was described; 0: never
+    const HapticBody* describedBy = nullptr;
     Vector before = {};            ///< velocity before the solver, m/s, with this tick's gravity
     Vector spin = {}, centre = {}; ///< rad/s and m, before the solver
-    Vector pull = {};              ///< of gravity, m/s^2; 0 of a body that does not fall
+    Vector gravity = {};           ///< m/s^2, where it is
+    Vector pull = {};              ///< the same; 0 of a body that does not fall
     Vector change = {};            ///< of velocity by the solver
     Vector at = {}, step = {};     ///< of a CharacterBody: after its last tick, and how far it came in it
+    bool wasAt = false;            ///< of a CharacterBody: `at` is known
 };
 
 class HapticWorld final : public Instance {
@@ -29,31 +40,43 @@ public:
     HapticWorld(GDExtensionObjectPtr object, bool isSpace);
     ~HapticWorld() override;
     void notified(int what) override;
-    void changed() override { isStale = true; }
+    void changed() override { isStale = areOutputsStale = true; }
     std::vector<std::string> warnings() const override;
 
-    void finishStep();     ///< at the start of the next tick, before any script: the solver is done
-    Value explain() const; ///< why nothing is felt, in one sentence
+    void finishStep();             ///< at the start of the next tick, before any script: the solver is done
+    void added(const Value& node); ///< to the tree
+    Value explain() const;         ///< why nothing is felt, in one sentence
     Value timeSeconds() const;
     Value actuatorPlaces(); ///< in units of the scene, also in the editor
 
 private:
+    void enter();
+    void leave();
+    bool isFirst() const; ///< of the worlds of its space; the others wait
     void configure();
+    void configureOutputs();
     void mapField();
     std::string findLayout(physvib_layout& layout) const; ///< the error; empty: it is there
     void beginStep();
     void watchAll();
-    Watched* watch(std::uint64_t id, const HapticBody* values);
+    void watchStrikers();
+    bool isThere(const Watched& watched) const;
+    Watched* watch(std::uint64_t id, std::uint64_t rid, const HapticBody* values);
+    void forget(); ///< all bodies, and the step that is open
     void describe(Watched& watched);
+    Value materialOf(const Watched& watched) const; ///< by its PhysicsMaterial; nil: none
     void moveBefore(Watched& watched);
     void moveAfter(Watched& watched);
     void touchAll(const Watched& watched);
+    bool isOfInterest(const Watched& watched, int contact) const;
     void touch(const Watched& watched, int contact);
     Watched* other(const Watched& watched, int contact, const Vector& place);
-    Watched* moving(std::uint64_t id, const Vector& velocity, const Vector& place);
+    Watched* moving(std::uint64_t id, std::uint64_t rid, const Vector& velocity, const Vector& place);
     void slideAll(Watched& watched);
-    double bounceOf(const Value& rid) const;
+    double bounceOf(std::uint64_t rid);
     void emitAll();
+    physvib_event asSeen(const physvib_event& event) const;
+    Vector inScene(const physvib_event& event) const;
     Vector place(const Vector& v) const;
     Vector direction(const Vector& v) const;
     Value hitOf(const physvib_event& event) const;
@@ -61,12 +84,15 @@ private:
     Value server() const;
 
     double seconds = 0.0; ///< of the step
-    bool isSpace, isStale = true, isOpen = false;
+    bool isSpace, isStale = true, areOutputsStale = true, isOpen = false;
     physvib_world world = nullptr;
     double unit = 1.0;
-    Vector corner{}; ///< the field's lower left one, in Godot's units
+    Vector corner{};         ///< the field's lower left one, in Godot's units
+    std::uint64_t space = 0; ///< of the physics server
     std::map<std::uint64_t, Watched> watched;
     std::map<int, std::uint64_t> objects; ///< by number
+    std::set<std::uint64_t> rigidBodies;  ///< of the space, whether they have a HapticBody or not
+    std::unordered_map<std::uint64_t, double> bounces; ///< of this tick, by RID
     int next = 0;
     Outputs outputs;
 };

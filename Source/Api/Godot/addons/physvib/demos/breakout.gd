@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Breakout for two: attach this script to a Node2D and play. Each player feels the own paddle on the own controller,
+# Breakout for two. Each player feels the own paddle on the own controller,
 # and bricks, softly, both. Arrow keys or the first controller below, A and D or the second above; who does
 # nothing is played by the computer.
 extends Node2D
@@ -33,10 +33,6 @@ func _ready():
 	ball.lock_rotation = true
 	feel(ball, 1.0, -1)
 	ball.get_child(1).felt = false # it is only observed, so that paddles and bricks feel it
-	var world := HapticWorld2D.new()
-	world.field_size = SIZE
-	world.felt.connect(_on_felt)
-	add_child(world)
 
 
 func body(made: PhysicsBody2D, size: Vector2, at: Vector2) -> PhysicsBody2D:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Sounds that are as loud as the hit, without any actuator: attach this script to a Node3D and play.
+# Sounds that are as loud as the hit, without any actuator: outputs of the HapticWorld3D are empty.
 extends Node3D
 
 const FULL := 1.0 # N s: the hit that is played at full volume
@@ -18,21 +18,7 @@ func _ready():
 		players.append(AudioStreamPlayer3D.new())
 		players[i].stream = click()
 		add_child(players[i])
-	var camera := Camera3D.new()
-	camera.position = Vector3(0, 1.3, 3.6)
-	camera.rotation.x = -0.25
-	camera.fov = 55
-	add_child(camera)
-	var sun := DirectionalLight3D.new()
-	sun.rotation = Vector3(-1, 0.5, 0)
-	sun.shadow_enabled = true
-	sun.shadow_opacity = 0.6
-	add_child(sun)
 	RenderingServer.set_default_clear_color(Color("22223b"))
-	var world := HapticWorld3D.new()
-	world.outputs = []
-	world.felt.connect(_on_felt)
-	add_child(world)
 
 
 func add_body(made: PhysicsBody3D, size: Vector3, at: Vector3) -> PhysicsBody3D:

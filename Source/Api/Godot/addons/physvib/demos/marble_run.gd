@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Marbles roll down planks with grains, and are felt on a controller where they roll. On a sleeve of eight actuators
-# as well: add its sound device, such as JACK:system, to `outputs` in the inspector. Attach this script to a Node3D.
+# as well: add its sound device, such as JACK:system, to `outputs` of the HapticWorld3D.
 extends Node3D
 
-@export var outputs: PackedStringArray = ["controllers"]
 const PLANKS := 5
 const COLOURS := [Color("e07a5f"), Color("f2cc8f"), Color("81b29a"), Color("5fa8d3"), Color("b8a9c9")]
 var made := 0
@@ -11,14 +10,7 @@ var lamps := {} # by marble
 
 
 func _ready():
-	var camera := Camera3D.new()
-	camera.position = Vector3(0.9, 1.9, 4.1)
-	camera.fov = 44
-	add_child(camera)
-	camera.look_at(Vector3(0, 1.35, 0))
-	var sun := DirectionalLight3D.new()
-	sun.rotation = Vector3(-1, 0.5, 0)
-	add_child(sun)
+	$Camera3D.look_at(Vector3(0, 1.35, 0))
 	RenderingServer.set_default_clear_color(Color("22223b"))
 	for i in PLANKS:
 		var side := 1 if i % 2 == 0 else -1
@@ -28,17 +20,6 @@ func _ready():
 		var grain: HapticBody = feel(plank, 120 + 40 * i)
 		grain.felt = false # the marbles feel it
 		grain.material.grain_m = 0.02 if i % 2 == 0 else 0.06
-	var world := HapticWorld3D.new()
-	world.outputs = outputs
-	world.layout = "sleeve8"
-	world.field_corner = Vector3(-1.6, 0, 0)
-	world.field_size = Vector2(3.2, 2.6)
-	world.felt.connect(_on_felt)
-	add_child(world)
-	var timer := Timer.new()
-	timer.timeout.connect(_on_timeout)
-	add_child(timer)
-	timer.start(1.2)
 	_on_timeout()
 
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-# A box of balls that shakes: attach this script to a Node2D, play, and hold a controller. The arrow keys or the
-# left stick push the balls.
+# A box of balls that shakes: play, and hold a controller. The arrow keys or the left stick push the balls.
 extends Node2D
 
 const FIELD := Rect2(200, 100, 700, 450)
@@ -22,11 +21,6 @@ func _ready():
 		felt.material.frequency_hz = 250 - 25 * i # the heavier, the lower
 		ball.add_child(felt)
 		add_child(ball)
-	var world := HapticWorld2D.new()
-	world.field_corner = FIELD.position
-	world.field_size = FIELD.size
-	world.felt.connect(_on_felt)
-	add_child(world)
 
 
 func body(made: PhysicsBody2D, shape: Shape2D, at: Vector2) -> PhysicsBody2D:
