@@ -16,6 +16,7 @@ public:
         : at_{first}
         , end_{first + count} {}
     bool isEmpty() const noexcept { return at_ == end_; }
+    const double* at() const noexcept { return at_; }
     double next() noexcept { return *at_++; }
     int nextInt() noexcept { return static_cast<int>(next()); }
     const double* next(int count) noexcept { return (at_ += count) - count; }
@@ -74,11 +75,22 @@ constexpr int (*kinds[])(physvib_world, Numbers&) noexcept {move, moved, touch, 
 
 } // namespace
 
+/// Leaves out what has numbers that are none, so that one body does not end the haptics of all. Returns 0, the
+/// first such body's number + 1 with the error in text(), or another error.
 extern "C" int PHYSVIB_JS(observe)(physvib_world world, const double* first, int count) {
     Numbers numbers{first, count};
-    int code = PHYSVIB_OK;
-    while (code >= PHYSVIB_OK && !numbers.isEmpty()) code = kinds[numbers.nextInt()](world, numbers);
-    return code;
+    int refused = 0;
+    while (!numbers.isEmpty()) {
+        const double* entry = numbers.at();
+        const int code = kinds[numbers.nextInt()](world, numbers);
+        if (code >= PHYSVIB_OK) continue;
+        if (code != PHYSVIB_ERROR_ARGUMENT) return code;
+        if (refused == 0) {
+            refused = static_cast<int>(entry[1]) + 1; // of a contact, its first
+            text() = physvib_error();
+        }
+    }
+    return refused;
 }
 
 } // namespace physvib::js

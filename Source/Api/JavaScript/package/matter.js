@@ -23,7 +23,12 @@ class MatterHaptics extends Haptics {
         const events = engine.events ??= {};
         for (const [name, handler] of Object.entries(this.#handlers)) events[name] = [...events[name] ?? [], handler];
     }
-    detach() { for (const [name, handler] of Object.entries(this.#handlers)) this.#engine.events[name] = this.#engine.events[name].filter(other => other !== handler); }
+    // Events.off(engine), and a scene of Phaser that ends, leave none of its events.
+    detach() {
+        const { events } = this.#engine;
+        for (const [name, handler] of Object.entries(this.#handlers)) if (events?.[name]) events[name] = events[name].filter(other => other !== handler);
+    }
+    hint() { return this.#engine.events?.afterUpdate?.includes(this.#handlers.afterUpdate) ? '' : "Matter's events no longer reach these haptics (Events.off, or the scene has ended): attach anew."; }
 
     /** Matter's events do the work. */
     step(seconds, advance) { advance(seconds); }
