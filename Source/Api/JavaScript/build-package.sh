@@ -21,15 +21,17 @@ fi
 Source/Api/JavaScript/shrink.sh "$work/physvib.wasm" "$work/package/physvib.wasm" -O2 # it renders; 7 KB less, compressed
 Source/Api/JavaScript/shrink.sh "$work/files.wasm" "$work/package/files.wasm" # 13 KB
 node - "$work/package" <<'END'
-const { readFileSync, writeFileSync } = require('node:fs'), folder = process.argv[2];
-const text = readFileSync('Source/Api/JavaScript/package/inline.js', 'utf8');
+const { readdirSync, readFileSync, writeFileSync } = require('node:fs'), folder = process.argv[2];
+// Lines of comments stay in the sources and in the types: no page needs them.
+const text = readFileSync('Source/Api/JavaScript/package/inline.js', 'utf8'), bare = from => from.replace(/^ *\/\/(?! SPDX).*\n/gm, '').replace(/^ *\/\*\*[^]*?\*\/\n/gm, '');
+for (const file of readdirSync(folder)) if (file.endsWith('.js')) writeFileSync(`${folder}/${file}`, bare(readFileSync(`${folder}/${file}`, 'utf8')));
 // Addresses that npm shows: those that are given.
 const { PHYSVIB_HOMEPAGE: homepage, PHYSVIB_BUGS: bugs, PHYSVIB_REPOSITORY: url, PHYSVIB_AUTHOR: author } = process.env;
 for (const file of [`${folder}/package.json`, `${folder}/../jspsych/package.json`]) {
     const fields = { ...JSON.parse(readFileSync(file, 'utf8')), ...(author && { author }), ...(homepage && { homepage }), ...(bugs && { bugs }), ...(url && { repository: { type: 'git', url } }) };
     writeFileSync(file, `${JSON.stringify(fields, null, 2)}\n`);
 }
-writeFileSync(`${folder}/inline.js`, text.replace(/'{(.*?)}'/g, (_, name) => `'${readFileSync(`${folder}/${name}`).toString('base64')}'`));
+writeFileSync(`${folder}/inline.js`, bare(text).replace(/'{(.*?)}'/g, (_, name) => `'${readFileSync(`${folder}/${name}`).toString('base64')}'`));
 END
 rm -f build/web/*.tgz
 mkdir -p "$work/again"
