@@ -50,6 +50,7 @@ export class Clock {
         if (isSudden) {
             if (this.#wasSudden) this.#rate = (now - this.#nows[last]) / (world - this.#worlds[last]); // so it is the pace
             this.#learnAnew(now, 0);
+            this.#old = this.#before = world; // what was before is over
         }
         this.#wasSudden = isSudden;
         [this.#worlds[this.#next], this.#nows[this.#next], this.#olds[this.#next]] = [world, now, this.#old];
