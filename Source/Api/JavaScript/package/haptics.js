@@ -80,7 +80,8 @@ export class Haptics {
         let known = this.#known.get(key);
         if (known === undefined) {
             const { id = this.#next++, values = {} } = this.#away.get(body) ?? {};
-            known = { id, body, values, isStatic: true, x: 0, y: 0, vx: 0, vy: 0, spin: 0, isRound: false };
+            known = { id, body, values, isStatic: true, isGone: false, isRound: false, massKg: 0, inertia: 0, gravityScale: 1, x: 0.5, y: 0.5, vx: 0.5, vy: 0.5, spin: 0.5 }; // fractions: engines keep such members without allocating
+            known.x = known.y = known.vx = known.vy = known.spin = 0;
             this.#tell(known, this.engine.massesOf(body));
             this.#known.set(key, known);
             this.#away.delete(body);
@@ -114,15 +115,20 @@ export class Haptics {
                 if (known.values.isSource) this.#lastAway = known.isGone ? null : known.id;
                 continue;
             }
-            const masses = this.engine.massesOf(known.body);
-            if (!Object.is(masses.massKg, known.massKg) || !Object.is(masses.inertia, known.inertia) || !Object.is(masses.gravityScale, known.gravityScale)) this.#tell(known, masses);
+            const { massKg, inertia, gravityScale } = this.engine.massesOf(known.body);
+            if (!(massKg === known.massKg && inertia === known.inertia && gravityScale === known.gravityScale) && !(Object.is(massKg, known.massKg) && Object.is(inertia, known.inertia) && Object.is(gravityScale, known.gravityScale)))
+                this.#tell(known, { massKg, inertia, gravityScale });
         }
     }
 
     /** Motion as the solver finds it. */
     move(known, x, y, vx, vy, spin) {
-        Object.assign(known, { x, y, vx, vy, spin });
-        this.journal.move(known.id, x, y, vx, vy, spin);
+        known.x = x;
+        known.y = y;
+        known.vx = vx;
+        known.vy = vy;
+        known.spin = spin;
+        this.#journal.move(known.id, x, y, vx, vy, spin);
     }
     /** What is observed in a step. */
     get journal() { return this.#journal; }
@@ -233,9 +239,8 @@ export class Haptics {
 export function motionAt(a, b, x, y, nx, ny) {
     const ax = a.vx - a.spin * (y - a.y), ay = a.vy + a.spin * (x - a.x), bx = b.vx - b.spin * (y - b.y), by = b.vy + b.spin * (x - b.x);
     // The point itself goes with a round body's centre, or with the corner of what moves.
-    const [ux, uy] = b.isRound ? [b.vx, b.vy] : a.isRound ? [a.vx, a.vy] : b.isStatic ? [ax, ay] : [bx, by];
-    const along = (vx, vy) => (ux - vx) * -ny + (uy - vy) * nx;
-    return { approach: (ax - bx) * nx + (ay - by) * ny, alongA: along(ax, ay), alongB: along(bx, by) };
+    const ux = b.isRound ? b.vx : a.isRound ? a.vx : b.isStatic ? ax : bx, uy = b.isRound ? b.vy : a.isRound ? a.vy : b.isStatic ? ay : by;
+    return { approach: (ax - bx) * nx + (ay - by) * ny, alongA: (ux - ax) * -ny + (uy - ay) * nx, alongB: (ux - bx) * -ny + (uy - by) * nx };
 }
 
 /** How fast two surfaces meet that close with `speed` across a `gap`, while `pull` (m/s^2) draws them together; and when, in steps. */
